@@ -1,0 +1,276 @@
+//! Forward dynamics: joint accelerations from torques, in time proportional to the number of links.
+//!
+//! Articulated-body algorithm. Source: key `featherstone2008`, section 7.3, table 7.1. Deviations:
+//!
+//! - Degrees of freedom of one joint are eliminated one after the other (rank-one updates instead of a block inverse), so that
+//!   one piece of code serves every joint.
+//! - A degree of freedom can be *held*: its acceleration is given and the torque for it is found (hybrid dynamics, section 9.2).
+//!   Ideal velocity motors and sticking friction are held degrees of freedom; this costs nothing extra and is exact.
+//! - A diagonal matrix is added to the mass matrix: armature, and what a linearly implicit integrator adds for springs and
+//!   dampers.
+//!
+//! | symbol here | meaning | source |
+//! |---|---|---|
+//! | `v`, `c` | twist, velocity product | v, c |
+//! | `ia`, `pa` | articulated inertia, bias force | Iᴬ, pᴬ |
+//! | `u`, `d`, `force` | IA·S, SᵀIA·S + diagonal, τ − Sᵀ(pA + IA·c) | U, D, u |
+
+use sincro_math::Real;
+
+use crate::joint::{Stage, StageVisitor};
+use crate::model::{Link, Model, WORLD};
+use crate::scratch::{DofScratch, LinkScratch, Scratch};
+use crate::spatial::{Force, Motion};
+use crate::state::State;
+
+/// What forward dynamics is asked for. Lengths are `n_q` for `q`, `n_v` for everything else but `external`.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a, R> {
+    /// Coordinates.
+    pub q: &'a [R],
+    /// Velocities.
+    pub v: &'a [R],
+    /// Joint torques [N·m] or forces [N], everything but gravity.
+    pub torque: &'a [R],
+    /// Added to the diagonal of the mass matrix [kg·m²] or [kg].
+    pub diagonal: &'a [R],
+    /// Held degrees of freedom, if any.
+    pub held: Option<Held<'a, R>>,
+    /// External wrench on each link, link axes, about the link's origin.
+    pub external: Option<&'a [Force<R>]>,
+    /// Whether gravity acts (an impulse feels none).
+    pub gravity: bool,
+}
+
+/// Degrees of freedom whose acceleration is prescribed.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<'a, R> {
+    /// 1 for held, 0 for free.
+    pub mask: &'a [R],
+    /// Prescribed acceleration [rad/s²] or [m/s²]; read where held.
+    pub acceleration: &'a [R],
+}
+
+/// Joint accelerations `v_dot` [rad/s²] or [m/s²] (`n_v`): `(M + diagonal)·v̇ = torque + gravity + external − bias`.
+///
+/// Afterwards [`Scratch::reaction`] has the torque that each held degree of freedom needed.
+#[inline(always)]
+pub fn forward_dynamics<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>, v_dot: &mut [R]) {
+    velocities_base_to_tip(model, input, scratch);
+    inertias_tip_to_base(model, input, scratch);
+    accelerations_base_to_tip(model, input, scratch, v_dot);
+}
+
+#[inline(always)]
+fn velocities_base_to_tip<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
+    for i in 0..model.links.len() {
+        let link = &model.links[i];
+        let (done, rest) = scratch.links.split_at_mut(i);
+        let parent = (link.parent != WORLD).then(|| &done[link.parent as usize].v);
+        link.kind.dispatch(Velocity { link, q: input.q, v: input.v, parent, out: &mut rest[0] });
+        if let Some(external) = input.external {
+            rest[0].pa -= external[i];
+        }
+    }
+}
+
+/// Pass 1 for one link.
+struct Velocity<'a, R> {
+    link: &'a Link<R>,
+    q: &'a [R],
+    v: &'a [R],
+    parent: Option<&'a Motion<R>>,
+    out: &'a mut LinkScratch<R>,
+}
+
+impl<R: Real> StageVisitor for Velocity<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let Self { link, q, v, parent, out } = self;
+        let at = S::place(link, &q[link.q_idx as usize..]);
+        // v_J = S q̇
+        let v_joint = joint_motion::<S, R>(link, &v[link.v_idx as usize..]);
+        match parent {
+            Some(v_parent) => {
+                // v = X v_parent + v_J,  c = v × v_J
+                out.v = link.to_link::<S>(&at, v_parent) + v_joint;
+                out.c = S::velocity_product(&out.v, &v_joint);
+            }
+            None => {
+                out.v = v_joint;
+                out.c = Motion::zero();
+            }
+        }
+        out.at = at;
+        // pA = v ×* I v
+        out.ia = link.inertia.articulated();
+        out.pa = out.v.cross_force(&link.inertia.mul(&out.v));
+    }
+}
+
+/// `S x` for the user's rates `x` of the stage.
+#[inline(always)]
+pub(crate) fn joint_motion<S: Stage, R: Real>(link: &Link<R>, x: &[R]) -> Motion<R> {
+    let mut m = S::column(link, 0, link.signed::<S>(x[0]));
+    for j in 1..S::N_V {
+        m += S::column(link, j, x[j]);
+    }
+    m
+}
+
+#[inline(always)]
+fn inertias_tip_to_base<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
+    for i in (0..model.links.len()).rev() {
+        let link = &model.links[i];
+        let (done, rest) = scratch.links.split_at_mut(i);
+        let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize]);
+        let dofs = &mut scratch.dofs[link.v_idx as usize..];
+        link.kind.dispatch(Inertia { link, input, this: &mut rest[0], parent, dofs });
+    }
+}
+
+/// Pass 2 for one link.
+struct Inertia<'a, R> {
+    link: &'a Link<R>,
+    input: &'a Input<'a, R>,
+    this: &'a mut LinkScratch<R>,
+    parent: Option<&'a mut LinkScratch<R>>,
+    dofs: &'a mut [DofScratch<R>],
+}
+
+impl<R: Real> StageVisitor for Inertia<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let Self { link, input, this, parent, dofs } = self;
+        let v_idx = link.v_idx as usize;
+        let is_root = parent.is_none();
+        let mut ia = this.ia;
+        let mut pa = this.pa;
+        if !is_root {
+            // bias of the velocity product, for the whole link at once
+            pa += S::inertia_times_bias(&ia, &this.c);
+        }
+        for j in (0..S::N_V).rev() {
+            let dof = &mut dofs[j];
+            eliminate::<S, R>(link, j, &ia, &pa, input, v_idx + j, dof);
+            if is_root && j == 0 {
+                return;
+            }
+            // Ia = IA − U Uᵀ/D,  pa = pA + U u/D   (held: Ia = IA, pa = pA + U·acceleration)
+            ia = ia.minus_outer(&dof.u, &dof.u.scale(dof.inv_d));
+            pa += dof.u.scale(dof.x);
+        }
+        if let Some(parent) = parent {
+            parent.ia = parent.ia.plus(&link.articulated_to_parent::<S>(&this.at, &ia));
+            parent.pa += link.force_to_parent::<S>(&this.at, &pa);
+        }
+    }
+}
+
+/// U, D and u of degree of freedom `j` of a link, and what follows from them.
+#[inline(always)]
+fn eliminate<S: Stage, R: Real>(
+    link: &Link<R>,
+    j: usize,
+    ia: &crate::spatial::ArticulatedInertia<R>,
+    pa: &Force<R>,
+    input: &Input<'_, R>,
+    dof_idx: usize,
+    out: &mut DofScratch<R>,
+) {
+    out.u = S::inertia_column(link, j, ia);
+    out.d = S::project(link, j, &out.u) + input.diagonal[dof_idx];
+    out.force = link.signed::<S>(input.torque[dof_idx]) - S::project(link, j, pa);
+    out.inv_d = R::one() / out.d;
+    out.x = out.force * out.inv_d;
+    if let Some(held) = input.held {
+        let (half, mask) = (R::splat(0.5), held.mask[dof_idx]);
+        out.inv_d = half.if_less(mask, R::zero(), out.inv_d);
+        out.x = half.if_less(mask, link.signed::<S>(held.acceleration[dof_idx]), out.x);
+    }
+}
+
+#[inline(always)]
+fn accelerations_base_to_tip<R: Real>(
+    model: &Model<R>,
+    input: &Input<'_, R>,
+    scratch: &mut Scratch<R>,
+    v_dot: &mut [R],
+) {
+    // gravity as an upward acceleration of the base
+    let gravity = if input.gravity { -model.gravity } else { crate::spatial::Vec3::zero() };
+    let base = Motion { ang: crate::spatial::Vec3::zero(), lin: gravity };
+    for i in 0..model.links.len() {
+        let link = &model.links[i];
+        let (done, rest) = scratch.links.split_at_mut(i);
+        let is_root = link.parent == WORLD;
+        let a_parent = if is_root { &base } else { &done[link.parent as usize].a };
+        let v_idx = link.v_idx as usize;
+        link.kind.dispatch(Acceleration {
+            link,
+            this: &mut rest[0],
+            a_parent,
+            dofs: &scratch.dofs[v_idx..],
+            v_dot: &mut v_dot[v_idx..],
+            reaction: input.held.map(|_| &mut scratch.reaction[v_idx..]),
+        });
+    }
+}
+
+/// Pass 3 for one link.
+struct Acceleration<'a, R> {
+    link: &'a Link<R>,
+    this: &'a mut LinkScratch<R>,
+    a_parent: &'a Motion<R>,
+    dofs: &'a [DofScratch<R>],
+    v_dot: &'a mut [R],
+    reaction: Option<&'a mut [R]>,
+}
+
+impl<R: Real> StageVisitor for Acceleration<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let Self { link, this, a_parent, dofs, v_dot, mut reaction } = self;
+        // a' = X a_parent
+        let mut a = link.to_link::<S>(&this.at, a_parent);
+        for j in 0..S::N_V {
+            // v̇ = x − Uᵀ a'/D,  a' += S v̇
+            let dof = &dofs[j];
+            let along = a.dot(&dof.u);
+            let acceleration = dof.x - dof.inv_d * along;
+            a += S::column(link, j, acceleration);
+            v_dot[j] = link.signed::<S>(acceleration);
+            if let Some(reaction) = &mut reaction {
+                reaction[j] = link.signed::<S>(dof.d * acceleration + along - dof.force);
+            }
+        }
+        this.a = a + this.c;
+    }
+}
+
+/// D of every degree of freedom at a state: the inertia that a torque on it meets with everything else left free
+/// [kg·m²] or [kg], armature included. Springs and dampers against it give the rates that limit an explicit integrator.
+#[must_use]
+pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
+    let n = model.n_v();
+    let mut scratch = Scratch::new(model);
+    let diagonal: Vec<f64> = model.dofs.iter().map(|d| d.armature).collect();
+    let (torque, mut v_dot) = (vec![0.0; n], vec![0.0; n]);
+    let input = Input {
+        q: &state.q,
+        v: &torque,
+        torque: &torque,
+        diagonal: &diagonal,
+        held: None,
+        external: None,
+        gravity: false,
+    };
+    forward_dynamics(model, &input, &mut scratch, &mut v_dot);
+    scratch.dofs.iter().map(|d| d.d).collect()
+}

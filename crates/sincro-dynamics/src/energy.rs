@@ -1,0 +1,64 @@
+//! Energies and momentum of all bodies.
+
+use sincro_math::Real;
+
+use crate::force::{gravity, spring};
+use crate::kinematics;
+use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::spatial::Force;
+
+/// Mechanical energy [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy<R> {
+    /// ½ vᵀ M v, armature included.
+    pub kinetic: R,
+    /// Of gravity, zero at the world's origin, and of springs, zero at rest.
+    pub potential: R,
+}
+
+impl<R: Real> Energy<R> {
+    /// Kinetic plus potential [J].
+    pub fn total(&self) -> R {
+        self.kinetic + self.potential
+    }
+}
+
+/// Energy at a state, after [`kinematics::motions`] at that state.
+pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>) -> Energy<R> {
+    let half = R::splat(0.5);
+    let mut e = Energy { kinetic: R::zero(), potential: R::zero() };
+    for (i, link) in model.links.iter().enumerate() {
+        let twist = &scratch.links[i].v;
+        e.kinetic += half * twist.dot(&link.inertia.mul(twist));
+        e.potential += gravity::energy(model.gravity, &link.inertia, &scratch.poses[i]);
+    }
+    for (k, dof) in model.dofs.iter().enumerate() {
+        e.kinetic += half * dof.armature * v[k] * v[k];
+        if model.has_scalar_coordinate(k) {
+            e.potential += spring::energy(dof, q[dof.q_idx as usize]);
+        }
+    }
+    e
+}
+
+/// Momentum of all bodies about the world's origin, world axes: angular [kg·m²/s], linear [kg·m/s]; after
+/// [`kinematics::motions`].
+pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
+    let mut sum = Force::zero();
+    for (i, link) in model.links.iter().enumerate() {
+        let h = link.inertia.mul(&scratch.links[i].v);
+        let pose = &scratch.poses[i];
+        let lin = pose.rot.mul_vec(h.lin);
+        sum.ang += pose.rot.mul_vec(h.ang) + pose.pos.cross(lin);
+        sum.lin += lin;
+    }
+    sum
+}
+
+/// Energy at a state; recomputes the kinematics.
+#[must_use]
+pub fn energy_at(model: &Model<f64>, q: &[f64], v: &[f64], scratch: &mut Scratch<f64>) -> Energy<f64> {
+    kinematics::motions(model, q, v, v, scratch);
+    energy(model, q, v, scratch)
+}

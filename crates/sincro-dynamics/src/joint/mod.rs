@@ -1,0 +1,235 @@
+//! Joints: how a link may move against its parent.
+//!
+//! Users name eight kinds ([`JointKind`]); universal and planar ones are chains of one-degree-of-freedom joints without mass
+//! in between, and fixed ones are merged away when the model is built. What the recursions see is a [`Stage`]: one file each,
+//! the same verbs in each, and the axis a compile-time constant, because an axis-aligned rotation costs a quarter of a
+//! general one.
+//!
+//! Frames of a link: the *base* frame is fixed in the parent link (its placement), the *link* frame moves. Both coincide at
+//! q = 0. The motion subspace S of every stage is constant in the link frame, so its velocity product is `v × S q̇`.
+
+mod ball;
+mod free;
+mod prismatic;
+mod revolute;
+mod screw;
+
+use sincro_math::Real;
+
+pub use ball::Ball;
+pub use free::Free;
+pub use prismatic::Prismatic;
+pub use revolute::Revolute;
+pub use screw::Screw;
+
+use crate::model::Link;
+use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
+
+/// The kinds of joint a user builds with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointKind {
+    /// Welded.
+    Fixed,
+    /// Rotation about `axis` (joint frame; any length but zero). Coordinate: angle [rad], unbounded.
+    Revolute {
+        /// Axis of rotation.
+        axis: [f64; 3],
+    },
+    /// Translation along `axis`. Coordinate: displacement [m].
+    Prismatic {
+        /// Direction of motion.
+        axis: [f64; 3],
+    },
+    /// Rotation about `axis` with a translation of `pitch` along it. Coordinate: angle [rad].
+    Screw {
+        /// Axis of the screw.
+        axis: [f64; 3],
+        /// Advance [m/rad].
+        pitch: f64,
+    },
+    /// Rotation about `axis`, then about `axis2`, which the first one carries. Coordinates: the two angles [rad].
+    Universal {
+        /// First axis, fixed in the parent.
+        axis: [f64; 3],
+        /// Second axis, given at zero angles.
+        axis2: [f64; 3],
+    },
+    /// Any rotation. Coordinates: unit quaternion (w, x, y, z) of the child in the parent; rates: angular velocity of the
+    /// child against the parent in child axes [rad/s].
+    Ball,
+    /// Translation along x and y of the joint frame and rotation about z. Coordinates: x, y [m], angle [rad].
+    Planar,
+    /// Six degrees of freedom. Coordinates: position of the child's joint frame [m], unit quaternion (w, x, y, z);
+    /// rates: angular [rad/s] then linear velocity [m/s] of that frame against the parent, both in child axes.
+    Free,
+}
+
+/// What a stage is, as the compiled model stores it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u8)]
+#[allow(missing_docs)]
+pub enum StageKind {
+    RevoluteX,
+    RevoluteY,
+    RevoluteZ,
+    PrismaticX,
+    PrismaticY,
+    PrismaticZ,
+    ScrewX,
+    ScrewY,
+    ScrewZ,
+    Ball,
+    Free,
+}
+
+/// Configuration of one stage, computed once a kinematic pass.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Placement<R> {
+    /// Sine of the joint angle (axis-aligned stages).
+    pub sin: R,
+    /// Cosine of the joint angle (axis-aligned stages).
+    pub cos: R,
+    /// Link to base rotation (ball and free only).
+    pub rot: Mat3<R>,
+    /// Origin of the link frame in the parent's axes, from the parent's origin [m].
+    pub offset: Vec3<R>,
+}
+
+/// The verbs that every stage has. Zero-sized types implement it; `match` on [`StageKind`] chooses among them.
+pub trait Stage {
+    /// Coordinates that the stage takes in q.
+    const N_Q: usize;
+    /// Degrees of freedom, places in v.
+    const N_V: usize;
+
+    /// Configuration from the stage's coordinates `q` (`N_Q` of them).
+    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R>;
+
+    /// Components of a vector from link to base axes.
+    fn turn<R: Real>(at: &Placement<R>, x: Vec3<R>) -> Vec3<R>;
+
+    /// Components of a vector from base to link axes.
+    fn unturn<R: Real>(at: &Placement<R>, x: Vec3<R>) -> Vec3<R>;
+
+    /// An articulated inertia from link to base axes.
+    fn turn_articulated<R: Real>(at: &Placement<R>, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R>;
+
+    /// A rigid inertia from link to base axes.
+    fn turn_rigid<R: Real>(at: &Placement<R>, i: &RigidInertia<R>) -> RigidInertia<R>;
+
+    /// The whole rotation link to base.
+    fn rotation<R: Real>(at: &Placement<R>) -> Mat3<R>;
+
+    /// Column `j` of the motion subspace, in link axes, times `rate`.
+    fn column<R: Real>(link: &Link<R>, j: usize, rate: R) -> Motion<R>;
+
+    /// Generalised force of wrench `f` on degree of freedom `j`: `S_jᵀ f`.
+    fn project<R: Real>(link: &Link<R>, j: usize, f: &Force<R>) -> R;
+
+    /// `IA · S_j`.
+    fn inertia_column<R: Real>(link: &Link<R>, j: usize, ia: &ArticulatedInertia<R>) -> Force<R>;
+
+    /// Velocity product `c = v × v_J` of a link that moves with `v`, `v_J = S q̇` of it in its joint.
+    #[inline(always)]
+    fn velocity_product<R: Real>(v: &Motion<R>, v_joint: &Motion<R>) -> Motion<R> {
+        v.cross(v_joint)
+    }
+
+    /// `IA · c` for the velocity product `c = v × S q̇`.
+    #[inline(always)]
+    fn inertia_times_bias<R: Real>(ia: &ArticulatedInertia<R>, c: &Motion<R>) -> Force<R> {
+        ia.mul(c)
+    }
+}
+
+/// A computation that is compiled once for each kind of stage.
+pub trait StageVisitor {
+    /// What it yields.
+    type Output;
+
+    /// Runs for stage type `S`.
+    fn visit<S: Stage>(self) -> Self::Output;
+}
+
+impl StageKind {
+    /// Runs `visitor` for this kind.
+    #[inline(always)]
+    pub fn dispatch<V: StageVisitor>(self, visitor: V) -> V::Output {
+        match self {
+            Self::RevoluteX => visitor.visit::<Revolute<0>>(),
+            Self::RevoluteY => visitor.visit::<Revolute<1>>(),
+            Self::RevoluteZ => visitor.visit::<Revolute<2>>(),
+            Self::PrismaticX => visitor.visit::<Prismatic<0>>(),
+            Self::PrismaticY => visitor.visit::<Prismatic<1>>(),
+            Self::PrismaticZ => visitor.visit::<Prismatic<2>>(),
+            Self::ScrewX => visitor.visit::<Screw<0>>(),
+            Self::ScrewY => visitor.visit::<Screw<1>>(),
+            Self::ScrewZ => visitor.visit::<Screw<2>>(),
+            Self::Ball => visitor.visit::<Ball>(),
+            Self::Free => visitor.visit::<Free>(),
+        }
+    }
+
+    /// Coordinates in q.
+    #[must_use]
+    pub fn n_q(self) -> usize {
+        match self {
+            Self::Ball => Ball::N_Q,
+            Self::Free => Free::N_Q,
+            _ => 1,
+        }
+    }
+
+    /// Degrees of freedom.
+    #[must_use]
+    pub fn n_v(self) -> usize {
+        match self {
+            Self::Ball => Ball::N_V,
+            Self::Free => Free::N_V,
+            _ => 1,
+        }
+    }
+
+    /// The coordinate axis of a one-degree-of-freedom stage.
+    #[must_use]
+    pub fn axis(self) -> Option<usize> {
+        match self {
+            Self::RevoluteX | Self::PrismaticX | Self::ScrewX => Some(0),
+            Self::RevoluteY | Self::PrismaticY | Self::ScrewY => Some(1),
+            Self::RevoluteZ | Self::PrismaticZ | Self::ScrewZ => Some(2),
+            Self::Ball | Self::Free => None,
+        }
+    }
+
+    /// Whether the link's origin stays where its base frame is.
+    #[must_use]
+    pub fn is_pure_rotation(self) -> bool {
+        matches!(self, Self::RevoluteX | Self::RevoluteY | Self::RevoluteZ | Self::Ball)
+    }
+
+    /// Whether the (single) coordinate is an angle.
+    #[must_use]
+    pub fn is_rotational(self) -> bool {
+        !matches!(self, Self::PrismaticX | Self::PrismaticY | Self::PrismaticZ)
+    }
+}
+
+/// Turns `x` about coordinate axis `A`.
+#[inline(always)]
+fn turn_about<const A: usize, R: Real>(sin: R, cos: R, x: Vec3<R>) -> Vec3<R> {
+    let (b, c) = ((A + 1) % 3, (A + 2) % 3);
+    let mut y = x;
+    y[b] = cos * x[b] - sin * x[c];
+    y[c] = sin * x[b] + cos * x[c];
+    y
+}
+
+/// A rigid inertia turned about coordinate axis `A`.
+#[inline(always)]
+fn turn_rigid_about<const A: usize, R: Real>(sin: R, cos: R, i: &RigidInertia<R>) -> RigidInertia<R> {
+    RigidInertia {
+        mass: i.mass,
+        moment: turn_about::<A, R>(sin, cos, i.moment),
+        rotational: i.rotational.rotated::<A>(sin, cos),
+    }
+}

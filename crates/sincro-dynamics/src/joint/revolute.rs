@@ -1,0 +1,88 @@
+//! Revolute joint about coordinate axis `A` of the link frame: S = (e_A, 0).
+
+use sincro_math::Real;
+
+use super::{Placement, Stage, turn_about, turn_rigid_about};
+use crate::model::Link;
+use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
+
+/// Rotation about coordinate axis `A` (0 x, 1 y, 2 z).
+pub struct Revolute<const A: usize>;
+
+impl<const A: usize> Stage for Revolute<A> {
+    const N_Q: usize = 1;
+    const N_V: usize = 1;
+
+    #[inline(always)]
+    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R> {
+        let (sin, cos) = (link.sign * q[0]).sin_cos();
+        Placement { sin, cos, rot: Mat3::default(), offset: link.origin }
+    }
+
+    #[inline(always)]
+    fn turn<R: Real>(at: &Placement<R>, x: Vec3<R>) -> Vec3<R> {
+        turn_about::<A, R>(at.sin, at.cos, x)
+    }
+
+    #[inline(always)]
+    fn unturn<R: Real>(at: &Placement<R>, x: Vec3<R>) -> Vec3<R> {
+        turn_about::<A, R>(-at.sin, at.cos, x)
+    }
+
+    #[inline(always)]
+    fn turn_articulated<R: Real>(at: &Placement<R>, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
+        ia.rotated::<A>(at.sin, at.cos)
+    }
+
+    #[inline(always)]
+    fn turn_rigid<R: Real>(at: &Placement<R>, i: &RigidInertia<R>) -> RigidInertia<R> {
+        turn_rigid_about::<A, R>(at.sin, at.cos, i)
+    }
+
+    #[inline(always)]
+    fn rotation<R: Real>(at: &Placement<R>) -> Mat3<R> {
+        Mat3::rotation::<A>(at.sin, at.cos)
+    }
+
+    #[inline(always)]
+    fn column<R: Real>(_: &Link<R>, _: usize, rate: R) -> Motion<R> {
+        Motion { ang: Vec3::along(A, rate), lin: Vec3::zero() }
+    }
+
+    #[inline(always)]
+    fn project<R: Real>(_: &Link<R>, _: usize, f: &Force<R>) -> R {
+        f.ang[A]
+    }
+
+    #[inline(always)]
+    fn inertia_column<R: Real>(_: &Link<R>, _: usize, ia: &ArticulatedInertia<R>) -> Force<R> {
+        Force { ang: ia.rotational.col(A), lin: ia.coupling.row(A) }
+    }
+
+    #[inline(always)]
+    fn velocity_product<R: Real>(v: &Motion<R>, v_joint: &Motion<R>) -> Motion<R> {
+        // x × e_A q̇, whose component along A is zero
+        let (b, d, rate) = ((A + 1) % 3, (A + 2) % 3, v_joint.ang[A]);
+        let cross = |x: Vec3<R>| {
+            let mut c = Vec3::zero();
+            c[b] = x[d] * rate;
+            c[d] = -(x[b] * rate);
+            c
+        };
+        Motion { ang: cross(v.ang), lin: cross(v.lin) }
+    }
+
+    #[inline(always)]
+    fn inertia_times_bias<R: Real>(ia: &ArticulatedInertia<R>, c: &Motion<R>) -> Force<R> {
+        // c = (ω × e_A q̇, v × e_A q̇) has no component along A
+        let (b, d) = ((A + 1) % 3, (A + 2) % 3);
+        let (i, h, m) = (&ia.rotational, &ia.coupling, &ia.linear);
+        let ang = |k: usize| {
+            (i.at(k, b) * c.ang[b] + i.at(k, d) * c.ang[d]) + (h.0[k][b] * c.lin[b] + h.0[k][d] * c.lin[d])
+        };
+        let lin = |k: usize| {
+            (h.0[b][k] * c.ang[b] + h.0[d][k] * c.ang[d]) + (m.at(k, b) * c.lin[b] + m.at(k, d) * c.lin[d])
+        };
+        Force { ang: Vec3([ang(0), ang(1), ang(2)]), lin: Vec3([lin(0), lin(1), lin(2)]) }
+    }
+}

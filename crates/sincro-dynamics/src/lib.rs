@@ -1,0 +1,31 @@
+//! What bodies do: the dynamics of kinematic trees in joint coordinates.
+//!
+//! A [`model::Model`] is built once and immutable; a [`state::State`] is exactly what must be saved to continue a run bit for
+//! bit; a [`scratch::Scratch`] holds what can be recomputed at any time. Every algorithm is a function of the three and
+//! is written once over [`Real`](sincro_math::Real).
+//!
+//! | want | see |
+//! |---|---|
+//! | accelerations from torques | [`aba`] |
+//! | torques from accelerations | [`rnea`] |
+//! | the mass matrix | [`crba`] |
+//! | poses, velocities, Jacobians | [`kinematics`] |
+//! | energies and momentum | [`energy`] |
+//! | springs, dampers, friction, motors | [`force`] |
+//!
+//! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
+//! clocks, threads or logs in this crate.
+
+pub mod aba;
+pub mod crba;
+pub mod drive;
+pub mod energy;
+pub mod force;
+pub mod joint;
+pub mod kinematics;
+pub mod model;
+pub mod rnea;
+pub mod scratch;
+pub mod signal;
+pub mod spatial;
+pub mod state;

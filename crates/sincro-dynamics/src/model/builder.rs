@@ -1,0 +1,151 @@
+//! The builder: the tree as the user names it.
+
+use super::{MassProperties, Model, Problem, compile};
+use crate::force::Motor;
+use crate::joint::JointKind;
+use crate::signal::Signal;
+use crate::spatial::Pose;
+
+/// One object of the tree under construction; [`NodeId::WORLD`] is its root.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(pub(crate) u32);
+
+impl NodeId {
+    /// The world: fixed, carries everything.
+    pub const WORLD: Self = Self(0);
+}
+
+/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none"; springs, friction, torques and
+/// motors need one-degree-of-freedom coordinates (not ball or free).
+#[derive(Clone, Debug)]
+pub struct JointSpec {
+    /// Kind and axes.
+    pub kind: JointKind,
+    /// Reflected inertia [kg·m²] or [kg].
+    pub armature: Vec<f64>,
+    /// Spring stiffness [N·m/rad] or [N/m] and rest position [rad] or [m].
+    pub spring: Vec<(f64, f64)>,
+    /// Viscous coefficient [N·m·s/rad] or [N·s/m].
+    pub damping: Vec<f64>,
+    /// Coulomb friction [N·m] or [N].
+    pub friction: Vec<f64>,
+    /// Applied torque [N·m] or force [N] over time, evaluated inside the step.
+    pub torque: Vec<Signal>,
+    /// Motor, for a joint with one degree of freedom; its command is an input of the world.
+    pub motor: Option<Motor<f64>>,
+}
+
+impl JointSpec {
+    /// A joint of that kind without anything on it.
+    #[must_use]
+    pub fn new(kind: JointKind) -> Self {
+        Self {
+            kind,
+            armature: Vec::new(),
+            spring: Vec::new(),
+            damping: Vec::new(),
+            friction: Vec::new(),
+            torque: Vec::new(),
+            motor: None,
+        }
+    }
+}
+
+/// A body to be added.
+#[derive(Clone, Debug)]
+pub struct BodySpec {
+    /// Mass, centre of mass, inertia, in the body's frame.
+    pub mass: MassProperties,
+}
+
+/// An external wrench on a body or frame, at its origin.
+#[derive(Clone, Debug)]
+pub struct ForceSpec {
+    /// Force components [N] over time.
+    pub force: [Signal; 3],
+    /// Torque components [N·m] over time.
+    pub torque: [Signal; 3],
+    /// Whether the components turn with the body; else they are along the world's axes.
+    pub in_body: bool,
+}
+
+pub(crate) enum NodeKind {
+    World,
+    Joint(Box<JointSpec>),
+    Body(BodySpec),
+    Frame,
+    Force(Box<ForceSpec>),
+}
+
+pub(crate) struct Node {
+    pub(crate) name: String,
+    pub(crate) parent: NodeId,
+    pub(crate) pose: Pose<f64>,
+    pub(crate) kind: NodeKind,
+}
+
+/// Collects the objects of a model, parents before children.
+///
+/// ```
+/// use sincro_dynamics::joint::JointKind;
+/// use sincro_dynamics::model::{BodySpec, JointSpec, ModelBuilder, NodeId, Shape};
+/// use sincro_dynamics::spatial::{Pose, Vec3};
+///
+/// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// let rod = Shape::Cylinder { radius: 0.05, length: 0.5 }.mass_properties(1000.0);
+/// builder.body("rod", hinge, Pose::translation(Vec3([0.0, 0.0, -0.25])), BodySpec { mass: rod });
+/// let (model, warnings) = builder.build().unwrap();
+/// assert_eq!((model.n_v(), warnings.len()), (1, 0));
+/// ```
+pub struct ModelBuilder {
+    pub(crate) gravity: [f64; 3],
+    pub(crate) nodes: Vec<Node>,
+}
+
+impl ModelBuilder {
+    /// An empty world with a gravitational acceleration [m/s²].
+    #[must_use]
+    pub fn new(gravity: [f64; 3]) -> Self {
+        let world = Node { name: "/".into(), parent: NodeId::WORLD, pose: Pose::identity(), kind: NodeKind::World };
+        Self { gravity, nodes: vec![world] }
+    }
+
+    fn add(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, kind: NodeKind) -> NodeId {
+        assert!((parent.0 as usize) < self.nodes.len(), "parents are added before children");
+        self.nodes.push(Node { name: name.into(), parent, pose, kind });
+        NodeId(u32::try_from(self.nodes.len() - 1).expect("fewer than 2^32 objects"))
+    }
+
+    /// Adds a joint whose frame stands at `pose` in its parent; what is hung on it moves.
+    pub fn joint(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: JointSpec) -> NodeId {
+        self.add(name, parent, pose, NodeKind::Joint(Box::new(spec)))
+    }
+
+    /// Adds a body whose frame stands at `pose` in its parent.
+    pub fn body(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: BodySpec) -> NodeId {
+        self.add(name, parent, pose, NodeKind::Body(spec))
+    }
+
+    /// Adds a frame: a named point without mass.
+    pub fn frame(&mut self, name: &str, parent: NodeId, pose: Pose<f64>) -> NodeId {
+        self.add(name, parent, pose, NodeKind::Frame)
+    }
+
+    /// Adds an external wrench that acts at the origin of `parent`.
+    pub fn force(&mut self, name: &str, parent: NodeId, spec: ForceSpec) -> NodeId {
+        self.add(name, parent, Pose::identity(), NodeKind::Force(Box::new(spec)))
+    }
+
+    /// Checks everything and compiles. The second part of the result are the warnings.
+    ///
+    /// # Errors
+    ///
+    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is not
+    /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
+    /// limits, list lengths that do not fit the joint, a joint that carries no mass.
+    pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
+        compile::compile(self)
+    }
+}

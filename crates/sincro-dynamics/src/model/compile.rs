@@ -1,0 +1,279 @@
+//! From the user's tree to flat links.
+//!
+//! Every node gets a *carrier*: the link it is fixed in (or the world) and its pose there. A joint starts one new link for each
+//! of its stages. The inertias of all bodies with the same carrier are summed.
+
+use std::sync::Arc;
+
+use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind};
+use super::names::{FrameInfo, JointInfo, Names};
+use super::problem::{Problem, Severity};
+use super::{Dof, Link, Model, WORLD, check};
+use crate::force::{AppliedTorque, AppliedWrench};
+use crate::joint::{JointKind, StageKind};
+use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
+
+/// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point leaves.
+const ON_AXIS: f64 = 1e-15;
+
+#[derive(Clone, Copy)]
+struct Carrier {
+    link: u32,
+    pose: Pose<f64>,
+}
+
+struct Compiler<'a> {
+    nodes: &'a [Node],
+    carriers: Vec<Carrier>,
+    model: Model<f64>,
+    names: Names,
+}
+
+/// Compiles what `builder` holds.
+pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
+    let mut problems = check::check(builder);
+    if problems.iter().any(|p| p.severity == Severity::Error) {
+        return Err(problems);
+    }
+    let mut compiler = Compiler {
+        nodes: &builder.nodes,
+        carriers: Vec::with_capacity(builder.nodes.len()),
+        model: Model {
+            links: Vec::new(),
+            dofs: Vec::new(),
+            gravity: Vec3(builder.gravity),
+            motors: Vec::new(),
+            applied: Vec::new(),
+            wrenches: Vec::new(),
+            drives: Vec::new(),
+            n_q: 0,
+            names: Arc::default(),
+        },
+        names: Names::default(),
+    };
+    for id in 0..builder.nodes.len() {
+        compiler.node(id);
+    }
+    let Compiler { mut model, names, .. } = compiler;
+    model.names = Arc::new(names);
+    model.drives = crate::drive::drives_of(&model);
+    problems.extend(check::massless_joints(&model));
+    if problems.iter().any(|p| p.severity == Severity::Error) {
+        return Err(problems);
+    }
+    Ok((model, problems))
+}
+
+impl Compiler<'_> {
+    fn node(&mut self, id: usize) {
+        let node = &self.nodes[id];
+        if matches!(node.kind, NodeKind::World) {
+            self.carriers.push(Carrier { link: WORLD, pose: Pose::identity() });
+            return;
+        }
+        let at = self.carriers[node.parent.0 as usize];
+        let here = Carrier { link: at.link, pose: snapped(&at.pose.compose(&node.pose)) };
+        let node_id = NodeId(id as u32);
+        let carrier = match &node.kind {
+            NodeKind::Joint(spec) => self.joint(node_id, here, spec),
+            NodeKind::Body(spec) => {
+                self.add_inertia(here, &spec.mass);
+                self.frame(node_id, here, Some((spec.mass.center_of_mass, spec.mass.mass)));
+                here
+            }
+            NodeKind::Frame => {
+                self.frame(node_id, here, None);
+                here
+            }
+            NodeKind::Force(spec) => {
+                if here.link != WORLD {
+                    self.model.wrenches.push(AppliedWrench {
+                        link: here.link as usize,
+                        pose: here.pose,
+                        in_body: spec.in_body,
+                        force: spec.force.clone().map(|s| vec![s]),
+                        torque: spec.torque.clone().map(|s| vec![s]),
+                    });
+                }
+                here
+            }
+            NodeKind::World => unreachable!("handled above"),
+        };
+        self.carriers.push(carrier);
+    }
+
+    fn add_inertia(&mut self, at: Carrier, mass: &super::MassProperties) {
+        if at.link == WORLD {
+            return;
+        }
+        let placed = mass.placed(&at.pose.rot, at.pose.pos);
+        let inertia =
+            RigidInertia::from_center_of_mass(placed.mass, Vec3(placed.center_of_mass), &Sym3(placed.inertia));
+        let link = &mut self.model.links[at.link as usize];
+        link.inertia = link.inertia.plus(&inertia);
+    }
+
+    fn frame(&mut self, node: NodeId, at: Carrier, body: Option<([f64; 3], f64)>) {
+        let link = (at.link != WORLD).then_some(at.link as usize);
+        let name = self.nodes[node.0 as usize].name.clone();
+        self.names.frames.push(FrameInfo { name, node, link, pose: at.pose, body });
+    }
+
+    /// Adds the stages of a joint; returns what carries its child frame.
+    fn joint(&mut self, node: NodeId, at: Carrier, spec: &JointSpec) -> Carrier {
+        let stages = stages(&spec.kind);
+        if stages.is_empty() {
+            return at;
+        }
+        let (q_idx, v_idx) = (self.model.n_q, self.model.dofs.len());
+        let mut carrier = at;
+        for stage in stages {
+            carrier = self.stage(carrier, &stage);
+        }
+        let joint = self.names.joints.len();
+        let (n_q, n_v) = (self.model.n_q - q_idx, self.model.dofs.len() - v_idx);
+        self.names.dof_joint.extend(std::iter::repeat_n(joint, n_v));
+        for k in 0..n_v {
+            self.dof_properties(v_idx + k, k, spec);
+        }
+        let motor = spec.motor.map(|motor| {
+            self.model.motors.push(super::Motor { dof: v_idx, ..motor });
+            self.model.motors.len() - 1
+        });
+        let name = self.nodes[node.0 as usize].name.clone();
+        self.names.joints.push(JointInfo { name, node, kind: spec.kind, q_idx, n_q, v_idx, n_v, motor });
+        carrier
+    }
+
+    fn dof_properties(&mut self, dof: usize, k: usize, spec: &JointSpec) {
+        let entry = &mut self.model.dofs[dof];
+        let at = |list: &[f64]| list.get(k).copied().unwrap_or(0.0);
+        entry.armature = at(&spec.armature);
+        entry.damping = at(&spec.damping);
+        entry.friction = at(&spec.friction);
+        (entry.stiffness, entry.rest) = spec.spring.get(k).copied().unwrap_or((0.0, 0.0));
+        match spec.torque.get(k) {
+            None => {}
+            Some(signal) => match signal.constant() {
+                Some(torque) => entry.torque = torque,
+                None => self.model.applied.push(AppliedTorque { dof, signal: vec![signal.clone()] }),
+            },
+        }
+    }
+
+    /// One stage whose joint frame stands at `at`.
+    fn stage(&mut self, at: Carrier, stage: &StageSpec) -> Carrier {
+        let frame = frame_of(stage, &at.pose.rot);
+        let turned = frame.base_rotation != Mat3::identity();
+        let kind = frame.kind;
+        let (q_idx, v_idx) = (self.model.n_q, self.model.dofs.len());
+        self.model.links.push(Link {
+            parent: at.link,
+            kind,
+            turned,
+            shifted: at.pose.pos != Vec3::zero() || !kind.is_pure_rotation(),
+            q_idx: q_idx as u32,
+            v_idx: v_idx as u32,
+            origin: at.pose.pos,
+            base_rotation: frame.base_rotation,
+            sign: frame.sign,
+            pitch: stage.pitch,
+            inertia: RigidInertia::zero(),
+        });
+        self.model.n_q += kind.n_q();
+        for _ in 0..kind.n_v() {
+            self.model.dofs.push(Dof {
+                armature: 0.0,
+                stiffness: 0.0,
+                rest: 0.0,
+                damping: 0.0,
+                friction: 0.0,
+                torque: 0.0,
+                q_idx: if kind.n_q() == 1 { q_idx as u32 } else { WORLD },
+            });
+        }
+        let rot = frame.base_rotation.transpose().mul(&at.pose.rot);
+        let pose = snapped(&Pose { rot, pos: Vec3::zero() });
+        Carrier { link: (self.model.links.len() - 1) as u32, pose }
+    }
+}
+
+/// One stage before its frame is chosen.
+struct StageSpec {
+    family: Family,
+    /// In joint axes.
+    axis: [f64; 3],
+    pitch: f64,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Family {
+    Revolute,
+    Prismatic,
+    Screw,
+    Ball,
+    Free,
+}
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// The chain of stages that a joint of `kind` is.
+fn stages(kind: &JointKind) -> Vec<StageSpec> {
+    let stage = |family, axis| StageSpec { family, axis, pitch: 0.0 };
+    match *kind {
+        JointKind::Fixed => vec![],
+        JointKind::Revolute { axis } => vec![stage(Family::Revolute, axis)],
+        JointKind::Prismatic { axis } => vec![stage(Family::Prismatic, axis)],
+        JointKind::Screw { axis, pitch } => vec![StageSpec { family: Family::Screw, axis, pitch }],
+        JointKind::Universal { axis, axis2 } => vec![stage(Family::Revolute, axis), stage(Family::Revolute, axis2)],
+        JointKind::Ball => vec![stage(Family::Ball, Z)],
+        JointKind::Planar => vec![stage(Family::Prismatic, X), stage(Family::Prismatic, Y), stage(Family::Revolute, Z)],
+        JointKind::Free => vec![stage(Family::Free, Z)],
+    }
+}
+
+struct StageFrame {
+    kind: StageKind,
+    base_rotation: Mat3<f64>,
+    sign: f64,
+}
+
+/// Chooses base axes: parallel to the parent's if the joint axis is on one of them, else with z on the joint axis.
+fn frame_of(stage: &StageSpec, joint_rotation: &Mat3<f64>) -> StageFrame {
+    use StageKind as K;
+    match stage.family {
+        Family::Ball => return StageFrame { kind: K::Ball, base_rotation: *joint_rotation, sign: 1.0 },
+        Family::Free => return StageFrame { kind: K::Free, base_rotation: *joint_rotation, sign: 1.0 },
+        _ => {}
+    }
+    let kinds = match stage.family {
+        Family::Revolute => [K::RevoluteX, K::RevoluteY, K::RevoluteZ],
+        Family::Prismatic => [K::PrismaticX, K::PrismaticY, K::PrismaticZ],
+        _ => [K::ScrewX, K::ScrewY, K::ScrewZ],
+    };
+    let n = joint_rotation.mul_vec(Vec3(stage.axis));
+    let n = n.scale(1.0 / n.norm());
+    for k in 0..3 {
+        if n[(k + 1) % 3].abs() < ON_AXIS && n[(k + 2) % 3].abs() < ON_AXIS {
+            return StageFrame { kind: kinds[k], base_rotation: Mat3::identity(), sign: n[k].signum() };
+        }
+    }
+    StageFrame { kind: kinds[2], base_rotation: with_z_along(n), sign: 1.0 }
+}
+
+/// A rotation whose third column is the unit vector `n`.
+fn with_z_along(n: Vec3<f64>) -> Mat3<f64> {
+    // the coordinate axis that n leans on least gives a well-conditioned x
+    let k = (0..3).fold(0, |best, k| if n[k].abs() < n[best].abs() { k } else { best });
+    let x = Vec3::along(k, 1.0) - n.scale(n[k]);
+    let x = x.scale(1.0 / x.norm());
+    Mat3([x.0, n.cross(x).0, n.0]).transpose()
+}
+
+/// Replaces rotation entries that are 0 or ±1 but for rounding, so that parallel frames stay exactly parallel.
+fn snapped(pose: &Pose<f64>) -> Pose<f64> {
+    let snap = |x: f64| if (x - x.round()).abs() < ON_AXIS { x.round() + 0.0 } else { x };
+    Pose { rot: Mat3(pose.rot.0.map(|row| row.map(snap))), pos: pose.pos }
+}

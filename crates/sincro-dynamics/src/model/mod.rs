@@ -1,0 +1,239 @@
+//! The compiled model: immutable, flat, shared by every world that has it.
+//!
+//! [`ModelBuilder`] takes the tree as the user names it; [`ModelBuilder::build`] checks everything, reports all problems at
+//! once and compiles: fixed joints and bodies hung on bodies are merged into *links*, universal and planar joints become
+//! chains of one-degree-of-freedom stages, and every link frame is chosen parallel to its parent's (at q = 0) with the
+//! joint's axis on a coordinate axis wherever the geometry allows, because that is what the recursions do fastest.
+//! [`Names`] keeps the way back from the user's objects to links and coordinates.
+
+mod builder;
+mod check;
+mod compile;
+mod mass;
+mod names;
+mod pack;
+mod problem;
+mod shape;
+
+use std::sync::Arc;
+
+use sincro_math::Real;
+
+pub use builder::{BodySpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
+pub use mass::MassProperties;
+pub use names::{FrameInfo, JointInfo, Names};
+pub use pack::PackError;
+pub use problem::{Problem, Severity};
+pub use shape::Shape;
+
+use crate::drive::Drive;
+use crate::force::{AppliedTorque, AppliedWrench, Motor};
+use crate::joint::{Placement, Stage, StageKind};
+use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
+
+/// No parent: the link moves against the world.
+pub(crate) const WORLD: u32 = u32::MAX;
+
+/// One moving link and the stage that joins it to its parent.
+#[derive(Clone, Copy, Debug)]
+pub struct Link<R> {
+    pub(crate) parent: u32,
+    pub(crate) kind: StageKind,
+    /// Whether `base_rotation` is not the identity.
+    pub(crate) turned: bool,
+    /// Whether the link's origin can lie off its parent's.
+    pub(crate) shifted: bool,
+    /// First coordinate in q.
+    pub(crate) q_idx: u32,
+    /// First degree of freedom in v.
+    pub(crate) v_idx: u32,
+    /// Origin of the base frame in the parent link [m].
+    pub(crate) origin: Vec3<R>,
+    /// Base to parent axes, if `turned`.
+    pub(crate) base_rotation: Mat3<R>,
+    /// +1, or −1 where the user's axis points against the coordinate axis: q_stage = sign·q.
+    pub(crate) sign: R,
+    /// Advance of a screw [m/rad].
+    pub(crate) pitch: R,
+    /// Of everything merged into the link, about its origin.
+    pub(crate) inertia: RigidInertia<R>,
+}
+
+impl<R: Real> Link<R> {
+    /// Components from base to parent axes.
+    #[inline(always)]
+    pub(crate) fn base_vector(&self, x: Vec3<R>) -> Vec3<R> {
+        if self.turned { self.base_rotation.mul_vec(x) } else { x }
+    }
+
+    /// Index of the parent link, none for the world.
+    #[inline(always)]
+    pub fn parent(&self) -> Option<usize> {
+        (self.parent != WORLD).then_some(self.parent as usize)
+    }
+
+    /// Whether the link moves freely against its parent.
+    pub fn is_free(&self) -> bool {
+        self.kind == StageKind::Free
+    }
+}
+
+/// Passive properties of one degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dof<R> {
+    /// Reflected inertia [kg·m²] or [kg].
+    pub armature: R,
+    /// Spring stiffness [N·m/rad] or [N/m].
+    pub stiffness: R,
+    /// Where the spring is at rest [rad] or [m].
+    pub rest: R,
+    /// Viscous coefficient [N·m·s/rad] or [N·s/m].
+    pub damping: R,
+    /// Coulomb friction torque [N·m] or force [N].
+    pub friction: R,
+    /// Constant applied torque [N·m] or force [N].
+    pub torque: R,
+    /// Coordinate in q that this degree of freedom moves; `WORLD` for those of ball and free joints.
+    pub(crate) q_idx: u32,
+}
+
+/// A compiled model. Numbers are of type `R`: one world's, or several worlds' packed into lanes ([`Model::pack`]).
+#[derive(Clone, Debug)]
+pub struct Model<R> {
+    pub(crate) links: Vec<Link<R>>,
+    pub(crate) dofs: Vec<Dof<R>>,
+    pub(crate) gravity: Vec3<R>,
+    pub(crate) motors: Vec<Motor<R>>,
+    pub(crate) applied: Vec<AppliedTorque>,
+    pub(crate) wrenches: Vec<AppliedWrench<R>>,
+    pub(crate) drives: Vec<Drive>,
+    pub(crate) n_q: usize,
+    pub(crate) names: Arc<Names>,
+}
+
+impl<R: Real> Model<R> {
+    /// Number of coordinates (a quaternion has four).
+    #[must_use]
+    pub fn n_q(&self) -> usize {
+        self.n_q
+    }
+
+    /// Number of degrees of freedom.
+    #[must_use]
+    pub fn n_v(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// The moving links, parents before children.
+    #[must_use]
+    pub fn links(&self) -> &[Link<R>] {
+        &self.links
+    }
+
+    /// Passive properties, one entry a degree of freedom.
+    #[must_use]
+    pub fn dofs(&self) -> &[Dof<R>] {
+        &self.dofs
+    }
+
+    /// The motors, in the order of their commands.
+    #[must_use]
+    pub fn motors(&self) -> &[Motor<R>] {
+        &self.motors
+    }
+
+    /// Velocity motors and joints with Coulomb friction.
+    #[must_use]
+    pub fn drives(&self) -> &[Drive] {
+        &self.drives
+    }
+
+    /// Number of drives.
+    #[must_use]
+    pub fn n_drives(&self) -> usize {
+        self.drives.len()
+    }
+
+    /// Whether degree of freedom `dof` moves one coordinate of its own (not part of a ball or free joint).
+    #[inline(always)]
+    #[must_use]
+    pub fn has_scalar_coordinate(&self, dof: usize) -> bool {
+        self.dofs[dof].q_idx != WORLD
+    }
+
+    /// Mass of everything that moves [kg].
+    #[must_use]
+    pub fn total_mass(&self) -> R {
+        self.links.iter().fold(R::zero(), |sum, link| sum + link.inertia.mass)
+    }
+
+    /// Gravitational acceleration [m/s²], world axes.
+    #[must_use]
+    pub fn gravity(&self) -> Vec3<R> {
+        self.gravity
+    }
+
+    /// The user's objects: joints, bodies, frames.
+    #[must_use]
+    pub fn names(&self) -> &Names {
+        &self.names
+    }
+}
+
+/// How motions and forces cross a joint.
+impl<R: Real> Link<R> {
+    /// A rate, acceleration or torque from the user's coordinate to the stage's, or back.
+    #[inline(always)]
+    pub(crate) fn signed<S: Stage>(&self, x: R) -> R {
+        if S::N_V == 1 { self.sign * x } else { x }
+    }
+
+    /// A motion of the parent link as the motion of this link's origin, in link axes.
+    #[inline(always)]
+    pub(crate) fn to_link<S: Stage>(&self, at: &Placement<R>, m: &Motion<R>) -> Motion<R> {
+        let (mut ang, mut lin) = (m.ang, m.lin);
+        if self.shifted {
+            lin += ang.cross(at.offset);
+        }
+        if self.turned {
+            ang = self.base_rotation.tr_mul_vec(ang);
+            lin = self.base_rotation.tr_mul_vec(lin);
+        }
+        Motion { ang: S::unturn(at, ang), lin: S::unturn(at, lin) }
+    }
+
+    /// A force on this link as the same force about the parent's origin, in parent axes.
+    #[inline(always)]
+    pub(crate) fn force_to_parent<S: Stage>(&self, at: &Placement<R>, f: &Force<R>) -> Force<R> {
+        let mut ang = self.base_vector(S::turn(at, f.ang));
+        let lin = self.base_vector(S::turn(at, f.lin));
+        if self.shifted {
+            ang += at.offset.cross(lin);
+        }
+        Force { ang, lin }
+    }
+
+    /// An articulated inertia of this link as seen at the parent's origin, in parent axes.
+    #[inline(always)]
+    pub(crate) fn articulated_to_parent<S: Stage>(
+        &self,
+        at: &Placement<R>,
+        ia: &ArticulatedInertia<R>,
+    ) -> ArticulatedInertia<R> {
+        let mut ia = S::turn_articulated(at, ia);
+        if self.turned {
+            ia = ia.turned(&self.base_rotation);
+        }
+        if self.shifted { ia.shifted(at.offset) } else { ia }
+    }
+
+    /// A rigid inertia of this link as seen at the parent's origin, in parent axes.
+    #[inline(always)]
+    pub(crate) fn rigid_to_parent<S: Stage>(&self, at: &Placement<R>, i: &RigidInertia<R>) -> RigidInertia<R> {
+        let mut i = S::turn_rigid(at, i);
+        if self.turned {
+            i = i.turned(&self.base_rotation);
+        }
+        if self.shifted { i.shifted(at.offset) } else { i }
+    }
+}

@@ -1,0 +1,72 @@
+//! The way back from the user's objects to links and coordinates.
+
+use super::NodeId;
+use crate::joint::JointKind;
+use crate::spatial::Pose;
+
+/// A joint as the user built it.
+#[derive(Clone, Debug)]
+pub struct JointInfo {
+    /// Name given by the user (a path in a scene).
+    pub name: String,
+    /// Node in the builder.
+    pub node: NodeId,
+    /// Kind.
+    pub kind: JointKind,
+    /// First coordinate in q.
+    pub q_idx: usize,
+    /// Number of coordinates.
+    pub n_q: usize,
+    /// First degree of freedom in v.
+    pub v_idx: usize,
+    /// Number of degrees of freedom.
+    pub n_v: usize,
+    /// Index of its motor, if it has one.
+    pub motor: Option<usize>,
+}
+
+/// A body or frame as the user built it.
+#[derive(Clone, Debug)]
+pub struct FrameInfo {
+    /// Name given by the user (a path in a scene).
+    pub name: String,
+    /// Node in the builder.
+    pub node: NodeId,
+    /// The link that carries it, none if it is fixed in the world.
+    pub link: Option<usize>,
+    /// Its pose in that link, or in the world.
+    pub pose: Pose<f64>,
+    /// Centre of mass in its own frame and mass, if it is a body.
+    pub body: Option<([f64; 3], f64)>,
+}
+
+/// All names of a model.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    /// Joints in the order they were added, fixed ones left out.
+    pub joints: Vec<JointInfo>,
+    /// Bodies and frames in the order they were added.
+    pub frames: Vec<FrameInfo>,
+    /// For each degree of freedom, the joint it belongs to.
+    pub dof_joint: Vec<usize>,
+}
+
+impl Names {
+    /// The joint of that name.
+    #[must_use]
+    pub fn joint(&self, name: &str) -> Option<&JointInfo> {
+        self.joints.iter().find(|j| j.name == name)
+    }
+
+    /// The body or frame of that name.
+    #[must_use]
+    pub fn frame(&self, name: &str) -> Option<&FrameInfo> {
+        self.frames.iter().find(|f| f.name == name)
+    }
+
+    /// Name of the joint that degree of freedom `dof` belongs to.
+    #[must_use]
+    pub fn dof_name(&self, dof: usize) -> &str {
+        &self.joints[self.dof_joint[dof]].name
+    }
+}

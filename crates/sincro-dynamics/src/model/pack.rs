@@ -1,0 +1,117 @@
+//! Several models of one build packed into lanes, and one model lifted into another kind of number.
+
+use std::sync::Arc;
+
+use sincro_math::Real;
+
+use super::{Dof, Link, Model};
+use crate::force::{AppliedTorque, AppliedWrench, Motor};
+use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
+
+/// Why models cannot share lanes: the named part has another structure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PackError(pub &'static str);
+
+impl std::fmt::Display for PackError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "models differ in their {}: only numbers may differ between the worlds of a batch", self.0)
+    }
+}
+
+impl std::error::Error for PackError {}
+
+impl<R: Real> Model<R> {
+    /// Packs one model a lane (`models.len() == R::LANES`); a single one is repeated in every lane.
+    ///
+    /// # Errors
+    ///
+    /// If the models differ in more than their numbers.
+    pub fn pack(models: &[&Model<f64>]) -> Result<Self, PackError> {
+        let first = models[0];
+        for other in &models[1..] {
+            same_structure(first, other)?;
+        }
+        let of = |k: usize| models[k.min(models.len() - 1)];
+        let num = |f: &dyn Fn(&Model<f64>) -> f64| R::from_lanes(|k| f(of(k)));
+        let vec3 = |f: &dyn Fn(&Model<f64>) -> Vec3<f64>| Vec3(core::array::from_fn(|i| num(&|m| f(m)[i])));
+        let mat3 = |f: &dyn Fn(&Model<f64>) -> Mat3<f64>| {
+            Mat3(core::array::from_fn(|i| core::array::from_fn(|j| num(&|m| f(m).0[i][j]))))
+        };
+        let links = (0..first.links.len()).map(|l| Link {
+            parent: first.links[l].parent,
+            kind: first.links[l].kind,
+            turned: first.links[l].turned,
+            shifted: first.links[l].shifted,
+            q_idx: first.links[l].q_idx,
+            v_idx: first.links[l].v_idx,
+            origin: vec3(&|m| m.links[l].origin),
+            base_rotation: mat3(&|m| m.links[l].base_rotation),
+            sign: num(&|m| m.links[l].sign),
+            pitch: num(&|m| m.links[l].pitch),
+            inertia: RigidInertia {
+                mass: num(&|m| m.links[l].inertia.mass),
+                moment: vec3(&|m| m.links[l].inertia.moment),
+                rotational: Sym3(core::array::from_fn(|i| num(&|m| m.links[l].inertia.rotational.0[i]))),
+            },
+        });
+        let dofs = (0..first.dofs.len()).map(|d| Dof {
+            armature: num(&|m| m.dofs[d].armature),
+            stiffness: num(&|m| m.dofs[d].stiffness),
+            rest: num(&|m| m.dofs[d].rest),
+            damping: num(&|m| m.dofs[d].damping),
+            friction: num(&|m| m.dofs[d].friction),
+            torque: num(&|m| m.dofs[d].torque),
+            q_idx: first.dofs[d].q_idx,
+        });
+        let motors = (0..first.motors.len()).map(|i| Motor {
+            dof: first.motors[i].dof,
+            mode: first.motors[i].mode,
+            max_torque: num(&|m| m.motors[i].max_torque),
+            kp: num(&|m| m.motors[i].kp),
+            max_velocity: num(&|m| m.motors[i].max_velocity),
+            stiffness: num(&|m| m.motors[i].stiffness),
+            damping: num(&|m| m.motors[i].damping),
+        });
+        let lanes = |f: &dyn Fn(&Model<f64>) -> crate::signal::Signal| (0..R::LANES).map(|k| f(of(k))).collect();
+        let applied = (0..first.applied.len()).map(|i| AppliedTorque {
+            dof: first.applied[i].dof,
+            signal: lanes(&|m| m.applied[i].signal[0].clone()),
+        });
+        let wrenches = (0..first.wrenches.len()).map(|i| AppliedWrench {
+            link: first.wrenches[i].link,
+            in_body: first.wrenches[i].in_body,
+            pose: Pose { rot: mat3(&|m| m.wrenches[i].pose.rot), pos: vec3(&|m| m.wrenches[i].pose.pos) },
+            force: core::array::from_fn(|c| lanes(&|m| m.wrenches[i].force[c][0].clone())),
+            torque: core::array::from_fn(|c| lanes(&|m| m.wrenches[i].torque[c][0].clone())),
+        });
+        Ok(Self {
+            drives: first.drives.clone(),
+            links: links.collect(),
+            dofs: dofs.collect(),
+            gravity: vec3(&|m| m.gravity),
+            motors: motors.collect(),
+            applied: applied.collect(),
+            wrenches: wrenches.collect(),
+            n_q: first.n_q,
+            names: Arc::clone(&first.names),
+        })
+    }
+}
+
+fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
+    let links = |m: &Model<f64>| -> Vec<_> {
+        m.links.iter().map(|l| (l.parent, l.kind, l.turned, l.shifted, l.q_idx, l.v_idx)).collect()
+    };
+    let motors = |m: &Model<f64>| -> Vec<_> { m.motors.iter().map(|x| (x.dof, x.mode)).collect() };
+    let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
+    let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body)).collect() };
+    let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction > 0.0).collect() };
+    let checks = [
+        (links(a) == links(b), "links and joints"),
+        (motors(a) == motors(b), "motors"),
+        (applied(a) == applied(b), "applied torques"),
+        (wrenches(a) == wrenches(b), "external forces"),
+        (friction(a) == friction(b), "set of joints with Coulomb friction"),
+    ];
+    checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))
+}

@@ -1,0 +1,176 @@
+//! Inputs as functions of time: constant, step, ramp, sine, pulse train, table.
+
+use std::sync::Arc;
+
+use sincro_math::elementary::sin_cos;
+
+/// A number that depends on time [s], and on nothing else.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Signal {
+    /// The same at all times.
+    Constant(f64),
+    /// `from` before `time`, `to` from then on.
+    Step {
+        /// Instant of the jump [s].
+        time: f64,
+        /// Before.
+        from: f64,
+        /// From `time` on.
+        to: f64,
+    },
+    /// `from` until `start`, then rising by `slope` a second, constant again from `until`.
+    Ramp {
+        /// Where it begins [s].
+        start: f64,
+        /// Rise [1/s].
+        slope: f64,
+        /// Value at and before the start.
+        from: f64,
+        /// Where it ends [s]; infinite for never.
+        until: f64,
+    },
+    /// `offset + amplitude·sin(angular_frequency·t + phase)`.
+    Sine {
+        /// Peak value.
+        amplitude: f64,
+        /// [rad/s]
+        angular_frequency: f64,
+        /// [rad]
+        phase: f64,
+        /// Mean value.
+        offset: f64,
+    },
+    /// From `start` on `high` for the first `width` seconds of every `period`, `low` otherwise.
+    Pulse {
+        /// [s]
+        period: f64,
+        /// Time at `high` in each period [s].
+        width: f64,
+        /// Value between pulses.
+        low: f64,
+        /// Value of a pulse.
+        high: f64,
+        /// First rising edge [s].
+        start: f64,
+    },
+    /// Given points; before the first and after the last it is constant.
+    Table {
+        /// Increasing times [s].
+        times: Arc<[f64]>,
+        /// Values at those times.
+        values: Arc<[f64]>,
+        /// Linear between points, else held from each point to the next.
+        linear: bool,
+    },
+}
+
+/// Times closer than this are the same instant [s]: ticks are exact multiples, typed numbers are not.
+const SAME_INSTANT: f64 = 1e-9;
+
+impl Signal {
+    /// Value at time `t` [s].
+    #[must_use]
+    pub fn value(&self, t: f64) -> f64 {
+        match *self {
+            Self::Constant(x) => x,
+            Self::Step { time, from, to } => {
+                if t < time - SAME_INSTANT {
+                    from
+                } else {
+                    to
+                }
+            }
+            Self::Ramp { start, slope, from, until } => from + slope * (t.min(until) - start).max(0.0),
+            Self::Sine { amplitude, angular_frequency, phase, offset } => {
+                offset + amplitude * sin_cos(angular_frequency * t + phase).0
+            }
+            Self::Pulse { period, width, low, high, start } => {
+                let since = t - start + SAME_INSTANT;
+                let within = since - (since / period).floor() * period;
+                if since >= 0.0 && within < width { high } else { low }
+            }
+            Self::Table { ref times, ref values, linear } => table(times, values, linear, t),
+        }
+    }
+
+    /// The value, if it is the same at all times.
+    #[must_use]
+    pub fn constant(&self) -> Option<f64> {
+        match *self {
+            Self::Constant(x) => Some(x),
+            _ => None,
+        }
+    }
+
+    /// The first instant after `t` at which the signal or its slope jumps, so that no integration step straddles it;
+    /// infinite if there is none.
+    #[must_use]
+    pub fn next_corner(&self, t: f64) -> f64 {
+        let after = |x: f64| if x > t + SAME_INSTANT { x } else { f64::INFINITY };
+        match *self {
+            Self::Constant(_) | Self::Sine { .. } => f64::INFINITY,
+            Self::Step { time, .. } => after(time),
+            Self::Ramp { start, until, .. } => after(start).min(after(until)),
+            Self::Pulse { period, width, start, .. } => {
+                let n = ((t - start + SAME_INSTANT) / period).floor().max(0.0);
+                let rise = start + n * period;
+                after(rise).min(after(rise + width)).min(after(rise + period))
+            }
+            Self::Table { ref times, .. } => {
+                times.get(times.partition_point(|x| *x <= t + SAME_INSTANT)).copied().unwrap_or(f64::INFINITY)
+            }
+        }
+    }
+}
+
+fn table(times: &[f64], values: &[f64], linear: bool, t: f64) -> f64 {
+    let slack = if linear { 0.0 } else { SAME_INSTANT };
+    let after = times.partition_point(|x| *x <= t + slack);
+    if after == 0 {
+        return values[0];
+    }
+    let (t0, v0) = (times[after - 1], values[after - 1]);
+    if !linear || after == times.len() {
+        return v0;
+    }
+    v0 + (values[after] - v0) * ((t - t0) / (times[after] - t0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pulse_train_has_its_duty_cycle() {
+        let pulse = Signal::Pulse { period: 0.1, width: 0.03, low: -1.0, high: 2.0, start: 0.05 };
+        let mut high = 0;
+        for k in 0..1000 {
+            high += i32::from(pulse.value(0.05 + f64::from(k) * 0.001) > 0.0);
+        }
+        assert_eq!(high, 300);
+        assert_eq!(pulse.value(0.0), -1.0);
+    }
+
+    #[test]
+    fn corners_are_found_in_order() {
+        let pulse = Signal::Pulse { period: 1.0, width: 0.25, low: 0.0, high: 1.0, start: 0.5 };
+        let mut t = 0.0;
+        let corners: Vec<f64> = std::iter::from_fn(|| {
+            t = pulse.next_corner(t);
+            Some(t)
+        })
+        .take(4)
+        .collect();
+        assert_eq!(corners, [0.5, 0.75, 1.5, 1.75]);
+    }
+
+    #[test]
+    fn a_table_is_constant_outside_and_linear_inside() {
+        let (times, values): (Arc<[f64]>, Arc<[f64]>) = ([0.0, 1.0, 3.0].into(), [1.0, 2.0, -2.0].into());
+        let linear = Signal::Table { times: times.clone(), values: values.clone(), linear: true };
+        let held = Signal::Table { times, values, linear: false };
+        for (t, l, h) in [(-1.0, 1.0, 1.0), (0.5, 1.5, 1.0), (2.0, 0.0, 2.0), (9.0, -2.0, -2.0)] {
+            assert_eq!((linear.value(t), held.value(t)), (l, h));
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! Inertias: of a rigid body (ten numbers) and articulated (twenty-one).
+//!
+//! In blocks, angular part first, about the origin of the frame they are expressed in:
+//!
+//! ```text
+//!     rigid:  [ I   h× ]      articulated:  [ I   H ]     wrench = inertia · acceleration
+//!             [ −h× m  ]                    [ Hᵀ  M ]
+//! ```
+//!
+//! Source: key `featherstone2008`, sections 2.13 and 7.1.
+
+use sincro_math::Real;
+
+use super::{Force, Mat3, Motion, Sym3, Vec3};
+
+/// Inertia of a rigid body about the origin of its frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RigidInertia<R> {
+    /// Mass m [kg].
+    pub mass: R,
+    /// First moment h = m·c [kg·m], c the centre of mass.
+    pub moment: Vec3<R>,
+    /// Rotational inertia about the frame's origin [kg·m²].
+    pub rotational: Sym3<R>,
+}
+
+impl<R: Real> RigidInertia<R> {
+    /// No mass at all.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self { mass: R::zero(), moment: Vec3::zero(), rotational: Sym3::zero() }
+    }
+
+    /// From mass [kg], centre of mass [m] and inertia about the centre of mass [kg·m²], all in the frame's axes.
+    pub fn from_center_of_mass(mass: R, com: Vec3<R>, inertia: &Sym3<R>) -> Self {
+        // Steiner: I_o = I_c + m (|c|² 1 − c cᵀ)
+        let cc = com.dot(com);
+        let steiner = Sym3::from_fn(|i, j| {
+            let diagonal = if i == j { cc } else { R::zero() };
+            mass * (diagonal - com[i] * com[j])
+        });
+        Self { mass, moment: com.scale(mass), rotational: inertia.plus(&steiner) }
+    }
+
+    /// Momentum of the body moving with `v`: `I·v`.
+    #[inline(always)]
+    pub fn mul(&self, v: &Motion<R>) -> Force<R> {
+        Force {
+            ang: self.rotational.mul_vec(v.ang) + self.moment.cross(v.lin),
+            lin: v.lin.scale(self.mass) - self.moment.cross(v.ang),
+        }
+    }
+
+    /// Sum of two inertias in the same frame.
+    #[inline(always)]
+    pub fn plus(&self, b: &Self) -> Self {
+        Self {
+            mass: self.mass + b.mass,
+            moment: self.moment + b.moment,
+            rotational: self.rotational.plus(&b.rotational),
+        }
+    }
+
+    /// The same inertia seen from a frame in which this one's origin lies at `r`, axes parallel.
+    #[inline(always)]
+    pub fn shifted(&self, r: Vec3<R>) -> Self {
+        // I' = I + (2 r·h + m r²) 1 − r hᵀ − h rᵀ − m r rᵀ,  h' = h + m r
+        let h = self.moment;
+        let k = h + r.scale(self.mass);
+        let diag = r.dot(h + k);
+        let rotational = Sym3::from_fn(|i, j| {
+            let d = if i == j { diag } else { R::zero() };
+            self.rotational.at(i, j) + (d - r[i] * k[j] - h[i] * r[j])
+        });
+        Self { mass: self.mass, moment: k, rotational }
+    }
+
+    /// The same inertia with its components turned by `e`: from frame B to frame A for `e` = R_ab.
+    #[inline(always)]
+    pub fn turned(&self, e: &Mat3<R>) -> Self {
+        Self { mass: self.mass, moment: e.mul_vec(self.moment), rotational: e.congruence_sym(&self.rotational) }
+    }
+
+    /// The general form.
+    #[inline(always)]
+    pub fn articulated(&self) -> ArticulatedInertia<R> {
+        ArticulatedInertia {
+            rotational: self.rotational,
+            coupling: Mat3::skew(self.moment),
+            linear: Sym3::scalar(self.mass),
+        }
+    }
+}
+
+/// Inertia that a link shows at its joint with everything hanging on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ArticulatedInertia<R> {
+    /// I, rotational block.
+    pub rotational: Sym3<R>,
+    /// H, moment caused by linear acceleration.
+    pub coupling: Mat3<R>,
+    /// M, linear block.
+    pub linear: Sym3<R>,
+}
+
+impl<R: Real> ArticulatedInertia<R> {
+    /// Wrench needed for acceleration `a`.
+    #[inline(always)]
+    pub fn mul(&self, a: &Motion<R>) -> Force<R> {
+        Force {
+            ang: self.rotational.mul_vec(a.ang) + self.coupling.mul_vec(a.lin),
+            lin: self.coupling.tr_mul_vec(a.ang) + self.linear.mul_vec(a.lin),
+        }
+    }
+
+    /// `self − u·(ku)ᵀ`: what is left when one degree of freedom gives way. `ku` is a multiple of `u`.
+    #[inline(always)]
+    pub fn minus_outer(&self, u: &Force<R>, ku: &Force<R>) -> Self {
+        Self {
+            rotational: self.rotational.minus_outer(u.ang, ku.ang),
+            coupling: Mat3(core::array::from_fn(|i| {
+                core::array::from_fn(|j| self.coupling.0[i][j] - u.ang[i] * ku.lin[j])
+            })),
+            linear: self.linear.minus_outer(u.lin, ku.lin),
+        }
+    }
+
+    /// Sum of two in the same frame.
+    #[inline(always)]
+    pub fn plus(&self, b: &Self) -> Self {
+        Self {
+            rotational: self.rotational.plus(&b.rotational),
+            coupling: self.coupling.plus(&b.coupling),
+            linear: self.linear.plus(&b.linear),
+        }
+    }
+
+    /// Components turned about coordinate axis `A`, from child to parent axes.
+    #[inline(always)]
+    pub fn rotated<const A: usize>(&self, sin: R, cos: R) -> Self {
+        let (b, c) = ((A + 1) % 3, (A + 2) % 3);
+        let mut h = self.coupling;
+        for j in 0..3 {
+            let (x, y) = (h.0[b][j], h.0[c][j]);
+            h.0[b][j] = cos * x - sin * y;
+            h.0[c][j] = sin * x + cos * y;
+        }
+        for i in 0..3 {
+            let (x, y) = (h.0[i][b], h.0[i][c]);
+            h.0[i][b] = cos * x - sin * y;
+            h.0[i][c] = sin * x + cos * y;
+        }
+        Self {
+            rotational: self.rotational.rotated::<A>(sin, cos),
+            coupling: h,
+            linear: self.linear.rotated::<A>(sin, cos),
+        }
+    }
+
+    /// Components turned by `e`.
+    #[inline(always)]
+    pub fn turned(&self, e: &Mat3<R>) -> Self {
+        Self {
+            rotational: e.congruence_sym(&self.rotational),
+            coupling: e.congruence(&self.coupling),
+            linear: e.congruence_sym(&self.linear),
+        }
+    }
+
+    /// The same inertia about a point seen from which this frame's origin lies at `r`, axes parallel.
+    #[inline(always)]
+    pub fn shifted(&self, r: Vec3<R>) -> Self {
+        // G = H + r×M;  I' = I − H r× + r× Gᵀ
+        let m = self.linear.full();
+        let g = Mat3(core::array::from_fn(|i| {
+            let (p, q) = ((i + 1) % 3, (i + 2) % 3);
+            core::array::from_fn(|j| self.coupling.0[i][j] + (r[p] * m.0[q][j] - r[q] * m.0[p][j]))
+        }));
+        let h = &self.coupling;
+        let rotational = Sym3::from_fn(|i, j| {
+            let (p, q) = ((i + 1) % 3, (i + 2) % 3);
+            let (s, t) = ((j + 1) % 3, (j + 2) % 3);
+            // (−H r×)_ij = r_s H_it − r_t H_is ;  (r× Gᵀ)_ij = r_p G_jq − r_q G_jp
+            self.rotational.at(i, j)
+                + ((r[s] * h.0[i][t] - r[t] * h.0[i][s]) + (r[p] * g.0[j][q] - r[q] * g.0[j][p]))
+        });
+        Self { rotational, coupling: g, linear: self.linear }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> RigidInertia<f64> {
+        let i = Sym3([0.3, 0.02, -0.01, 0.4, 0.03, 0.5]);
+        RigidInertia::from_center_of_mass(2.5, Vec3([0.1, -0.2, 0.3]), &i)
+    }
+
+    fn close(a: &Force<f64>, b: &Force<f64>) -> bool {
+        (a.ang - b.ang).norm() + (a.lin - b.lin).norm() < 1e-13
+    }
+
+    #[test]
+    fn articulated_form_of_a_rigid_body_is_the_rigid_one() {
+        let (rigid, r) = (sample(), Vec3([0.4, 0.5, -0.6]));
+        let v = Motion { ang: Vec3([1.0, -2.0, 0.5]), lin: Vec3([0.3, 0.7, -1.1]) };
+        let e = Mat3::rotation::<1>(0.6, 0.8);
+        assert!(close(&rigid.mul(&v), &rigid.articulated().mul(&v)));
+        assert!(close(&rigid.shifted(r).mul(&v), &rigid.articulated().shifted(r).mul(&v)));
+        assert!(close(&rigid.turned(&e).mul(&v), &rigid.articulated().turned(&e).mul(&v)));
+        assert!(close(&rigid.turned(&e).mul(&v), &rigid.articulated().rotated::<1>(0.6, 0.8).mul(&v)));
+    }
+
+    #[test]
+    fn shift_obeys_steiner() {
+        let (mass, com, i) = (2.0, Vec3([0.1, 0.2, -0.3]), Sym3([0.3, 0.0, 0.0, 0.4, 0.0, 0.5]));
+        let r = Vec3([1.0, -0.5, 0.25]);
+        let direct = RigidInertia::from_center_of_mass(mass, com + r, &i);
+        let shifted = RigidInertia::from_center_of_mass(mass, com, &i).shifted(r);
+        for k in 0..6 {
+            assert!((direct.rotational.0[k] - shifted.rotational.0[k]).abs() < 1e-14);
+        }
+    }
+}

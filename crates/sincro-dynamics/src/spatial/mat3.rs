@@ -1,0 +1,103 @@
+//! General 3×3 matrices: rotations and the coupling block of an articulated inertia.
+
+use sincro_math::Real;
+
+use super::{Sym3, Vec3};
+
+/// A 3×3 matrix by rows. As a rotation `r_ab` it takes components in frame B to components in frame A.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mat3<R>(pub [[R; 3]; 3]);
+
+impl<R: Real> Mat3<R> {
+    /// The identity.
+    #[inline(always)]
+    pub fn identity() -> Self {
+        let (o, l) = (R::zero(), R::one());
+        Self([[l, o, o], [o, l, o], [o, o, l]])
+    }
+
+    /// The null matrix.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self([[R::zero(); 3]; 3])
+    }
+
+    /// Constants lifted into `R`.
+    pub fn splat(m: [[f64; 3]; 3]) -> Self {
+        Self(m.map(|row| row.map(R::splat)))
+    }
+
+    /// Rotation about coordinate axis `A` by the angle with the given sine and cosine.
+    #[inline(always)]
+    pub fn rotation<const A: usize>(sin: R, cos: R) -> Self {
+        let (b, c) = ((A + 1) % 3, (A + 2) % 3);
+        let mut m = Self::identity();
+        m.0[b][b] = cos;
+        m.0[b][c] = -sin;
+        m.0[c][b] = sin;
+        m.0[c][c] = cos;
+        m
+    }
+
+    /// The skew matrix of `v`: `skew(v)·b = v × b`.
+    #[inline(always)]
+    pub fn skew(v: Vec3<R>) -> Self {
+        let o = R::zero();
+        Self([[o, -v[2], v[1]], [v[2], o, -v[0]], [-v[1], v[0], o]])
+    }
+
+    /// Column `k`.
+    #[inline(always)]
+    pub fn col(&self, k: usize) -> Vec3<R> {
+        Vec3([self.0[0][k], self.0[1][k], self.0[2][k]])
+    }
+
+    /// Row `k`.
+    #[inline(always)]
+    pub fn row(&self, k: usize) -> Vec3<R> {
+        Vec3(self.0[k])
+    }
+
+    /// The transpose: of a rotation, its inverse.
+    #[inline(always)]
+    pub fn transpose(&self) -> Self {
+        Self([self.col(0).0, self.col(1).0, self.col(2).0])
+    }
+
+    /// Matrix times vector.
+    #[inline(always)]
+    pub fn mul_vec(&self, v: Vec3<R>) -> Vec3<R> {
+        Vec3([self.row(0).dot(v), self.row(1).dot(v), self.row(2).dot(v)])
+    }
+
+    /// Transposed matrix times vector.
+    #[inline(always)]
+    pub fn tr_mul_vec(&self, v: Vec3<R>) -> Vec3<R> {
+        Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
+    }
+
+    /// Matrix product `self · b`.
+    #[inline(always)]
+    pub fn mul(&self, b: &Self) -> Self {
+        Self(core::array::from_fn(|i| core::array::from_fn(|j| self.row(i).dot(b.col(j)))))
+    }
+
+    /// `self + b`.
+    #[inline(always)]
+    pub fn plus(&self, b: &Self) -> Self {
+        Self(core::array::from_fn(|i| core::array::from_fn(|j| self.0[i][j] + b.0[i][j])))
+    }
+
+    /// `self · m · selfᵀ` of a symmetric `m`.
+    #[inline(always)]
+    pub fn congruence_sym(&self, m: &Sym3<R>) -> Sym3<R> {
+        let t: [Vec3<R>; 3] = core::array::from_fn(|i| m.mul_vec(self.row(i)));
+        Sym3::from_fn(|i, j| t[i].dot(self.row(j)))
+    }
+
+    /// `self · m · selfᵀ`.
+    #[inline(always)]
+    pub fn congruence(&self, m: &Self) -> Self {
+        self.mul(m).mul(&self.transpose())
+    }
+}

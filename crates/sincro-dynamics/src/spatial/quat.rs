@@ -1,0 +1,141 @@
+//! Unit quaternions, scalar first (w, x, y, z); `q` and `−q` are the same rotation.
+
+use sincro_math::Real;
+
+use super::{Mat3, Vec3};
+
+/// Rotation of a frame B in a frame A: takes components in B to components in A.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quat<R> {
+    /// Scalar part, cosine of half the angle.
+    pub w: R,
+    /// Vector part, axis times sine of half the angle.
+    pub xyz: Vec3<R>,
+}
+
+impl<R: Real> Quat<R> {
+    /// No rotation.
+    pub fn identity() -> Self {
+        Self { w: R::one(), xyz: Vec3::zero() }
+    }
+
+    /// From four coordinates (w, x, y, z).
+    #[inline(always)]
+    pub fn from_slice(q: &[R]) -> Self {
+        Self { w: q[0], xyz: Vec3([q[1], q[2], q[3]]) }
+    }
+
+    /// Into four coordinates (w, x, y, z).
+    #[inline(always)]
+    pub fn write(&self, q: &mut [R]) {
+        q[0] = self.w;
+        q[1..4].copy_from_slice(&self.xyz.0);
+    }
+
+    /// The rotation by the vector `phi` [rad]: |phi| about its direction.
+    #[inline(always)]
+    pub fn exp(phi: Vec3<R>) -> Self {
+        let half = phi.scale(R::splat(0.5));
+        let square = half.dot(half);
+        // sin(a)/a and cos(a) of a = |phi|/2: series below 1e-2, where neither loses a digit
+        let small = R::splat(1e-4);
+        let a = small.if_less(square, square, R::one()).sqrt();
+        let (sin, cos) = a.sin_cos();
+        let sinc_series = R::one()
+            - square * R::splat(1.0 / 6.0) * (R::one() - square * R::splat(0.05) * (R::one() - square * R::splat(1.0 / 42.0)));
+        let cos_series = R::one()
+            - square * R::splat(0.5) * (R::one() - square * R::splat(1.0 / 12.0) * (R::one() - square * R::splat(1.0 / 30.0)));
+        let sinc = small.if_less(square, sin / a, sinc_series);
+        let w = small.if_less(square, cos, cos_series);
+        Self { w, xyz: half.scale(sinc) }
+    }
+
+    /// Hamilton product: first `b`, then `self`, for components; `q_ab * q_bc = q_ac`.
+    #[inline(always)]
+    pub fn mul(&self, b: &Self) -> Self {
+        Self {
+            w: self.w * b.w - self.xyz.dot(b.xyz),
+            xyz: b.xyz.scale(self.w) + self.xyz.scale(b.w) + self.xyz.cross(b.xyz),
+        }
+    }
+
+    /// The inverse of a unit quaternion.
+    #[inline(always)]
+    pub fn conjugate(&self) -> Self {
+        Self { w: self.w, xyz: -self.xyz }
+    }
+
+    /// Scaled to length one.
+    #[inline(always)]
+    pub fn normalized(&self) -> Self {
+        let k = R::one() / (self.w * self.w + self.xyz.dot(self.xyz)).sqrt();
+        Self { w: self.w * k, xyz: self.xyz.scale(k) }
+    }
+
+    /// The rotation matrix.
+    #[inline(always)]
+    pub fn matrix(&self) -> Mat3<R> {
+        let (w, [x, y, z]) = (self.w, self.xyz.0);
+        let two = R::splat(2.0);
+        let (x2, y2, z2) = (x * two, y * two, z * two);
+        let one = R::one();
+        Mat3([
+            [one - (y * y2 + z * z2), x * y2 - w * z2, x * z2 + w * y2],
+            [x * y2 + w * z2, one - (x * x2 + z * z2), y * z2 - w * x2],
+            [x * z2 - w * y2, y * z2 + w * x2, one - (x * x2 + y * y2)],
+        ])
+    }
+}
+
+impl Quat<f64> {
+    /// The quaternion of a rotation matrix, w ≥ 0; exact to rounding for any rotation (Shepperd's choice of pivot).
+    pub fn from_matrix(m: &Mat3<f64>) -> Self {
+        let m = &m.0;
+        let trace = m[0][0] + m[1][1] + m[2][2];
+        let pivots = [trace, m[0][0], m[1][1], m[2][2]];
+        let k = (0..4).fold(0, |best, k| if pivots[k] > pivots[best] { k } else { best });
+        let q = if k == 0 {
+            [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
+        } else {
+            let (i, j, l) = (k - 1, k % 3, (k + 1) % 3);
+            let mut q = [0.0; 4];
+            q[0] = m[l][j] - m[j][l];
+            q[1 + i] = 1.0 + m[i][i] - m[j][j] - m[l][l];
+            q[1 + j] = m[i][j] + m[j][i];
+            q[1 + l] = m[i][l] + m[l][i];
+            q
+        };
+        let q = Self::from_slice(&q).normalized();
+        if q.w < 0.0 { Self { w: -q.w, xyz: -q.xyz } } else { q }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponential_is_the_axis_angle_rotation() {
+        for angle in [0.0, 1e-9, 1e-3, 0.019, 0.021, 1.0, 3.0] {
+            let m = Quat::exp(Vec3([0.0, angle, 0.0])).matrix();
+            let (s, c) = Real::sin_cos(angle);
+            let expected = Mat3::rotation::<1>(s, c);
+            for i in 0..3 {
+                for j in 0..3 {
+                    assert!((m.0[i][j] - expected.0[i][j]).abs() < 1e-15, "{angle}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn matrix_and_back_is_the_same_rotation() {
+        for k in 0..200 {
+            let t = f64::from(k);
+            let q = Quat::exp(Vec3([3.0 * (t * 0.7).sin(), 2.0 * (t * 1.3).cos(), (t * 2.1).sin()]));
+            let back = Quat::from_matrix(&q.matrix());
+            let dot = q.w * back.w + q.xyz.dot(back.xyz);
+            assert!((dot.abs() - 1.0).abs() < 1e-14, "{k}");
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Symmetric 3×3 matrices: rotational inertias, the diagonal blocks of an articulated inertia.
+
+use sincro_math::Real;
+
+use super::{Mat3, Vec3};
+
+/// A symmetric matrix by its upper triangle (xx, xy, xz, yy, yz, zz).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sym3<R>(pub [R; 6]);
+
+/// Where element (i, j) stands in the packed triangle.
+const PACKED: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+
+impl<R: Real> Sym3<R> {
+    /// The null matrix.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self([R::zero(); 6])
+    }
+
+    /// `k` times the identity.
+    #[inline(always)]
+    pub fn scalar(k: R) -> Self {
+        let o = R::zero();
+        Self([k, o, o, k, o, k])
+    }
+
+    /// Constants lifted into `R`.
+    pub fn splat(m: [f64; 6]) -> Self {
+        Self(m.map(R::splat))
+    }
+
+    /// The matrix with elements `f(i, j)`, asked for i ≤ j only.
+    #[inline(always)]
+    pub fn from_fn(f: impl Fn(usize, usize) -> R) -> Self {
+        Self([f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2)])
+    }
+
+    /// Element (i, j).
+    #[inline(always)]
+    pub fn at(&self, i: usize, j: usize) -> R {
+        self.0[PACKED[i][j]]
+    }
+
+    /// Column (or row) `k`.
+    #[inline(always)]
+    pub fn col(&self, k: usize) -> Vec3<R> {
+        Vec3([self.at(0, k), self.at(1, k), self.at(2, k)])
+    }
+
+    /// Matrix times vector.
+    #[inline(always)]
+    pub fn mul_vec(&self, v: Vec3<R>) -> Vec3<R> {
+        Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
+    }
+
+    /// The same as a full matrix.
+    #[inline(always)]
+    pub fn full(&self) -> Mat3<R> {
+        Mat3([self.col(0).0, self.col(1).0, self.col(2).0])
+    }
+
+    /// `self + b`.
+    #[inline(always)]
+    pub fn plus(&self, b: &Self) -> Self {
+        Self(core::array::from_fn(|k| self.0[k] + b.0[k]))
+    }
+
+    /// `self − b`.
+    #[inline(always)]
+    pub fn minus(&self, b: &Self) -> Self {
+        Self(core::array::from_fn(|k| self.0[k] - b.0[k]))
+    }
+
+    /// `self − k·a·bᵀ` where `k·a·bᵀ` is symmetric (b parallel to a).
+    #[inline(always)]
+    pub fn minus_outer(&self, a: Vec3<R>, b: Vec3<R>) -> Self {
+        Self::from_fn(|i, j| self.at(i, j) - a[i] * b[j])
+    }
+
+    /// Rotation about axis `A`: `E·self·Eᵀ`, where `E` turns by the angle with this sine and cosine.
+    #[inline(always)]
+    pub fn rotated<const A: usize>(&self, sin: R, cos: R) -> Self {
+        let (b, c) = ((A + 1) % 3, (A + 2) % 3);
+        let (bb, bc, cc) = (self.at(b, b), self.at(b, c), self.at(c, c));
+        let (ab, ac) = (self.at(A, b), self.at(A, c));
+        // rows first, then columns of the (b, c) block
+        let (t_bb, t_bc) = (cos * bb - sin * bc, cos * bc - sin * cc);
+        let (t_cb, t_cc) = (sin * bb + cos * bc, sin * bc + cos * cc);
+        let mut out = *self;
+        out.0[PACKED[A][b]] = cos * ab - sin * ac;
+        out.0[PACKED[A][c]] = sin * ab + cos * ac;
+        out.0[PACKED[b][b]] = t_bb * cos - t_bc * sin;
+        out.0[PACKED[b][c]] = t_bb * sin + t_bc * cos;
+        out.0[PACKED[c][c]] = t_cb * sin + t_cc * cos;
+        out
+    }
+}

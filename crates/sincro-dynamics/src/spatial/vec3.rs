@@ -1,0 +1,115 @@
+//! Three-vectors.
+
+use core::ops::{Add, AddAssign, Index, IndexMut, Neg, Sub, SubAssign};
+
+use sincro_math::Real;
+
+/// A vector of three components in some frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vec3<R>(pub [R; 3]);
+
+impl<R: Real> Vec3<R> {
+    /// The vector (x, y, z).
+    #[inline(always)]
+    pub fn new(x: R, y: R, z: R) -> Self {
+        Self([x, y, z])
+    }
+
+    /// The null vector.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self([R::zero(); 3])
+    }
+
+    /// `length` along coordinate axis `axis` (0, 1, 2).
+    #[inline(always)]
+    pub fn along(axis: usize, length: R) -> Self {
+        let mut v = Self::zero();
+        v[axis] = length;
+        v
+    }
+
+    /// Constants lifted into `R`.
+    #[inline(always)]
+    pub fn splat(v: [f64; 3]) -> Self {
+        Self(v.map(R::splat))
+    }
+
+    /// Dot product.
+    #[inline(always)]
+    pub fn dot(self, b: Self) -> R {
+        self[0] * b[0] + self[1] * b[1] + self[2] * b[2]
+    }
+
+    /// Cross product `self × b`.
+    #[inline(always)]
+    pub fn cross(self, b: Self) -> Self {
+        let a = self;
+        Self([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    }
+
+    /// Product with a scalar.
+    #[inline(always)]
+    pub fn scale(self, k: R) -> Self {
+        Self([self[0] * k, self[1] * k, self[2] * k])
+    }
+
+    /// Euclidean length.
+    #[inline(always)]
+    pub fn norm(self) -> R {
+        self.dot(self).sqrt()
+    }
+}
+
+impl<R> Index<usize> for Vec3<R> {
+    type Output = R;
+    #[inline(always)]
+    fn index(&self, k: usize) -> &R {
+        &self.0[k]
+    }
+}
+
+impl<R> IndexMut<usize> for Vec3<R> {
+    #[inline(always)]
+    fn index_mut(&mut self, k: usize) -> &mut R {
+        &mut self.0[k]
+    }
+}
+
+impl<R: Real> Add for Vec3<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self([self[0] + b[0], self[1] + b[1], self[2] + b[2]])
+    }
+}
+
+impl<R: Real> Sub for Vec3<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self([self[0] - b[0], self[1] - b[1], self[2] - b[2]])
+    }
+}
+
+impl<R: Real> Neg for Vec3<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self([-self[0], -self[1], -self[2]])
+    }
+}
+
+impl<R: Real> AddAssign for Vec3<R> {
+    #[inline(always)]
+    fn add_assign(&mut self, b: Self) {
+        *self = *self + b;
+    }
+}
+
+impl<R: Real> SubAssign for Vec3<R> {
+    #[inline(always)]
+    fn sub_assign(&mut self, b: Self) {
+        *self = *self - b;
+    }
+}

@@ -1,0 +1,91 @@
+//! The state of a world: exactly what must be kept to continue bit for bit.
+
+use sincro_math::Real;
+
+use crate::joint::StageKind;
+use crate::model::Model;
+use crate::spatial::{Quat, Vec3};
+
+/// Everything that changes.
+///
+/// | field | meaning | length |
+/// |---|---|---|
+/// | `q` | joint coordinates [rad], [m], quaternions (w, x, y, z) | `n_q` |
+/// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
+/// | `commands` | latched motor commands | motors |
+/// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
+/// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
+/// | `tick` | base steps done | |
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<R> {
+    /// Coordinates.
+    pub q: Vec<R>,
+    /// Velocities.
+    pub v: Vec<R>,
+    /// Latched motor commands, in the units of each motor's mode.
+    pub commands: Vec<R>,
+    /// State of each set-valued drive.
+    pub drives: Vec<R>,
+    /// Integrated work [J], dissipation [J], and impulse of each motor [N·m·s].
+    pub totals: Vec<R>,
+    /// Base steps since the start.
+    pub tick: u64,
+}
+
+impl<R: Real> State<R> {
+    /// At rest, all coordinates zero (quaternions: no rotation), commands zero.
+    #[must_use]
+    pub fn new(model: &Model<R>) -> Self {
+        let mut q = vec![R::zero(); model.n_q()];
+        for link in model.links() {
+            match link.kind {
+                StageKind::Ball => q[link.q_idx as usize] = R::one(),
+                StageKind::Free => q[link.q_idx as usize + 3] = R::one(),
+                _ => {}
+            }
+        }
+        Self {
+            q,
+            v: vec![R::zero(); model.n_v()],
+            commands: vec![R::zero(); model.motors().len()],
+            drives: vec![R::zero(); model.n_drives()],
+            totals: vec![R::zero(); 2 + model.motors().len()],
+            tick: 0,
+        }
+    }
+
+    /// Bytes on the heap.
+    #[must_use]
+    pub fn heap_bytes(&self) -> usize {
+        let n = self.q.len() + self.v.len() + self.commands.len() + self.drives.len() + self.totals.len();
+        n * size_of::<R>()
+    }
+}
+
+/// `out = q ⊕ step`: coordinates moved by `step` (`n_v`) in the tangent: added to plain coordinates; for a quaternion the
+/// rotation by the step's angular part in child axes; a free joint's position moves by its linear part turned into parent
+/// axes. `out` may not overlap `q`.
+#[inline(always)]
+pub fn displace<R: Real>(model: &Model<R>, q: &[R], step: &[R], out: &mut [R]) {
+    for link in model.links() {
+        let (i, k) = (link.q_idx as usize, link.v_idx as usize);
+        match link.kind {
+            StageKind::Ball => turn(&q[i..i + 4], &step[k..k + 3], &mut out[i..i + 4]),
+            StageKind::Free => {
+                let rot = Quat::from_slice(&q[i + 3..]).matrix();
+                let shift = rot.mul_vec(Vec3([step[k + 3], step[k + 4], step[k + 5]]));
+                for c in 0..3 {
+                    out[i + c] = q[i + c] + shift[c];
+                }
+                turn(&q[i + 3..i + 7], &step[k..k + 3], &mut out[i + 3..i + 7]);
+            }
+            _ => out[i] = q[i] + step[k],
+        }
+    }
+}
+
+#[inline(always)]
+fn turn<R: Real>(q: &[R], step: &[R], out: &mut [R]) {
+    let turn = Quat::exp(Vec3([step[0], step[1], step[2]]));
+    Quat::from_slice(q).mul(&turn).normalized().write(out);
+}

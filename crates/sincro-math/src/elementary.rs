@@ -1,0 +1,310 @@
+//! Elementary functions with the same bits for scalars and lanes, on every platform.
+//!
+//! Sine and cosine are the hot ones: one branch-free polynomial, written over arrays so that lanes run it in vector
+//! registers and a scalar is an array of one. The rest comes from the pure-Rust `libm` crate.
+//!
+//! Method of [`sin_cos`]: Cody–Waite reduction by π/2 in three parts, then the minimax polynomials of degree 13 (sine) and 14
+//! (cosine) on [−π/4, π/4]. Source of the coefficients: key `ng-fdlibm`. Beyond [`REDUCTION_LIMIT`] the reduction would lose
+//! digits, and the lanes concerned go to `libm`.
+//!
+//! Absolute error of [`sin_cos`], measured against thirty digits (`tests/sin_cos_accuracy.rs`): 8.4e-17 for |x| ≤ π/4,
+//! 1.2e-16 up to 100 rad, 1.3e-16 up to 10⁴ rad, 1.57e-16 up to the limit. The roundings of the method add up to less than
+//! 0.8 units in the last place of 1, 1.78e-16: two in the reduction, one in the sum, the rest small. Near their zeros both
+//! keep a relative error of 2.4e-16.
+//!
+//! The functions of one or two arguments below return the value and the derivatives there, as [`Real::map`] and
+//! [`Real::map2`] take them:
+//!
+//! ```
+//! use sincro_math::{Dual, Real, elementary};
+//!
+//! let x = Dual::<1>::variable(0.5, 0);
+//! let y = x.map(elementary::exp);
+//! assert_eq!(y.partials[0], y.value);
+//! ```
+//!
+//! [`Real::map`]: crate::Real::map
+//! [`Real::map2`]: crate::Real::map2
+
+/// Largest |angle| `[rad]` reduced by the fast path: below it the quotient has at most 20 bits, so that its product with
+/// each 33-bit part of π/2 is exact.
+pub const REDUCTION_LIMIT: f64 = 1.0e6;
+
+// π/2 = PIO2_1 + PIO2_2 + PIO2_3: the first two have 33 significant bits.
+const PIO2_1: f64 = 1.570_796_326_734_125_6;
+const PIO2_2: f64 = 6.077_100_506_303_966e-11;
+const PIO2_3: f64 = 2.022_266_248_795_950_6e-21;
+const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
+
+/// Adding and subtracting 1.5·2⁵² rounds to the nearest integer, which stands in the low bits in between.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+const SIN: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+const COS: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// Sine and cosine of `x` `[rad]`; NaN where `x` is not finite.
+#[inline(always)]
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    let (sin, cos) = sin_cos_array(&[x]);
+    (sin[0], cos[0])
+}
+
+/// Sine and cosine of each of `x` `[rad]`.
+#[inline(always)]
+#[must_use]
+pub fn sin_cos_array<const N: usize>(x: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
+    let mut reducible = true;
+    for k in 0..N {
+        (sin[k], cos[k]) = sin_cos_reduced(x[k]);
+        reducible &= x[k].abs() < REDUCTION_LIMIT;
+    }
+    // by value: a reference handed to the cold path would keep the hot one in memory instead of registers
+    if reducible { (sin, cos) } else { sin_cos_far(*x, sin, cos) }
+}
+
+/// The branch-free path; right for |x| < [`REDUCTION_LIMIT`].
+#[inline(always)]
+fn sin_cos_reduced(x: f64) -> (f64, f64) {
+    let shifted = x * TWO_OVER_PI + ROUNDER;
+    let quadrant = shifted.to_bits();
+    let n = shifted - ROUNDER;
+    let r = ((x - n * PIO2_1) - n * PIO2_2) - n * PIO2_3;
+
+    let z = r * r;
+    let sin_poly = SIN[0] + z * (SIN[1] + z * (SIN[2] + z * (SIN[3] + z * (SIN[4] + z * SIN[5]))));
+    let cos_poly = COS[0] + z * (COS[1] + z * (COS[2] + z * (COS[3] + z * (COS[4] + z * COS[5]))));
+    let s = (r + r * z * sin_poly).copysign(r); // −0 stays −0
+    // 1 − z/2 is rounded; what the rounding lost is added back with the small terms
+    let half = 0.5 * z;
+    let w = 1.0 - half;
+    let c = w + (((1.0 - w) - half) + z * z * cos_poly);
+
+    // odd quadrants swap sine and cosine; bit 1 of the quadrant (of quadrant + 1) is the sign of the sine (cosine)
+    let swap = 0u64.wrapping_sub(quadrant & 1);
+    let (s, c) = (s.to_bits(), c.to_bits());
+    let sin = ((s & !swap) | (c & swap)) ^ ((quadrant & 2) << 62);
+    let cos = ((c & !swap) | (s & swap)) ^ ((quadrant.wrapping_add(1) & 2) << 62);
+    (f64::from_bits(sin), f64::from_bits(cos))
+}
+
+#[cold]
+#[inline(never)]
+fn sin_cos_far<const N: usize>(x: [f64; N], mut sin: [f64; N], mut cos: [f64; N]) -> ([f64; N], [f64; N]) {
+    for k in 0..N {
+        if x[k].abs() >= REDUCTION_LIMIT || x[k].is_nan() {
+            (sin[k], cos[k]) = libm::sincos(x[k]);
+        }
+    }
+    (sin, cos)
+}
+
+/// Tangent of an angle `[rad]` and its derivative.
+#[must_use]
+pub fn tan(x: f64) -> (f64, f64) {
+    let t = libm::tan(x);
+    (t, 1.0 + t * t)
+}
+
+/// Angle in [−π/2, π/2] of a sine, and its derivative; NaN outside [−1, 1].
+#[must_use]
+pub fn asin(x: f64) -> (f64, f64) {
+    (libm::asin(x), 1.0 / ((1.0 - x) * (1.0 + x)).sqrt())
+}
+
+/// Angle in [0, π] of a cosine, and its derivative; NaN outside [−1, 1].
+#[must_use]
+pub fn acos(x: f64) -> (f64, f64) {
+    (libm::acos(x), -1.0 / ((1.0 - x) * (1.0 + x)).sqrt())
+}
+
+/// Angle in (−π/2, π/2) of a tangent, and its derivative.
+#[must_use]
+pub fn atan(x: f64) -> (f64, f64) {
+    (libm::atan(x), 1.0 / (1.0 + x * x))
+}
+
+/// Exponential and its derivative.
+#[must_use]
+pub fn exp(x: f64) -> (f64, f64) {
+    let e = libm::exp(x);
+    (e, e)
+}
+
+/// Natural logarithm and its derivative; NaN below zero.
+#[must_use]
+pub fn ln(x: f64) -> (f64, f64) {
+    (libm::log(x), 1.0 / x)
+}
+
+/// Decimal logarithm and its derivative; NaN below zero.
+#[must_use]
+pub fn log10(x: f64) -> (f64, f64) {
+    (libm::log10(x), core::f64::consts::LOG10_E / x)
+}
+
+/// Hyperbolic sine and its derivative.
+#[must_use]
+pub fn sinh(x: f64) -> (f64, f64) {
+    (libm::sinh(x), libm::cosh(x))
+}
+
+/// Hyperbolic cosine and its derivative.
+#[must_use]
+pub fn cosh(x: f64) -> (f64, f64) {
+    (libm::cosh(x), libm::sinh(x))
+}
+
+/// Hyperbolic tangent and its derivative.
+#[must_use]
+pub fn tanh(x: f64) -> (f64, f64) {
+    // 1 − tanh² would lose all digits in the tails
+    let c = libm::cosh(x);
+    (libm::tanh(x), 1.0 / (c * c))
+}
+
+/// Angle in [−π, π] of the point `(x, y)`, seen from the origin, and its derivatives by `y` and by `x`.
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> (f64, f64, f64) {
+    let square = x * x + y * y;
+    (libm::atan2(y, x), x / square, -y / square)
+}
+
+/// Distance of the point `(x, y)` from the origin and its derivatives by `x` and by `y`, taken as zero at the origin.
+#[must_use]
+pub fn hypot(x: f64, y: f64) -> (f64, f64, f64) {
+    let h = libm::hypot(x, y);
+    if h == 0.0 { (h, 0.0, 0.0) } else { (h, x / h, y / h) }
+}
+
+/// `base^exponent` and its derivatives by the base and by the exponent; NaN for a negative base, unless the exponent is
+/// an integer.
+///
+/// The derivative by the exponent is NaN where the base is negative: the power is not defined beside the integers.
+#[must_use]
+pub fn pow(base: f64, exponent: f64) -> (f64, f64, f64) {
+    let power = libm::pow(base, exponent);
+    let by_base = if exponent == 0.0 { 0.0 } else { exponent * libm::pow(base, exponent - 1.0) };
+    let by_exponent = if base == 0.0 && exponent > 0.0 { 0.0 } else { power * libm::log(base) };
+    (power, by_base, by_exponent)
+}
+
+/// What is left of `x` after taking away whole multiples of `modulus`, with the sign of the modulus (as in Lua and
+/// Python), and its derivatives by `x` and by the modulus; NaN where the modulus is zero.
+#[must_use]
+pub fn modulo(x: f64, modulus: f64) -> (f64, f64, f64) {
+    let rest = libm::fmod(x, modulus);
+    let other_side = rest != 0.0 && (rest < 0.0) != (modulus < 0.0);
+    let rest = if other_side { rest + modulus } else { rest };
+    (rest, 1.0, -libm::rint((x - rest) / modulus))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_where_the_value_is_exact() {
+        assert_eq!(sin_cos(0.0), (0.0, 1.0));
+        assert_eq!(sin_cos(-0.0).0.to_bits(), (-0.0f64).to_bits());
+    }
+
+    #[test]
+    fn sine_is_odd_and_cosine_is_even_to_the_bit() {
+        for k in 0..10_000 {
+            let x = f64::from(k) * 0.013_7;
+            let ((s, c), (s_minus, c_minus)) = (sin_cos(x), sin_cos(-x));
+            assert_eq!((s.to_bits(), c.to_bits()), ((-s_minus).to_bits(), c_minus.to_bits()), "{x}");
+        }
+    }
+
+    #[test]
+    fn far_angles_keep_their_accuracy() {
+        for x in [1.0e6, -3.3e9, 1.0e22, 999_999.999] {
+            let (s, c) = sin_cos(x);
+            let (sl, cl) = libm::sincos(x);
+            assert!((s - sl).abs() < 2.5e-16 && (c - cl).abs() < 2.5e-16, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_far_lane_leaves_its_neighbours_alone() {
+        let (sin, cos) = sin_cos_array(&[0.3, 1.0e9, f64::NAN, -2.0]);
+        assert_eq!(((sin[0], cos[0]), (sin[3], cos[3])), (sin_cos(0.3), sin_cos(-2.0)));
+        assert_eq!((sin[1], cos[1]), libm::sincos(1.0e9));
+        assert!(sin[2].is_nan() && cos[2].is_nan());
+    }
+
+    #[test]
+    fn not_finite_in_not_a_number_out() {
+        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let (s, c) = sin_cos(x);
+            assert!(s.is_nan() && c.is_nan());
+        }
+    }
+
+    /// The central difference with h = 1e-5 is off by some h² f‴/6 (f‴ up to 70 here) and 1e-16 f/h: 1e-9 leaves room
+    /// for both.
+    fn close(derivative: f64, difference: f64) -> bool {
+        (derivative - difference).abs() <= 1e-9 * (1.0 + derivative.abs())
+    }
+
+    #[test]
+    fn derivatives_of_one_argument_are_the_slopes() {
+        type Pair = fn(f64) -> (f64, f64);
+        const H: f64 = 1e-5;
+        let functions: [Pair; 10] = [tan, asin, acos, atan, exp, ln, log10, sinh, cosh, tanh];
+        for (number, f) in functions.iter().enumerate() {
+            for x in [0.3, 0.45, 0.6, 0.8] {
+                let difference = (f(x + H).0 - f(x - H).0) / (2.0 * H);
+                assert!(close(f(x).1, difference), "function {number} at {x}: {} {difference}", f(x).1);
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_of_two_arguments_are_the_slopes() {
+        type Triple = fn(f64, f64) -> (f64, f64, f64);
+        const H: f64 = 1e-5;
+        let functions: [Triple; 4] = [atan2, hypot, pow, modulo];
+        for (number, f) in functions.iter().enumerate() {
+            for (a, b) in [(0.4, 1.3), (2.5, 0.7), (1.9, 3.1)] {
+                let by_a = (f(a + H, b).0 - f(a - H, b).0) / (2.0 * H);
+                let by_b = (f(a, b + H).0 - f(a, b - H).0) / (2.0 * H);
+                let (_, da, db) = f(a, b);
+                assert!(close(da, by_a) && close(db, by_b), "function {number} at {a}, {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn modulo_takes_the_sign_of_the_modulus() {
+        assert_eq!(modulo(-1.0, 3.0).0, 2.0);
+        assert_eq!(modulo(1.0, -3.0).0, -2.0);
+        assert_eq!(modulo(7.5, 2.0).0, 1.5);
+        assert!(modulo(1.0, 0.0).0.is_nan());
+    }
+
+    #[test]
+    fn powers_have_finite_slopes_where_they_are_smooth() {
+        assert_eq!(pow(0.0, 2.0), (0.0, 0.0, 0.0));
+        assert_eq!(pow(-2.0, 3.0).1, 12.0);
+        assert_eq!(pow(-2.0, 0.0).1, 0.0);
+        assert!(pow(-2.0, 0.5).0.is_nan());
+    }
+}

@@ -1,0 +1,192 @@
+//! Formulas in text, such as `0.5*m*v^2 + k*x`, evaluated over any [`Real`].
+//!
+//! A formula is read once, its names resolved to slots and its constants computed; evaluating it then runs a short flat
+//! program and allocates nothing.
+//!
+//! ```
+//! use sincro_math::expression::Expression;
+//! use sincro_math::Dual;
+//!
+//! let energy = Expression::parse("0.5*m*v^2", &["m", "v"])?;
+//! assert_eq!(energy.eval(&[2.0, 3.0], &mut energy.scratch()), 9.0);
+//!
+//! // the same formula, differentiated by v
+//! let (m, v) = (Dual::constant(2.0), Dual::<1>::variable(3.0, 0));
+//! assert_eq!(energy.eval(&[m, v], &mut energy.scratch()).partials, [6.0]);
+//! # Ok::<(), sincro_math::expression::ParseError>(())
+//! ```
+//!
+//! # The language
+//!
+//! | | |
+//! |---|---|
+//! | numbers | `1`, `.5`, `1.5e-3`; `pi` |
+//! | names | letters, digits and `_`, with dots inside and primes at the end: `x`, `u1`, `arm.q`, `q1'`, `q1''` |
+//! | arithmetic | `+ - * /` and `^`, which goes from the right and before a sign: `-2^2` is −4, `2^3^2` is 512 |
+//! | comparisons | `< <= > >= == !=`, which give 1 or 0 and do not chain |
+//! | logic | `not`, `and`, `or`: zero is false, any other number true |
+//! | angles `[rad]` | `sin cos tan asin acos atan atan2(y, x)` |
+//! | growth | `sqrt exp ln log10 sinh cosh tanh hypot(x, y)` |
+//! | corners | `abs sign floor ceil mod(x, modulus) min(a, b, ...) max(a, b, ...) clamp(x, low, high)` |
+//! | choice | `if(condition, then, otherwise)` |
+//!
+//! Names differ by case. A name given by the caller wins over `pi`, and over a function that is not called; `and`, `or` and
+//! `not` are never names. A power with a whole exponent up to ±8 in the text is computed as a product.
+//!
+//! A NaN is never hidden: comparisons, logic, `min`, `max`, `clamp` and the condition of `if` pass it on. The branch that
+//! `if` does not take leaves no trace, neither in the value nor in the derivatives.
+
+mod error;
+mod eval;
+mod function;
+mod lexer;
+mod parse;
+
+use core::fmt;
+
+use crate::Real;
+use eval::Op;
+use parse::Names;
+
+pub use error::ParseError;
+
+/// Longest formula in bytes. It bounds time and memory for whatever is pasted; a formula by hand has a hundred.
+pub const MAX_LENGTH: usize = 65_536;
+
+/// Deepest nesting of brackets, arguments, signs and exponents. It bounds the stack of the parser.
+pub const MAX_DEPTH: usize = 100;
+
+/// A formula, ready to be evaluated.
+///
+/// It prints as the text it was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    text: String,
+    program: Vec<Op>,
+    stack_depth: usize,
+    n_names: usize,
+}
+
+impl Expression {
+    /// Reads a formula of the given names; the value of `names[i]` is expected in `values[i]` by [`Expression::eval`].
+    ///
+    /// # Errors
+    ///
+    /// The first thing in the text that is not understood: where, what, and a help where there is one.
+    ///
+    /// ```
+    /// use sincro_math::expression::Expression;
+    ///
+    /// assert!(Expression::parse("if(x > 0, sqrt(x), 0)", &["x"]).is_ok());
+    /// let error = Expression::parse("3*siin(x)", &["x"]).unwrap_err();
+    /// assert_eq!(error.message, "unknown function `siin`");
+    /// assert_eq!(error.help.as_deref(), Some("did you mean `sin`?"));
+    /// ```
+    pub fn parse(text: &str, names: &[&str]) -> Result<Self, ParseError> {
+        check_length(text)?;
+        let (program, _) = parse::parse(text, Names::Known(names))?;
+        let stack_depth = eval::stack_depth(&program);
+        Ok(Self { text: text.to_owned(), program, stack_depth, n_names: names.len() })
+    }
+
+    /// The names that a formula uses, in the order they first appear; `pi` and functions are not among them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Expression::parse`], but that any name is known.
+    ///
+    /// ```
+    /// use sincro_math::expression::Expression;
+    ///
+    /// assert_eq!(Expression::names_in("k*(x - x0) + sin(2*pi*x)")?, ["k", "x", "x0"]);
+    /// # Ok::<(), sincro_math::expression::ParseError>(())
+    /// ```
+    pub fn names_in(text: &str) -> Result<Vec<String>, ParseError> {
+        check_length(text)?;
+        match parse::parse(text, Names::Collected(Vec::new()))? {
+            (_, Names::Collected(names)) => Ok(names),
+            (_, Names::Known(_)) => unreachable!("the parser returns the names it was given"),
+        }
+    }
+
+    /// The value of the formula. `values[i]` belongs to the `i`-th name given to [`Expression::parse`].
+    ///
+    /// `stack` is scratch memory of any content; one from [`Expression::scratch`], or with a capacity of at least
+    /// [`Expression::stack_depth`], never grows.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer values than names.
+    pub fn eval<R: Real>(&self, values: &[R], stack: &mut Vec<R>) -> R {
+        assert!(values.len() >= self.n_names, "{} values for {} names", values.len(), self.n_names);
+        eval::run(&self.program, values, stack)
+    }
+
+    /// Scratch memory for [`Expression::eval`].
+    #[must_use]
+    pub fn scratch<R: Real>(&self) -> Vec<R> {
+        Vec::with_capacity(self.stack_depth)
+    }
+
+    /// How many numbers [`Expression::eval`] has in its scratch memory at most.
+    #[must_use]
+    pub fn stack_depth(&self) -> usize {
+        self.stack_depth
+    }
+
+    /// The value, if the formula depends on no name.
+    ///
+    /// ```
+    /// use sincro_math::expression::Expression;
+    ///
+    /// assert_eq!(Expression::parse("2*pi/4", &[])?.constant(), Some(std::f64::consts::FRAC_PI_2));
+    /// # Ok::<(), sincro_math::expression::ParseError>(())
+    /// ```
+    #[must_use]
+    pub fn constant(&self) -> Option<f64> {
+        match self.program[..] {
+            [Op::Constant(value)] => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether the `slot`-th name given to [`Expression::parse`] appears in the formula.
+    #[must_use]
+    pub fn uses(&self, slot: usize) -> bool {
+        self.program.iter().any(|op| matches!(op, Op::Value(used) if *used as usize == slot))
+    }
+
+    /// The formula as it was written.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// Whether a formula can refer to something called `text`.
+///
+/// ```
+/// use sincro_math::expression::is_name;
+///
+/// assert!(is_name("x0") && is_name("arm.q1''"));
+/// assert!(!is_name("2x") && !is_name("a-b") && !is_name("not") && !is_name(""));
+/// ```
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    let reserved = matches!(text, "and" | "or" | "not");
+    text.starts_with(lexer::starts_name) && lexer::name_length(text) == text.len() && !reserved
+}
+
+fn check_length(text: &str) -> Result<(), ParseError> {
+    if text.len() <= MAX_LENGTH {
+        return Ok(());
+    }
+    let message = format!("the formula is {} bytes long, more than {MAX_LENGTH}", text.len());
+    Err(ParseError::new(text, 0..text.len(), message))
+}

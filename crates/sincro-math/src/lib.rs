@@ -1,0 +1,25 @@
+//! What numbers are in sincro.
+//!
+//! Everything that thinks (dynamics, blocks) is written once over the trait [`Real`] and runs on
+//!
+//! - `f64`: one world, full precision;
+//! - [`Lanes<N>`]: `N` worlds side by side in the lanes of a SIMD register, each with the bits it would have alone;
+//! - [`Dual<N>`]: a value and `N` exact partial derivatives, for linearisation.
+//!
+//! The elementary functions ([`elementary`]) are polynomials and pure-Rust routines shared by all three: no call goes to the
+//! platform's C library, so the same inputs give the same bits on every machine, in debug and in release.
+//!
+//! [`expression`] reads formulas in text (`0.5*m*v^2`) and evaluates them over any [`Real`].
+
+// a loop over lanes reads one index in several arrays
+#![allow(clippy::needless_range_loop)]
+
+pub mod dual;
+pub mod elementary;
+pub mod expression;
+mod lanes;
+mod real;
+
+pub use dual::Dual;
+pub use lanes::Lanes;
+pub use real::Real;

@@ -1,0 +1,165 @@
+//! The one trait that the dynamics is written over.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use crate::elementary;
+
+/// A real number: `f64`, a bundle of lanes, or a dual number.
+///
+/// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch looks
+/// at one lane at a time ([`Real::lane`]).
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+{
+    /// How many worlds stand side by side: 1 for `f64` and dual numbers.
+    const LANES: usize;
+
+    /// The constant `x`, in every lane and without derivatives.
+    fn splat(x: f64) -> Self;
+
+    /// A number made lane by lane, without derivatives.
+    fn from_lanes(f: impl FnMut(usize) -> f64) -> Self;
+
+    /// The value in lane `k`, derivatives dropped. `k < LANES`.
+    fn lane(self, k: usize) -> f64;
+
+    /// Square root; NaN below zero.
+    fn sqrt(self) -> Self;
+
+    /// Sine and cosine of an angle `[rad]`, absolute error below 1.8e-16, one polynomial for every kind of number.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Absolute value.
+    fn abs(self) -> Self;
+
+    /// `then` where `self < bound`, else `otherwise`, lane by lane. A NaN compares as not less.
+    fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self;
+
+    /// The lane values mapped through a differentiable scalar function: `f(x)` returns the value and the derivative.
+    ///
+    /// For the functions that are not worth a vector form; lanes call it one after the other.
+    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self;
+
+    /// Two numbers mapped through a differentiable scalar function, lane by lane: `f(x, y)` returns the value and the
+    /// derivatives by `x` and by `y`.
+    fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self;
+
+    /// Zero.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
+    /// One.
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(1.0)
+    }
+
+    /// The smaller of two. A NaN in `self` stays (a NaN in `other` is passed over): a limit hides no failure.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        other.if_less(self, other, self)
+    }
+
+    /// The larger of two. A NaN in `self` stays, as in [`Real::min`].
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.if_less(other, other, self)
+    }
+
+    /// `self` limited to `[-limit, limit]`; `limit >= 0`. A NaN in `self` stays.
+    #[inline(always)]
+    fn clamp_abs(self, limit: Self) -> Self {
+        self.min(limit).max(-limit)
+    }
+
+    /// Whether every lane is finite.
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        (0..Self::LANES).all(|k| self.lane(k).is_finite())
+    }
+}
+
+impl Real for f64 {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn from_lanes(mut f: impl FnMut(usize) -> f64) -> Self {
+        f(0)
+    }
+
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        elementary::sin_cos(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self {
+        if self < bound { then } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
+        f(self).0
+    }
+
+    #[inline(always)]
+    fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self {
+        f(self, other).0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_does_not_hide_that_a_number_is_not_one() {
+        assert!(Real::min(f64::NAN, 1.0).is_nan());
+        assert!(Real::max(f64::NAN, 1.0).is_nan());
+        assert!(f64::NAN.clamp_abs(1.0).is_nan());
+    }
+
+    #[test]
+    fn smaller_and_larger() {
+        assert_eq!((Real::min(1.0, 2.0), Real::min(2.0, 1.0)), (1.0, 1.0));
+        assert_eq!((Real::max(1.0, 2.0), Real::max(2.0, 1.0)), (2.0, 2.0));
+        assert_eq!((3.0.clamp_abs(2.0), (-3.0).clamp_abs(2.0)), (2.0, -2.0));
+    }
+}

@@ -1,0 +1,2 @@
+//! sincro
+fn main() {}

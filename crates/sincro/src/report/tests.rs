@@ -1,0 +1,130 @@
+//! Claims about whole pages.
+
+use super::*;
+use crate::plot::{Axis, Panel, Role, Series};
+
+fn check(name: &str, deviation: f64, verdict: CheckVerdict) -> CheckRow {
+    CheckRow {
+        name: name.into(),
+        about: "/shoulder.position".into(),
+        measured: Some(-0.29700587 + deviation),
+        expected: Some(-0.29700587),
+        deviation,
+        limit: 2e-9,
+        is_relative: false,
+        unit: "rad".into(),
+        at: Some(1.0),
+        verdict,
+    }
+}
+
+fn figure() -> Figure {
+    let x: Vec<f64> = (0..50).map(f64::from).collect();
+    let mut panel = Panel::new(Axis::new("angle", "rad"));
+    panel.series.push(Series::new("simulated", Role::Simulated, x.clone(), x));
+    Figure { title: "Angle".into(), x: Axis::time(), panels: vec![panel] }
+}
+
+fn page() -> Page {
+    Page {
+        title: "Spring".into(),
+        figures: vec![figure()],
+        checks: vec![check("one", 2e-10, CheckVerdict::Holds), check("two", 1e-10, CheckVerdict::Holds)],
+        signals: vec![SignalRow { path: "/a".into(), unit: "m".into(), largest: None, error_bar: Some(1e-9), method: "refined".into() }],
+        energy: Some(Energy { start: 1.0, end: 0.5, work: 0.0, dissipated: 0.5, residual: 1e-12 }),
+        ..Page::default()
+    }
+}
+
+#[test]
+fn the_banner_follows_the_checks() {
+    let mut page = page();
+    assert!(html(&page).contains("both checks hold"));
+    page.checks.push(check("three", 1e-8, CheckVerdict::Fails));
+    assert!(html(&page).contains("1 of 3 checks fails"));
+    page.checks.push(check("four", 0.0, CheckVerdict::NotMade));
+    assert!(html(&page).contains("2 of 4 checks fail"));
+    page.stop = Some(Stop { time: 1.25, reason: "not finite".into(), help: String::new() });
+    assert!(html(&page).contains("the run stopped at t = 1.25 s"));
+    assert!(html(&Page::default()).contains("it has no checks"));
+}
+
+#[test]
+fn a_page_needs_nothing_from_outside() {
+    let index = IndexPage { cards: vec![Card { figure: Some(figure()), ..Card::default() }], ..IndexPage::default() };
+    for text in [html(&page()), index_html(&index)] {
+        for outside in ["http://", "https://", "<script", "<link", "@import", "url(", " src="] {
+            assert!(!text.contains(outside), "{outside}");
+        }
+    }
+}
+
+#[test]
+fn markup_in_a_scene_is_shown_not_obeyed() {
+    let evil = "<script>alert('1')</script>";
+    let mut page = page();
+    page.title = evil.into();
+    page.description = evil.into();
+    page.up = Some((evil.into(), evil.into()));
+    page.stop = Some(Stop { time: 0.0, reason: evil.into(), help: evil.into() });
+    page.warnings = vec![evil.into()];
+    page.notes = vec![evil.into()];
+    page.settings = vec![(evil.into(), evil.into())];
+    page.figures[0].title = evil.into();
+    let row = CheckRow { name: evil.into(), about: evil.into(), unit: evil.into(), ..page.checks[0].clone() };
+    page.checks = vec![row.clone()];
+    page.signals = vec![SignalRow { path: evil.into(), unit: evil.into(), largest: None, error_bar: None, method: evil.into() }];
+    let card = Card {
+        title: evil.into(),
+        source: evil.into(),
+        summary: evil.into(),
+        href: evil.into(),
+        figure: Some(page.figures[0].clone()),
+        checks: vec![row],
+        stop: page.stop.clone(),
+        run_time: evil.into(),
+    };
+    let index = IndexPage { title: evil.into(), description: evil.into(), cards: vec![card], ..IndexPage::default() };
+    assert!(!html(&page).contains("<script"));
+    assert!(!index_html(&index).contains("<script"));
+}
+
+#[test]
+fn verdicts_are_words_as_well_as_colours() {
+    let text = html(&page());
+    assert_eq!(text.matches("</span> holds</span>").count(), 2);
+}
+
+#[test]
+fn digits_show_the_deviation() {
+    let text = html(&page());
+    assert!(text.contains("−0.2970058698"), "measured");
+    assert!(text.contains("−0.2970058700"), "expected");
+    assert!(text.contains("2.0×10<sup>−10</sup>") && text.contains("2×10<sup>−9</sup>") && text.contains("10 %"));
+}
+
+#[test]
+fn a_check_without_numbers_does_not_break_the_table() {
+    let mut page = page();
+    page.checks = vec![
+        CheckRow { measured: None, expected: None, deviation: f64::NAN, ..check("nan", 0.0, CheckVerdict::Fails) },
+        CheckRow { limit: 0.0, ..check("exact", 0.0, CheckVerdict::Holds) },
+        CheckRow { limit: 0.0, ..check("zero limit", 1.0, CheckVerdict::Fails) },
+    ];
+    let text = html(&page);
+    assert!(text.contains("not a number") && text.contains("exact") && !text.contains("NaN"));
+}
+
+#[test]
+fn failing_checks_come_first_on_a_card() {
+    let mut checks: Vec<CheckRow> = (0..6).map(|i| check(&format!("good {i}"), 0.0, CheckVerdict::Holds)).collect();
+    checks.push(check("culprit", 1.0, CheckVerdict::Fails));
+    let text = index_html(&IndexPage { cards: vec![Card { checks, ..Card::default() }], ..IndexPage::default() });
+    assert!(text.contains("culprit") && !text.contains("good 3"));
+    assert!(text.contains("1 of 1 experiments fails (7 checks)"));
+}
+
+#[test]
+fn the_same_page_gives_the_same_bytes() {
+    assert_eq!(html(&page()), html(&page()));
+}

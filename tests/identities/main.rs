@@ -1,0 +1,4 @@
+//! Identities that hold for every mechanism, on random trees with every kind of joint.
+
+mod dynamics;
+mod random;
