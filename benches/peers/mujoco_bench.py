@@ -16,7 +16,8 @@ then each request line gets exactly one JSON line, in order; end of input or `qu
     step MODEL INTEGRATOR STEP                   mj_step; INTEGRATOR is euler, rk4, implicit or implicitfast; STEP in s
     forward MODEL                                mj_forward at a fixed state: home, and 0.1 s of stepping
     inverse MODEL                                mj_inverse at that state
-    batch MODEL INTEGRATOR STEP THREADS [WORLDS]           per world and step; one call advances a whole second
+    batch MODEL INTEGRATOR STEP THREADS [WORLDS]           per world and step; one call advances a simulated second
+                                                           (large models: as many steps as 0.1 s of work are)
     batch_lockstep MODEL INTEGRATOR STEP THREADS [WORLDS]  the same, one call a step; WORLDS is 256 unless given
     acceleration MODEL                           joint accelerations at home with every hinge at 0.3 rad/s (free body:
                                                  at rest, angular first): compare them to know that the models agree
@@ -24,7 +25,7 @@ then each request line gets exactly one JSON line, in order; end of input or `qu
 
 Answer to a timing request: the request's words by name, and
     median_ns, min_ns        wall time per call (batch: per world and step), over the repetitions
-    cpu_median_ns            the same in processor time of the calling thread; absent for a batch
+    cpu_median_ns            the same in processor time of the calling thread; absent for a batch on several threads
     repetitions, calls_per_repetition
     method                   how the loop ran
     diverged                 MuJoCo warned of a state that is not finite, and reset it
@@ -71,6 +72,7 @@ INTEGRATORS = {
 }
 REPETITION_S = 0.005   # shorter: the clock shows; longer: fewer repetitions to take a median of
 MIN_REPETITIONS = 5
+BATCH_CALL_S = 0.1     # longest call of a batch: a second of many worlds of a large model would take minutes
 WORLDS = 256
 BAD_STATE = [int(kind) for kind in (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)]
 
@@ -240,9 +242,12 @@ class Bench:
             model, _ = self.load(name, integrator, step)
             self.batches = {key: Batch(model, nsim=worlds, nthread=threads)}  # one at a time: its threads may spin
         batch = self.batches[key]
-        steps = max(1, round(1.0 / step))
+        batch.reset(keyframe=0, stage=mujoco.mjtStage.mjSTAGE_NONE.value)
+        batch.step()
+        one_step_ns, _ = timed(batch.step)
+        steps = max(1, min(round(1.0 / step), round(BATCH_CALL_S * 1e9 / one_step_ns)))
 
-        def second():
+        def advance():
             if lockstep:
                 for _ in range(steps):
                     batch.step()
@@ -253,11 +258,11 @@ class Bench:
 
         def call():
             batch.reset(keyframe=0, stage=mujoco.mjtStage.mjSTAGE_NONE.value)
-            pair = timed(second)
+            pair = timed(advance)
             diverged[0] |= bool(batch.warning[:, BAD_STATE, 1].any())  # (world, kind, [last info, number])
             return pair
 
-        figure = measure(call, steps * worlds, self.seconds, cpu=False)
+        figure = measure(call, steps * worlds, self.seconds, cpu=threads == 1)
         return figure | {"method": "Batch.step()" if lockstep else "Batch.step(nstep)", "diverged": diverged[0]}
 
     def acceleration(self, name):

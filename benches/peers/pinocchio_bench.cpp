@@ -180,10 +180,10 @@ static void forward(Robot& r, double budget) {
   volatile double sink = 0;
   Timing local = measure(budget / 2, [&] { pin::aba(r.model, *r.data, r.q, r.v, r.tau, pin::Convention::LOCAL); sink = r.data->ddq[0]; });
   Timing world = measure(budget / 2, [&] { pin::aba(r.model, *r.data, r.q, r.v, r.tau, pin::Convention::WORLD); sink = r.data->ddq[0]; });
-  const bool local_wins = local.median_ns <= world.median_ns;
+  const bool local_wins = local.min_ns <= world.min_ns;  // the minimum, since other programs disturb a median
   char rest[120];
-  std::snprintf(rest, sizeof rest, ", \"convention\": \"%s\", \"other_convention_median_ns\": %.2f", local_wins ? "local" : "world",
-                local_wins ? world.median_ns : local.median_ns);
+  std::snprintf(rest, sizeof rest, ", \"convention\": \"%s\", \"other_convention_min_ns\": %.2f", local_wins ? "local" : "world",
+                local_wins ? world.min_ns : local.min_ns);
   print(local_wins ? local : world, rest);
 }
 

@@ -30,7 +30,7 @@ Answer to a timing request: the request's words by name, and
     median_ns, min_ns        wall time per call, over the repetitions
     cpu_median_ns            the same in processor time of the thread
     repetitions, calls_per_repetition
-    convention, other_convention_median_ns    forward: "local" or "world", and the time of the one that lost
+    convention, other_convention_min_ns       forward: "local" or "world", the one with the smaller minimum, and the other's
     diverged, timed_step     step: not finite (or above 1e6 rad/s) at STEP; then a tenth of STEP is timed, or a hundredth …:
                              the work is the same, and huge angles would make sine and cosine slow
 Answer to a request that cannot be met: {"error": "…"}.

@@ -108,9 +108,8 @@ impl Scale {
         let fraction = |log: f64| (log - f64::from(first)) / f64::from(decades);
         let labelled = (first..=last).step_by(every as usize);
         let inner = if decades > 10 { 1..2 } else { 1..10 };
-        let minor = (first..last).flat_map(|decade| {
-            inner.clone().map(move |m| fraction(f64::from(decade) + log10(f64::from(m))))
-        });
+        let minor = (first..last)
+            .flat_map(|decade| inner.clone().map(move |m| fraction(f64::from(decade) + log10(f64::from(m)))));
         Self {
             low: f64::from(first),
             high: f64::from(last),

@@ -91,7 +91,12 @@ impl Canvas {
                     "\n<title>{}</title>\n<style>\n{}\n</style>\n",
                     "<rect class=\"sp-paper\" width=\"100%\" height=\"100%\"/>\n"
                 ),
-                width, height, width, height, title, standalone_css()
+                width,
+                height,
+                width,
+                height,
+                title,
+                standalone_css()
             )),
             Kind::Inline | Kind::Thumbnail => text.push_str(&format!(
                 "<svg class=\"sp\" role=\"img\" aria-label=\"{title}\" viewBox=\"0 0 {width} {height}\">\n"
@@ -126,7 +131,8 @@ impl Canvas {
 
     /// Text that reads upwards, centred on a place.
     pub(super) fn rotated_text(&mut self, at: (f64, f64), font_size: f64, text: &str) {
-        let turn = format!(r#" text-anchor="middle" transform="rotate(-90 {} {})""#, coordinate(at.0), coordinate(at.1));
+        let turn =
+            format!(r#" text-anchor="middle" transform="rotate(-90 {} {})""#, coordinate(at.0), coordinate(at.1));
         self.write_text(at, &turn, font_size, text);
     }
 

@@ -10,6 +10,8 @@ use super::{Figure, Limit, Panel, Size};
 
 /// Length of a legend sample [px].
 pub(super) const SAMPLE: f64 = 35.0;
+/// A plot area is never lower than this [px].
+const MIN_AREA: f64 = 56.0;
 /// Free border around everything [px].
 const BORDER: f64 = 8.0;
 
@@ -39,7 +41,7 @@ impl Fonts {
 #[derive(Debug)]
 pub(super) struct Layout<'a> {
     pub(super) fonts: Fonts,
-    /// The size asked for, made large enough to draw in.
+    /// The size asked for, made large enough to draw in, and higher if the legends need it.
     pub(super) size: Size,
     /// Lines of the title.
     pub(super) title: Vec<String>,
@@ -103,13 +105,13 @@ impl<'a> Layout<'a> {
         let notes = if fonts.is_thumbnail { Vec::new() } else { notes(figure) };
         let below = 8.0 + fonts.tick + fonts.row() + notes.len() as f64 * fonts.row() + BORDER;
         let above = BORDER + title.len() as f64 * (fonts.title + 6.0) + if title.is_empty() { 0.0 } else { 5.0 };
-        let mut panels = stack(&shown, above, size.height - below, size.width, fonts);
+        let panels = stack(&shown, above, size.height - below, size.width, fonts);
+        // A long legend makes the picture higher rather than its plots lower than can be read.
+        let bottom = panels.last().map_or(0.0, |panel| panel.bottom);
+        let size = Size { height: size.height.max(bottom + below), ..size };
         let left = left_margin(&panels, fonts);
         let right = (size.width - BORDER - 12.0).max(left + 20.0);
         let x = x_scale(figure, right - left, fonts);
-        for header in panels.iter_mut().map(|panel| &mut panel.header) {
-            header.retain(|_| !fonts.is_thumbnail);
-        }
         Self { fonts, size, title, left, right, x, panels, notes }
     }
 }
@@ -126,7 +128,7 @@ fn stack<'a>(shown: &[&'a Panel], top: f64, bottom: f64, width: f64, fonts: Font
         let gap = if panels.is_empty() { 0.0 } else { 12.0 };
         let header_baseline = cursor + gap + fonts.label;
         let area_top = cursor + height;
-        let area_bottom = area_top + (free * panel.usable_share() / shares).max(40.0);
+        let area_bottom = area_top + (free * panel.usable_share() / shares).max(MIN_AREA);
         let y = Scale::new(y_range(panel), panel.y.log, ((area_bottom - area_top) / 34.0) as usize);
         panels.push(PanelLayout { panel, header, header_baseline, top: area_top, bottom: area_bottom, y });
         cursor = area_bottom;
@@ -145,6 +147,9 @@ fn header_height(index: usize, header: &[Entry], fonts: Fonts) -> f64 {
 
 /// Title and legend of a panel, flowing into rows of that width.
 fn header(panel: &Panel, available: f64, fonts: Fonts) -> Vec<Entry> {
+    if fonts.is_thumbnail {
+        return Vec::new();
+    }
     let mut pieces = Vec::new();
     pieces.push((Sample::Title, panel.title.clone()));
     pieces.extend(panel.series.iter().enumerate().map(|(i, series)| (Sample::Series(i), series.name.clone())));
@@ -254,7 +259,11 @@ fn notes(figure: &Figure) -> Vec<String> {
             let lost = series.points().filter(is_lost).count();
             let reason = if figure.x.log || panel.y.log { "not finite or not positive" } else { "not finite" };
             if lost > 0 {
-                notes.push(format!("{lost} of {} values of {} are {reason} and leave gaps.", series.points().count(), series.name));
+                notes.push(format!(
+                    "{lost} of {} values of {} are {reason} and leave gaps.",
+                    series.points().count(),
+                    series.name
+                ));
             }
         }
     }

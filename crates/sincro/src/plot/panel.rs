@@ -18,7 +18,8 @@ const MAX_COLUMNS: usize = 999;
 
 /// Draws the panel at its place.
 pub(super) fn draw(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, context: Context) {
-    let frame = Frame { left: layout.left, right: layout.right, top: at.top, bottom: at.bottom, x: &layout.x, y: &at.y };
+    let frame =
+        Frame { left: layout.left, right: layout.right, top: at.top, bottom: at.bottom, x: &layout.x, y: &at.y };
     frame.draw_grid(canvas);
     frame.draw_axes(canvas, layout, at);
     canvas.open_clip(frame.left - SPILL, frame.top - SPILL, frame.right + SPILL, frame.bottom + SPILL);
@@ -78,11 +79,19 @@ impl Frame<'_> {
     }
 
     fn draw_grid(&self, canvas: &mut Canvas) {
-        let vertical = |at: f64| format!("M{} {}V{}", coordinate(self.across(at)), coordinate(self.top), coordinate(self.bottom));
-        let horizontal = |at: f64| format!("M{} {}H{}", coordinate(self.left), coordinate(self.up(at)), coordinate(self.right));
-        let fine: String = self.x.minor.iter().map(|&at| vertical(at)).chain(self.y.minor.iter().map(|&at| horizontal(at))).collect();
-        let coarse: String =
-            self.x.major.iter().map(|tick| vertical(tick.at)).chain(self.y.major.iter().map(|tick| horizontal(tick.at))).collect();
+        let vertical =
+            |at: f64| format!("M{} {}V{}", coordinate(self.across(at)), coordinate(self.top), coordinate(self.bottom));
+        let horizontal =
+            |at: f64| format!("M{} {}H{}", coordinate(self.left), coordinate(self.up(at)), coordinate(self.right));
+        let fine: String =
+            self.x.minor.iter().map(|&at| vertical(at)).chain(self.y.minor.iter().map(|&at| horizontal(at))).collect();
+        let coarse: String = self
+            .x
+            .major
+            .iter()
+            .map(|tick| vertical(tick.at))
+            .chain(self.y.major.iter().map(|tick| horizontal(tick.at)))
+            .collect();
         canvas.path("sp-fine", "", &fine);
         canvas.path("sp-grid", "", &coarse);
     }

@@ -15,28 +15,15 @@ const VARIANT_DASHES: [&str; 5] = ["9 3", "2.5 2.5", "9 3 2 3", "15 4", "5 2 1.5
 /// Dash of a reference [px].
 const REFERENCE_DASH: &str = "5 5";
 
-/// Light palette, by variable: ink, quiet ink, major and minor grid, background, then the series' colours.
-const LIGHT: [(&str, &str); 11] = [
-    ("ink", "#1b1f24"),
-    ("quiet", "#4a525c"),
-    ("grid", "#d5d9de"),
-    ("fine", "#edeff1"),
-    ("paper", "#ffffff"),
-    ("c0", "#0072b2"),
-    ("c1", "#d55e00"),
-    ("c2", "#009e73"),
-    ("c3", "#cc79a7"),
-    ("c4", "#e69f00"),
-    ("c5", "#56b4e9"),
-];
-
 /// Colour variables for light, dark and print, and the classes that use them: goes once into a page with inline figures.
 pub(crate) const PAGE_CSS: &str = include_str!("page.css");
 
-/// The styles of a standalone file.
+/// The styles of a standalone file: the same classes, with the light colours written in place of their variables.
 pub(super) fn standalone_css() -> String {
-    let rules = PAGE_CSS.split_once("/* classes */").map_or("", |(_, rules)| rules);
-    LIGHT.iter().fold(rules.trim().to_owned(), |css, (name, color)| css.replace(&format!("var(--sp-{name})"), color))
+    let (variables, rules) = PAGE_CSS.split_once("/* classes */").unwrap_or(("", PAGE_CSS));
+    let light = variables.split('}').next().unwrap_or("");
+    let colors = light.split(';').filter_map(|line| line[line.find("--")?..].split_once(':'));
+    colors.fold(rules.trim().to_owned(), |css, (name, color)| css.replace(&format!("var({name})"), color.trim()))
 }
 
 /// How one series is drawn.

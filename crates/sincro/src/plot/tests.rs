@@ -11,7 +11,13 @@ fn oscillation(n: usize) -> Figure {
     main.series.push(Series::new("simulated", Role::Simulated, t.clone(), y.clone()));
     main.series.push(Series::new("reference", Role::Reference, t.clone(), y.clone()));
     let shifted = |by: f64| y.iter().map(|y| y + by).collect();
-    main.bands.push(Band { name: "error bar".into(), signal: 0, x: t.clone(), lower: shifted(-0.1), upper: shifted(0.1) });
+    main.bands.push(Band {
+        name: "error bar".into(),
+        signal: 0,
+        x: t.clone(),
+        lower: shifted(-0.1),
+        upper: shifted(0.1),
+    });
     let mut error_panel = Panel::error("rad");
     error_panel.series.push(Series::new("", Role::Simulated, t, error));
     error_panel.limits.extend([1e-6, -1e-6].map(|value| Limit { name: "tolerance".into(), value }));
@@ -94,7 +100,15 @@ fn hardly_any_data_still_give_a_figure() {
     let empty_panel = Figure { panels: vec![Panel::new(Axis::default())], ..Figure::default() };
     let mut uneven = of_values(vec![1.0, 2.0]);
     uneven.panels[0].series[0].x.clear();
-    let cases = [vec![], vec![f64::NAN], vec![7.0], vec![0.0; 9], vec![1e-320, -1e-320], vec![1e300, -1e300], vec![1e279, -1e279]];
+    let cases = [
+        vec![],
+        vec![f64::NAN],
+        vec![7.0],
+        vec![0.0; 9],
+        vec![1e-320, -1e-320],
+        vec![1e300, -1e300],
+        vec![1e279, -1e279],
+    ];
     for figure in cases.into_iter().map(of_values).chain([nothing, empty_panel, uneven]) {
         let text = drawn(&figure);
         assert_balanced(&text);
@@ -122,6 +136,20 @@ fn a_distant_tolerance_is_named_not_drawn() {
     let text = drawn(&oscillation(500));
     assert!(text.contains("(tolerance ±10"));
     assert_eq!(text.matches("class=\"sp-limit\"").count(), 0);
+}
+
+#[test]
+fn a_long_legend_makes_the_picture_higher() {
+    let mut figure = oscillation(50);
+    let series = figure.panels[0].series[0].clone();
+    figure.panels[0].series = vec![series; 40];
+    let height = |figure: &Figure| -> f64 {
+        let text = svg(figure, Size { width: 400.0, height: 400.0 });
+        let digits = text.split("height=\"").nth(1).and_then(|rest| rest.split('"').next());
+        digits.and_then(|digits| digits.parse().ok()).unwrap_or(0.0)
+    };
+    assert!(height(&figure) > 600.0, "{}", height(&figure));
+    assert_eq!(height(&oscillation(50)), 400.0);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The table of checks: digits that show the deviation, and how much of each limit is used.
 
-use super::{CheckRow, CheckVerdict};
 use super::shell::{cell, check_badge, table};
+use super::{CheckRow, CheckVerdict};
 use crate::plot::number::{fixed, resolved, short, significant};
 use crate::plot::{escape, escape_raised};
 
@@ -93,5 +93,7 @@ pub(super) fn margin(check: &CheckRow) -> String {
     let class = if share > 1.0 { "bar over" } else { "bar" };
     let width = fixed(100.0 * share.min(1.0), 1);
     let text = share_text(share);
-    format!("<span class=\"{class}\" aria-hidden=\"true\"><i style=\"width:{width}%\"></i></span> <span class=\"share\">{text}</span>")
+    format!(
+        "<span class=\"{class}\" aria-hidden=\"true\"><i style=\"width:{width}%\"></i></span> <span class=\"share\">{text}</span>"
+    )
 }

@@ -48,7 +48,9 @@ fn verdict(cards: &[Card]) -> (&'static str, &'static str, String) {
     match (n_good, n_cards) {
         (_, 0) => ("plain", "○", "there are no experiments".into()),
         (good, all) if good == all => ("good", "✓", format!("all {all} experiments hold ({n_checks} checks)")),
-        (good, all) => ("bad", "✗", format!("{} of {all} experiments {} ({n_checks} checks)", all - good, fail(all - good))),
+        (good, all) => {
+            ("bad", "✗", format!("{} of {all} experiments {} ({n_checks} checks)", all - good, fail(all - good)))
+        }
     }
 }
 
@@ -75,7 +77,8 @@ fn summary(cards: &[Card]) -> String {
 
 fn summary_row(card: &Card) -> String {
     let n_holding = card.checks.iter().filter(|check| check.verdict == CheckVerdict::Holds).count();
-    let worst = card.checks.iter().filter_map(share).fold(None, |worst: Option<f64>, s| Some(worst.map_or(s, |w| w.max(s))));
+    let worst =
+        card.checks.iter().filter_map(share).fold(None, |worst: Option<f64>, s| Some(worst.map_or(s, |w| w.max(s))));
     [
         cell("Verdict", "verdict", &outcome(card).badge()),
         cell("Experiment", "name", &link(card)),

@@ -27,9 +27,10 @@ const CHECKS_KEY: &str = "<p class=\"key\">Limit used: the share of the allowed 
                           a span of time, the row shows the worst instant.</p>\n";
 
 fn header(page: &Page) -> String {
-    let up = page.up.as_ref().map(|(label, href)| {
-        format!("<nav><a href=\"{}\">← {}</a></nav>\n", escape(href), escape(label))
-    });
+    let up = page
+        .up
+        .as_ref()
+        .map(|(label, href)| format!("<nav><a href=\"{}\">← {}</a></nav>\n", escape(href), escape(label)));
     let outcome = Outcome::of(&page.checks, page.stop.as_ref());
     let stop = page.stop.as_ref().map(|stop| paragraph("", &stop.reason) + &paragraph("help", &stop.help));
     let warnings = match page.warnings.is_empty() {
@@ -67,8 +68,13 @@ fn figure(figure: &Figure) -> String {
 }
 
 fn signal_table(signals: &[SignalRow]) -> String {
-    let columns =
-        [("", "Signal"), ("num", "Greatest magnitude"), ("num", "Error bar"), ("", "Unit"), ("", "How the error was estimated")];
+    let columns = [
+        ("", "Signal"),
+        ("num", "Greatest magnitude"),
+        ("num", "Error bar"),
+        ("", "Unit"),
+        ("", "How the error was estimated"),
+    ];
     let rows: Vec<String> = signals.iter().map(signal_row).collect();
     table("fold", &columns, &rows)
 }
@@ -80,7 +86,11 @@ fn signal_row(signal: &SignalRow) -> String {
     [
         cell("Signal", "name", &format!("<code>{}</code>", escape(&signal.path))),
         cell("Greatest magnitude", "num", &or_dash(signal.largest.map(|value| plot::escape_raised(&largest(value))))),
-        cell("Error bar", "num", &or_dash(signal.error_bar.map(|error| plot::escape_raised(&format!("± {}", significant(error, 2)))))),
+        cell(
+            "Error bar",
+            "num",
+            &or_dash(signal.error_bar.map(|error| plot::escape_raised(&format!("± {}", significant(error, 2))))),
+        ),
         cell("Unit", "unit", &plot::escape_raised(&signal.unit)),
         cell("Estimated by", "method", &escape(&signal.method)),
     ]
@@ -91,7 +101,10 @@ fn energy_line(energy: &Energy) -> String {
     let joule = |value: f64| format!("<b>{} J</b>", plot::escape_raised(&significant(value, 6)));
     let scale = [energy.start, energy.end, energy.work, energy.dissipated].iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let share = match scale > 0.0 && energy.residual.is_finite() {
-        true => format!(", {} of the greatest of these", plot::escape_raised(&significant(energy.residual.abs() / scale, 2))),
+        true => format!(
+            ", {} of the greatest of these",
+            plot::escape_raised(&significant(energy.residual.abs() / scale, 2))
+        ),
         false => String::new(),
     };
     format!(

@@ -126,7 +126,8 @@ pub(super) fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> S
     if rows.is_empty() {
         return String::new();
     }
-    let head: String = columns.iter().map(|(class, name)| format!("<th scope=\"col\" class=\"{class}\">{name}</th>")).collect();
+    let head: String =
+        columns.iter().map(|(class, name)| format!("<th scope=\"col\" class=\"{class}\">{name}</th>")).collect();
     let body: String = rows.iter().map(|row| format!("<tr>{row}</tr>\n")).collect();
     format!("<table class=\"{class}\">\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n")
 }
@@ -159,9 +160,10 @@ pub(super) fn paragraph(class: &str, text: &str) -> String {
 fn prose(text: &str) -> String {
     let escaped = escape(text);
     let pieces: Vec<&str> = escaped.split('`').collect();
-    if pieces.len() % 2 == 0 {
+    if pieces.len().is_multiple_of(2) {
         return escaped;
     }
-    let set = |(i, piece): (usize, &&str)| if i % 2 == 1 { format!("<code>{piece}</code>") } else { (*piece).to_owned() };
+    let set =
+        |(i, piece): (usize, &&str)| if i % 2 == 1 { format!("<code>{piece}</code>") } else { (*piece).to_owned() };
     pieces.iter().enumerate().map(set).collect()
 }

@@ -30,7 +30,13 @@ fn page() -> Page {
         title: "Spring".into(),
         figures: vec![figure()],
         checks: vec![check("one", 2e-10, CheckVerdict::Holds), check("two", 1e-10, CheckVerdict::Holds)],
-        signals: vec![SignalRow { path: "/a".into(), unit: "m".into(), largest: None, error_bar: Some(1e-9), method: "refined".into() }],
+        signals: vec![SignalRow {
+            path: "/a".into(),
+            unit: "m".into(),
+            largest: None,
+            error_bar: Some(1e-9),
+            method: "refined".into(),
+        }],
         energy: Some(Energy { start: 1.0, end: 0.5, work: 0.0, dissipated: 0.5, residual: 1e-12 }),
         ..Page::default()
     }
@@ -73,7 +79,8 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     page.figures[0].title = evil.into();
     let row = CheckRow { name: evil.into(), about: evil.into(), unit: evil.into(), ..page.checks[0].clone() };
     page.checks = vec![row.clone()];
-    page.signals = vec![SignalRow { path: evil.into(), unit: evil.into(), largest: None, error_bar: None, method: evil.into() }];
+    page.signals =
+        vec![SignalRow { path: evil.into(), unit: evil.into(), largest: None, error_bar: None, method: evil.into() }];
     let card = Card {
         title: evil.into(),
         source: evil.into(),
