@@ -21,16 +21,16 @@ BUILD is portable (default) or native.
 
     forward MODEL [BUILD]                  ABA at home, all velocities 0.1; both conventions are timed, the faster is given
     inverse MODEL [BUILD]                  RNEA at home, all velocities and accelerations 0.1
-    step MODEL euler STEP [BUILD]          springs, dampers, torques, thrusts, ABA, semi-implicit Euler; STEP in s
+    step MODEL euler STEP [BUILD]          springs, dampers, torques, thrusts, ABA (the same), semi-implicit Euler; STEP in s
     acceleration MODEL [BUILD]             joint accelerations at home with every hinge at 0.3 rad/s (free body: at rest,
                                            angular first): compare them to know that the models agree
     seconds S                              time spent on each figure from now on
 
 Answer to a timing request: the request's words by name, and
     median_ns, min_ns        wall time per call, over the repetitions
-    cpu_median_ns            the same in processor time of the thread
+    cpu_median_ns, cpu_min_ns    the same in processor time of the thread
     repetitions, calls_per_repetition
-    convention, other_convention_min_ns       forward: "local" or "world", the one with the smaller minimum, and the other's
+    convention, other_convention_cpu_median_ns    forward, step: "local" or "world", the faster, and the other's time
     diverged, timed_step     step: not finite (or above 1e6 rad/s) at STEP; then a tenth of STEP is timed, or a hundredth …:
                              the work is the same, and huge angles would make sine and cosine slow
 Answer to a request that cannot be met: {"error": "…"}.
@@ -259,7 +259,7 @@ def all_figures(bench, names, step):
             for request in (f"forward {name}", f"inverse {name}", f"step {name} euler {step}"):
                 figures.append(bench.answer(f"{request} {build}"))
                 answer = figures[-1]
-                text = answer.get("error") or f"{answer['median_ns']:10.1f} ns  min {answer['min_ns']:.1f}  {answer.get('convention', '')}"
+                text = answer.get("error") or f"{answer['median_ns']:10.1f} ns  cpu {answer['cpu_median_ns']:.1f}  {answer.get('convention', '')}"
                 print(f"{request:32} {build:9} {text}", file=sys.stderr)
     json.dump(bench.hello() | {"figures": figures}, sys.stdout, indent=1)
     print()

@@ -89,13 +89,13 @@ impl<R: Real> StageVisitor for Velocity<'_, R> {
     #[inline(always)]
     fn visit<S: Stage>(self) {
         let Self { link, q, v, parent, out } = self;
-        let at = S::place(link, &q[link.q_idx as usize..]);
+        S::place(link, &q[link.q_idx as usize..], &mut out.at);
         // v_J = S q̇
         let v_joint = joint_motion::<S, R>(link, &v[link.v_idx as usize..]);
         match parent {
             Some(v_parent) => {
                 // v = X v_parent + v_J,  c = v × v_J
-                out.v = link.to_link::<S>(&at, v_parent) + v_joint;
+                out.v = link.to_link::<S>(&out.at, v_parent) + v_joint;
                 out.c = S::velocity_product(&out.v, &v_joint);
             }
             None => {
@@ -103,9 +103,7 @@ impl<R: Real> StageVisitor for Velocity<'_, R> {
                 out.c = Motion::zero();
             }
         }
-        out.at = at;
         // pA = v ×* I v
-        out.ia = link.inertia.articulated();
         out.pa = out.v.cross_force(&link.inertia.mul(&out.v));
     }
 }
@@ -148,7 +146,8 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
         let Self { link, input, this, parent, dofs } = self;
         let v_idx = link.v_idx as usize;
         let is_root = parent.is_none();
-        let mut ia = this.ia;
+        // `ia` holds what the children left there
+        let mut ia = if link.has_children { this.ia.plus_rigid(&link.inertia) } else { link.inertia.articulated() };
         let mut pa = this.pa;
         if !is_root {
             // bias of the velocity product, for the whole link at once
@@ -165,7 +164,8 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
             pa += dof.u.scale(dof.x);
         }
         if let Some(parent) = parent {
-            parent.ia = parent.ia.plus(&link.articulated_to_parent::<S>(&this.at, &ia));
+            let ia = link.articulated_to_parent::<S>(&this.at, &ia);
+            parent.ia = if link.is_last_child { ia } else { parent.ia.plus(&ia) };
             parent.pa += link.force_to_parent::<S>(&this.at, &pa);
         }
     }

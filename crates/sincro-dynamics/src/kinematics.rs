@@ -11,20 +11,21 @@ use crate::spatial::{Mat3, Motion, Pose, Vec3};
 /// Configures every joint at `q`.
 pub(crate) fn place<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
     for (link, out) in model.links.iter().zip(&mut scratch.links) {
-        out.at = link.kind.dispatch(Place { link, q: &q[link.q_idx as usize..] });
+        link.kind.dispatch(Place { link, q: &q[link.q_idx as usize..], at: &mut out.at });
     }
 }
 
 struct Place<'a, R> {
     link: &'a Link<R>,
     q: &'a [R],
+    at: &'a mut crate::joint::Placement<R>,
 }
 
 impl<R: Real> StageVisitor for Place<'_, R> {
-    type Output = crate::joint::Placement<R>;
+    type Output = ();
     #[inline(always)]
-    fn visit<S: Stage>(self) -> Self::Output {
-        S::place(self.link, self.q)
+    fn visit<S: Stage>(self) {
+        S::place(self.link, self.q, self.at);
     }
 }
 
@@ -32,8 +33,7 @@ impl<R: Real> StageVisitor for Place<'_, R> {
 fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
     for i in 0..model.links.len() {
         let link = &model.links[i];
-        let rot = link.kind.dispatch(Rotation { link, this: &scratch.links[i] });
-        let x_pl = Pose { rot, pos: scratch.links[i].at.offset };
+        let x_pl = link.kind.dispatch(PoseInParent { link, this: &scratch.links[i] });
         scratch.poses[i] = match link.parent() {
             Some(parent) => scratch.poses[parent].compose(&x_pl),
             None => x_pl,
@@ -41,17 +41,18 @@ fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
     }
 }
 
-struct Rotation<'a, R> {
+struct PoseInParent<'a, R> {
     link: &'a Link<R>,
     this: &'a LinkScratch<R>,
 }
 
-impl<R: Real> StageVisitor for Rotation<'_, R> {
-    type Output = Mat3<R>;
+impl<R: Real> StageVisitor for PoseInParent<'_, R> {
+    type Output = Pose<R>;
     #[inline(always)]
-    fn visit<S: Stage>(self) -> Mat3<R> {
+    fn visit<S: Stage>(self) -> Pose<R> {
         let rot = S::rotation(&self.this.at);
-        if self.link.turned { self.link.base_rotation.mul(&rot) } else { rot }
+        let rot = if self.link.turned { self.link.base_rotation.mul(&rot) } else { rot };
+        Pose { rot, pos: S::offset(self.link, &self.this.at) }
     }
 }
 
@@ -87,7 +88,7 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
     fn visit<S: Stage>(self) {
         let Self { link, q, v, v_dot, parent, out } = self;
         let v_idx = link.v_idx as usize;
-        out.at = S::place(link, &q[link.q_idx as usize..]);
+        S::place(link, &q[link.q_idx as usize..], &mut out.at);
         let v_joint = joint_motion::<S, R>(link, &v[v_idx..]);
         let a_joint = joint_motion::<S, R>(link, &v_dot[v_idx..]);
         out.v = link.to_link::<S>(&out.at, &parent.0) + v_joint;

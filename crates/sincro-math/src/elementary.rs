@@ -1,7 +1,6 @@
 //! Elementary functions with the same bits for scalars and lanes, on every platform.
 //!
-//! Sine and cosine are the hot ones: one branch-free polynomial, written over arrays so that lanes run it in vector
-//! registers and a scalar is an array of one. The rest comes from the pure-Rust `libm` crate.
+//! Sine and cosine are the hot ones: one branch-free polynomial, written once for scalars and lanes. The rest comes from the pure-Rust `libm` crate.
 //!
 //! Method of [`sin_cos`]: Cody–Waite reduction by π/2 in three parts, then the minimax polynomials of degree 13 (sine) and 14
 //! (cosine) on [−π/4, π/4]. Source of the coefficients: key `ng-fdlibm`. Beyond [`REDUCTION_LIMIT`] the reduction would lose
@@ -25,6 +24,8 @@
 //!
 //! [`Real::map`]: crate::Real::map
 //! [`Real::map2`]: crate::Real::map2
+
+use crate::Real;
 
 /// Largest |angle| `[rad]` reduced by the fast path: below it the quotient has at most 20 bits, so that its product with
 /// each 33-bit part of π/2 is exact.
@@ -56,61 +57,87 @@ const COS: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
+/// Access to the bits of a number, lane by lane: what the branch-free sine needs beside arithmetic.
+pub(crate) trait Bits: Real {
+    /// Magnitude of `self`, sign of `sign`.
+    fn copysign(self, sign: Self) -> Self;
+
+    /// `odd` where the lowest bit of `n` is set, else `even`.
+    fn if_odd(n: Self, odd: Self, even: Self) -> Self;
+
+    /// `self` with the sign flipped where bit `BIT` of `n` is set.
+    fn flip_by<const BIT: u32>(self, n: Self) -> Self;
+
+    /// Whether |self| is below `limit` in every lane (a NaN is not).
+    fn all_below(self, limit: f64) -> bool;
+}
+
+impl Bits for f64 {
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.copysign(sign)
+    }
+
+    #[inline(always)]
+    fn if_odd(n: Self, odd: Self, even: Self) -> Self {
+        let mask = 0u64.wrapping_sub(n.to_bits() & 1);
+        f64::from_bits((even.to_bits() & !mask) | (odd.to_bits() & mask))
+    }
+
+    #[inline(always)]
+    fn flip_by<const BIT: u32>(self, n: Self) -> Self {
+        f64::from_bits(self.to_bits() ^ ((n.to_bits() << (63 - BIT)) & (1 << 63)))
+    }
+
+    #[inline(always)]
+    fn all_below(self, limit: f64) -> bool {
+        self.abs() < limit
+    }
+}
+
 /// Sine and cosine of `x` `[rad]`; NaN where `x` is not finite.
 #[inline(always)]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let (sin, cos) = sin_cos_array(&[x]);
-    (sin[0], cos[0])
+    sin_cos_lanes(x)
 }
 
-/// Sine and cosine of each of `x` `[rad]`.
+/// Sine and cosine of each lane of `x` `[rad]`.
 #[inline(always)]
-#[must_use]
-pub fn sin_cos_array<const N: usize>(x: &[f64; N]) -> ([f64; N], [f64; N]) {
-    let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
-    let mut reducible = true;
-    for k in 0..N {
-        (sin[k], cos[k]) = sin_cos_reduced(x[k]);
-        reducible &= x[k].abs() < REDUCTION_LIMIT;
-    }
-    // by value: a reference handed to the cold path would keep the hot one in memory instead of registers
-    if reducible { (sin, cos) } else { sin_cos_far(*x, sin, cos) }
+pub(crate) fn sin_cos_lanes<R: Bits>(x: R) -> (R, R) {
+    let near = sin_cos_reduced(x);
+    if x.all_below(REDUCTION_LIMIT) { near } else { sin_cos_far(x, near) }
 }
 
 /// The branch-free path; right for |x| < [`REDUCTION_LIMIT`].
 #[inline(always)]
-fn sin_cos_reduced(x: f64) -> (f64, f64) {
-    let shifted = x * TWO_OVER_PI + ROUNDER;
-    let quadrant = shifted.to_bits();
-    let n = shifted - ROUNDER;
-    let r = ((x - n * PIO2_1) - n * PIO2_2) - n * PIO2_3;
+fn sin_cos_reduced<R: Bits>(x: R) -> (R, R) {
+    let k = R::splat;
+    // the quadrant stands in the low bits of `shifted`
+    let shifted = x * k(TWO_OVER_PI) + k(ROUNDER);
+    let n = shifted - k(ROUNDER);
+    let r = ((x - n * k(PIO2_1)) - n * k(PIO2_2)) - n * k(PIO2_3);
 
     let z = r * r;
-    let sin_poly = SIN[0] + z * (SIN[1] + z * (SIN[2] + z * (SIN[3] + z * (SIN[4] + z * SIN[5]))));
-    let cos_poly = COS[0] + z * (COS[1] + z * (COS[2] + z * (COS[3] + z * (COS[4] + z * COS[5]))));
-    let s = (r + r * z * sin_poly).copysign(r); // −0 stays −0
+    let polynomial = |c: &[f64; 6]| k(c[0]) + z * (k(c[1]) + z * (k(c[2]) + z * (k(c[3]) + z * (k(c[4]) + z * k(c[5])))));
+    let s = (r + r * z * polynomial(&SIN)).copysign(r); // −0 stays −0
     // 1 − z/2 is rounded; what the rounding lost is added back with the small terms
-    let half = 0.5 * z;
-    let w = 1.0 - half;
-    let c = w + (((1.0 - w) - half) + z * z * cos_poly);
+    let half = k(0.5) * z;
+    let w = k(1.0) - half;
+    let c = w + (((k(1.0) - w) - half) + z * z * polynomial(&COS));
 
-    // odd quadrants swap sine and cosine; bit 1 of the quadrant (of quadrant + 1) is the sign of the sine (cosine)
-    let swap = 0u64.wrapping_sub(quadrant & 1);
-    let (s, c) = (s.to_bits(), c.to_bits());
-    let sin = ((s & !swap) | (c & swap)) ^ ((quadrant & 2) << 62);
-    let cos = ((c & !swap) | (s & swap)) ^ ((quadrant.wrapping_add(1) & 2) << 62);
-    (f64::from_bits(sin), f64::from_bits(cos))
+    // odd quadrants swap sine and cosine; the sine is negative in quadrants 2 and 3, the cosine in 1 and 2
+    let sin = R::if_odd(shifted, c, s).flip_by::<1>(shifted);
+    let cos = R::if_odd(shifted, s, c).flip_by::<1>(shifted).flip_by::<0>(shifted);
+    (sin, cos)
 }
 
 #[cold]
 #[inline(never)]
-fn sin_cos_far<const N: usize>(x: [f64; N], mut sin: [f64; N], mut cos: [f64; N]) -> ([f64; N], [f64; N]) {
-    for k in 0..N {
-        if x[k].abs() >= REDUCTION_LIMIT || x[k].is_nan() {
-            (sin[k], cos[k]) = libm::sincos(x[k]);
-        }
-    }
+fn sin_cos_far<R: Bits>(x: R, near: (R, R)) -> (R, R) {
+    let far = |k: usize| !(x.lane(k).abs() < REDUCTION_LIMIT);
+    let sin = R::from_lanes(|k| if far(k) { libm::sincos(x.lane(k)).0 } else { near.0.lane(k) });
+    let cos = R::from_lanes(|k| if far(k) { libm::sincos(x.lane(k)).1 } else { near.1.lane(k) });
     (sin, cos)
 }
 
@@ -244,7 +271,8 @@ mod tests {
 
     #[test]
     fn a_far_lane_leaves_its_neighbours_alone() {
-        let (sin, cos) = sin_cos_array(&[0.3, 1.0e9, f64::NAN, -2.0]);
+        let (sin, cos) = sin_cos_lanes(crate::Lanes([0.3, 1.0e9, f64::NAN, -2.0]));
+        let (sin, cos) = (sin.0, cos.0);
         assert_eq!(((sin[0], cos[0]), (sin[3], cos[3])), (sin_cos(0.3), sin_cos(-2.0)));
         assert_eq!((sin[1], cos[1]), libm::sincos(1.0e9));
         assert!(sin[2].is_nan() && cos[2].is_nan());

@@ -3,7 +3,7 @@
 //! Everything that thinks (dynamics, blocks) is written once over the trait [`Real`] and runs on
 //!
 //! - `f64`: one world, full precision;
-//! - [`Lanes<N>`]: `N` worlds side by side in the lanes of a SIMD register, each with the bits it would have alone;
+//! - [`lanes`]: several worlds side by side in the lanes of a vector register, each with the bits it would have alone;
 //! - [`Dual<N>`]: a value and `N` exact partial derivatives, for linearisation.
 //!
 //! The elementary functions ([`elementary`]) are polynomials and pure-Rust routines shared by all three: no call goes to the
@@ -17,9 +17,9 @@
 pub mod dual;
 pub mod elementary;
 pub mod expression;
-mod lanes;
+pub mod lanes;
 mod real;
 
 pub use dual::Dual;
-pub use lanes::Lanes;
+pub use lanes::{LaneVisitor, Lanes};
 pub use real::Real;

@@ -14,8 +14,13 @@ impl Stage for Ball {
     const N_V: usize = 3;
 
     #[inline(always)]
-    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R> {
-        Placement { rot: Quat::from_slice(q).matrix(), offset: link.origin, ..Placement::default() }
+    fn place<R: Real>(_: &Link<R>, q: &[R], at: &mut Placement<R>) {
+        at.rot = Quat::from_slice(q).matrix();
+    }
+
+    #[inline(always)]
+    fn offset<R: Real>(link: &Link<R>, _: &Placement<R>) -> Vec3<R> {
+        link.origin
     }
 
     #[inline(always)]

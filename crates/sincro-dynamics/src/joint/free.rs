@@ -14,9 +14,14 @@ impl Stage for Free {
     const N_V: usize = 6;
 
     #[inline(always)]
-    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R> {
-        let offset = link.origin + link.base_vector(Vec3([q[0], q[1], q[2]]));
-        Placement { rot: Quat::from_slice(&q[3..7]).matrix(), offset, ..Placement::default() }
+    fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>) {
+        at.rot = Quat::from_slice(&q[3..7]).matrix();
+        at.offset = link.origin + link.base_vector(Vec3([q[0], q[1], q[2]]));
+    }
+
+    #[inline(always)]
+    fn offset<R: Real>(_: &Link<R>, at: &Placement<R>) -> Vec3<R> {
+        at.offset
     }
 
     #[inline(always)]

@@ -91,7 +91,7 @@ pub struct Placement<R> {
     pub cos: R,
     /// Link to base rotation (ball and free only).
     pub rot: Mat3<R>,
-    /// Origin of the link frame in the parent's axes, from the parent's origin [m].
+    /// Origin of the link frame in the parent's axes (stages that translate only) [m].
     pub offset: Vec3<R>,
 }
 
@@ -102,8 +102,11 @@ pub trait Stage {
     /// Degrees of freedom, places in v.
     const N_V: usize;
 
-    /// Configuration from the stage's coordinates `q` (`N_Q` of them).
-    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R>;
+    /// Configuration from the stage's coordinates `q` (`N_Q` of them); writes only what the stage's other verbs read.
+    fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>);
+
+    /// Origin of the link frame in the parent's axes, from the parent's origin [m].
+    fn offset<R: Real>(link: &Link<R>, at: &Placement<R>) -> Vec3<R>;
 
     /// Components of a vector from link to base axes.
     fn turn<R: Real>(at: &Placement<R>, x: Vec3<R>) -> Vec3<R>;

@@ -14,9 +14,13 @@ impl<const A: usize> Stage for Prismatic<A> {
     const N_V: usize = 1;
 
     #[inline(always)]
-    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R> {
-        let offset = link.origin + link.base_vector(Vec3::along(A, link.sign * q[0]));
-        Placement { offset, ..Placement::default() }
+    fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>) {
+        at.offset = link.origin + link.base_vector(Vec3::along(A, link.sign * q[0]));
+    }
+
+    #[inline(always)]
+    fn offset<R: Real>(_: &Link<R>, at: &Placement<R>) -> Vec3<R> {
+        at.offset
     }
 
     #[inline(always)]

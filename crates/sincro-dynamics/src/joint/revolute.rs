@@ -14,9 +14,13 @@ impl<const A: usize> Stage for Revolute<A> {
     const N_V: usize = 1;
 
     #[inline(always)]
-    fn place<R: Real>(link: &Link<R>, q: &[R]) -> Placement<R> {
-        let (sin, cos) = (link.sign * q[0]).sin_cos();
-        Placement { sin, cos, rot: Mat3::default(), offset: link.origin }
+    fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>) {
+        (at.sin, at.cos) = (link.sign * q[0]).sin_cos();
+    }
+
+    #[inline(always)]
+    fn offset<R: Real>(link: &Link<R>, _: &Placement<R>) -> Vec3<R> {
+        link.origin
     }
 
     #[inline(always)]
@@ -61,15 +65,8 @@ impl<const A: usize> Stage for Revolute<A> {
 
     #[inline(always)]
     fn velocity_product<R: Real>(v: &Motion<R>, v_joint: &Motion<R>) -> Motion<R> {
-        // x × e_A q̇, whose component along A is zero
-        let (b, d, rate) = ((A + 1) % 3, (A + 2) % 3, v_joint.ang[A]);
-        let cross = |x: Vec3<R>| {
-            let mut c = Vec3::zero();
-            c[b] = x[d] * rate;
-            c[d] = -(x[b] * rate);
-            c
-        };
-        Motion { ang: cross(v.ang), lin: cross(v.lin) }
+        let rate = v_joint.ang[A];
+        Motion { ang: v.ang.cross_along::<A>(rate), lin: v.lin.cross_along::<A>(rate) }
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind};
 use super::names::{FrameInfo, JointInfo, Names};
 use super::problem::{Problem, Severity};
-use super::{Dof, Link, Model, WORLD, check};
+use super::{Dof, Link, Model, Shift, WORLD, check};
 use crate::force::{AppliedTorque, AppliedWrench};
 use crate::joint::{JointKind, StageKind};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
@@ -56,6 +56,7 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
     }
     let Compiler { mut model, names, .. } = compiler;
     model.names = Arc::new(names);
+    mark_children(&mut model.links);
     model.drives = crate::drive::drives_of(&model);
     problems.extend(check::massless_joints(&model));
     if problems.iter().any(|p| p.severity == Severity::Error) {
@@ -171,7 +172,9 @@ impl Compiler<'_> {
             parent: at.link,
             kind,
             turned,
-            shifted: at.pose.pos != Vec3::zero() || !kind.is_pure_rotation(),
+            shift: if kind.is_pure_rotation() { shift_of(at.pose.pos) } else { Shift::Any },
+            has_children: false,
+            is_last_child: false,
             q_idx: q_idx as u32,
             v_idx: v_idx as u32,
             origin: at.pose.pos,
@@ -195,6 +198,27 @@ impl Compiler<'_> {
         let rot = frame.base_rotation.transpose().mul(&at.pose.rot);
         let pose = snapped(&Pose { rot, pos: Vec3::zero() });
         Carrier { link: (self.model.links.len() - 1) as u32, pose }
+    }
+}
+
+/// On which axis of the parent a fixed offset lies.
+fn shift_of(origin: Vec3<f64>) -> Shift {
+    match origin.0.map(|x| x != 0.0) {
+        [false, false, false] => Shift::None,
+        [true, false, false] => Shift::X,
+        [false, true, false] => Shift::Y,
+        [false, false, true] => Shift::Z,
+        _ => Shift::Any,
+    }
+}
+
+/// Marks who has children, and each parent's last child.
+fn mark_children(links: &mut [Link<f64>]) {
+    for i in (0..links.len()).rev() {
+        if let Some(parent) = links[i].parent() {
+            links[i].is_last_child = !links[parent].has_children;
+            links[parent].has_children = true;
+        }
     }
 }
 

@@ -34,6 +34,21 @@ use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3
 /// No parent: the link moves against the world.
 pub(crate) const WORLD: u32 = u32::MAX;
 
+/// How a link's origin lies off its parent's: products by zero are not computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shift {
+    /// It does not.
+    None,
+    /// Along the parent's x axis.
+    X,
+    /// Along the parent's y axis.
+    Y,
+    /// Along the parent's z axis.
+    Z,
+    /// Anywhere.
+    Any,
+}
+
 /// One moving link and the stage that joins it to its parent.
 #[derive(Clone, Copy, Debug)]
 pub struct Link<R> {
@@ -41,8 +56,12 @@ pub struct Link<R> {
     pub(crate) kind: StageKind,
     /// Whether `base_rotation` is not the identity.
     pub(crate) turned: bool,
-    /// Whether the link's origin can lie off its parent's.
-    pub(crate) shifted: bool,
+    /// Where the link's origin can lie off its parent's.
+    pub(crate) shift: Shift,
+    /// Whether other links hang on it.
+    pub(crate) has_children: bool,
+    /// Whether it is the first of its siblings that a tip-to-base pass meets.
+    pub(crate) is_last_child: bool,
     /// First coordinate in q.
     pub(crate) q_idx: u32,
     /// First degree of freedom in v.
@@ -192,8 +211,13 @@ impl<R: Real> Link<R> {
     #[inline(always)]
     pub(crate) fn to_link<S: Stage>(&self, at: &Placement<R>, m: &Motion<R>) -> Motion<R> {
         let (mut ang, mut lin) = (m.ang, m.lin);
-        if self.shifted {
-            lin += ang.cross(at.offset);
+        let r = S::offset(self, at);
+        match self.shift {
+            Shift::None => {}
+            Shift::X => lin += ang.cross_along::<0>(r[0]),
+            Shift::Y => lin += ang.cross_along::<1>(r[1]),
+            Shift::Z => lin += ang.cross_along::<2>(r[2]),
+            Shift::Any => lin += ang.cross(r),
         }
         if self.turned {
             ang = self.base_rotation.tr_mul_vec(ang);
@@ -207,8 +231,13 @@ impl<R: Real> Link<R> {
     pub(crate) fn force_to_parent<S: Stage>(&self, at: &Placement<R>, f: &Force<R>) -> Force<R> {
         let mut ang = self.base_vector(S::turn(at, f.ang));
         let lin = self.base_vector(S::turn(at, f.lin));
-        if self.shifted {
-            ang += at.offset.cross(lin);
+        let r = S::offset(self, at);
+        match self.shift {
+            Shift::None => {}
+            Shift::X => ang -= lin.cross_along::<0>(r[0]),
+            Shift::Y => ang -= lin.cross_along::<1>(r[1]),
+            Shift::Z => ang -= lin.cross_along::<2>(r[2]),
+            Shift::Any => ang += r.cross(lin),
         }
         Force { ang, lin }
     }
@@ -224,7 +253,14 @@ impl<R: Real> Link<R> {
         if self.turned {
             ia = ia.turned(&self.base_rotation);
         }
-        if self.shifted { ia.shifted(at.offset) } else { ia }
+        let r = S::offset(self, at);
+        match self.shift {
+            Shift::None => ia,
+            Shift::X => ia.shifted_along::<0>(r[0]),
+            Shift::Y => ia.shifted_along::<1>(r[1]),
+            Shift::Z => ia.shifted_along::<2>(r[2]),
+            Shift::Any => ia.shifted(r),
+        }
     }
 
     /// A rigid inertia of this link as seen at the parent's origin, in parent axes.
@@ -234,6 +270,6 @@ impl<R: Real> Link<R> {
         if self.turned {
             i = i.turned(&self.base_rotation);
         }
-        if self.shifted { i.shifted(at.offset) } else { i }
+        if self.shift == Shift::None { i } else { i.shifted(S::offset(self, at)) }
     }
 }

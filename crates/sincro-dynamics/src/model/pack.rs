@@ -41,7 +41,9 @@ impl<R: Real> Model<R> {
             parent: first.links[l].parent,
             kind: first.links[l].kind,
             turned: first.links[l].turned,
-            shifted: first.links[l].shifted,
+            shift: first.links[l].shift,
+            has_children: first.links[l].has_children,
+            is_last_child: first.links[l].is_last_child,
             q_idx: first.links[l].q_idx,
             v_idx: first.links[l].v_idx,
             origin: vec3(&|m| m.links[l].origin),
@@ -100,7 +102,7 @@ impl<R: Real> Model<R> {
 
 fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let links = |m: &Model<f64>| -> Vec<_> {
-        m.links.iter().map(|l| (l.parent, l.kind, l.turned, l.shifted, l.q_idx, l.v_idx)).collect()
+        m.links.iter().map(|l| (l.parent, l.kind, l.turned, l.shift, l.q_idx, l.v_idx)).collect()
     };
     let motors = |m: &Model<f64>| -> Vec<_> { m.motors.iter().map(|x| (x.dof, x.mode)).collect() };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };

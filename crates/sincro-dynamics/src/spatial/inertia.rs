@@ -186,6 +186,43 @@ impl<R: Real> ArticulatedInertia<R> {
         });
         Self { rotational, coupling: g, linear: self.linear }
     }
+
+    /// [`Self::shifted`] by `r` along coordinate axis `K`: the same numbers without the products by zero.
+    #[inline(always)]
+    pub fn shifted_along<const K: usize>(&self, r: R) -> Self {
+        let (b, c) = ((K + 1) % 3, (K + 2) % 3);
+        let (h, m) = (&self.coupling.0, &self.linear);
+        // G = H + r×M touches rows b and c;  I' = I − H r× + r× Gᵀ
+        let mut g = *h;
+        for j in 0..3 {
+            g[b][j] = h[b][j] - r * m.at(c, j);
+            g[c][j] = h[c][j] + r * m.at(b, j);
+        }
+        let i = &self.rotational;
+        let mut out = *i;
+        out.set(K, b, i.at(K, b) - r * h[K][c]);
+        out.set(K, c, i.at(K, c) + r * h[K][b]);
+        out.set(b, b, i.at(b, b) - r * (h[b][c] + g[b][c]));
+        out.set(b, c, i.at(b, c) + r * (h[b][b] - g[c][c]));
+        out.set(c, c, i.at(c, c) + r * (h[c][b] + g[c][b]));
+        Self { rotational: out, coupling: Mat3(g), linear: self.linear }
+    }
+
+    /// Sum with a rigid inertia in the same frame.
+    #[inline(always)]
+    pub fn plus_rigid(&self, b: &RigidInertia<R>) -> Self {
+        let (mut h, mut m, [x, y, z]) = (self.coupling.0, self.linear, b.moment.0);
+        h[0][1] -= z;
+        h[0][2] += y;
+        h[1][0] += z;
+        h[1][2] -= x;
+        h[2][0] -= y;
+        h[2][1] += x;
+        for k in 0..3 {
+            m.set(k, k, m.at(k, k) + b.mass);
+        }
+        Self { rotational: self.rotational.plus(&b.rotational), coupling: Mat3(h), linear: m }
+    }
 }
 
 #[cfg(test)]
@@ -210,6 +247,18 @@ mod tests {
         assert!(close(&rigid.shifted(r).mul(&v), &rigid.articulated().shifted(r).mul(&v)));
         assert!(close(&rigid.turned(&e).mul(&v), &rigid.articulated().turned(&e).mul(&v)));
         assert!(close(&rigid.turned(&e).mul(&v), &rigid.articulated().rotated::<1>(0.6, 0.8).mul(&v)));
+    }
+
+    #[test]
+    fn a_shift_along_an_axis_is_a_shift() {
+        let ia = sample().articulated().rotated::<2>(0.6, 0.8).plus_rigid(&sample().shifted(Vec3([0.3, 0.1, 0.7])));
+        let u = Force { ang: Vec3([0.2, 0.1, -0.3]), lin: Vec3([0.1, 0.5, 0.2]) };
+        let ia = ia.minus_outer(&u, &u.scale(0.7));
+        let v = Motion { ang: Vec3([1.0, -2.0, 0.5]), lin: Vec3([0.3, 0.7, -1.1]) };
+        let along = [ia.shifted_along::<0>(0.4), ia.shifted_along::<1>(0.4), ia.shifted_along::<2>(0.4)];
+        for (k, along) in along.iter().enumerate() {
+            assert!(close(&along.mul(&v), &ia.shifted(Vec3::along(k, 0.4)).mul(&v)), "axis {k}");
+        }
     }
 
     #[test]

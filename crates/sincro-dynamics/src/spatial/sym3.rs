@@ -42,6 +42,12 @@ impl<R: Real> Sym3<R> {
         self.0[PACKED[i][j]]
     }
 
+    /// Sets elements (i, j) and (j, i).
+    #[inline(always)]
+    pub fn set(&mut self, i: usize, j: usize, x: R) {
+        self.0[PACKED[i][j]] = x;
+    }
+
     /// Column (or row) `k`.
     #[inline(always)]
     pub fn col(&self, k: usize) -> Vec3<R> {

@@ -48,6 +48,16 @@ impl<R: Real> Vec3<R> {
         Self([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
     }
 
+    /// `self × (r e_K)`: cross product with a vector along coordinate axis `K`.
+    #[inline(always)]
+    pub fn cross_along<const K: usize>(self, r: R) -> Self {
+        let (b, c) = ((K + 1) % 3, (K + 2) % 3);
+        let mut out = Self::zero();
+        out[b] = self[c] * r;
+        out[c] = -(self[b] * r);
+        out
+    }
+
     /// Product with a scalar.
     #[inline(always)]
     pub fn scale(self, k: R) -> Self {

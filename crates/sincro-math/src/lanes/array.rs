@@ -1,12 +1,12 @@
-//! `N` worlds side by side: a plain array, which the compiler turns into vector instructions inside functions that are
-//! compiled for a vector instruction set.
+//! `N` worlds side by side in a plain array: lanes for processors without a vector type of ours.
 //!
 //! Every operation is the scalar one, lane by lane, and Rust never contracts `a*b + c`: lane `k` has the bits of the same
 //! computation on `f64`.
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::{Real, elementary};
+use crate::elementary::{self, Bits};
+use crate::Real;
 
 /// `N` numbers, one a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,8 +117,7 @@ impl<const N: usize> Real for Lanes<N> {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = elementary::sin_cos_array(&self.0);
-        (Self(sin), Self(cos))
+        elementary::sin_cos_lanes(self)
     }
 
     #[inline(always)]
@@ -143,6 +142,28 @@ impl<const N: usize> Real for Lanes<N> {
     #[inline(always)]
     fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self {
         self.zip(other, |x, y| f(x, y).0)
+    }
+}
+
+impl<const N: usize> Bits for Lanes<N> {
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.zip(sign, f64::copysign)
+    }
+
+    #[inline(always)]
+    fn if_odd(n: Self, odd: Self, even: Self) -> Self {
+        Self(core::array::from_fn(|k| f64::if_odd(n.0[k], odd.0[k], even.0[k])))
+    }
+
+    #[inline(always)]
+    fn flip_by<const BIT: u32>(self, n: Self) -> Self {
+        self.zip(n, |x, n| x.flip_by::<BIT>(n))
+    }
+
+    #[inline(always)]
+    fn all_below(self, limit: f64) -> bool {
+        self.0.iter().all(|x| x.all_below(limit))
     }
 }
 

@@ -1,0 +1,122 @@
+//! Several worlds side by side in the lanes of vector registers.
+//!
+//! A computation that wants lanes is a [`LaneVisitor`]: generic over the number type, all of it `#[inline(always)]`.
+//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has;
+//! [`dispatch_scalar`] does the same for a single world, which gains registers. A portable binary so gets vector speed.
+//!
+//! The vector types are not nameable outside: whoever holds one has come through the dispatch, on a processor that has it.
+
+mod array;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use array::Lanes;
+
+use crate::Real;
+
+/// A computation over any kind of number. `visit` must be `#[inline(always)]`, and so must be everything it calls.
+pub trait LaneVisitor {
+    /// What it yields.
+    type Output;
+
+    /// Runs it on numbers of type `R`.
+    fn visit<R: Real>(self) -> Self::Output;
+}
+
+/// Runs `visitor` on the widest lanes of this processor.
+#[inline]
+pub fn dispatch_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
+    #[cfg(target_arch = "x86_64")]
+    match x86::level() {
+        x86::Level::Avx512 => return x86::lanes_avx512(visitor),
+        x86::Level::Avx2 => return x86::lanes_avx2(visitor),
+        x86::Level::Baseline => {}
+    }
+    visitor.visit::<Lanes<4>>()
+}
+
+/// Runs `visitor` on `f64`, compiled for the best instruction set of this processor.
+#[inline]
+pub fn dispatch_scalar<V: LaneVisitor>(visitor: V) -> V::Output {
+    #[cfg(target_arch = "x86_64")]
+    match x86::level() {
+        x86::Level::Avx512 => return x86::scalar_avx512(visitor),
+        x86::Level::Avx2 => return x86::scalar_avx2(visitor),
+        x86::Level::Baseline => {}
+    }
+    visitor.visit::<f64>()
+}
+
+/// Number of lanes that [`dispatch_lanes`] runs on this processor.
+#[must_use]
+pub fn width() -> usize {
+    struct Width;
+    impl LaneVisitor for Width {
+        type Output = usize;
+        #[inline(always)]
+        fn visit<R: Real>(self) -> usize {
+            R::LANES
+        }
+    }
+    dispatch_lanes(Width)
+}
+
+/// The instruction set that the dispatch has chosen, for reports.
+#[must_use]
+pub fn instruction_set() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    match x86::level() {
+        x86::Level::Avx512 => return "AVX-512",
+        x86::Level::Avx2 => return "AVX2",
+        x86::Level::Baseline => {}
+    }
+    "baseline"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every operation once, on a value that differs in each lane.
+    struct Everything;
+
+    impl LaneVisitor for Everything {
+        type Output = Vec<(f64, f64)>;
+
+        #[inline(always)]
+        fn visit<R: Real>(self) -> Self::Output {
+            let inputs = [0.0, -0.0, 1.5, -2.25, 1e7, 3.3e-9, f64::NAN, 700.0, -0.7, f64::INFINITY, 1e300, 5e-324];
+            let mut out = Vec::new();
+            for (i, &input) in inputs.iter().enumerate() {
+                let x = R::from_lanes(|k| input + 0.37 * k as f64);
+                let y = R::splat(inputs[(i + 3) % inputs.len()]);
+                let (s, c) = x.sin_cos();
+                let mut z = (x + y) * s - c / (y - R::splat(0.3));
+                z += (-x).abs().sqrt();
+                z -= x.if_less(y, s, c);
+                z *= x.min(y) - x.max(y) + y.clamp_abs(R::one());
+                for k in 0..R::LANES {
+                    out.push((k as f64, z.lane(k)));
+                    out.push((k as f64, s.lane(k)));
+                    out.push((k as f64, c.lane(k)));
+                }
+            }
+            out
+        }
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let reference = Everything.visit::<Lanes<8>>();
+        let lanes = dispatch_lanes(Everything);
+        let of_lane = |all: &[(f64, f64)], k: f64| -> Vec<u64> {
+            // a NaN may differ in sign and payload between instruction sets; that it is one may not
+            let canonical = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+            all.iter().filter(|(lane, _)| *lane == k).map(|(_, x)| canonical(*x)).collect()
+        };
+        for k in 0..width() {
+            assert_eq!(of_lane(&reference, k as f64), of_lane(&lanes, k as f64));
+        }
+        assert_eq!(of_lane(&reference, 0.0), of_lane(&dispatch_scalar(Everything), 0.0));
+    }
+}
