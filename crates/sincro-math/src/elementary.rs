@@ -112,24 +112,32 @@ pub(crate) fn sin_cos_lanes<R: Bits>(x: R) -> (R, R) {
 /// The branch-free path; right for |x| < [`REDUCTION_LIMIT`].
 #[inline(always)]
 fn sin_cos_reduced<R: Bits>(x: R) -> (R, R) {
-    let k = R::splat;
     // the quadrant stands in the low bits of `shifted`
-    let shifted = x * k(TWO_OVER_PI) + k(ROUNDER);
-    let n = shifted - k(ROUNDER);
-    let r = ((x - n * k(PIO2_1)) - n * k(PIO2_2)) - n * k(PIO2_3);
+    let shifted = x * R::splat(TWO_OVER_PI) + R::splat(ROUNDER);
+    let n = shifted - R::splat(ROUNDER);
+    let r = ((x - n * R::splat(PIO2_1)) - n * R::splat(PIO2_2)) - n * R::splat(PIO2_3);
 
     let z = r * r;
-    let polynomial = |c: &[f64; 6]| k(c[0]) + z * (k(c[1]) + z * (k(c[2]) + z * (k(c[3]) + z * (k(c[4]) + z * k(c[5])))));
-    let s = (r + r * z * polynomial(&SIN)).copysign(r); // −0 stays −0
+    let s = (r + r * z * polynomial(&SIN, z)).copysign(r); // −0 stays −0
     // 1 − z/2 is rounded; what the rounding lost is added back with the small terms
-    let half = k(0.5) * z;
-    let w = k(1.0) - half;
-    let c = w + (((k(1.0) - w) - half) + z * z * polynomial(&COS));
+    let half = R::splat(0.5) * z;
+    let w = R::one() - half;
+    let c = w + (((R::one() - w) - half) + z * z * polynomial(&COS, z));
 
     // odd quadrants swap sine and cosine; the sine is negative in quadrants 2 and 3, the cosine in 1 and 2
     let sin = R::if_odd(shifted, c, s).flip_by::<1>(shifted);
     let cos = R::if_odd(shifted, s, c).flip_by::<1>(shifted).flip_by::<0>(shifted);
     (sin, cos)
+}
+
+/// Horner's scheme in `z`.
+#[inline(always)]
+fn polynomial<R: Real>(c: &[f64; 6], z: R) -> R {
+    let mut sum = R::splat(c[5]);
+    for k in (0..5).rev() {
+        sum = R::splat(c[k]) + z * sum;
+    }
+    sum
 }
 
 #[cold]

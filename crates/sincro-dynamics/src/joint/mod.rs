@@ -2,8 +2,8 @@
 //!
 //! Users name eight kinds ([`JointKind`]); universal and planar ones are chains of one-degree-of-freedom joints without mass
 //! in between, and fixed ones are merged away when the model is built. What the recursions see is a [`Stage`]: one file each,
-//! the same verbs in each, and the axis a compile-time constant, because an axis-aligned rotation costs a quarter of a
-//! general one.
+//! the same verbs in each, and the axis of a rotation a compile-time constant, because an axis-aligned rotation costs a quarter
+//! of a general one.
 //!
 //! Frames of a link: the *base* frame is fixed in the parent link (its placement), the *link* frame moves. Both coincide at
 //! q = 0. The motion subspace S of every stage is constant in the link frame, so its velocity product is `v × S q̇`.
@@ -72,12 +72,8 @@ pub enum StageKind {
     RevoluteX,
     RevoluteY,
     RevoluteZ,
-    PrismaticX,
-    PrismaticY,
-    PrismaticZ,
-    ScrewX,
-    ScrewY,
-    ScrewZ,
+    Prismatic,
+    Screw,
     Ball,
     Free,
 }
@@ -162,12 +158,8 @@ impl StageKind {
             Self::RevoluteX => visitor.visit::<Revolute<0>>(),
             Self::RevoluteY => visitor.visit::<Revolute<1>>(),
             Self::RevoluteZ => visitor.visit::<Revolute<2>>(),
-            Self::PrismaticX => visitor.visit::<Prismatic<0>>(),
-            Self::PrismaticY => visitor.visit::<Prismatic<1>>(),
-            Self::PrismaticZ => visitor.visit::<Prismatic<2>>(),
-            Self::ScrewX => visitor.visit::<Screw<0>>(),
-            Self::ScrewY => visitor.visit::<Screw<1>>(),
-            Self::ScrewZ => visitor.visit::<Screw<2>>(),
+            Self::Prismatic => visitor.visit::<Prismatic>(),
+            Self::Screw => visitor.visit::<Screw>(),
             Self::Ball => visitor.visit::<Ball>(),
             Self::Free => visitor.visit::<Free>(),
         }
@@ -193,17 +185,6 @@ impl StageKind {
         }
     }
 
-    /// The coordinate axis of a one-degree-of-freedom stage.
-    #[must_use]
-    pub fn axis(self) -> Option<usize> {
-        match self {
-            Self::RevoluteX | Self::PrismaticX | Self::ScrewX => Some(0),
-            Self::RevoluteY | Self::PrismaticY | Self::ScrewY => Some(1),
-            Self::RevoluteZ | Self::PrismaticZ | Self::ScrewZ => Some(2),
-            Self::Ball | Self::Free => None,
-        }
-    }
-
     /// Whether the link's origin stays where its base frame is.
     #[must_use]
     pub fn is_pure_rotation(self) -> bool {
@@ -213,7 +194,7 @@ impl StageKind {
     /// Whether the (single) coordinate is an angle.
     #[must_use]
     pub fn is_rotational(self) -> bool {
-        !matches!(self, Self::PrismaticX | Self::PrismaticY | Self::PrismaticZ)
+        !matches!(self, Self::Prismatic)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Prismatic joint along coordinate axis `A` of the link frame: S = (0, e_A).
+//! Prismatic joint along any direction n of the link frame: S = (0, n).
 
 use sincro_math::Real;
 
@@ -6,16 +6,16 @@ use super::{Placement, Stage};
 use crate::model::Link;
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
-/// Translation along coordinate axis `A` (0 x, 1 y, 2 z).
-pub struct Prismatic<const A: usize>;
+/// Translation along the link's `axis`. Nothing turns, so that the axis need not be on a coordinate axis.
+pub struct Prismatic;
 
-impl<const A: usize> Stage for Prismatic<A> {
+impl Stage for Prismatic {
     const N_Q: usize = 1;
     const N_V: usize = 1;
 
     #[inline(always)]
     fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>) {
-        at.offset = link.origin + link.base_vector(Vec3::along(A, link.sign * q[0]));
+        at.offset = link.origin + link.axis.scale(q[0]);
     }
 
     #[inline(always)]
@@ -49,17 +49,17 @@ impl<const A: usize> Stage for Prismatic<A> {
     }
 
     #[inline(always)]
-    fn column<R: Real>(_: &Link<R>, _: usize, rate: R) -> Motion<R> {
-        Motion { ang: Vec3::zero(), lin: Vec3::along(A, rate) }
+    fn column<R: Real>(link: &Link<R>, _: usize, rate: R) -> Motion<R> {
+        Motion { ang: Vec3::zero(), lin: link.axis.scale(rate) }
     }
 
     #[inline(always)]
-    fn project<R: Real>(_: &Link<R>, _: usize, f: &Force<R>) -> R {
-        f.lin[A]
+    fn project<R: Real>(link: &Link<R>, _: usize, f: &Force<R>) -> R {
+        link.axis.dot(f.lin)
     }
 
     #[inline(always)]
-    fn inertia_column<R: Real>(_: &Link<R>, _: usize, ia: &ArticulatedInertia<R>) -> Force<R> {
-        Force { ang: ia.coupling.col(A), lin: ia.linear.col(A) }
+    fn inertia_column<R: Real>(link: &Link<R>, _: usize, ia: &ArticulatedInertia<R>) -> Force<R> {
+        Force { ang: ia.coupling.mul_vec(link.axis), lin: ia.linear.mul_vec(link.axis) }
     }
 }

@@ -73,13 +73,12 @@ impl<const A: usize> Stage for Revolute<A> {
     fn inertia_times_bias<R: Real>(ia: &ArticulatedInertia<R>, c: &Motion<R>) -> Force<R> {
         // c = (ω × e_A q̇, v × e_A q̇) has no component along A
         let (b, d) = ((A + 1) % 3, (A + 2) % 3);
-        let (i, h, m) = (&ia.rotational, &ia.coupling, &ia.linear);
-        let ang = |k: usize| {
-            (i.at(k, b) * c.ang[b] + i.at(k, d) * c.ang[d]) + (h.0[k][b] * c.lin[b] + h.0[k][d] * c.lin[d])
-        };
-        let lin = |k: usize| {
-            (h.0[b][k] * c.ang[b] + h.0[d][k] * c.ang[d]) + (m.at(k, b) * c.lin[b] + m.at(k, d) * c.lin[d])
-        };
-        Force { ang: Vec3([ang(0), ang(1), ang(2)]), lin: Vec3([lin(0), lin(1), lin(2)]) }
+        let (i, h, m) = (&ia.rotational, &ia.coupling.0, &ia.linear);
+        let mut f = Force::zero();
+        for k in 0..3 {
+            f.ang[k] = (i.at(k, b) * c.ang[b] + i.at(k, d) * c.ang[d]) + (h[k][b] * c.lin[b] + h[k][d] * c.lin[d]);
+            f.lin[k] = (h[b][k] * c.ang[b] + h[d][k] * c.ang[d]) + (m.at(k, b) * c.lin[b] + m.at(k, d) * c.lin[d]);
+        }
+        f
     }
 }

@@ -1,4 +1,4 @@
-//! Screw joint on coordinate axis `A` of the link frame: S = (e_A, pitch·e_A).
+//! Screw joint on the z axis of the link frame: S = (e_z, pitch·e_z).
 
 use sincro_math::Real;
 
@@ -6,17 +6,20 @@ use super::{Placement, Revolute, Stage};
 use crate::model::Link;
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
-/// Rotation about coordinate axis `A` that advances by the link's pitch [m/rad].
-pub struct Screw<const A: usize>;
+/// Rotation about z that advances by the link's pitch [m/rad].
+pub struct Screw;
 
-impl<const A: usize> Stage for Screw<A> {
+/// Screws are rare: their link frame is turned so that the axis is z.
+const A: usize = 2;
+
+impl Stage for Screw {
     const N_Q: usize = 1;
     const N_V: usize = 1;
 
     #[inline(always)]
     fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>) {
         Revolute::<A>::place(link, q, at);
-        at.offset = link.origin + link.base_vector(Vec3::along(A, link.pitch * (link.sign * q[0])));
+        at.offset = link.origin + link.base_vector(Vec3::along(A, link.pitch * q[0]));
     }
 
     #[inline(always)]

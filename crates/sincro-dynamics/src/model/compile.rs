@@ -180,6 +180,7 @@ impl Compiler<'_> {
             origin: at.pose.pos,
             base_rotation: frame.base_rotation,
             sign: frame.sign,
+            axis: frame.axis,
             pitch: stage.pitch,
             inertia: RigidInertia::zero(),
         });
@@ -262,29 +263,32 @@ struct StageFrame {
     kind: StageKind,
     base_rotation: Mat3<f64>,
     sign: f64,
+    axis: Vec3<f64>,
 }
 
-/// Chooses base axes: parallel to the parent's if the joint axis is on one of them, else with z on the joint axis.
+/// Chooses base axes: parallel to the parent's if that lets the joint be what it is, else with z on the joint axis.
 fn frame_of(stage: &StageSpec, joint_rotation: &Mat3<f64>) -> StageFrame {
-    use StageKind as K;
-    match stage.family {
-        Family::Ball => return StageFrame { kind: K::Ball, base_rotation: *joint_rotation, sign: 1.0 },
-        Family::Free => return StageFrame { kind: K::Free, base_rotation: *joint_rotation, sign: 1.0 },
-        _ => {}
-    }
-    let kinds = match stage.family {
-        Family::Revolute => [K::RevoluteX, K::RevoluteY, K::RevoluteZ],
-        Family::Prismatic => [K::PrismaticX, K::PrismaticY, K::PrismaticZ],
-        _ => [K::ScrewX, K::ScrewY, K::ScrewZ],
-    };
     let n = joint_rotation.mul_vec(Vec3(stage.axis));
     let n = n.scale(1.0 / n.norm());
-    for k in 0..3 {
-        if n[(k + 1) % 3].abs() < ON_AXIS && n[(k + 2) % 3].abs() < ON_AXIS {
-            return StageFrame { kind: kinds[k], base_rotation: Mat3::identity(), sign: n[k].signum() };
+    let frame = |kind, base_rotation| StageFrame { kind, base_rotation, sign: 1.0, axis: n };
+    match stage.family {
+        Family::Ball => frame(StageKind::Ball, *joint_rotation),
+        Family::Free => frame(StageKind::Free, *joint_rotation),
+        Family::Prismatic => frame(StageKind::Prismatic, Mat3::identity()),
+        Family::Screw if on_axis(n, 2) && n[2] > 0.0 => frame(StageKind::Screw, Mat3::identity()),
+        Family::Screw => frame(StageKind::Screw, with_z_along(n)),
+        Family::Revolute => {
+            let kinds = [StageKind::RevoluteX, StageKind::RevoluteY, StageKind::RevoluteZ];
+            match (0..3).find(|&k| on_axis(n, k)) {
+                Some(k) => StageFrame { sign: n[k].signum(), ..frame(kinds[k], Mat3::identity()) },
+                None => frame(StageKind::RevoluteZ, with_z_along(n)),
+            }
         }
     }
-    StageFrame { kind: kinds[2], base_rotation: with_z_along(n), sign: 1.0 }
+}
+
+fn on_axis(n: Vec3<f64>, k: usize) -> bool {
+    n[(k + 1) % 3].abs() < ON_AXIS && n[(k + 2) % 3].abs() < ON_AXIS
 }
 
 /// A rotation whose third column is the unit vector `n`.

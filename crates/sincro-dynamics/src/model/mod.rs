@@ -72,6 +72,8 @@ pub struct Link<R> {
     pub(crate) base_rotation: Mat3<R>,
     /// +1, or −1 where the user's axis points against the coordinate axis: q_stage = sign·q.
     pub(crate) sign: R,
+    /// Direction of a prismatic joint, parent axes.
+    pub(crate) axis: Vec3<R>,
     /// Advance of a screw [m/rad].
     pub(crate) pitch: R,
     /// Of everything merged into the link, about its origin.

@@ -49,6 +49,7 @@ impl<R: Real> Model<R> {
             origin: vec3(&|m| m.links[l].origin),
             base_rotation: mat3(&|m| m.links[l].base_rotation),
             sign: num(&|m| m.links[l].sign),
+            axis: vec3(&|m| m.links[l].axis),
             pitch: num(&|m| m.links[l].pitch),
             inertia: RigidInertia {
                 mass: num(&|m| m.links[l].inertia.mass),

@@ -11,7 +11,8 @@
 
 use sincro_math::Real;
 
-use super::{Force, Mat3, Motion, Sym3, Vec3};
+use super::sym3::{ELEMENTS, Sym3};
+use super::{Force, Mat3, Motion, Vec3};
 
 /// Inertia of a rigid body about the origin of its frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,10 +69,11 @@ impl<R: Real> RigidInertia<R> {
         let h = self.moment;
         let k = h + r.scale(self.mass);
         let diag = r.dot(h + k);
-        let rotational = Sym3::from_fn(|i, j| {
+        let mut rotational = self.rotational;
+        for (e, (i, j)) in ELEMENTS.into_iter().enumerate() {
             let d = if i == j { diag } else { R::zero() };
-            self.rotational.at(i, j) + (d - r[i] * k[j] - h[i] * r[j])
-        });
+            rotational.0[e] += d - r[i] * k[j] - h[i] * r[j];
+        }
         Self { mass: self.mass, moment: k, rotational }
     }
 
@@ -116,11 +118,15 @@ impl<R: Real> ArticulatedInertia<R> {
     /// `self − u·(ku)ᵀ`: what is left when one degree of freedom gives way. `ku` is a multiple of `u`.
     #[inline(always)]
     pub fn minus_outer(&self, u: &Force<R>, ku: &Force<R>) -> Self {
+        let mut coupling = self.coupling;
+        for i in 0..3 {
+            for j in 0..3 {
+                coupling.0[i][j] -= u.ang[i] * ku.lin[j];
+            }
+        }
         Self {
             rotational: self.rotational.minus_outer(u.ang, ku.ang),
-            coupling: Mat3(core::array::from_fn(|i| {
-                core::array::from_fn(|j| self.coupling.0[i][j] - u.ang[i] * ku.lin[j])
-            })),
+            coupling,
             linear: self.linear.minus_outer(u.lin, ku.lin),
         }
     }
@@ -171,19 +177,21 @@ impl<R: Real> ArticulatedInertia<R> {
     #[inline(always)]
     pub fn shifted(&self, r: Vec3<R>) -> Self {
         // G = H + r×M;  I' = I − H r× + r× Gᵀ
-        let m = self.linear.full();
-        let g = Mat3(core::array::from_fn(|i| {
+        let (h, m) = (&self.coupling.0, self.linear.full().0);
+        let mut g = self.coupling;
+        for i in 0..3 {
             let (p, q) = ((i + 1) % 3, (i + 2) % 3);
-            core::array::from_fn(|j| self.coupling.0[i][j] + (r[p] * m.0[q][j] - r[q] * m.0[p][j]))
-        }));
-        let h = &self.coupling;
-        let rotational = Sym3::from_fn(|i, j| {
+            for j in 0..3 {
+                g.0[i][j] += r[p] * m[q][j] - r[q] * m[p][j];
+            }
+        }
+        let mut rotational = self.rotational;
+        for (e, (i, j)) in ELEMENTS.into_iter().enumerate() {
             let (p, q) = ((i + 1) % 3, (i + 2) % 3);
             let (s, t) = ((j + 1) % 3, (j + 2) % 3);
             // (−H r×)_ij = r_s H_it − r_t H_is ;  (r× Gᵀ)_ij = r_p G_jq − r_q G_jp
-            self.rotational.at(i, j)
-                + ((r[s] * h.0[i][t] - r[t] * h.0[i][s]) + (r[p] * g.0[j][q] - r[q] * g.0[j][p]))
-        });
+            rotational.0[e] += (r[s] * h[i][t] - r[t] * h[i][s]) + (r[p] * g.0[j][q] - r[q] * g.0[j][p]);
+        }
         Self { rotational, coupling: g, linear: self.linear }
     }
 

@@ -2,7 +2,8 @@
 
 use sincro_math::Real;
 
-use super::{Sym3, Vec3};
+use super::sym3::{ELEMENTS, Sym3};
+use super::Vec3;
 
 /// A 3×3 matrix by rows. As a rotation `r_ab` it takes components in frame B to components in frame A.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -79,20 +80,36 @@ impl<R: Real> Mat3<R> {
     /// Matrix product `self · b`.
     #[inline(always)]
     pub fn mul(&self, b: &Self) -> Self {
-        Self(core::array::from_fn(|i| core::array::from_fn(|j| self.row(i).dot(b.col(j)))))
+        let mut out = Self::zero();
+        for i in 0..3 {
+            for j in 0..3 {
+                out.0[i][j] = self.row(i).dot(b.col(j));
+            }
+        }
+        out
     }
 
     /// `self + b`.
     #[inline(always)]
     pub fn plus(&self, b: &Self) -> Self {
-        Self(core::array::from_fn(|i| core::array::from_fn(|j| self.0[i][j] + b.0[i][j])))
+        let mut out = *self;
+        for i in 0..3 {
+            for j in 0..3 {
+                out.0[i][j] += b.0[i][j];
+            }
+        }
+        out
     }
 
     /// `self · m · selfᵀ` of a symmetric `m`.
     #[inline(always)]
     pub fn congruence_sym(&self, m: &Sym3<R>) -> Sym3<R> {
-        let t: [Vec3<R>; 3] = core::array::from_fn(|i| m.mul_vec(self.row(i)));
-        Sym3::from_fn(|i, j| t[i].dot(self.row(j)))
+        let t = [m.mul_vec(self.row(0)), m.mul_vec(self.row(1)), m.mul_vec(self.row(2))];
+        let mut out = Sym3::zero();
+        for (k, (i, j)) in ELEMENTS.into_iter().enumerate() {
+            out.0[k] = t[i].dot(self.row(j));
+        }
+        out
     }
 
     /// `self · m · selfᵀ`.

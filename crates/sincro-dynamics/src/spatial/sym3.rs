@@ -11,6 +11,9 @@ pub struct Sym3<R>(pub [R; 6]);
 /// Where element (i, j) stands in the packed triangle.
 const PACKED: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
+/// The element at each place of the packed triangle.
+pub(super) const ELEMENTS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
 impl<R: Real> Sym3<R> {
     /// The null matrix.
     #[inline(always)]
@@ -69,19 +72,21 @@ impl<R: Real> Sym3<R> {
     /// `self + b`.
     #[inline(always)]
     pub fn plus(&self, b: &Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k] + b.0[k]))
-    }
-
-    /// `self − b`.
-    #[inline(always)]
-    pub fn minus(&self, b: &Self) -> Self {
-        Self(core::array::from_fn(|k| self.0[k] - b.0[k]))
+        let mut out = *self;
+        for k in 0..6 {
+            out.0[k] += b.0[k];
+        }
+        out
     }
 
     /// `self − k·a·bᵀ` where `k·a·bᵀ` is symmetric (b parallel to a).
     #[inline(always)]
     pub fn minus_outer(&self, a: Vec3<R>, b: Vec3<R>) -> Self {
-        Self::from_fn(|i, j| self.at(i, j) - a[i] * b[j])
+        let mut out = *self;
+        for (k, (i, j)) in ELEMENTS.into_iter().enumerate() {
+            out.0[k] -= a[i] * b[j];
+        }
+        out
     }
 
     /// Rotation about axis `A`: `E·self·Eᵀ`, where `E` turns by the angle with this sine and cosine.

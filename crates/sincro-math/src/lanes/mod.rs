@@ -23,7 +23,7 @@ pub trait LaneVisitor {
     fn visit<R: Real>(self) -> Self::Output;
 }
 
-/// Runs `visitor` on the widest lanes of this processor.
+/// Runs `visitor` on the widest lanes of this processor; on one without lanes of ours, on `f64`.
 #[inline]
 pub fn dispatch_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
     #[cfg(target_arch = "x86_64")]
@@ -32,17 +32,16 @@ pub fn dispatch_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
         x86::Level::Avx2 => return x86::lanes_avx2(visitor),
         x86::Level::Baseline => {}
     }
-    visitor.visit::<Lanes<4>>()
+    visitor.visit::<f64>()
 }
 
-/// Runs `visitor` on `f64`, compiled for the best instruction set of this processor.
+/// Runs `visitor` on `f64`, with the thirty-two registers of AVX-512 where there are (AVX2 alone brings a scalar nothing).
 #[inline]
 pub fn dispatch_scalar<V: LaneVisitor>(visitor: V) -> V::Output {
     #[cfg(target_arch = "x86_64")]
     match x86::level() {
         x86::Level::Avx512 => return x86::scalar_avx512(visitor),
-        x86::Level::Avx2 => return x86::scalar_avx2(visitor),
-        x86::Level::Baseline => {}
+        x86::Level::Avx2 | x86::Level::Baseline => {}
     }
     visitor.visit::<f64>()
 }

@@ -68,17 +68,6 @@ pub(super) fn scalar_avx512<V: LaneVisitor>(visitor: V) -> V::Output {
     unsafe { run(visitor) }
 }
 
-#[inline]
-pub(super) fn scalar_avx2<V: LaneVisitor>(visitor: V) -> V::Output {
-    #[target_feature(enable = "avx2")]
-    fn run<V: LaneVisitor>(visitor: V) -> V::Output {
-        visitor.visit::<f64>()
-    }
-    assert_ne!(level(), Level::Baseline);
-    // SAFETY: the instruction set is there
-    unsafe { run(visitor) }
-}
-
 /// The trait implementations that two vector types share; `$op` are the intrinsics by name.
 macro_rules! lanes {
     ($name:ident, $vector:ty, $n:literal, $doc:literal, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $set1:ident,

@@ -1,0 +1,260 @@
+//! What is wrong with the files of a scene, and where: one type for every reader, from TOML syntax to physics.
+//!
+//! A [`Problem`] points at bytes of a [`SourceText`]; [`Problems`] are all that were found, in the order of the files. The
+//! plain rendering is here; the command line draws prettier ones from the same data.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+pub use sincro_dynamics::model::Severity;
+
+/// A text that positions refer to: a file, or what stood after `--set`.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SourceText {
+    /// The file as it is shown to the user.
+    pub path: PathBuf,
+    /// Its whole text.
+    pub text: String,
+}
+
+impl SourceText {
+    /// Line and column of a byte, both counted from 1, columns in characters. A byte beyond the end is the end.
+    #[must_use]
+    pub fn line_column(&self, byte: usize) -> (usize, usize) {
+        let mut byte = byte.min(self.text.len());
+        while !self.text.is_char_boundary(byte) {
+            byte -= 1;
+        }
+        let before = &self.text[..byte];
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        (1 + before.matches('\n').count(), 1 + before[line_start..].chars().count())
+    }
+}
+
+/// A stretch of a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Location {
+    /// The text.
+    pub source: Arc<SourceText>,
+    /// Bytes of it.
+    pub span: Range<usize>,
+}
+
+impl Location {
+    /// Line and column of its first character, counted from 1.
+    #[must_use]
+    pub fn line_column(&self) -> (usize, usize) {
+        self.source.line_column(self.span.start)
+    }
+
+    /// The text it covers.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.source.text.get(self.span.clone()).unwrap_or("")
+    }
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (line, column) = self.line_column();
+        write!(f, "{}:{line}:{column}", self.source.path.display())
+    }
+}
+
+/// A value and where it was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// Where it was written.
+    pub at: Location,
+}
+
+/// One finding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Error or warning.
+    pub severity: Severity,
+    /// The text it is about, none where there is no text (a folder that does not exist).
+    pub source: Option<Arc<SourceText>>,
+    /// The bytes it is about, none where the whole text is meant.
+    pub span: Option<Range<usize>>,
+    /// What is wrong: lower case, names in backticks, the value as it was found.
+    pub message: String,
+    /// How to mend it, where that is known.
+    pub help: Option<String>,
+}
+
+impl Problem {
+    /// An error at a place.
+    #[must_use]
+    pub fn error(at: &Location, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Error,
+            source: Some(at.source.clone()),
+            span: Some(at.span.clone()),
+            message: message.into(),
+            help: None,
+        }
+    }
+
+    /// An error that no text can be shown for.
+    #[must_use]
+    pub fn nowhere(message: impl Into<String>) -> Self {
+        Self { severity: Severity::Error, source: None, span: None, message: message.into(), help: None }
+    }
+
+    /// The same as a warning.
+    #[must_use]
+    pub fn as_warning(self) -> Self {
+        Self { severity: Severity::Warning, ..self }
+    }
+
+    /// The same with a way to mend it.
+    #[must_use]
+    pub fn with_help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+
+    /// Line and column of the first character it is about, counted from 1.
+    #[must_use]
+    pub fn line_column(&self) -> Option<(usize, usize)> {
+        let source = self.source.as_ref()?;
+        Some(source.line_column(self.span.as_ref()?.start))
+    }
+
+    /// Whether it is an error.
+    #[must_use]
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(source) = &self.source {
+            write!(f, "{}:", source.path.display())?;
+            if let Some((line, column)) = self.line_column() {
+                write!(f, "{line}:{column}:")?;
+            }
+            f.write_str(" ")?;
+        }
+        let severity = if self.is_error() { "error" } else { "warning" };
+        write!(f, "{severity}: {}", self.message)?;
+        match &self.help {
+            Some(help) => write!(f, "\n  help: {help}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Everything that was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Problems(pub Vec<Problem>);
+
+impl Problems {
+    /// Nothing found.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds one.
+    pub fn push(&mut self, problem: Problem) {
+        self.0.push(problem);
+    }
+
+    /// Adds all of another's that are not among these already.
+    pub fn merge(&mut self, other: Self) {
+        for problem in other.0 {
+            if !self.0.contains(&problem) {
+                self.0.push(problem);
+            }
+        }
+    }
+
+    /// Whether there is an error among them.
+    #[must_use]
+    pub fn any_error(&self) -> bool {
+        self.0.iter().any(Problem::is_error)
+    }
+
+    /// In the order of the texts, file by file in the order in which they were first met.
+    #[must_use]
+    pub fn sorted(mut self) -> Self {
+        let mut files: Vec<Option<PathBuf>> = Vec::new();
+        let rank = |problem: &Problem, files: &mut Vec<Option<PathBuf>>| {
+            let path = problem.source.as_ref().map(|s| s.path.clone());
+            files.iter().position(|known| *known == path).unwrap_or_else(|| {
+                files.push(path);
+                files.len() - 1
+            })
+        };
+        let mut keyed: Vec<_> = self
+            .0
+            .drain(..)
+            .map(|p| (rank(&p, &mut files), p.span.as_ref().map_or(0, |s| s.start), p))
+            .collect();
+        keyed.sort_by_key(|(file, byte, _)| (*file, *byte));
+        Self(keyed.into_iter().map(|(_, _, p)| p).collect())
+    }
+}
+
+impl From<Problem> for Problems {
+    fn from(problem: Problem) -> Self {
+        Self(vec![problem])
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, problem) in self.0.iter().enumerate() {
+            let separator = if k == 0 { "" } else { "\n" };
+            write!(f, "{separator}{problem}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problems {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str, span: Range<usize>) -> Location {
+        Location { source: Arc::new(SourceText { path: "a.toml".into(), text: text.into() }), span }
+    }
+
+    #[test]
+    fn columns_count_characters_and_lines_count_from_one() {
+        let place = at("é = 1\nmass° = 2\n", 15..16);
+        assert_eq!(place.text(), "2");
+        assert_eq!(place.to_string(), "a.toml:2:9");
+        assert_eq!(place.source.line_column(usize::MAX), (3, 1));
+        assert_eq!(place.source.line_column(1), (1, 1), "inside a character is at it");
+    }
+
+    #[test]
+    fn problems_read_well_without_colour() {
+        let place = at("step = 0\n", 7..8);
+        let problem = Problem::error(&place, "`step` is 0").with_help("give a positive number");
+        let problems = Problems(vec![problem.clone(), problem.as_warning()]);
+        assert_eq!(
+            problems.to_string(),
+            "a.toml:1:8: error: `step` is 0\n  help: give a positive number\na.toml:1:8: warning: `step` is 0\n  help: \
+             give a positive number"
+        );
+    }
+
+    #[test]
+    fn sorting_keeps_files_apart() {
+        let (b, a) = (at("123", 2..3), at("123", 0..1));
+        let other = Location { source: Arc::new(SourceText { path: "b.toml".into(), text: "x".into() }), span: 0..1 };
+        let problems = Problems(vec![Problem::error(&b, "1"), Problem::error(&other, "2"), Problem::error(&a, "3")]);
+        let order: Vec<String> = problems.sorted().0.into_iter().map(|p| p.message).collect();
+        assert_eq!(order, ["3", "1", "2"]);
+    }
+}
