@@ -50,9 +50,8 @@ fn inverse_dynamics_undoes_forward_dynamics() {
     for mut c in cases(1) {
         let n = c.model.n_v();
         let torque: Vec<f64> = (0..n).map(|_| 5.0 * c.r.unit()).collect();
-        let external: Vec<Force<f64>> = (0..c.model.links().len())
-            .map(|_| Force { ang: Vec3(c.r.vector()), lin: Vec3(c.r.vector()) })
-            .collect();
+        let external: Vec<Force<f64>> =
+            (0..c.model.links().len()).map(|_| Force { ang: Vec3(c.r.vector()), lin: Vec3(c.r.vector()) }).collect();
         let diagonal = armature(&c.model);
         let input = Input {
             q: &c.x.q,
@@ -85,15 +84,8 @@ fn a_held_joint_has_its_acceleration_and_names_the_torque_for_it() {
         let acceleration: Vec<f64> = (0..n).map(|_| c.r.unit()).collect();
         let diagonal = armature(&c.model);
         let held = Some(Held { mask: &mask, acceleration: &acceleration });
-        let input = Input {
-            q: &c.x.q,
-            v: &c.x.v,
-            torque: &torque,
-            diagonal: &diagonal,
-            held,
-            external: None,
-            gravity: true,
-        };
+        let input =
+            Input { q: &c.x.q, v: &c.x.v, torque: &torque, diagonal: &diagonal, held, external: None, gravity: true };
         let mut v_dot = vec![0.0; n];
         forward_dynamics(&c.model, &input, &mut c.scratch, &mut v_dot);
         let reaction = c.scratch.reaction().to_vec();

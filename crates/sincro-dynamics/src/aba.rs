@@ -15,7 +15,7 @@
 //! | `ia`, `pa` | articulated inertia, bias force | Iᴬ, pᴬ |
 //! | `u`, `d`, `force` | IA·S, SᵀIA·S + diagonal, τ − Sᵀ(pA + IA·c) | U, D, u |
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use crate::joint::{Stage, StageVisitor};
 use crate::model::{Link, Model, WORLD};
@@ -56,9 +56,25 @@ pub struct Held<'a, R> {
 /// Afterwards [`Scratch::reaction`] has the torque that each held degree of freedom needed.
 #[inline(always)]
 pub fn forward_dynamics<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>, v_dot: &mut [R]) {
-    velocities_base_to_tip(model, input, scratch);
-    inertias_tip_to_base(model, input, scratch);
-    accelerations_base_to_tip(model, input, scratch, v_dot);
+    R::run_hot(ForwardDynamics { model, input, scratch, v_dot });
+}
+
+struct ForwardDynamics<'a, R> {
+    model: &'a Model<R>,
+    input: &'a Input<'a, R>,
+    scratch: &'a mut Scratch<R>,
+    v_dot: &'a mut [R],
+}
+
+impl<R: Real> Task for ForwardDynamics<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        velocities_base_to_tip(self.model, self.input, self.scratch);
+        inertias_tip_to_base(self.model, self.input, self.scratch);
+        accelerations_base_to_tip(self.model, self.input, self.scratch, self.v_dot);
+    }
 }
 
 #[inline(always)]

@@ -42,9 +42,7 @@ impl Drive {
     pub(crate) fn wanted<R: Real>(&self, model: &Model<R>, q: &[R], commands: &[R]) -> R {
         match self.kind {
             DriveKind::Friction => R::zero(),
-            DriveKind::Motor(i) => {
-                model.motors[i].wanted_velocity(q[model.dofs[self.dof].q_idx as usize], commands[i])
-            }
+            DriveKind::Motor(i) => model.motors[i].wanted_velocity(q[model.dofs[self.dof].q_idx as usize], commands[i]),
         }
     }
 }

@@ -12,6 +12,7 @@
 //! | poses, velocities, Jacobians | [`kinematics`] |
 //! | energies and momentum | [`energy`] |
 //! | springs, dampers, friction, motors | [`force`] |
+//! | a world that advances | [`integrate`], [`world`] |
 //!
 //! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
 //! clocks, threads or logs in this crate.
@@ -21,11 +22,14 @@ pub mod crba;
 pub mod drive;
 pub mod energy;
 pub mod force;
+pub mod integrate;
 pub mod joint;
 pub mod kinematics;
+pub mod mechanism;
 pub mod model;
 pub mod rnea;
 pub mod scratch;
 pub mod signal;
 pub mod spatial;
 pub mod state;
+pub mod world;

@@ -3,7 +3,7 @@
 //! Recursive Newton–Euler algorithm. Source: key `featherstone2008`, section 5.3, table 5.1. Gravity enters as an upward
 //! acceleration of the base. Cost: linear in the number of links.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use crate::aba::joint_motion;
 use crate::joint::{Stage, StageVisitor};
@@ -24,22 +24,42 @@ pub fn inverse_dynamics<R: Real>(
     scratch: &mut Scratch<R>,
     torque: &mut [R],
 ) {
-    let base = (Motion::zero(), Motion { ang: Vec3::zero(), lin: -model.gravity });
-    for i in 0..model.links.len() {
-        let link = &model.links[i];
-        let (done, rest) = scratch.links.split_at_mut(i);
-        let parent = (link.parent != WORLD).then(|| &done[link.parent as usize]);
-        let parent = parent.map_or((&base.0, &base.1), |p| (&p.v, &p.a));
-        link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
-        if let Some(external) = external {
-            rest[0].pa -= external[i];
+    R::run_hot(InverseDynamics { model, q, v, v_dot, external, scratch, torque });
+}
+
+struct InverseDynamics<'a, R> {
+    model: &'a Model<R>,
+    q: &'a [R],
+    v: &'a [R],
+    v_dot: &'a [R],
+    external: Option<&'a [Force<R>]>,
+    scratch: &'a mut Scratch<R>,
+    torque: &'a mut [R],
+}
+
+impl<R: Real> Task for InverseDynamics<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { model, q, v, v_dot, external, scratch, torque } = self;
+        let base = (Motion::zero(), Motion { ang: Vec3::zero(), lin: -model.gravity });
+        for i in 0..model.links.len() {
+            let link = &model.links[i];
+            let (done, rest) = scratch.links.split_at_mut(i);
+            let parent = (link.parent != WORLD).then(|| &done[link.parent as usize]);
+            let parent = parent.map_or((&base.0, &base.1), |p| (&p.v, &p.a));
+            link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
+            if let Some(external) = external {
+                rest[0].pa -= external[i];
+            }
         }
-    }
-    for i in (0..model.links.len()).rev() {
-        let link = &model.links[i];
-        let (done, rest) = scratch.links.split_at_mut(i);
-        let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize].pa);
-        link.kind.dispatch(Inward { link, this: &rest[0], parent, torque: &mut torque[link.v_idx as usize..] });
+        for i in (0..model.links.len()).rev() {
+            let link = &model.links[i];
+            let (done, rest) = scratch.links.split_at_mut(i);
+            let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize].pa);
+            link.kind.dispatch(Inward { link, this: &rest[0], parent, torque: &mut torque[link.v_idx as usize..] });
+        }
     }
 }
 

@@ -71,10 +71,7 @@ impl<R: Real> Scratch<R> {
     /// Bytes on the heap.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        size_of_val(&*self.links)
-            + size_of_val(&*self.dofs)
-            + size_of_val(&*self.poses)
-            + size_of_val(&*self.reaction)
+        size_of_val(&*self.links) + size_of_val(&*self.dofs) + size_of_val(&*self.poses) + size_of_val(&*self.reaction)
     }
 
     /// Poses of the link frames in the world, as last computed by [`crate::kinematics::poses`].

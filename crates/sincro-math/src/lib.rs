@@ -22,4 +22,4 @@ mod real;
 
 pub use dual::Dual;
 pub use lanes::{LaneVisitor, Lanes};
-pub use real::Real;
+pub use real::{Real, Task};

@@ -1,1 +1,4 @@
 //! Scene files and the run.
+
+pub mod experiment;
+pub mod problem;

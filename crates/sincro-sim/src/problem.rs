@@ -192,11 +192,8 @@ impl Problems {
                 files.len() - 1
             })
         };
-        let mut keyed: Vec<_> = self
-            .0
-            .drain(..)
-            .map(|p| (rank(&p, &mut files), p.span.as_ref().map_or(0, |s| s.start), p))
-            .collect();
+        let mut keyed: Vec<_> =
+            self.0.drain(..).map(|p| (rank(&p, &mut files), p.span.as_ref().map_or(0, |s| s.start), p)).collect();
         keyed.sort_by_key(|(file, byte, _)| (*file, *byte));
         Self(keyed.into_iter().map(|(_, _, p)| p).collect())
     }

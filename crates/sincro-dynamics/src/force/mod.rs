@@ -37,12 +37,7 @@ pub(crate) struct Instant<'a, R> {
 
 /// Sums the torques of all joint elements into `torque` and the diagonal (armature and implicit terms) into `diagonal`.
 #[inline(always)]
-pub(crate) fn joint_torques<R: Real>(
-    model: &Model<R>,
-    at: &Instant<'_, R>,
-    torque: &mut [R],
-    diagonal: &mut [R],
-) {
+pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &Instant<'_, R>, torque: &mut [R], diagonal: &mut [R]) {
     let h = R::splat(at.implicit_step.unwrap_or(0.0));
     for (k, dof) in model.dofs.iter().enumerate() {
         let v = at.v[k];

@@ -111,7 +111,8 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
             found.error(id, field, message, help);
         }
     }
-    let finite_and_not_negative = [("armature", &spec.armature), ("damping", &spec.damping), ("friction", &spec.friction)];
+    let finite_and_not_negative =
+        [("armature", &spec.armature), ("damping", &spec.damping), ("friction", &spec.friction)];
     for (field, list) in finite_and_not_negative {
         for x in list.iter().filter(|x| !(x.is_finite() && **x >= 0.0)) {
             found.error(id, field, format!("{field} {x} of `{name}` is negative or not finite"), "give zero or more");

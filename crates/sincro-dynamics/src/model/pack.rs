@@ -76,10 +76,8 @@ impl<R: Real> Model<R> {
             damping: num(&|m| m.motors[i].damping),
         });
         let lanes = |f: &dyn Fn(&Model<f64>) -> crate::signal::Signal| (0..R::LANES).map(|k| f(of(k))).collect();
-        let applied = (0..first.applied.len()).map(|i| AppliedTorque {
-            dof: first.applied[i].dof,
-            signal: lanes(&|m| m.applied[i].signal[0].clone()),
-        });
+        let applied = (0..first.applied.len())
+            .map(|i| AppliedTorque { dof: first.applied[i].dof, signal: lanes(&|m| m.applied[i].signal[0].clone()) });
         let wrenches = (0..first.wrenches.len()).map(|i| AppliedWrench {
             link: first.wrenches[i].link,
             in_body: first.wrenches[i].in_body,

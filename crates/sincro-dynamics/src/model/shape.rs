@@ -80,9 +80,7 @@ impl Shape {
             }
             Self::Sphere { radius: r } => (0.4 * mass * r * r, 0.4 * mass * r * r),
             Self::Cylinder { radius: r, length: l } => (mass * (l * l / 12.0 + r * r / 4.0), 0.5 * mass * r * r),
-            Self::Cone { radius: r, length: l } => {
-                (mass * (0.15 * r * r + 3.0 / 80.0 * l * l), 0.3 * mass * r * r)
-            }
+            Self::Cone { radius: r, length: l } => (mass * (0.15 * r * r + 3.0 / 80.0 * l * l), 0.3 * mass * r * r),
             Self::Capsule { radius: r, length: l } => capsule_moments(density, r, l),
         };
         MassProperties { mass, center_of_mass: [0.0; 3], inertia: [transverse, 0.0, 0.0, transverse, 0.0, axial] }

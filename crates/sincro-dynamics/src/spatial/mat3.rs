@@ -2,8 +2,8 @@
 
 use sincro_math::Real;
 
-use super::sym3::{ELEMENTS, Sym3};
 use super::Vec3;
+use super::sym3::{ELEMENTS, Sym3};
 
 /// A 3×3 matrix by rows. As a rotation `r_ab` it takes components in frame B to components in frame A.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -42,9 +42,13 @@ impl<R: Real> Quat<R> {
         let a = small.if_less(square, square, R::one()).sqrt();
         let (sin, cos) = a.sin_cos();
         let sinc_series = R::one()
-            - square * R::splat(1.0 / 6.0) * (R::one() - square * R::splat(0.05) * (R::one() - square * R::splat(1.0 / 42.0)));
+            - square
+                * R::splat(1.0 / 6.0)
+                * (R::one() - square * R::splat(0.05) * (R::one() - square * R::splat(1.0 / 42.0)));
         let cos_series = R::one()
-            - square * R::splat(0.5) * (R::one() - square * R::splat(1.0 / 12.0) * (R::one() - square * R::splat(1.0 / 30.0)));
+            - square
+                * R::splat(0.5)
+                * (R::one() - square * R::splat(1.0 / 12.0) * (R::one() - square * R::splat(1.0 / 30.0)));
         let sinc = small.if_less(square, sin / a, sinc_series);
         let w = small.if_less(square, cos, cos_series);
         Self { w, xyz: half.scale(sinc) }

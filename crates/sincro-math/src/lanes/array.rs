@@ -5,8 +5,8 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::elementary::{self, Bits};
 use crate::Real;
+use crate::elementary::{self, Bits};
 
 /// `N` numbers, one a world.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Several worlds side by side in the lanes of vector registers.
 //!
 //! A computation that wants lanes is a [`LaneVisitor`]: generic over the number type, all of it `#[inline(always)]`.
-//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has;
-//! [`dispatch_scalar`] does the same for a single world, which gains registers. A portable binary so gets vector speed.
+//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has. A portable binary
+//! so gets vector speed.
 //!
 //! The vector types are not nameable outside: whoever holds one has come through the dispatch, on a processor that has it.
 
@@ -13,6 +13,7 @@ mod x86;
 pub use array::Lanes;
 
 use crate::Real;
+use crate::real::Task;
 
 /// A computation over any kind of number. `visit` must be `#[inline(always)]`, and so must be everything it calls.
 pub trait LaneVisitor {
@@ -35,15 +36,14 @@ pub fn dispatch_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
     visitor.visit::<f64>()
 }
 
-/// Runs `visitor` on `f64`, with the thirty-two registers of AVX-512 where there are (AVX2 alone brings a scalar nothing).
+/// Runs `task` compiled for the thirty-two registers of AVX-512 where there are (AVX2 alone brings a scalar nothing).
 #[inline]
-pub fn dispatch_scalar<V: LaneVisitor>(visitor: V) -> V::Output {
+pub(crate) fn run_scalar<T: Task>(task: T) -> T::Output {
     #[cfg(target_arch = "x86_64")]
-    match x86::level() {
-        x86::Level::Avx512 => return x86::scalar_avx512(visitor),
-        x86::Level::Avx2 | x86::Level::Baseline => {}
+    if x86::level() == x86::Level::Avx512 {
+        return x86::scalar_avx512(task);
     }
-    visitor.visit::<f64>()
+    task.run()
 }
 
 /// Number of lanes that [`dispatch_lanes`] runs on this processor.
@@ -116,6 +116,14 @@ mod tests {
         for k in 0..width() {
             assert_eq!(of_lane(&reference, k as f64), of_lane(&lanes, k as f64));
         }
-        assert_eq!(of_lane(&reference, 0.0), of_lane(&dispatch_scalar(Everything), 0.0));
+        struct Scalar;
+        impl Task for Scalar {
+            type Output = Vec<(f64, f64)>;
+            #[inline(always)]
+            fn run(self) -> Self::Output {
+                Everything.visit::<f64>()
+            }
+        }
+        assert_eq!(of_lane(&reference, 0.0), of_lane(&run_scalar(Scalar), 0.0));
     }
 }

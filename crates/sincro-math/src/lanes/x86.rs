@@ -11,6 +11,7 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 use super::LaneVisitor;
 use crate::Real;
 use crate::elementary::{self, Bits};
+use crate::real::Task;
 
 /// What this processor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,14 +59,14 @@ pub(super) fn lanes_avx2<V: LaneVisitor>(visitor: V) -> V::Output {
 }
 
 #[inline]
-pub(super) fn scalar_avx512<V: LaneVisitor>(visitor: V) -> V::Output {
+pub(super) fn scalar_avx512<T: Task>(task: T) -> T::Output {
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-    fn run<V: LaneVisitor>(visitor: V) -> V::Output {
-        visitor.visit::<f64>()
+    fn run<T: Task>(task: T) -> T::Output {
+        task.run()
     }
-    assert_eq!(level(), Level::Avx512);
-    // SAFETY: the instruction set is there
-    unsafe { run(visitor) }
+    debug_assert_eq!(level(), Level::Avx512);
+    // SAFETY: the caller has found the instruction set
+    unsafe { run(task) }
 }
 
 /// The trait implementations that two vector types share; `$op` are the intrinsics by name.

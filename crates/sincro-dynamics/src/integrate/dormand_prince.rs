@@ -1,0 +1,92 @@
+//! Dormand–Prince 5(4): explicit, error-controlled, the field's workhorse for smooth problems.
+//!
+//! Source: key `hairer1993`, section II.5, table 5.2; step size control by proportional–integral feedback, section II.4 and
+//! key `hairer1996`, section IV.2 (β = 0.04). The last stage could be the next step's first; here it
+//! is evaluated again, because motors may have new commands and a snapshot should hold no slopes.
+
+use super::{Control, Failure, System, power, too_small};
+
+const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
+const A: [&[f64]; 7] = [
+    &[],
+    &[0.2],
+    &[3.0 / 40.0, 9.0 / 40.0],
+    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
+    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+    &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+/// Fifth-order minus fourth-order weights.
+const E: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
+/// Integral part of the step-size controller.
+const BETA: f64 = 0.04;
+
+/// The method, its step-size control and its working memory.
+#[derive(Clone, Debug)]
+pub struct DormandPrince {
+    /// Tolerance and next step.
+    pub control: Control,
+    k: [Vec<f64>; 7],
+    stage: Vec<f64>,
+    error: Vec<f64>,
+}
+
+impl DormandPrince {
+    /// For systems of `dim` unknowns.
+    #[must_use]
+    pub fn new(dim: usize, control: Control) -> Self {
+        let zero = vec![0.0; dim];
+        Self { control, k: std::array::from_fn(|_| zero.clone()), stage: zero.clone(), error: zero }
+    }
+
+    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and after.
+    ///
+    /// # Errors
+    ///
+    /// When no step is small enough.
+    pub fn step<S: System<f64>>(&mut self, system: &mut S, t: f64, h_max: f64, y: &mut [f64]) -> Result<f64, Failure> {
+        loop {
+            let h = self.control.h.min(h_max);
+            self.stages(system, t, h, y);
+            let share = self.control.share(system, &self.stage, &self.error);
+            if share <= 1.0 {
+                let factor = 0.9 * power(share.max(1e-10), -(0.2 - 0.75 * BETA)) * power(self.control.last_error, BETA);
+                // a step cut short by the tick says little about the next one
+                let grown = h * factor.clamp(0.2, 5.0);
+                self.control.h = if h < self.control.h { self.control.h.max(grown) } else { grown };
+                self.control.last_error = share.max(1e-4);
+                y.copy_from_slice(&self.stage);
+                system.rechart(y);
+                return Ok(h);
+            }
+            let factor = if share.is_finite() { 0.9 * power(share, -0.2) } else { 0.1 };
+            self.control.h = h * factor.clamp(0.1, 0.9);
+            if too_small(t, self.control.h) {
+                let h = self.control.h;
+                return Err(if share.is_finite() { Failure::StepTooSmall { t, h } } else { Failure::NotFinite { t } });
+            }
+        }
+    }
+
+    /// All stages; the new y is left in `stage`, the error estimate in `error`.
+    fn stages<S: System<f64>>(&mut self, system: &mut S, t: f64, h: f64, y: &[f64]) {
+        for s in 0..7 {
+            let (done, rest) = self.k.split_at_mut(s);
+            self.stage.copy_from_slice(y);
+            for (k, a) in done.iter().zip(A[s]) {
+                for i in 0..y.len() {
+                    self.stage[i] += (h * a) * k[i];
+                }
+            }
+            system.slope(t + C[s] * h, &self.stage, &mut rest[0]);
+        }
+        for i in 0..y.len() {
+            let mut sum = 0.0;
+            for (k, e) in self.k.iter().zip(E) {
+                sum += e * k[i];
+            }
+            self.error[i] = h * sum;
+        }
+    }
+}

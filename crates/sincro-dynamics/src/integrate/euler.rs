@@ -1,0 +1,33 @@
+//! Semi-implicit Euler: new velocity from forces at the old state, new position from the new velocity; joint springs and dampers
+//! at the end of the step. Order 1.
+//!
+//! v⁺ = v + h (M + h D + h² K)⁻¹ (τ(q + h v, v)),  q⁺ = q ⊕ h v⁺.
+
+use sincro_math::Real;
+
+use super::{FixedStep, System};
+
+/// The method and its working memory.
+#[derive(Clone, Debug)]
+pub struct SemiImplicitEuler<R> {
+    slope: Vec<R>,
+}
+
+impl<R: Real> SemiImplicitEuler<R> {
+    /// For systems of `dim` unknowns.
+    #[must_use]
+    pub fn new(dim: usize) -> Self {
+        Self { slope: vec![R::zero(); dim] }
+    }
+}
+
+impl<R: Real> FixedStep<R> for SemiImplicitEuler<R> {
+    #[inline(always)]
+    fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]) {
+        system.implicit_slope(t, h, y, &mut self.slope);
+        for (y, k) in y.iter_mut().zip(&self.slope) {
+            *y += R::splat(h) * *k;
+        }
+        system.rechart(y);
+    }
+}

@@ -1,0 +1,122 @@
+//! Integrators: from one instant to another.
+//!
+//! An integrator knows nothing of joints. It advances a vector y in the chart that a [`System`] lays at the start of each step, so
+//! that a quaternion is three numbers like any others and stays a unit quaternion exactly; and it works on lanes as on one
+//! world.
+//!
+//! | name | order | for |
+//! |---|---|---|
+//! | [`SemiImplicitEuler`] | 1 | what most engines do; joint damping is implicit |
+//! | [`Rk4`] | 4 | smooth mechanisms at a fixed step |
+//! | [`Extrapolated`], two rows | 2 | fixed step, stable for any stiffness and damping of joints |
+//! | [`DormandPrince`] | 5(4) | smooth mechanisms, error control |
+//! | [`Extrapolated`], with [`Extrapolated::control`] | 2…8 | stiff mechanisms, error control |
+
+mod dormand_prince;
+mod euler;
+mod extrapolated;
+mod rk4;
+
+pub use dormand_prince::DormandPrince;
+pub use euler::SemiImplicitEuler;
+pub use extrapolated::Extrapolated;
+pub use rk4::Rk4;
+
+use sincro_math::Real;
+
+/// What can be integrated: dy/dt = f(t, y) in local coordinates.
+pub trait System<R: Real> {
+    /// Length of y.
+    fn dim(&self) -> usize;
+
+    /// How many leading entries of y take part in error control; the rest are quadratures that nothing depends on.
+    fn n_controlled(&self) -> usize;
+
+    /// `slope = f(t, y)`.
+    fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]);
+
+    /// One linearly implicit Euler step of length `h` from `y`: `slope` such that the new y is `y + h·slope`. Its dependence on
+    /// h is smooth, which extrapolation lives on; stiff terms are taken at the new state.
+    fn implicit_slope(&mut self, t: f64, h: f64, y: &[R], slope: &mut [R]);
+
+    /// Lays a new chart at `y`, after which the same state is described by what `y` then holds.
+    fn rechart(&mut self, y: &mut [R]);
+
+    /// Typical magnitude of each controlled entry, for relative errors: the state's own, not the chart's.
+    fn magnitude(&self, y: &[R], k: usize) -> f64;
+}
+
+/// A fixed-step method: y is in a fresh chart before and after.
+pub trait FixedStep<R: Real> {
+    /// Advances `y` from `t` by `h`.
+    fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]);
+}
+
+/// Why a step could not be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Failure {
+    /// The state stopped being finite.
+    NotFinite {
+        /// Where it happened [s].
+        t: f64,
+    },
+    /// Error control asked for a step too small to advance time.
+    StepTooSmall {
+        /// Where it happened [s].
+        t: f64,
+        /// The step it asked for [s].
+        h: f64,
+    },
+}
+
+/// What error-controlled methods share: the tolerance and the proposed next step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Local error allowed in a step, relative to max(|y|, 1).
+    pub accuracy: f64,
+    /// Next step [s]; part of the state of a run.
+    pub h: f64,
+    /// Error estimate of the last accepted step as a share of the tolerance.
+    pub last_error: f64,
+}
+
+impl Control {
+    /// With a first step of `h` [s].
+    #[must_use]
+    pub fn new(accuracy: f64, h: f64) -> Self {
+        Self { accuracy, h, last_error: 1.0 }
+    }
+
+    /// Largest error over the controlled entries as a share of the tolerance; infinite if any is not finite.
+    fn share<R: Real, S: System<R>>(&self, system: &S, y: &[R], error: &[R]) -> f64 {
+        let mut worst = 0.0_f64;
+        for k in 0..system.n_controlled() {
+            let share = error[k].lane(0).abs() / (self.accuracy * system.magnitude(y, k).max(1.0));
+            // a NaN must not pass for a small error
+            worst = if share.is_nan() { f64::INFINITY } else { worst.max(share) };
+        }
+        worst
+    }
+}
+
+/// Smallest step in units of rounding of the time itself.
+fn too_small(t: f64, h: f64) -> bool {
+    h < 16.0 * f64::EPSILON * t.abs().max(1e-3)
+}
+
+/// `out = y + h · Σ c_i k_i`.
+#[inline(always)]
+fn combine<R: Real>(out: &mut [R], y: &[R], h: f64, terms: &[(f64, &[R])]) {
+    for (i, o) in out.iter_mut().enumerate() {
+        let mut sum = R::splat(terms[0].0) * terms[0].1[i];
+        for (c, k) in &terms[1..] {
+            sum += R::splat(*c) * k[i];
+        }
+        *o = y[i] + R::splat(h) * sum;
+    }
+}
+
+/// Power with the same bits on every platform.
+fn power(base: f64, exponent: f64) -> f64 {
+    sincro_math::elementary::pow(base, exponent).0
+}

@@ -1,0 +1,377 @@
+//! The mechanism as a system to integrate: model, commands and drives put together into dy/dt = f(t, y).
+//!
+//! y = (δ, v, totals): displacement of the coordinates in the chart of the step (`n_v`), velocities (`n_v`), and, if they are
+//! tracked, the totals of [`State`]: work, dissipation, impulse of each motor.
+//!
+//! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child axes.
+//! Source: key `iserles2000`, sections 2.5 and 3.
+
+use sincro_math::Real;
+
+use crate::aba::{self, Held};
+use crate::drive::DriveKind;
+use crate::force::{Instant, damper, friction, joint_torques};
+use crate::integrate::System;
+use crate::joint::StageKind;
+use crate::kinematics;
+use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::spatial::{Force, Quat, Vec3};
+use crate::state::{State, displace};
+
+/// A model with its commands and everything needed to evaluate its rates without allocation.
+#[derive(Clone, Debug)]
+pub struct Mechanism<R> {
+    pub(crate) model: Model<R>,
+    /// Latched motor commands.
+    pub commands: Vec<R>,
+    /// What each drive does: 0 holds, ±1 pulls with its limit.
+    pub drives: Vec<R>,
+    /// Whether work, dissipation and motor impulses are integrated along.
+    tracks_totals: bool,
+    /// q₀ of the chart.
+    base: Vec<R>,
+    q: Vec<R>,
+    torque: Vec<R>,
+    diagonal: Vec<R>,
+    pub(crate) held_mask: Vec<R>,
+    pub(crate) held_acceleration: Vec<R>,
+    external: Vec<Force<R>>,
+    motor_torque: Vec<R>,
+    pub(crate) scratch: Scratch<R>,
+}
+
+impl<R: Real> Mechanism<R> {
+    /// For `model`; the totals are integrated if asked for.
+    #[must_use]
+    pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
+        let zero = vec![R::zero(); model.n_v()];
+        Self {
+            commands: vec![R::zero(); model.motors.len()],
+            drives: vec![R::zero(); model.n_drives()],
+            tracks_totals,
+            base: vec![R::zero(); model.n_q()],
+            q: vec![R::zero(); model.n_q()],
+            torque: zero.clone(),
+            diagonal: zero.clone(),
+            held_mask: zero.clone(),
+            held_acceleration: zero,
+            external: vec![Force::zero(); if model.wrenches.is_empty() { 0 } else { model.links.len() }],
+            motor_torque: vec![R::zero(); model.motors.len()],
+            scratch: Scratch::new(&model),
+            model,
+        }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model<R> {
+        &self.model
+    }
+
+    /// Bytes on the heap, the model left out.
+    #[must_use]
+    pub fn heap_bytes(&self) -> usize {
+        let numbers = [
+            &self.commands,
+            &self.drives,
+            &self.base,
+            &self.q,
+            &self.torque,
+            &self.diagonal,
+            &self.held_mask,
+            &self.held_acceleration,
+            &self.motor_torque,
+        ];
+        numbers.iter().map(|v| size_of_val(&***v)).sum::<usize>()
+            + size_of_val(&*self.external)
+            + self.scratch.heap_bytes()
+    }
+
+    /// Lays the chart at the state and writes y for it.
+    pub fn load(&mut self, x: &State<R>, y: &mut [R]) {
+        let n = self.model.n_v();
+        self.base.copy_from_slice(&x.q);
+        self.commands.copy_from_slice(&x.commands);
+        self.drives.copy_from_slice(&x.drives);
+        y[..n].fill(R::zero());
+        y[n..2 * n].copy_from_slice(&x.v);
+        if self.tracks_totals {
+            y[2 * n..].copy_from_slice(&x.totals);
+        }
+    }
+
+    /// Writes the state that a freshly charted y describes.
+    pub fn store(&self, y: &[R], x: &mut State<R>) {
+        let n = self.model.n_v();
+        x.q.copy_from_slice(&self.base);
+        x.v.copy_from_slice(&y[n..2 * n]);
+        x.drives.copy_from_slice(&self.drives);
+        if self.tracks_totals {
+            x.totals.copy_from_slice(&y[2 * n..]);
+        }
+    }
+
+    /// Coordinates of the chart's origin.
+    pub(crate) fn base(&self) -> &[R] {
+        &self.base
+    }
+
+    /// Moves the chart's origin without looking at y.
+    pub(crate) fn set_base(&mut self, q: &[R]) {
+        self.base.copy_from_slice(q);
+    }
+
+    /// Torque of each motor [N·m] or [N] in the last evaluation.
+    #[must_use]
+    pub fn motor_torque(&self) -> &[R] {
+        &self.motor_torque
+    }
+
+    /// Working memory of the last evaluation.
+    #[must_use]
+    pub fn scratch(&mut self) -> &mut Scratch<R> {
+        &mut self.scratch
+    }
+
+    /// Marks the degrees of freedom whose drives hold, with zero acceleration; says whether there are any.
+    #[inline(always)]
+    pub(crate) fn mark_held(&mut self) {
+        let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
+        if self.drives.is_empty() {
+            return;
+        }
+        self.held_mask.fill(zero);
+        self.held_acceleration.fill(zero);
+        for (drive, &pull) in self.model.drives.iter().zip(&self.drives) {
+            let holds = pull.abs().if_less(half, one, zero);
+            self.held_mask[drive.dof] = self.held_mask[drive.dof].max(holds);
+        }
+    }
+
+    /// Accelerations at (t, q in `self.q`, v); `implicit_step` as in [`Instant`].
+    #[inline(always)]
+    fn accelerations(&mut self, t: f64, v: &[R], implicit_step: Option<f64>, v_dot: &mut [R]) {
+        let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit_step };
+        joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
+        let external = if self.model.wrenches.is_empty() {
+            None
+        } else {
+            self.external_wrenches(t);
+            Some(&*self.external)
+        };
+        let held = if self.drives.is_empty() {
+            None
+        } else {
+            Some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration })
+        };
+        let input =
+            aba::Input { q: &self.q, v, torque: &self.torque, diagonal: &self.diagonal, held, external, gravity: true };
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
+    }
+
+    #[inline(always)]
+    fn external_wrenches(&mut self, t: f64) {
+        self.external.fill(Force::zero());
+        if self.model.wrenches.iter().any(|w| !w.in_body) {
+            kinematics::poses(&self.model, &self.q, &mut self.scratch);
+        }
+        for wrench in &self.model.wrenches {
+            self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot);
+        }
+    }
+
+    /// Rates of the totals at the last evaluation, for velocities `v` over which forces do their work.
+    #[inline(always)]
+    fn total_rates(&mut self, t: f64, v_at: &[R], v: &[R], h: R, rates: &mut [R]) {
+        let (mut work, mut dissipation) = (R::zero(), R::zero());
+        for (k, dof) in self.model.dofs.iter().enumerate() {
+            work += dof.torque * v[k];
+            dissipation += damper::dissipation(dof, v[k]);
+        }
+        for applied in &self.model.applied {
+            work += applied.torque::<R>(t) * v[applied.dof];
+        }
+        for (i, link) in self.scratch.links.iter().enumerate().take(self.external.len()) {
+            work += link.v.dot(&self.external[i]);
+        }
+        self.find_motor_torques(v_at, h);
+        for (i, drive) in self.model.drives.iter().enumerate() {
+            if drive.kind == DriveKind::Friction {
+                dissipation += friction::dissipation(self.friction_torque(i), v[drive.dof]);
+            }
+        }
+        for (i, motor) in self.model.motors.iter().enumerate() {
+            work += self.motor_torque[i] * v[motor.dof];
+            rates[2 + i] = self.motor_torque[i];
+        }
+        rates[0] = work;
+        rates[1] = dissipation;
+    }
+
+    /// Torque of the friction drive `i` in the last evaluation: its limit where it pulls; where it holds, the reaction as far as
+    /// its limit goes (a motor that holds the same joint gives the rest).
+    #[inline(always)]
+    pub(crate) fn friction_torque(&self, i: usize) -> R {
+        let drive = self.model.drives[i];
+        let limit = self.model.dofs[drive.dof].friction;
+        let holding = self.scratch.reaction[drive.dof].clamp_abs(limit);
+        self.drives[i].abs().if_less(R::splat(0.5), holding, self.drives[i] * limit)
+    }
+
+    /// Torque of every motor in the last evaluation.
+    #[inline(always)]
+    pub(crate) fn find_motor_torques(&mut self, v: &[R], h: R) {
+        for (i, motor) in self.model.motors.iter().enumerate() {
+            let q = self.q[self.model.dofs[motor.dof].q_idx as usize];
+            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], h).0;
+        }
+        for d in 0..self.model.drives.len() {
+            let drive = self.model.drives[d];
+            let DriveKind::Motor(i) = drive.kind else { continue };
+            let mut holding = self.scratch.reaction[drive.dof];
+            for f in 0..d {
+                if self.model.drives[f].dof == drive.dof {
+                    // friction that holds the same joint takes its share first
+                    let share = self.friction_torque(f);
+                    holding -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
+                }
+            }
+            let pulling = match drive.limit(&self.model) {
+                Some(limit) => self.drives[d] * limit,
+                None => R::zero(),
+            };
+            self.motor_torque[i] = self.drives[d].abs().if_less(R::splat(0.5), holding, pulling);
+        }
+    }
+
+    /// Rate of the chart's displacement for velocity `v` at displacement `delta`.
+    #[inline(always)]
+    fn chart_rate(&self, delta: &[R], v: &[R], rate: &mut [R]) {
+        for link in &self.model.links {
+            let k = link.v_idx as usize;
+            match link.kind {
+                StageKind::Ball => rotation_rate(&delta[k..k + 3], &v[k..k + 3], &mut rate[k..k + 3]),
+                StageKind::Free => {
+                    rotation_rate(&delta[k..k + 3], &v[k..k + 3], &mut rate[k..k + 3]);
+                    let turn = Quat::exp(Vec3([delta[k], delta[k + 1], delta[k + 2]])).matrix();
+                    let lin = turn.mul_vec(Vec3([v[k + 3], v[k + 4], v[k + 5]]));
+                    rate[k + 3..k + 6].copy_from_slice(&lin.0);
+                }
+                _ => rate[k] = v[k],
+            }
+        }
+    }
+
+    /// Velocity changes by the impulses that change the held degrees of freedom as marked; reactions are impulses.
+    #[inline(always)]
+    pub(crate) fn impulse(&mut self, change: &mut [R]) {
+        self.torque.fill(R::zero());
+        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
+            *d = dof.armature;
+        }
+        let held = Some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration });
+        let input = aba::Input {
+            q: &self.base,
+            v: &self.torque,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            held,
+            external: None,
+            gravity: false,
+        };
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, change);
+    }
+}
+
+impl<R: Real> System<R> for Mechanism<R> {
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        2 * self.model.n_v() + if self.tracks_totals { 2 + self.model.motors.len() } else { 0 }
+    }
+
+    #[inline(always)]
+    fn n_controlled(&self) -> usize {
+        2 * self.model.n_v()
+    }
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        let n = self.model.n_v();
+        let (delta, rest) = y.split_at(n);
+        let v = &rest[..n];
+        displace(&self.model, &self.base, delta, &mut self.q);
+        let (rate, rest) = slope.split_at_mut(n);
+        self.chart_rate(delta, v, rate);
+        self.accelerations(t, v, None, &mut rest[..n]);
+        if self.tracks_totals {
+            self.total_rates(t, v, v, R::zero(), &mut rest[n..]);
+        }
+    }
+
+    #[inline(always)]
+    fn implicit_slope(&mut self, t: f64, h: f64, y: &[R], slope: &mut [R]) {
+        let n = self.model.n_v();
+        let (delta, rest) = y.split_at(n);
+        let v = &rest[..n];
+        displace(&self.model, &self.base, delta, &mut self.q);
+        let (rate, rest) = slope.split_at_mut(n);
+        self.accelerations(t, v, Some(h), &mut rest[..n]);
+        // the position moves with the new velocity; forces do their work over the mean of old and new
+        let step = R::splat(h);
+        for k in 0..n {
+            self.torque[k] = v[k] + step * rest[k];
+        }
+        let new_v = core::mem::take(&mut self.torque);
+        self.chart_rate(delta, &new_v, rate);
+        self.torque = new_v;
+        if self.tracks_totals {
+            let half = R::splat(0.5);
+            for k in 0..n {
+                self.torque[k] = half * (self.torque[k] + v[k]);
+            }
+            let mean_v = core::mem::take(&mut self.torque);
+            self.total_rates(t, v, &mean_v, step, &mut rest[n..]);
+            self.torque = mean_v;
+        }
+    }
+
+    #[inline(always)]
+    fn rechart(&mut self, y: &mut [R]) {
+        let n = self.model.n_v();
+        displace(&self.model, &self.base, &y[..n], &mut self.q);
+        core::mem::swap(&mut self.base, &mut self.q);
+        y[..n].fill(R::zero());
+    }
+
+    fn magnitude(&self, y: &[R], k: usize) -> f64 {
+        let n = self.model.n_v();
+        if k >= n {
+            return y[k].lane(0).abs();
+        }
+        if self.model.has_scalar_coordinate(k) {
+            return self.base[self.model.dofs[k].q_idx as usize].lane(0).abs();
+        }
+        1.0
+    }
+}
+
+/// φ' = ω + ½ φ×ω + c φ×(φ×ω), c = (1 − (θ/2) cot(θ/2))/θ², θ = |φ|.
+#[inline(always)]
+fn rotation_rate<R: Real>(phi: &[R], omega: &[R], rate: &mut [R]) {
+    let (phi, omega) = (Vec3([phi[0], phi[1], phi[2]]), Vec3([omega[0], omega[1], omega[2]]));
+    let square = phi.dot(phi);
+    // series below θ = 0.1, where its next term is 1e-16 of the first
+    let near = R::splat(1e-2);
+    let series = R::splat(1.0 / 12.0)
+        + square * (R::splat(1.0 / 720.0) + square * (R::splat(1.0 / 30240.0) + square * R::splat(1.0 / 1_209_600.0)));
+    let safe = near.if_less(square, square, R::one());
+    let half = R::splat(0.5) * safe.sqrt();
+    let (sin, cos) = half.sin_cos();
+    let closed = (R::one() - half * cos / sin) / safe;
+    let c = near.if_less(square, closed, series);
+    let once = phi.cross(omega);
+    let twice = phi.cross(once);
+    let out = omega + once.scale(R::splat(0.5)) + twice.scale(c);
+    rate.copy_from_slice(&out.0);
+}

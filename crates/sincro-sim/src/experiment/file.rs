@@ -1,0 +1,291 @@
+//! The experiment file as it is written. Doc comments here become the descriptions in the JSON Schema.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::check::Measure;
+
+/// An experiment: what is run, recorded and checked. SI units and radians.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "sincro experiment")]
+pub(crate) struct ExperimentFile {
+    /// Title of the report.
+    pub title: String,
+    /// One or two sentences that stand under the title.
+    #[serde(default)]
+    pub description: String,
+    /// Scene file, its path relative to the folder.
+    #[serde(default = "scene_toml")]
+    pub scene: String,
+    /// How long is simulated: a whole number of steps [s].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub duration: f64,
+    /// Base step: commands are held over it, rows are recorded at its ends [s].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub step: f64,
+    /// Base steps for each recorded row.
+    #[serde(default = "one")]
+    #[schemars(range(min = 1))]
+    pub record_every: u64,
+    /// How the equations of motion are integrated.
+    #[serde(default)]
+    pub integrator: IntegratorFile,
+    /// Local tolerance of the variable-step methods.
+    #[serde(default = "fine")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub accuracy: f64,
+    /// How the error bar of the recorded signals is found.
+    #[serde(default)]
+    pub error_bar: ErrorBarFile,
+    /// Seed of everything random.
+    #[serde(default)]
+    pub seed: u64,
+    /// Names of the signals to be recorded, such as `/shoulder.position` or `energy.total`.
+    #[schemars(length(min = 1))]
+    pub record: Vec<String>,
+    /// Names and numbers for formulas.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, f64>,
+    /// What must come out.
+    #[serde(default)]
+    pub check: Vec<CheckFile>,
+    /// A static characteristic: the run is repeated over a parameter, and final values are recorded.
+    pub sweep: Option<SweepFile>,
+    /// The same experiment with other settings.
+    #[serde(default)]
+    pub variant: Vec<VariantFile>,
+    /// Plots of the report; one for each recorded unit if none is given.
+    #[serde(default)]
+    pub plot: Vec<PlotFile>,
+}
+
+/// How the equations of motion are integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum IntegratorFile {
+    /// Chosen for the scene; second order or better.
+    #[default]
+    Auto,
+    /// Semi-implicit Euler at the base step: first order, as game engines do.
+    SemiImplicitEuler,
+    /// The classical Runge–Kutta method at the base step.
+    Rk4,
+    /// Springs and dampers implicit, at the base step.
+    Implicit,
+    /// Explicit pair of order 5(4) with error control.
+    DormandPrince,
+    /// Implicit method with error control, for stiff scenes.
+    Stiff,
+}
+
+/// How the error bar of the recorded signals is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ErrorBarFile {
+    /// By a second run with a finer step or tolerance.
+    #[default]
+    Refine,
+    /// Not at all.
+    None,
+}
+
+/// One expectation.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("allOf" = [
+    {"oneOf": [{"required": ["signal"]}, {"required": ["signals"]}]},
+    {"oneOf": [{"required": ["value"]}, {"required": ["reference"]}]},
+    {"not": {"required": ["at", "window"]}}
+]))]
+pub(crate) struct CheckFile {
+    /// What the report calls it.
+    pub name: String,
+    /// The recorded signal that is checked.
+    pub signal: Option<String>,
+    /// Short names of recorded signals, for `formula` and `value`.
+    pub signals: Option<BTreeMap<String, String>>,
+    /// What is checked: a formula of the short names, `t` and the parameters.
+    pub formula: Option<String>,
+    /// What it must be: a number or a formula.
+    pub value: Option<NumberOrFormula>,
+    /// What it must be: a column of a CSV file.
+    pub reference: Option<ReferenceFile>,
+    /// What of the series is compared.
+    #[serde(default)]
+    pub measure: MeasureFile,
+    /// The one time that is looked at [s].
+    #[schemars(range(min = 0.0))]
+    pub at: Option<f64>,
+    /// First and last time that are looked at; default all [s].
+    #[schemars(inner(range(min = 0.0)))]
+    pub window: Option<[f64; 2]>,
+    /// Largest difference that holds, in the unit of what is checked (without unit if `relative`).
+    #[schemars(range(min = 0.0))]
+    pub tolerance: f64,
+    /// Whether the difference is divided by max(|expected|, floor).
+    #[serde(default)]
+    pub relative: bool,
+    /// Least divisor of a relative difference.
+    #[schemars(range(min = 0.0))]
+    pub floor: Option<f64>,
+}
+
+/// A number or a formula.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum NumberOrFormula {
+    /// A number.
+    Number(f64),
+    /// A formula of the short names, `t` and the parameters.
+    Formula(String),
+}
+
+/// A column of a CSV file.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("not" = {"required": ["time", "parameter"]}))]
+pub(crate) struct ReferenceFile {
+    /// CSV file, its path relative to the folder.
+    pub file: String,
+    /// Column of times; default `t`.
+    pub time: Option<String>,
+    /// In a sweep: column of the values of the swept parameter.
+    pub parameter: Option<String>,
+    /// Column of values.
+    pub column: String,
+    /// Factor on the values.
+    #[serde(default = "unity")]
+    pub scale: f64,
+    /// Added after scaling.
+    #[serde(default)]
+    pub offset: f64,
+}
+
+/// What of a series is compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum MeasureFile {
+    /// Every row; the largest difference counts.
+    #[default]
+    Error,
+    /// The last row.
+    Final,
+    /// Mean over time.
+    Mean,
+    /// Least value.
+    Min,
+    /// Greatest value.
+    Max,
+    /// Greatest absolute value.
+    MaxAbs,
+    /// Root of the mean square over time.
+    Rms,
+    /// Standard deviation over time.
+    Std,
+    /// Integral over time.
+    Integral,
+    /// Time of the least value [s].
+    TimeOfMin,
+    /// Time of the greatest value [s].
+    TimeOfMax,
+}
+
+impl From<MeasureFile> for Measure {
+    fn from(file: MeasureFile) -> Self {
+        match file {
+            MeasureFile::Error => Self::Error,
+            MeasureFile::Final => Self::Final,
+            MeasureFile::Mean => Self::Mean,
+            MeasureFile::Min => Self::Min,
+            MeasureFile::Max => Self::Max,
+            MeasureFile::MaxAbs => Self::MaxAbs,
+            MeasureFile::Rms => Self::Rms,
+            MeasureFile::Std => Self::Std,
+            MeasureFile::Integral => Self::Integral,
+            MeasureFile::TimeOfMin => Self::TimeOfMin,
+            MeasureFile::TimeOfMax => Self::TimeOfMax,
+        }
+    }
+}
+
+/// Repeats the run over a parameter and records final values.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{"required": ["range"]}, {"required": ["values"]}]))]
+pub(crate) struct SweepFile {
+    /// What is varied: a path as for `--set`.
+    pub parameter: String,
+    /// Evenly spaced values.
+    pub range: Option<RangeFile>,
+    /// The values themselves.
+    #[schemars(length(min = 1))]
+    pub values: Option<Vec<f64>>,
+    /// What must come out over the whole sweep.
+    #[serde(default)]
+    pub check: Vec<CheckFile>,
+}
+
+/// Evenly spaced values, ends included.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RangeFile {
+    /// First value.
+    pub from: f64,
+    /// Last value: a whole number of steps from the first.
+    pub to: f64,
+    /// From one to the next.
+    pub step: f64,
+}
+
+/// The same experiment with other settings, drawn over the main run.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VariantFile {
+    /// Short name for the report and the command line.
+    pub name: String,
+    /// What is different.
+    #[serde(default)]
+    pub description: String,
+    /// Settings, each as PATH = VALUE of `--set`.
+    #[serde(default)]
+    pub set: BTreeMap<String, Value>,
+    /// Whether the main run's checks are also made on the variant.
+    #[serde(default)]
+    pub inherit_checks: bool,
+    /// What must come out of the variant.
+    #[serde(default)]
+    pub check: Vec<CheckFile>,
+}
+
+/// A plot of the report.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlotFile {
+    /// Title of the plot.
+    pub title: String,
+    /// Recorded signals, one line each.
+    #[schemars(length(min = 1))]
+    pub signals: Vec<String>,
+    /// Drawn over the first signal; default what the checks compare it with.
+    pub reference: Option<ReferenceFile>,
+}
+
+fn scene_toml() -> String {
+    "scene.toml".into()
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn fine() -> f64 {
+    1e-9
+}
+
+fn unity() -> f64 {
+    1.0
+}

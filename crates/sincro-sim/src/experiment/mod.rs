@@ -1,0 +1,3 @@
+//! What is run, recorded and checked.
+
+pub mod check;

@@ -1,0 +1,269 @@
+//! Settings from outside the files: `--set PATH=VALUE`, and the `set` table of a variant.
+//!
+//! | path | reaches |
+//! |---|---|
+//! | `/arm/link.inertia.xx` | a key of the scene's object of that path |
+//! | `gravity.2` | a key of the scene file |
+//! | `step`, `parameters.m`, `sweep.range.to` | a key of the experiment file |
+//!
+//! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out is
+//! filled in.
+
+use std::sync::Arc;
+
+use serde_json::{Map, Value};
+use toml::de::DeValue;
+
+use crate::document::{Document, escape};
+use crate::problem::{Located, Location, Problem, Problems, SourceText};
+use crate::schema::{alternatives, experiment_schema, property, property_names, scene_schema};
+use crate::suggest;
+use crate::tree;
+
+/// One setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// What is set.
+    pub path: Located<String>,
+    /// To what: TOML, or a bare word.
+    pub value: Located<String>,
+}
+
+/// Which file a path reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    Scene,
+    Experiment,
+}
+
+impl Override {
+    /// `value` (TOML, or a bare word as a string) at `path`.
+    #[must_use]
+    pub fn new(path: &str, value: &str) -> Self {
+        let text = format!("{path}={value}");
+        let source = Arc::new(SourceText { path: "--set".into(), text });
+        let part = |from: usize, part: &str| {
+            let at = Location { source: source.clone(), span: from..from + part.len() };
+            Located { value: part.to_owned(), at }
+        };
+        Self { path: part(0, path), value: part(path.len() + 1, value) }
+    }
+
+    /// From what stands after `--set`.
+    ///
+    /// # Errors
+    ///
+    /// If there is no `=`, or nothing before or after it.
+    ///
+    /// ```
+    /// use sincro_sim::overrides::Override;
+    ///
+    /// assert_eq!(Override::parse("/arm.spring.stiffness=30").unwrap().value.value, "30");
+    /// assert!(Override::parse("/arm.spring.stiffness").is_err());
+    /// ```
+    pub fn parse(text: &str) -> Result<Self, Problem> {
+        let source = Arc::new(SourceText { path: "--set".into(), text: text.to_owned() });
+        let whole = Location { source, span: 0..text.len() };
+        let help = "write PATH=VALUE, such as /shoulder.spring.stiffness=30 or step=0.001";
+        let Some((path, value)) = text.split_once('=') else {
+            return Err(Problem::error(&whole, format!("`{text}` has no `=`")).with_help(help));
+        };
+        let (path, value) = (path.trim(), value.trim());
+        if path.is_empty() || value.is_empty() {
+            let lacking = if path.is_empty() { "path before" } else { "value after" };
+            return Err(Problem::error(&whole, format!("`{text}` has no {lacking} the `=`")).with_help(help));
+        }
+        Ok(Self::new(path, value))
+    }
+
+    /// Which file it is for; by its first key.
+    pub(crate) fn target(&self) -> Target {
+        let path = &self.path.value;
+        let first = path.split(['.', '[']).next().unwrap_or("");
+        let in_scene = scene_schema()["properties"].get(first).is_some();
+        if path.starts_with('/') || in_scene { Target::Scene } else { Target::Experiment }
+    }
+
+    /// Writes the value into its document.
+    pub(crate) fn apply(&self, document: &mut Document, target: Target) -> Result<(), Problem> {
+        let (mut walk, keys) = match target {
+            Target::Experiment => (Walk::from_root(self, experiment_schema()), self.path.value.as_str()),
+            Target::Scene if self.path.value.starts_with('/') => self.find_object(document)?,
+            Target::Scene => (Walk::from_root(self, scene_schema()), self.path.value.as_str()),
+        };
+        let keys = steps(keys);
+        if keys.is_empty() {
+            return Err(self.error("the path names an object, none of its keys").with_help(suggest::help(
+                "",
+                &walk.known(),
+                "keys",
+            )));
+        }
+        for (k, key) in keys.iter().enumerate() {
+            walk.enter(document, key, k + 1 == keys.len())?;
+        }
+        self.put(document, &walk.pointer)
+    }
+
+    fn put(&self, document: &mut Document, pointer: &str) -> Result<(), Problem> {
+        let text = &self.value.value;
+        if let Ok(value) = DeValue::parse(text) {
+            document.put(pointer, &self.path.at, &value, &self.value.at);
+            return Ok(());
+        }
+        if text.starts_with(['[', '{', '"', '\'']) {
+            let problem = Problem::error(&self.value.at, format!("`{text}` is not a TOML value"));
+            return Err(problem.with_help("numbers, [lists], { tables = 1 }, \"strings\" or bare words"));
+        }
+        document.put_silently(pointer, Value::String(text.clone()), &self.value.at);
+        Ok(())
+    }
+
+    /// The object at the head of the path, and the keys behind it.
+    fn find_object(&self, document: &Document) -> Result<(Walk<'_>, &str), Problem> {
+        let path = self.path.value.as_str();
+        let (object, keys) = path.split_once('.').unwrap_or((path, ""));
+        let objects = tree::raw_objects(document);
+        let Some(found) = objects.iter().find(|o| o.path == object) else {
+            let known: Vec<&str> = objects.iter().map(|o| o.path.as_str()).collect();
+            let problem = self.error(format!("there is no object `{object}`"));
+            return Err(problem.with_help(suggest::help(object, &known, "objects")));
+        };
+        let list = found.pointer.split('/').nth(1).unwrap_or("");
+        let schema = &scene_schema()["properties"][list]["items"];
+        Ok((Walk { setting: self, root: scene_schema(), schema, pointer: found.pointer.clone() }, keys))
+    }
+
+    fn error(&self, message: impl Into<String>) -> Problem {
+        Problem::error(&self.path.at, message)
+    }
+}
+
+/// The keys of a path: `axis[2]` and `axis.2` are the same.
+fn steps(keys: &str) -> Vec<String> {
+    let flat = keys.replace('[', ".").replace(']', "");
+    flat.split('.').filter(|key| !key.is_empty()).map(str::to_owned).collect()
+}
+
+/// A walk down a document and its schema.
+struct Walk<'a> {
+    setting: &'a Override,
+    root: &'static Value,
+    schema: &'static Value,
+    pointer: String,
+}
+
+impl<'a> Walk<'a> {
+    fn from_root(setting: &'a Override, root: &'static Value) -> Self {
+        Self { setting, root, schema: root, pointer: String::new() }
+    }
+
+    /// One step down; whatever must be there for the next step is made.
+    fn enter(&mut self, document: &mut Document, key: &str, is_last: bool) -> Result<(), Problem> {
+        let known_to_table = self.tables().find_map(|table| property(table, key));
+        let index = key.parse::<usize>().ok();
+        let item = index.and(self.lists().find_map(|list| list.get("items")));
+        let Some(schema) = known_to_table.or(item) else { return Err(self.unknown(key)) };
+        self.check_presence(document, key, known_to_table.is_some(), index)?;
+        self.pointer = format!("{}/{}", self.pointer, escape(key));
+        self.schema = schema;
+        if !is_last && document.get(&self.pointer).is_none() {
+            self.create(document)?;
+        }
+        Ok(())
+    }
+
+    /// The step must be possible in the file as it is: an entry that is there, a name that is used, a table to go into.
+    fn check_presence(&self, document: &Document, key: &str, as_key: bool, index: Option<usize>) -> Result<(), Problem> {
+        let here = document.get(&self.pointer);
+        match (here, index) {
+            (Some(Value::Array(list)), Some(k)) if k >= list.len() => {
+                let message = format!("`{}` has {} entries, there is no entry {k}", self.setting.path.value, list.len());
+                Err(self.setting.error(message).with_help("entries are counted from 0"))
+            }
+            (Some(Value::Object(table)), _) if as_key => {
+                let named = self.tables().any(|t| t.get("properties").is_some_and(|p| p.get(key).is_some()));
+                if named || table.contains_key(key) {
+                    return Ok(());
+                }
+                let known: Vec<&str> = table.keys().map(String::as_str).collect();
+                let problem = self.setting.error(format!("there is no `{key}` in `{}`", last_key(&self.pointer)));
+                Err(problem.with_help(suggest::help(key, &known, "known")))
+            }
+            (Some(Value::Array(_)), Some(_)) => Ok(()),
+            _ => {
+                let what = last_key(&self.pointer);
+                let problem = self.setting.error(format!("`{what}` has no `{key}` in the file as it is"));
+                Err(problem.with_help(format!("set `{what}` as a whole")))
+            }
+        }
+    }
+
+    /// What the file leaves out: the default of the schema, or an empty table.
+    fn create(&self, document: &mut Document) -> Result<(), Problem> {
+        let content = match self.schema.get("default") {
+            Some(default) => default.clone(),
+            None if self.tables().next().is_some() => Value::Object(Map::new()),
+            None => {
+                let what = last_key(&self.pointer);
+                let problem = self.setting.error(format!("`{what}` is not in the file"));
+                return Err(problem.with_help(format!("set `{what}` as a whole")));
+            }
+        };
+        document.put_silently(&self.pointer, content, &self.setting.path.at);
+        Ok(())
+    }
+
+    fn unknown(&self, key: &str) -> Problem {
+        let known = self.known();
+        let known: Vec<&str> = known.iter().copied().filter(|k| !matches!(*k, "name" | "parent")).collect();
+        let what = if self.pointer.is_empty() { "a scene or experiment".into() } else { format!("`{}`", self.title()) };
+        let problem = self.setting.error(format!("`{}`: {what} has no `{key}`", self.setting.path.value));
+        problem.with_help(suggest::help(key, &known, "keys"))
+    }
+
+    fn title(&self) -> String {
+        let path = &self.setting.path.value;
+        let keys = self.pointer.split('/').skip(1).filter(|s| s.parse::<usize>().is_err());
+        match path.strip_prefix('/').and(path.split('.').next()) {
+            Some(object) if keys.clone().count() == 1 => object.to_owned(),
+            _ => last_key(&self.pointer).to_owned(),
+        }
+    }
+
+    fn known(&self) -> Vec<&'static str> {
+        let mut known: Vec<&str> = self.tables().flat_map(property_names).collect();
+        if self.pointer.is_empty() {
+            known.extend(property_names(scene_schema().as_object().expect("a schema is a table")));
+        }
+        known
+    }
+
+    fn tables(&self) -> impl Iterator<Item = &'static Map<String, Value>> {
+        self.of_type("object")
+    }
+
+    fn lists(&self) -> impl Iterator<Item = &'static Map<String, Value>> {
+        self.of_type("array")
+    }
+
+    fn of_type(&self, name: &'static str) -> impl Iterator<Item = &'static Map<String, Value>> {
+        let choices = alternatives(self.root, self.schema).into_iter();
+        choices.filter(move |choice| choice.get("type").and_then(Value::as_str) == Some(name))
+    }
+}
+
+fn last_key(pointer: &str) -> &str {
+    pointer.rsplit('/').find(|step| step.parse::<usize>().is_err()).unwrap_or("")
+}
+
+/// Applies those settings that are for `target`, in order; later ones win.
+pub(crate) fn apply_all(document: &mut Document, target: Target, settings: &[Override]) -> Problems {
+    let mut problems = Problems::new();
+    for setting in settings.iter().filter(|s| s.target() == target) {
+        if let Err(problem) = setting.apply(document, target) {
+            problems.push(problem);
+        }
+    }
+    problems
+}

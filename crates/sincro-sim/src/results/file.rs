@@ -1,0 +1,118 @@
+//! Writing result files so that nothing half-written looks whole.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A file or folder that could not be written or read.
+#[derive(Debug)]
+pub struct FileError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// What was to be done with it: `write`, `create the folder`.
+    pub action: &'static str,
+    /// What the system says.
+    pub cause: io::Error,
+}
+
+impl FileError {
+    /// The error of doing `action` with `path`.
+    pub fn new(action: &'static str, path: &Path, cause: impl Into<io::Error>) -> Self {
+        Self { path: path.to_path_buf(), action, cause: cause.into() }
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "cannot {} `{}`: {}", self.action, self.path.display(), self.cause)
+    }
+}
+
+impl std::error::Error for FileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.cause)
+    }
+}
+
+/// Makes sure that results can be written to a folder: it is created if it is absent, and a file is written into it on trial.
+///
+/// To be called before the simulation starts. Files that are there stay until a new one of the same name replaces them.
+///
+/// # Errors
+///
+/// The folder cannot be created, is a file, or takes no files.
+pub fn prepare(out_dir: &Path) -> Result<(), FileError> {
+    fs::create_dir_all(out_dir).map_err(|e| FileError::new("create the results folder", out_dir, e))?;
+    let trial = out_dir.join(".sincro-trial");
+    let written = fs::write(&trial, b"sincro").and_then(|()| fs::remove_file(&trial));
+    written.map_err(|e| FileError::new("write into the results folder", out_dir, e))
+}
+
+/// Where a file stands until it is whole: `run.json.partial`.
+pub(crate) fn partial(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".partial");
+    PathBuf::from(name)
+}
+
+/// Writes a whole file beside its place and moves it there: a reader sees the old file or the new one, never a part.
+///
+/// # Errors
+///
+/// The disk is full, the folder does not exist or takes no files.
+pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let partial = partial(path);
+    let file = File::create(&partial).and_then(|mut file| file.write_all(content).map(|()| file));
+    let file = file.map_err(|e| FileError::new("write", &partial, e))?;
+    put_in_place(&file, &partial, path)
+}
+
+/// Waits until a whole file is on the disk (some systems report a full one only then) and gives it its name.
+pub(crate) fn put_in_place(file: &File, partial: &Path, path: &Path) -> Result<(), FileError> {
+    file.sync_all().map_err(|e| FileError::new("write", partial, e))?;
+    fs::rename(partial, path).map_err(|e| FileError::new("rename a file to", path, e))
+}
+
+/// A fresh folder for one test.
+#[cfg(test)]
+pub(crate) fn test_folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("sincro-sim-{}-{name}", std::process::id()));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("the temporary folder takes folders");
+    folder
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn preparing_creates_the_folder_and_leaves_what_is_in_it() {
+        let folder = test_folder("prepare").join("results/deep");
+        prepare(&folder).unwrap();
+        fs::write(folder.join("notes.txt"), "mine").unwrap();
+        prepare(&folder).unwrap();
+        let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(names, ["notes.txt"]);
+    }
+
+    #[test]
+    fn a_folder_that_is_a_file_is_refused_by_name() {
+        let file = test_folder("prepare-file").join("results");
+        fs::write(&file, "").unwrap();
+        let message = prepare(&file).unwrap_err().to_string();
+        assert!(message.starts_with("cannot create the results folder `") && message.contains("results`: "), "{message}");
+        let message = prepare(&file.join("run")).unwrap_err().to_string();
+        assert!(message.contains("Not a directory") || message.contains("exists"), "{message}");
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole() {
+        let path = test_folder("atomic").join("run.json");
+        write_atomically(&path, b"a longer first text").unwrap();
+        write_atomically(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert!(!partial(&path).exists());
+    }
+}

@@ -1,0 +1,281 @@
+//! What was recorded: rows of numbers under named columns, in memory and as CSV.
+//!
+//! The file has the columns' names in its first line; units stand in `run.json`. Numbers are written with as many digits as
+//! bring back the same bits, and no more: `0.005`, `1e-12`, `NaN`, `inf`. The same bits in give the same bytes out.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::results::file::{FileError, partial, put_in_place};
+
+/// One recorded signal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its path: `/shoulder.position`.
+    pub name: String,
+    /// Its unit: `rad`; may be empty.
+    pub unit: String,
+    /// Its values, row by row.
+    pub values: Vec<f64>,
+}
+
+/// Recorded signals, all of the same length. The first column is `t` [s], strictly increasing.
+///
+/// ```
+/// use sincro_sim::table::Table;
+///
+/// let mut table = Table::new([("t", "s"), ("/shoulder.position", "rad")], 2);
+/// table.push_row(&[0.0, 0.1]);
+/// table.push_row(&[0.005, 0.2]);
+/// assert_eq!(table.times(), [0.0, 0.005]);
+/// assert_eq!(table.column("/shoulder.position").map(|c| c.values[1]), Some(0.2));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// The columns; at least one.
+    pub columns: Vec<Column>,
+}
+
+impl Table {
+    /// An empty table of the given names and units, with room for `row_capacity` rows: filling it up to there allocates nothing.
+    ///
+    /// # Panics
+    ///
+    /// If there is no column.
+    pub fn new<'a>(columns: impl IntoIterator<Item = (&'a str, &'a str)>, row_capacity: usize) -> Self {
+        let column = |(name, unit): (&str, &str)| Column {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            values: Vec::with_capacity(row_capacity),
+        };
+        let columns: Vec<Column> = columns.into_iter().map(column).collect();
+        assert!(!columns.is_empty(), "a table has a first column");
+        Self { columns }
+    }
+
+    /// Adds a row: one value a column, in their order.
+    ///
+    /// # Panics
+    ///
+    /// If there are more or fewer values than columns.
+    pub fn push_row(&mut self, row: &[f64]) {
+        assert_eq!(row.len(), self.columns.len(), "one value a column");
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.values.push(*value);
+        }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn n_rows(&self) -> usize {
+        self.times().len()
+    }
+
+    /// The first column: times [s]; in a table of a sweep, values of the parameter.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.columns[0].values
+    }
+
+    /// The column of that name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// Copies a row, one value a column, to `row`, whose memory is used again.
+    pub fn copy_row(&self, row_idx: usize, row: &mut Vec<f64>) {
+        row.clear();
+        row.extend(self.columns.iter().map(|column| column.values[row_idx]));
+    }
+
+    /// Writes all rows to a CSV file; see [`CsvWriter`].
+    ///
+    /// # Errors
+    ///
+    /// As [`CsvWriter`].
+    pub fn write_csv(&self, path: &Path) -> Result<(), FileError> {
+        let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
+        let mut writer = CsvWriter::create(path, &names)?;
+        let mut row = Vec::with_capacity(self.columns.len());
+        for row_idx in 0..self.n_rows() {
+            self.copy_row(row_idx, &mut row);
+            writer.push_row(&row)?;
+        }
+        writer.finish()
+    }
+
+    /// Reads a file that [`CsvWriter`] wrote. Units are not in it and stay empty.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be read, is not CSV, has no column, or a field is not a number.
+    pub fn read_csv(path: &Path) -> Result<Self, FileError> {
+        let failed = |cause: io::Error| FileError::new("read", path, cause);
+        let mut reader = csv::Reader::from_path(path).map_err(|e| failed(e.into()))?;
+        let header = reader.headers().map_err(|e| failed(e.into()))?.clone();
+        if header.is_empty() {
+            return Err(failed(io::Error::new(io::ErrorKind::InvalidData, "the file is empty")));
+        }
+        let mut table = Self::new(header.iter().map(|name| (name, "")), 0);
+        for (row_idx, record) in reader.records().enumerate() {
+            let record = record.map_err(|e| failed(e.into()))?;
+            let row: Result<Vec<f64>, _> = record.iter().map(number).collect();
+            let row = row.map_err(|what| io::Error::new(io::ErrorKind::InvalidData, format!("row {}: {what}", row_idx + 1)));
+            table.push_row(&row.map_err(failed)?);
+        }
+        Ok(table)
+    }
+}
+
+fn number(field: &str) -> Result<f64, String> {
+    field.trim().parse().map_err(|_| format!("`{field}` is not a number"))
+}
+
+/// Writes rows to a CSV file as they come.
+///
+/// They go to `<path>.partial`, which [`CsvWriter::finish`] renames to `path`; call it after a stopped run too, so that what
+/// was recorded is kept. A file that was never finished keeps its telling name, and one of an earlier run at `path` stays.
+pub struct CsvWriter {
+    csv: csv::Writer<File>,
+    path: PathBuf,
+    n_columns: usize,
+    field: Vec<u8>,
+}
+
+impl CsvWriter {
+    /// Bytes gathered before they go to the system.
+    const BUFFER: usize = 1 << 16;
+
+    /// Starts the file with a line of the columns' names.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be written.
+    pub fn create(path: &Path, names: &[&str]) -> Result<Self, FileError> {
+        let partial = partial(path);
+        let file = File::create(&partial).map_err(|e| FileError::new("create", &partial, e))?;
+        let mut csv = csv::WriterBuilder::new().buffer_capacity(Self::BUFFER).from_writer(file);
+        csv.write_record(names).map_err(|e| FileError::new("write", &partial, e))?;
+        Ok(Self { csv, path: path.to_path_buf(), n_columns: names.len(), field: Vec::with_capacity(32) })
+    }
+
+    /// Adds a row: one value a column.
+    ///
+    /// # Errors
+    ///
+    /// The disk is full or gone; reported when the gathered rows go out, which may be some rows later.
+    ///
+    /// # Panics
+    ///
+    /// If there are more or fewer values than columns.
+    pub fn push_row(&mut self, row: &[f64]) -> Result<(), FileError> {
+        assert_eq!(row.len(), self.n_columns, "one value a column");
+        for value in row {
+            self.field.clear();
+            write_number(&mut self.field, *value);
+            self.csv.write_field(&self.field).map_err(|e| FileError::new("write", &partial(&self.path), e))?;
+        }
+        self.csv.write_record(None::<&[u8]>).map_err(|e| FileError::new("write", &partial(&self.path), e))
+    }
+
+    /// Writes what is left and gives the file its name.
+    ///
+    /// # Errors
+    ///
+    /// The disk is full or gone, or a folder stands in the file's place; then the rows that did get written are in
+    /// `<path>.partial`.
+    pub fn finish(self) -> Result<(), FileError> {
+        let partial = partial(&self.path);
+        let file = self.csv.into_inner().map_err(|e| FileError::new("write", &partial, e.into_error()))?;
+        put_in_place(&file, &partial, &self.path)
+    }
+}
+
+/// The shortest text that reads back as the same number; with an exponent where zeros would make it long.
+fn write_number(field: &mut Vec<u8>, value: f64) {
+    let size = value.abs();
+    let written = if size == 0.0 || (1e-5..1e16).contains(&size) || !size.is_finite() {
+        write!(field, "{value}")
+    } else {
+        write!(field, "{value:e}")
+    };
+    written.expect("a vector takes all bytes");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::file::test_folder;
+
+    #[test]
+    fn bits_survive_the_file() {
+        let values = [0.0, -0.0, 1.0 / 3.0, -1e-12, 5e-324, f64::MAX, 1e16, 123_456.789, f64::INFINITY, f64::NEG_INFINITY];
+        let mut table = Table::new([("t", "s"), ("/a, b.position", "rad")], values.len());
+        for (k, value) in values.iter().enumerate() {
+            table.push_row(&[k as f64 * 0.005, *value]);
+        }
+        let path = test_folder("bits").join("signals.csv");
+        table.write_csv(&path).unwrap();
+        let back = Table::read_csv(&path).unwrap();
+        assert_eq!(back.columns[1].name, "/a, b.position");
+        let bits = |table: &Table| table.columns.iter().flat_map(|c| c.values.clone()).map(f64::to_bits).collect::<Vec<_>>();
+        assert_eq!(bits(&table), bits(&back));
+    }
+
+    #[test]
+    fn text_is_the_shortest_that_reads_back() {
+        let text = |value: f64| {
+            let mut field = Vec::new();
+            write_number(&mut field, value);
+            String::from_utf8(field).unwrap()
+        };
+        assert_eq!(text(0.1 + 0.2), "0.30000000000000004");
+        assert_eq!([text(2.0), text(1e-12), text(0.005), text(-2.5e20)], ["2", "1e-12", "0.005", "-2.5e20"]);
+        assert_eq!([text(f64::NAN), text(f64::NEG_INFINITY)], ["NaN", "-inf"]);
+        assert!(number("NaN").unwrap().is_nan());
+    }
+
+    #[test]
+    fn an_unfinished_file_has_another_name() {
+        let path = test_folder("unfinished").join("signals.csv");
+        let mut writer = CsvWriter::create(&path, &["t", "/a.position"]).unwrap();
+        writer.push_row(&[0.0, 1.5]).unwrap();
+        assert!(!path.exists() && partial(&path).exists());
+        writer.finish().unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "t,/a.position\n0,1.5\n");
+        assert!(!partial(&path).exists());
+    }
+
+    #[test]
+    fn a_dropped_writer_leaves_the_earlier_file() {
+        let path = test_folder("dropped").join("signals.csv");
+        std::fs::write(&path, "earlier").unwrap();
+        drop(CsvWriter::create(&path, &["t"]).unwrap());
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "earlier");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_is_reported_with_its_file() {
+        let path = test_folder("full").join("signals.csv");
+        std::os::unix::fs::symlink("/dev/full", partial(&path)).unwrap();
+        let mut writer = CsvWriter::create(&path, &["t"]).unwrap();
+        let mut pushed = Ok(());
+        for k in 0..20_000 {
+            pushed = pushed.and_then(|()| writer.push_row(&[f64::from(k)]));
+        }
+        let message = pushed.unwrap_err().to_string();
+        assert!(message.contains("signals.csv.partial`: No space left on device"), "{message}");
+        assert!(writer.finish().is_err() && !path.exists());
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_refused_with_its_row() {
+        let path = test_folder("not-a-number").join("signals.csv");
+        std::fs::write(&path, "t,x\n0,1\n1,one\n").unwrap();
+        let message = Table::read_csv(&path).unwrap_err().to_string();
+        assert!(message.ends_with("row 2: `one` is not a number"), "{message}");
+    }
+}

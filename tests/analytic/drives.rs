@@ -1,0 +1,184 @@
+//! Velocity motors and Coulomb friction: exact tracking, impulses, saturation, sticking.
+
+use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId};
+use sincro_dynamics::signal::Signal;
+use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::{MethodKind, World};
+
+use crate::mechanisms::{ALL, cart, motor, run, slider};
+
+fn velocity_motor(max_torque: f64) -> Motor<f64> {
+    Motor { max_torque, ..Motor::new(MotorMode::Velocity) }
+}
+
+#[test]
+fn a_velocity_motor_has_its_velocity_exactly_and_reports_the_impulse() {
+    for kind in ALL {
+        let model = cart(1e-12, motor(velocity_motor(f64::INFINITY)));
+        let mut x = State::new(&model);
+        x.commands[0] = 1.0;
+        let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+        world.advance(0.0, 0.005).unwrap();
+        assert_eq!(world.state.v[0], 1.0, "{kind:?}");
+        assert!((world.state.totals[2] / 1e-12 - 1.0).abs() < 1e-12, "{kind:?}");
+        run(&mut world, 0.005, 3);
+        assert!((world.state.q[0] - 0.02).abs() < 1e-15, "{kind:?}");
+    }
+}
+
+#[test]
+fn a_limited_motor_needs_its_impulse_over_its_limit() {
+    // steps to reach Δv: ceil(m Δv/(F h)), as in the thesis's experiment 1
+    for (limit, steps) in [(1e-10, 2), (0.7e-10, 3), (3e-11, 7)] {
+        for kind in ALL {
+            let model = cart(1e-12, motor(velocity_motor(limit)));
+            let mut x = State::new(&model);
+            x.commands[0] = 1.0;
+            let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+            let reached = (1..20).find(|k| {
+                world.advance(f64::from(k - 1) * 0.005, 0.005).unwrap();
+                (world.state.v[0] - 1.0).abs() < 1e-12
+            });
+            assert_eq!(reached, Some(steps), "{kind:?} {limit:e}");
+            assert!((world.state.totals[2] / 1e-12 - 1.0).abs() < 1e-9, "{kind:?}");
+        }
+    }
+}
+
+/// Two carts in a row: the second one rides on the first.
+fn carts(first: JointSpec, second: JointSpec) -> Model<f64> {
+    let mut b = ModelBuilder::new([0.0; 3]);
+    let mass = |m: f64| BodySpec {
+        mass: MassProperties { mass: m, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 1.0] },
+    };
+    let a = b.joint("a", NodeId::WORLD, Pose::identity(), first);
+    let a = b.body("first", a, Pose::identity(), mass(2.0));
+    let c = b.joint("b", a, Pose::translation(Vec3([0.1, 0.0, 0.0])), second);
+    b.body("second", c, Pose::identity(), mass(3.0));
+    b.build().unwrap().0
+}
+
+#[test]
+fn a_jump_leaves_the_momentum_of_everything_else() {
+    // the second cart is not pushed: its absolute velocity stays while the first one jumps
+    for kind in ALL {
+        let model = carts(motor(velocity_motor(f64::INFINITY)), slider());
+        let mut x = State::new(&model);
+        x.commands[0] = 0.5;
+        let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+        world.advance(0.0, 0.01).unwrap();
+        assert_eq!(world.state.v[0], 0.5);
+        assert!((world.state.v[1] + 0.5).abs() < 1e-15, "{kind:?}");
+    }
+}
+
+#[test]
+fn friction_sticks_just_below_its_limit_and_slips_just_above() {
+    for kind in ALL {
+        for (share, slips) in [(0.999_999, false), (1.000_001, true)] {
+            let torque = vec![Signal::Constant(share * 4.0)];
+            let model = cart(2.0, JointSpec { friction: vec![4.0], torque, ..slider() });
+            let x = State::new(&model);
+            let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+            run(&mut world, 0.01, 100);
+            assert_eq!(world.state.v[0] != 0.0, slips, "{kind:?} {share}");
+            if slips {
+                // a = (F − limit)/m
+                assert!((world.state.v[0] - 2e-6).abs() < 1e-9, "{kind:?} {}", world.state.v[0]);
+            } else {
+                assert_eq!(world.state.q[0], 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn friction_stops_a_sliding_body_where_the_closed_form_says() {
+    // v0²/(2 limit/m), then rest, exactly
+    for kind in [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff] {
+        let model = cart(2.0, JointSpec { friction: vec![4.0], ..slider() });
+        let mut x = State::new(&model);
+        x.v[0] = 1.3;
+        let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+        run(&mut world, 0.1, 20);
+        assert_eq!(world.state.v[0], 0.0, "{kind:?}");
+        assert!((world.state.q[0] - 1.3 * 1.3 / 4.0).abs() < 1e-9, "{kind:?} {}", world.state.q[0]);
+        assert!((world.state.totals[1] - 0.5 * 2.0 * 1.3 * 1.3).abs() < 1e-9, "{kind:?}");
+    }
+}
+
+#[test]
+fn friction_on_a_spring_ends_where_it_can_hold() {
+    // Coulomb-damped oscillator: each half swing loses 2 limit/k of amplitude, exactly
+    let (k, limit) = (100.0, 1.0);
+    let model = cart(1.0, JointSpec { friction: vec![limit], spring: vec![(k, 0.0)], ..slider() });
+    let mut x = State::new(&model);
+    x.q[0] = 0.055;
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
+    run(&mut world, 0.01, 300);
+    // 0.055 → −0.035 → 0.015 → 0.005: holds, for k·0.005 < limit
+    assert_eq!(world.state.v[0], 0.0);
+    assert!((world.state.q[0] - 0.005).abs() < 1e-9, "{}", world.state.q[0]);
+}
+
+#[test]
+fn a_motor_and_friction_on_one_joint_share_the_torque() {
+    let model = cart(2.0, JointSpec { friction: vec![0.5], ..motor(velocity_motor(10.0)) });
+    let mut x = State::new(&model);
+    x.commands[0] = 1.0;
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);
+    run(&mut world, 0.01, 100);
+    let (a, torque) = world.rates(1.0);
+    assert_eq!(a[0], 0.0);
+    // holding 1 m/s against friction takes just the friction
+    assert!((torque[0] - 0.5).abs() < 1e-12, "{}", torque[0]);
+    // (10 − 0.5)/2 m/s² to reach it
+    assert!((world.state.q[0] - (1.0 - 0.5 * 2.0 / 9.5)).abs() < 1e-9);
+}
+
+#[test]
+fn a_position_motor_settles_exponentially_at_its_command() {
+    // latched every tick: q⁺ = q + h kp (c − q)
+    let model = cart(2.0, motor(Motor { kp: 4.0, max_velocity: 10.0, ..Motor::new(MotorMode::Position) }));
+    let mut x = State::new(&model);
+    x.commands[0] = 0.8;
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);
+    let mut expected = 0.0;
+    for k in 0..100 {
+        world.advance(f64::from(k) * 0.01, 0.01).unwrap();
+        expected += 0.01 * 4.0 * (0.8 - expected);
+    }
+    assert!((world.state.q[0] - expected).abs() < 1e-13);
+}
+
+#[test]
+fn any_stiffness_is_stable_at_one_millisecond() {
+    // error control follows an undamped swing of 1e6 rad/s, which takes its time
+    for (kind, ticks) in [(MethodKind::Implicit, 1000), (MethodKind::Stiff, 20)] {
+        for (k, c) in [(1e12, 0.0), (1e12, 1e9), (0.0, 1e12), (1e3, 1e-3)] {
+            let joint = JointSpec { spring: vec![(k, 0.0)], damping: vec![c], ..slider() };
+            let model = carts(joint.clone(), joint);
+            let mut x = State::new(&model);
+            (x.q[0], x.q[1]) = (1e-3, -2e-3);
+            let mut world = World::new(model, x, kind, 1e-6, 1e-3);
+            run(&mut world, 1e-3, ticks);
+            assert!(world.state.q.iter().all(|q| q.abs() < 3e-3), "{kind:?} k {k:e} c {c:e}: {:?}", world.state.q);
+        }
+    }
+}
+
+#[test]
+fn an_elastic_joint_behind_a_held_motor_swings_at_its_own_frequency() {
+    let revolute = |spec: JointSpec| JointSpec { kind: JointKind::Revolute { axis: [0.0, 0.0, 1.0] }, ..spec };
+    let spring = JointSpec { spring: vec![(12.0, 0.0)], ..slider() };
+    let model = carts(revolute(motor(velocity_motor(f64::INFINITY))), spring);
+    let mut x = State::new(&model);
+    x.q[1] = 0.02;
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
+    run(&mut world, 0.05, 20);
+    // the motor holds zero: q = q0 cos(√(k/m) t)
+    assert!((world.state.q[1] - 0.02 * libm::cos(2.0)).abs() < 1e-9);
+}

@@ -1,0 +1,6 @@
+//! Integrators, drives and force elements against closed forms and orders of convergence.
+
+mod drives;
+mod mechanisms;
+mod orders;
+mod power;
