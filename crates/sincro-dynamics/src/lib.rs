@@ -13,11 +13,14 @@
 //! | energies and momentum | [`energy`] |
 //! | springs, dampers, friction, motors | [`force`] |
 //! | a world that advances | [`integrate`], [`world`] |
+//! | how stiff it is | [`stiffness`] |
+//! | many worlds at once | [`batch`] |
 //!
 //! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
 //! clocks, threads or logs in this crate.
 
 pub mod aba;
+pub mod batch;
 pub mod crba;
 pub mod drive;
 pub mod energy;
@@ -32,4 +35,5 @@ pub mod scratch;
 pub mod signal;
 pub mod spatial;
 pub mod state;
+pub mod stiffness;
 pub mod world;

@@ -180,7 +180,7 @@ impl World {
             self.euler_step(t, h)
         } else {
             self.begin(t);
-            self.sub_steps(t, t + h)
+            self.sub_steps(t, h)
         };
         self.mechanism.store(&self.y, &mut self.state);
         reached?;
@@ -341,20 +341,22 @@ impl World {
         (reaction.abs() > limit * (1.0 + 1e-12)).then_some(reaction)
     }
 
-    /// Sub-steps from `t` to `end`, ending at corners of signals and at events of drives.
-    fn sub_steps(&mut self, mut t: f64, end: f64) -> Result<(), (f64, Stop)> {
-        let mut events = 0;
+    /// Sub-steps over `span` from `start`, ending at corners of signals and at events of drives.
+    fn sub_steps(&mut self, start: f64, span: f64) -> Result<(), (f64, Stop)> {
+        let (mut t, end, mut events) = (start, start + span, 0);
         while t < end {
-            let corner = self.next_corner(t).min(end);
+            let corner = self.model().next_corner(t).min(end);
+            // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
+            let h_max = if t == start && corner == end { span } else { corner - t };
             self.keep();
             let control = self.control();
-            let h = self.method_step(t, corner - t).map_err(|failure| (t, Stop::Integration(failure)))?;
+            let h = self.method_step(t, h_max).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
                 self.restore();
                 return Err((t, Stop::Integration(Failure::NotFinite { t })));
             }
             self.effort.steps += 1;
-            let reached = if h >= corner - t { corner } else { t + h };
+            let reached = if h >= h_max { corner } else { t + h };
             if self.has_limited_drives() && self.is_violated(reached) {
                 t = self.locate(t, h, control)?;
                 events += 1;
@@ -367,13 +369,6 @@ impl World {
             }
         }
         Ok(())
-    }
-
-    fn next_corner(&self, t: f64) -> f64 {
-        let model = self.model();
-        let applied = model.applied.iter().flat_map(|a| &a.signal);
-        let wrenches = model.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.torque).flatten());
-        applied.chain(wrenches).map(|s| s.next_corner(t)).fold(f64::INFINITY, f64::min)
     }
 
     /// One step of the method from `t`, at most `h_max`; y is charted anew. Returns the length made.

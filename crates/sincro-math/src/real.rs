@@ -59,8 +59,8 @@ pub trait Real:
     /// derivatives by `x` and by `y`.
     fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self;
 
-    /// Runs a hot computation on this kind of number with the best registers of this processor: scalars gain from the thirty-two
-    /// of AVX-512; lanes are already where theirs are.
+    /// Runs a hot computation compiled for the best registers of this processor: lanes for their own instruction set, scalars for
+    /// the thirty-two registers of AVX-512. There is one compiled copy of a task for each kind of number, whoever calls it.
     #[inline(always)]
     fn run_hot<T: Task>(task: T) -> T::Output {
         task.run()

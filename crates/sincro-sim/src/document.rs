@@ -261,7 +261,8 @@ mod tests {
 
     #[test]
     fn what_json_cannot_hold_is_kept_apart() {
-        let doc = Document::parse(&source("a = [inf, -inf, nan, 1e999]\nd = 2020-01-01\ni = 99999999999999999999")).unwrap();
+        let doc =
+            Document::parse(&source("a = [inf, -inf, nan, 1e999]\nd = 2020-01-01\ni = 99999999999999999999")).unwrap();
         assert_eq!(doc.get("/a/0"), Some(&Value::Null));
         assert_eq!(doc.odd("/a/0"), Some(&Odd::Infinite { positive: true }));
         assert_eq!(doc.odd("/a/1"), Some(&Odd::Infinite { positive: false }));

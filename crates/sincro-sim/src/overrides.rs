@@ -174,11 +174,18 @@ impl<'a> Walk<'a> {
     }
 
     /// The step must be possible in the file as it is: an entry that is there, a name that is used, a table to go into.
-    fn check_presence(&self, document: &Document, key: &str, as_key: bool, index: Option<usize>) -> Result<(), Problem> {
+    fn check_presence(
+        &self,
+        document: &Document,
+        key: &str,
+        as_key: bool,
+        index: Option<usize>,
+    ) -> Result<(), Problem> {
         let here = document.get(&self.pointer);
         match (here, index) {
             (Some(Value::Array(list)), Some(k)) if k >= list.len() => {
-                let message = format!("`{}` has {} entries, there is no entry {k}", self.setting.path.value, list.len());
+                let message =
+                    format!("`{}` has {} entries, there is no entry {k}", self.setting.path.value, list.len());
                 Err(self.setting.error(message).with_help("entries are counted from 0"))
             }
             (Some(Value::Object(table)), _) if as_key => {

@@ -36,7 +36,8 @@ pub(crate) fn read(folder: &Folder, query: &Query<'_>, problems: &mut Problems) 
 }
 
 fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<(Vec<f64>, Vec<f64>), Problems> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source.text.as_bytes());
+    let mut reader =
+        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source.text.as_bytes());
     let header = reader.headers().map_err(|e| csv_problem(source, &e))?.clone();
     let names: Vec<&str> = header.iter().collect();
     let key_idx = column_index(&names, query.key, source);
@@ -87,7 +88,8 @@ impl Cells<'_> {
             Ok(x) if x.is_finite() => Ok(x),
             _ => {
                 let message = format!("`{text}` in column `{}` is not a finite number", self.names[index]);
-                Err(Problem::error(&self.at(index), message).with_help("numbers have a decimal point, columns are separated by commas"))
+                Err(Problem::error(&self.at(index), message)
+                    .with_help("numbers have a decimal point, columns are separated by commas"))
             }
         }
     }
@@ -167,7 +169,9 @@ mod tests {
         assert!(of("t,x\n0, 1\n# c\n1, abc\n", "x").unwrap_err().starts_with(not_a_number));
         assert!(of("t,x\n0,inf\n", "x").unwrap_err().starts_with("r.csv:2:3: error: `inf`"));
         assert!(of("t,x\n0,1\n0,2\n", "x").unwrap_err().starts_with("r.csv:3:1: error: `t` 0 does not come after 0"));
-        assert!(of("t,x\n0,1\n1\n", "x").unwrap_err().starts_with("r.csv:3:1: error: the row has 1 cells, the header 2"));
+        assert!(
+            of("t,x\n0,1\n1\n", "x").unwrap_err().starts_with("r.csv:3:1: error: the row has 1 cells, the header 2")
+        );
         assert!(of("t,x\n", "x").unwrap_err().starts_with("r.csv:1:1: error: the file has no rows"));
     }
 }

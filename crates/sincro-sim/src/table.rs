@@ -204,6 +204,13 @@ fn write_number(field: &mut Vec<u8>, value: f64) {
     written.expect("a vector takes all bytes");
 }
 
+/// A number as it stands in the file.
+pub(crate) fn number_text(value: f64) -> String {
+    let mut field = Vec::new();
+    write_number(&mut field, value);
+    String::from_utf8_lossy(&field).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -226,11 +233,7 @@ mod tests {
 
     #[test]
     fn text_is_the_shortest_that_reads_back() {
-        let text = |value: f64| {
-            let mut field = Vec::new();
-            write_number(&mut field, value);
-            String::from_utf8(field).unwrap()
-        };
+        let text = number_text;
         assert_eq!(text(0.1 + 0.2), "0.30000000000000004");
         assert_eq!([text(2.0), text(1e-12), text(0.005), text(-2.5e20)], ["2", "1e-12", "0.005", "-2.5e20"]);
         assert_eq!([text(f64::NAN), text(f64::NEG_INFINITY)], ["NaN", "-inf"]);

@@ -69,9 +69,33 @@ pub(super) fn scalar_avx512<T: Task>(task: T) -> T::Output {
     unsafe { run(task) }
 }
 
+/// A task on lanes of AVX-512: one copy, whoever calls it.
+#[inline]
+fn task_avx512<T: Task>(task: T) -> T::Output {
+    #[inline(never)]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+    fn run<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
+    // SAFETY: values of the lane type exist only where the instruction set is
+    unsafe { run(task) }
+}
+
+/// A task on lanes of AVX2.
+#[inline]
+fn task_avx2<T: Task>(task: T) -> T::Output {
+    #[inline(never)]
+    #[target_feature(enable = "avx2")]
+    fn run<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
+    // SAFETY: as above
+    unsafe { run(task) }
+}
+
 /// The trait implementations that two vector types share; `$op` are the intrinsics by name.
 macro_rules! lanes {
-    ($name:ident, $vector:ty, $n:literal, $doc:literal, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $set1:ident,
+    ($name:ident, $vector:ty, $n:literal, $doc:literal, $task:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $set1:ident,
      $load:ident, $store:ident) => {
         #[doc = $doc]
         #[derive(Clone, Copy, Debug)]
@@ -112,6 +136,11 @@ macro_rules! lanes {
 
         impl Real for $name {
             const LANES: usize = $n;
+
+            #[inline(always)]
+            fn run_hot<T: Task>(task: T) -> T::Output {
+                $task(task)
+            }
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -186,6 +215,7 @@ lanes!(
     __m512d,
     8,
     "Eight lanes of AVX-512.",
+    task_avx512,
     _mm512_add_pd,
     _mm512_sub_pd,
     _mm512_mul_pd,
@@ -201,6 +231,7 @@ lanes!(
     __m256d,
     4,
     "Four lanes of AVX2.",
+    task_avx2,
     _mm256_add_pd,
     _mm256_sub_pd,
     _mm256_mul_pd,

@@ -117,11 +117,9 @@ pub(crate) struct CheckFile {
     /// What of the series is compared.
     #[serde(default)]
     pub measure: MeasureFile,
-    /// The one time that is looked at [s].
-    #[schemars(range(min = 0.0))]
+    /// The one time that is looked at [s]; in a sweep, the one value of the parameter.
     pub at: Option<f64>,
-    /// First and last time that are looked at; default all [s].
-    #[schemars(inner(range(min = 0.0)))]
+    /// First and last time that are looked at [s], default all; in a sweep, values of the parameter.
     pub window: Option<[f64; 2]>,
     /// Largest difference that holds, in the unit of what is checked (without unit if `relative`).
     #[schemars(range(min = 0.0))]

@@ -269,7 +269,7 @@ pub(crate) struct ShapeFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct CuboidFile {
     /// Full lengths of the edges along x, y and z [m].
-    #[schemars(inner(extend("exclusiveMinimum" = 0.0)))]
+    #[schemars(extend("items" = {"type": "number", "exclusiveMinimum": 0.0}))]
     pub size: [f64; 3],
 }
 

@@ -205,7 +205,8 @@ impl SignalReader<'_> {
 
     fn table(&mut self, table: &TableFile, pointer: &str) -> Signal {
         let linear = table.interpolation == InterpolationFile::Linear;
-        let points = if table.file.is_some() { self.points_of_file(table, pointer) } else { self.points(table, pointer) };
+        let points =
+            if table.file.is_some() { self.points_of_file(table, pointer) } else { self.points(table, pointer) };
         match points {
             Some((times, values)) => Signal::Table { times: times.into(), values: values.into(), linear },
             None => Signal::Constant(0.0),

@@ -1,0 +1,276 @@
+//! Many worlds of one structure, several at a time in the lanes of vector registers.
+//!
+//! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has the bits
+//! that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do together (drives with a
+//! limit, inputs with corners: each world would want its own sub-steps) is done one world at a time; the result does not tell.
+//!
+//! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
+
+use sincro_math::Real;
+use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
+
+use crate::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
+use crate::mechanism::Mechanism;
+use crate::model::{Model, PackError};
+use crate::state::State;
+use crate::world::{MethodKind, Stop, World};
+
+/// One world of a batch.
+#[derive(Clone, Debug)]
+pub struct BatchWorld {
+    /// Its model; all worlds of a batch have the same structure.
+    pub model: Model<f64>,
+    /// Where it starts, and after the run where it has got to.
+    pub state: State<f64>,
+    /// Commands of every motor for every tick, tick by tick; empty: those in `state` throughout.
+    pub commands: Vec<f64>,
+    /// Why it stopped before the end, if it did.
+    pub stop: Option<Stop>,
+    /// Coordinates and velocities at every recorded tick, one after the other (`n_q + n_v` a record); the start is the first.
+    pub record: Vec<f64>,
+}
+
+impl BatchWorld {
+    /// A world that starts in `state` and keeps its commands.
+    #[must_use]
+    pub fn new(model: Model<f64>, state: State<f64>) -> Self {
+        Self { model, state, commands: Vec::new(), stop: None, record: Vec::new() }
+    }
+}
+
+/// How all worlds of a batch are advanced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BatchSettings {
+    /// A fixed-step method.
+    pub method: MethodKind,
+    /// Step [s].
+    pub h: f64,
+    /// Number of steps.
+    pub n_steps: u32,
+    /// Steps from one record to the next; 0: no record.
+    pub record_every: u32,
+}
+
+/// Advances a few worlds; best as many as [`sincro_math::lanes::width`], or a multiple.
+///
+/// # Errors
+///
+/// If the worlds differ in structure. A world that stops being finite is not an error of the batch: it says so itself.
+///
+/// # Panics
+///
+/// If the method is one of error control, whose worlds have no common step.
+pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<(), PackError> {
+    let fixed = matches!(settings.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
+    assert!(fixed, "a batch has a fixed step");
+    let width = sincro_math::lanes::width();
+    for bundle in worlds.chunks_mut(width) {
+        if bundle.iter().all(|w| suits_lanes(w, settings)) {
+            dispatch_lanes(Bundle { worlds: bundle, settings })?;
+        } else {
+            bundle.iter_mut().for_each(|w| advance_alone(w, settings));
+        }
+    }
+    Ok(())
+}
+
+fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
+    let end = settings.h * f64::from(settings.n_steps);
+    let unlimited = world.model.drives.iter().all(|d| d.limit(&world.model).is_none());
+    unlimited && world.model.next_corner(-1.0) >= end
+}
+
+/// One world by itself.
+pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
+    let (n_q, n_motors) = (world.model.n_q(), world.model.motors.len());
+    let control = Control::new(1.0, settings.h);
+    let mut alone = World::with_totals(world.model.clone(), world.state.clone(), settings.method, control, false);
+    let first = alone.state.tick;
+    record(&mut world.record, &alone.state.q[..n_q], &alone.state.v, settings.record_every > 0);
+    for k in 0..settings.n_steps {
+        if !world.commands.is_empty() {
+            alone.state.commands.copy_from_slice(&world.commands[k as usize * n_motors..][..n_motors]);
+        }
+        if let Err((_, stop)) = alone.advance((first + u64::from(k)) as f64 * settings.h, settings.h) {
+            world.stop = Some(stop);
+            break;
+        }
+        let due = settings.record_every > 0 && (k + 1) % settings.record_every == 0;
+        record(&mut world.record, &alone.state.q, &alone.state.v, due);
+    }
+    world.state = alone.state;
+}
+
+fn record(into: &mut Vec<f64>, q: &[f64], v: &[f64], due: bool) {
+    if due {
+        into.extend_from_slice(q);
+        into.extend_from_slice(v);
+    }
+}
+
+/// Worlds that go through the lanes together; a last, short bundle repeats its last world.
+struct Bundle<'a> {
+    worlds: &'a mut [BatchWorld],
+    settings: &'a BatchSettings,
+}
+
+impl LaneVisitor for Bundle<'_> {
+    type Output = Result<(), PackError>;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> Self::Output {
+        let Self { worlds, settings } = self;
+        if R::LANES == 1 {
+            worlds.iter_mut().for_each(|w| advance_alone(w, settings));
+            return Ok(());
+        }
+        let models: Vec<&Model<f64>> = worlds.iter().map(|w| &w.model).collect();
+        let model = Model::<R>::pack(&models)?;
+        let mechanism = Mechanism::new(model, false);
+        let dim = mechanism.dim();
+        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], jump: vec![R::zero(); dim / 2], mechanism };
+        lanes.load(worlds);
+        match settings.method {
+            MethodKind::SemiImplicitEuler => lanes.run(&mut SemiImplicitEuler::new(dim), worlds, settings),
+            MethodKind::Rk4 => lanes.run(&mut Rk4::new(dim), worlds, settings),
+            _ => lanes.run(&mut Extrapolated::new(dim, 2, Control::new(1.0, settings.h)), worlds, settings),
+        }
+        lanes.store(worlds);
+        Ok(())
+    }
+}
+
+/// A bundle in lanes: unlimited drives only.
+struct LaneWorlds<R> {
+    mechanism: Mechanism<R>,
+    y: Vec<R>,
+    jump: Vec<R>,
+}
+
+impl<R: Real> LaneWorlds<R> {
+    fn load(&mut self, worlds: &[BatchWorld]) {
+        let of = |k: usize| &worlds[k.min(worlds.len() - 1)].state;
+        let gather = |n: usize, f: &dyn Fn(&State<f64>) -> &[f64]| -> Vec<R> {
+            (0..n).map(|i| R::from_lanes(|k| f(of(k))[i])).collect()
+        };
+        let (n_q, n_v) = (self.mechanism.model().n_q(), self.mechanism.model().n_v());
+        let q = gather(n_q, &|s| &s.q);
+        self.mechanism.set_base(&q);
+        self.y[n_v..].copy_from_slice(&gather(n_v, &|s| &s.v));
+        let commands = gather(self.mechanism.commands.len(), &|s| &s.commands);
+        self.mechanism.commands.copy_from_slice(&commands);
+    }
+
+    fn store(&self, worlds: &mut [BatchWorld]) {
+        let n_v = self.mechanism.model().n_v();
+        for (k, world) in worlds.iter_mut().enumerate() {
+            if world.stop.is_some() {
+                continue;
+            }
+            for (q, lanes) in world.state.q.iter_mut().zip(self.mechanism.base()) {
+                *q = lanes.lane(k);
+            }
+            for (v, lanes) in world.state.v.iter_mut().zip(&self.y[n_v..]) {
+                *v = lanes.lane(k);
+            }
+            for (c, lanes) in world.state.commands.iter_mut().zip(&self.mechanism.commands) {
+                *c = lanes.lane(k);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn run<M: FixedStep<R>>(&mut self, method: &mut M, worlds: &mut [BatchWorld], settings: &BatchSettings) {
+        let first = worlds[0].state.tick;
+        let is_euler = settings.method == MethodKind::SemiImplicitEuler;
+        let driven = !self.mechanism.drives.is_empty();
+        self.record(worlds, settings.record_every > 0);
+        for k in 0..settings.n_steps {
+            self.command(worlds, k as usize);
+            let t = (first + u64::from(k)) as f64 * settings.h;
+            if driven {
+                self.drive(is_euler, settings.h);
+            }
+            method.step(&mut self.mechanism, t, settings.h, &mut self.y);
+            if driven && is_euler {
+                self.set_driven_velocities();
+            }
+            self.note_stops(worlds, t);
+            self.record(worlds, settings.record_every > 0 && (k + 1) % settings.record_every == 0);
+            for world in worlds.iter_mut().filter(|w| w.stop.is_none()) {
+                world.state.tick += 1;
+            }
+        }
+    }
+
+    fn command(&mut self, worlds: &[BatchWorld], k: usize) {
+        let n = self.mechanism.commands.len();
+        for i in 0..n {
+            let old = self.mechanism.commands[i];
+            self.mechanism.commands[i] = R::from_lanes(|lane| {
+                let commands = &worlds[lane.min(worlds.len() - 1)].commands;
+                if commands.is_empty() { old.lane(lane) } else { commands[k * n + i] }
+            });
+        }
+    }
+
+    /// Marks what the drives hold for this tick: Euler reaches the velocity within the step, the others jump first.
+    #[inline(always)]
+    fn drive(&mut self, is_euler: bool, h: f64) {
+        let n_v = self.mechanism.model().n_v();
+        self.mechanism.mark_held();
+        for i in 0..self.mechanism.drives.len() {
+            let dof = self.mechanism.model.drives[i].dof;
+            let missing = self.wanted(i) - self.y[n_v + dof];
+            let scale = if is_euler { R::splat(h) } else { R::one() };
+            self.mechanism.held_acceleration[dof] = missing / scale;
+        }
+        if is_euler {
+            return;
+        }
+        self.mechanism.impulse(&mut self.jump);
+        for k in 0..n_v {
+            self.y[n_v + k] += self.jump[k];
+        }
+        self.set_driven_velocities();
+        self.mechanism.mark_held();
+    }
+
+    #[inline(always)]
+    fn wanted(&self, i: usize) -> R {
+        let drive = &self.mechanism.model.drives[i];
+        drive.wanted(&self.mechanism.model, self.mechanism.base(), &self.mechanism.commands)
+    }
+
+    #[inline(always)]
+    fn set_driven_velocities(&mut self) {
+        let n_v = self.mechanism.model().n_v();
+        for i in 0..self.mechanism.drives.len() {
+            self.y[n_v + self.mechanism.model.drives[i].dof] = self.wanted(i);
+        }
+    }
+
+    /// A lane that stopped being finite keeps the state it had before and says so; the others are not concerned.
+    #[inline(always)]
+    fn note_stops(&self, worlds: &mut [BatchWorld], t: f64) {
+        if self.y.iter().all(|y| y.is_finite()) {
+            return;
+        }
+        for (k, world) in worlds.iter_mut().enumerate() {
+            if world.stop.is_none() && !self.y.iter().all(|y| y.lane(k).is_finite()) {
+                world.stop = Some(Stop::Integration(crate::integrate::Failure::NotFinite { t }));
+            }
+        }
+    }
+
+    fn record(&self, worlds: &mut [BatchWorld], due: bool) {
+        if !due {
+            return;
+        }
+        let n_v = self.mechanism.model().n_v();
+        for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
+            world.record.extend(self.mechanism.base().iter().map(|q| q.lane(k)));
+            world.record.extend(self.y[n_v..].iter().map(|v| v.lane(k)));
+        }
+    }
+}

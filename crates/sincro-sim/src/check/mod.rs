@@ -1,0 +1,221 @@
+//! Whether a run gave what it must: each [`Check`] of an experiment against the recorded rows.
+//!
+//! | which rows | |
+//! |---|---|
+//! | `at` | the row of that time |
+//! | `window` | the rows from its first to its last time, ends included |
+//! | reference | of those, the rows of the reference; each of its rows inside the run must fall on a recorded one |
+//! | else | all |
+//!
+//! Times match within 1e-9 s. Nothing is interpolated: a reference that falls between the rows is not compared, and the
+//! outcome says what step to use.
+//!
+//! The measure `error` compares row by row, and the largest deviation counts. Every other measure is one number of the series,
+//! compared with one expected number. What is expected is then a number or a formula of parameters alone; a reference, or a
+//! formula that varies from row to row, is measured in the same way over the same rows: peak against peak, mean against mean.
+//!
+//! The deviation is |measured − expected|; with `relative`, divided by max(|expected|, floor), where zero of zero is zero.
+//! A check holds if the deviation is finite and at most the tolerance. A NaN among the numbers that enter a comparison is its
+//! result, so a check with a NaN never holds. What cannot be compared is not made, and says why: a run that stopped early has
+//! only its checks of the time before.
+
+mod along;
+mod measure;
+mod rows;
+mod series;
+mod words;
+
+#[cfg(test)]
+mod tests;
+
+use crate::experiment::check::{Check, Expected, Measure};
+use crate::sweep::Sweep;
+use crate::table::Table;
+use along::Along;
+use measure::Measured;
+use rows::Rows;
+use series::Source;
+
+/// The judgement of one check, and the numbers it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The check's name.
+    pub name: String,
+    /// The judgement.
+    pub verdict: Verdict,
+    /// What was compared with what, in words: `greatest value of /shoulder.position against 0.2`.
+    pub about: String,
+    /// The value measured, for `error` that of the worst row; none if the check was not made.
+    pub measured: Option<f64>,
+    /// The value expected at the same place.
+    pub expected: Option<f64>,
+    /// |measured − expected|, divided by max(|expected|, floor) if `relative`; may be infinite or NaN, which never holds.
+    pub deviation: Option<f64>,
+    /// Largest deviation that holds.
+    pub limit: f64,
+    /// Whether deviation and limit are relative, hence without unit.
+    pub relative: bool,
+    /// Unit of measured and expected; empty where it is not known (formulas).
+    pub unit: String,
+    /// Where the measured value stands, if it is that of a row: time [s]; in a sweep, the value of the parameter.
+    pub at: Option<f64>,
+    /// How many rows entered.
+    pub n_rows: usize,
+    /// The recorded signal that was measured as it is; none for formulas.
+    pub signal: Option<String>,
+    /// For `error` against a reference or a formula: what was expected, row by row, as far as the run came.
+    pub series: Option<Series>,
+}
+
+/// The judgement of a check.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The deviation is finite and within its limit.
+    Holds,
+    /// It is not.
+    Fails,
+    /// There was nothing to compare; the reason.
+    NotMade(String),
+}
+
+/// Expected values over time, or over the parameter of a sweep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Times [s], or values of the parameter.
+    pub times: Vec<f64>,
+    /// What is expected there.
+    pub values: Vec<f64>,
+}
+
+/// Judges the checks of one run, in their order.
+///
+/// `stopped` is the time [s] at which the run ended before its duration; `None` if it came to its end.
+#[must_use]
+pub fn evaluate(checks: &[Check], table: &Table, stopped: Option<f64>) -> Vec<Outcome> {
+    let along = Along::run(table, stopped);
+    checks.iter().map(|check| judge(check, &along)).collect()
+}
+
+/// Judges the checks of a sweep, in their order. The parameter takes the place of time: in references, in `at` and `window`, and
+/// in measures. Points match within a billionth of the smallest gap between them.
+///
+/// A reference may have more rows than the sweep has points, or fewer, but not both.
+#[must_use]
+pub fn evaluate_sweep(checks: &[Check], sweep: &Sweep) -> Vec<Outcome> {
+    let runs = sweep.ascending();
+    let table = sweep.table(&runs);
+    let along = Along::sweep(&table, runs.iter().map(|run_idx| sweep.stop(*run_idx)).collect());
+    checks.iter().map(|check| judge(check, &along)).collect()
+}
+
+/// Two numbers, how far they are apart, and where.
+struct Comparison {
+    measured: f64,
+    expected: f64,
+    deviation: f64,
+    at: Option<f64>,
+    n_rows: usize,
+}
+
+fn judge(check: &Check, along: &Along) -> Outcome {
+    let (verdict, comparison) = match compare(check, along) {
+        Ok(comparison) => (verdict(check, comparison.deviation), Some(comparison)),
+        Err(reason) => (Verdict::NotMade(reason), None),
+    };
+    Outcome {
+        name: check.name.clone(),
+        verdict,
+        about: words::about(check, along),
+        measured: comparison.as_ref().map(|c| c.measured),
+        expected: comparison.as_ref().map(|c| c.expected),
+        deviation: comparison.as_ref().map(|c| c.deviation),
+        limit: check.tolerance,
+        relative: check.relative,
+        unit: words::unit(check, along),
+        at: comparison.as_ref().and_then(|c| c.at),
+        n_rows: comparison.as_ref().map_or(0, |c| c.n_rows),
+        signal: series::plain_signal(check).map(str::to_owned),
+        series: overlay(check, along),
+    }
+}
+
+fn verdict(check: &Check, deviation: f64) -> Verdict {
+    if deviation.is_finite() && deviation <= check.tolerance { Verdict::Holds } else { Verdict::Fails }
+}
+
+fn compare(check: &Check, along: &Along) -> Result<Comparison, String> {
+    let source = Source::new(check, along)?;
+    let rows = rows::select(check, along)?;
+    let measured = source.measured(&rows.idxs)?;
+    match check.measure {
+        Measure::Error => {
+            let expected = source.expected(&rows)?;
+            Ok(compare_rows(check, along, &rows, &measured, &expected))
+        }
+        _ => compare_numbers(check, along, &source, &rows, &measured),
+    }
+}
+
+/// The row that deviates most; the first of equals, and the first that is not a number before all others.
+fn compare_rows(check: &Check, along: &Along, rows: &Rows, measured: &[f64], expected: &[f64]) -> Comparison {
+    let deviations: Vec<f64> = measured.iter().zip(expected).map(|(m, e)| deviation(check, *m, *e)).collect();
+    let worst = measure::greatest(&deviations);
+    Comparison {
+        measured: measured[worst],
+        expected: expected[worst],
+        deviation: deviations[worst],
+        at: Some(along.keys()[rows.idxs[worst]]),
+        n_rows: rows.idxs.len(),
+    }
+}
+
+fn compare_numbers(
+    check: &Check,
+    along: &Along,
+    source: &Source,
+    rows: &Rows,
+    measured: &[f64],
+) -> Result<Comparison, String> {
+    let keys: Vec<f64> = rows.idxs.iter().map(|row_idx| along.keys()[*row_idx]).collect();
+    let Measured { value: measured, row } = measure::measure(check.measure, &keys, measured)?;
+    let expected = match source.expected_number(rows)? {
+        Some(number) => number,
+        None => measure::measure(check.measure, &keys, &source.expected(rows)?)?.value,
+    };
+    Ok(Comparison {
+        measured,
+        expected,
+        deviation: deviation(check, measured, expected),
+        at: row.map(|row| keys[row]),
+        n_rows: keys.len(),
+    })
+}
+
+fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
+    let difference = (measured - expected).abs();
+    if !check.relative || difference == 0.0 || difference.is_nan() {
+        return difference;
+    }
+    difference / expected.abs().max(check.floor)
+}
+
+/// What is expected, row by row, where a plot can show it.
+fn overlay(check: &Check, along: &Along) -> Option<Series> {
+    if check.measure != Measure::Error {
+        return None;
+    }
+    match &check.expected {
+        Expected::Value(_) => None,
+        Expected::Reference(reference) => {
+            let inside = rows::recorded_part(check, along, reference);
+            let series =
+                Series { times: reference.keys[inside.clone()].to_vec(), values: reference.values[inside].to_vec() };
+            (!series.times.is_empty()).then_some(series)
+        }
+        Expected::Formula(formula) => {
+            let idxs: Vec<usize> = rows::span(check, along).ok()?.collect();
+            let values = Source::new(check, along).and_then(|source| source.formula(formula, &idxs)).ok()?;
+            Some(Series { times: idxs.iter().map(|row_idx| along.keys()[*row_idx]).collect(), values })
+        }
+    }
+}

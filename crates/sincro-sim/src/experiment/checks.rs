@@ -1,0 +1,269 @@
+//! Checks as written to checks as evaluated: formulas read, references found, times looked up.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sincro_math::expression::{Expression, is_name};
+
+use super::check::{Check, Expected, Measure, Reference, Subject};
+use super::file::{CheckFile, NumberOrFormula, ReferenceFile};
+use super::grid::{Grid, short};
+use crate::document::{Document, escape};
+use crate::folder::Folder;
+use crate::problem::{Located, Location, Problem, Problems};
+use crate::series::{self, Query};
+
+/// What rows are lined up along.
+pub(super) enum Keys {
+    /// Times of a run.
+    Run(Grid),
+    /// Values of the parameter of a sweep.
+    Sweep(Vec<f64>),
+}
+
+/// Reads checks and references of one run, variant or sweep.
+pub(super) struct CheckReader<'a> {
+    pub document: &'a Document,
+    pub folder: &'a Folder,
+    pub parameters: Arc<[(String, f64)]>,
+    pub keys: Keys,
+    pub problems: &'a mut Problems,
+}
+
+impl CheckReader<'_> {
+    /// The checks of the list `check` in the table at `pointer`; those with errors are left out, noted as problems.
+    pub fn list(&mut self, files: &[CheckFile], pointer: &str) -> Vec<Check> {
+        let mut names: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut checks = Vec::new();
+        for (k, file) in files.iter().enumerate() {
+            let pointer = format!("{pointer}/check/{k}");
+            let location = self.document.title_at(&pointer);
+            let (line, _) = location.line_column();
+            if let Some(first) = names.insert(&file.name, line) {
+                let problem = Problem::error(&location, format!("there are two checks `{}`", file.name));
+                self.problems.push(problem.with_help(format!("the other one is in line {first}")));
+            }
+            checks.extend(self.check(file, &pointer, location));
+        }
+        checks
+    }
+
+    fn check(&mut self, file: &CheckFile, pointer: &str, location: Location) -> Option<Check> {
+        let aliases = self.aliases(file, pointer);
+        let slots: Vec<String> = aliases
+            .iter()
+            .map(|(alias, _)| alias.clone())
+            .chain(["t".to_owned()])
+            .chain(self.parameters.iter().map(|(name, _)| name.clone()))
+            .collect();
+        let what = self.subject(file, pointer, &slots);
+        let expected = self.expected(file, pointer, &slots);
+        self.times(file, pointer);
+        if file.floor.is_some() && !file.relative {
+            let at = self.document.key_at(&format!("{pointer}/floor"));
+            let problem = Problem::error(&at, "`floor` without `relative = true`");
+            self.problems.push(problem.with_help("it is the least divisor of a relative difference"));
+        }
+        Some(Check {
+            name: file.name.clone(),
+            what: what?,
+            aliases,
+            parameters: self.parameters.clone(),
+            expected: expected?,
+            measure: Measure::from(file.measure),
+            at: file.at,
+            window: file.window.map(|[from, to]| (from, to)),
+            tolerance: file.tolerance,
+            relative: file.relative,
+            floor: file.floor.unwrap_or(0.0),
+            location,
+        })
+    }
+
+    fn aliases(&mut self, file: &CheckFile, pointer: &str) -> Vec<(String, Located<String>)> {
+        let mut aliases = Vec::new();
+        for (alias, signal) in file.signals.iter().flatten() {
+            let inner = format!("{pointer}/signals/{}", escape(alias));
+            let help = if !is_name(alias) {
+                Some("formulas know names of letters, digits and `_` that begin with a letter")
+            } else if alias == "t" || alias == "pi" {
+                Some("it has a meaning of its own in formulas")
+            } else if self.parameters.iter().any(|(name, _)| name == alias) {
+                Some("a parameter has that name; give the signal another one")
+            } else {
+                None
+            };
+            if let Some(help) = help {
+                let at = self.document.key_at(&inner);
+                self.problems.push(Problem::error(&at, format!("`{alias}` cannot stand for a signal")).with_help(help));
+            }
+            aliases.push((alias.clone(), Located { value: signal.clone(), at: self.document.at(&inner) }));
+        }
+        aliases
+    }
+
+    fn subject(&mut self, file: &CheckFile, pointer: &str, slots: &[String]) -> Option<Subject> {
+        match (&file.signal, &file.formula) {
+            (Some(signal), None) => {
+                let at = self.document.at(&format!("{pointer}/signal"));
+                Some(Subject::Signal(Located { value: signal.clone(), at }))
+            }
+            (Some(_), Some(_)) => {
+                let at = self.document.key_at(&format!("{pointer}/formula"));
+                let problem = Problem::error(&at, "`signal` and `formula` exclude each other");
+                self.problems.push(problem.with_help("name the signals of a formula: signals = { x = \"…\" }"));
+                None
+            }
+            (None, Some(formula)) => self.formula(formula, &format!("{pointer}/formula"), slots).map(Subject::Formula),
+            (None, None) => {
+                let at = self.document.key_at(&format!("{pointer}/signals"));
+                let problem = Problem::error(&at, format!("`formula` is missing in check `{}`", file.name));
+                self.problems
+                    .push(problem.with_help("`signals` names what a formula is made of; `signal` is checked as it is"));
+                None
+            }
+        }
+    }
+
+    fn expected(&mut self, file: &CheckFile, pointer: &str, slots: &[String]) -> Option<Expected> {
+        match (&file.value, &file.reference) {
+            (Some(NumberOrFormula::Number(x)), _) => Some(Expected::Value(*x)),
+            (Some(NumberOrFormula::Formula(text)), _) => {
+                self.formula(text, &format!("{pointer}/value"), slots).map(Expected::Formula)
+            }
+            (None, Some(reference)) => {
+                self.reference(reference, &format!("{pointer}/reference")).map(Expected::Reference)
+            }
+            (None, None) => None,
+        }
+    }
+
+    fn formula(&mut self, text: &str, pointer: &str, slots: &[String]) -> Option<Expression> {
+        let names: Vec<&str> = slots.iter().map(String::as_str).collect();
+        match Expression::parse(text, &names) {
+            Ok(formula) => Some(formula),
+            Err(error) => {
+                let at = inside_string(&self.document.at(pointer), text, &error.span);
+                let problem = Problem::error(&at, format!("formula: {}", error.message));
+                self.problems.push(match error.help {
+                    Some(help) => problem.with_help(help),
+                    None => problem.with_help(format!("it knows {}", known(&names))),
+                });
+                None
+            }
+        }
+    }
+
+    /// A reference; none, with problems noted, if it is not there.
+    pub fn reference(&mut self, file: &ReferenceFile, pointer: &str) -> Option<Reference> {
+        let is_sweep = matches!(self.keys, Keys::Sweep(_));
+        let (own, other) = if is_sweep { ("parameter", "time") } else { ("time", "parameter") };
+        if self.document.get(&format!("{pointer}/{other}")).is_some() {
+            let at = self.document.key_at(&format!("{pointer}/{other}"));
+            let problem = Problem::error(&at, format!("`{other}` has no meaning here"));
+            self.problems.push(problem.with_help(format!("rows are lined up by `{own}`")));
+            return None;
+        }
+        let key_pointer = format!("{pointer}/{own}");
+        let key = match self.document.located(&key_pointer) {
+            Some(key) => key,
+            None if is_sweep => {
+                let problem = Problem::error(&self.document.at(pointer), "`parameter` is missing in `reference`");
+                self.problems.push(problem.with_help("it names the column of the values of the swept parameter"));
+                return None;
+            }
+            None => Located { value: "t".into(), at: self.document.at(pointer) },
+        };
+        let name = self.document.located(&format!("{pointer}/file"))?;
+        let column = self.document.located(&format!("{pointer}/column"))?;
+        let query = Query { file: &name, key: &key, column: &column };
+        let (keys, values) = series::read(self.folder, &query, self.problems)?;
+        Some(Reference {
+            file: self.folder.path_of(&file.file),
+            key_column: key.value,
+            column: column.value,
+            scale: file.scale,
+            offset: file.offset,
+            keys: keys.into(),
+            values: values.iter().map(|x| file.scale * x + file.offset).collect(),
+            location: column.at,
+        })
+    }
+
+    fn times(&mut self, file: &CheckFile, pointer: &str) {
+        let refused = match (file.at, file.window) {
+            (Some(at), _) => self.keys.refuse_at(at).map(|found| ("at", found)),
+            (None, Some([from, to])) => self.keys.refuse_window(from, to).map(|found| ("window", found)),
+            (None, None) => None,
+        };
+        if let Some((key, (message, help))) = refused {
+            let at = self.document.at(&format!("{pointer}/{key}"));
+            self.problems.push(Problem::error(&at, message).with_help(help));
+        }
+    }
+}
+
+impl Keys {
+    /// Why nothing is recorded at `at`, and what would be.
+    fn refuse_at(&self, at: f64) -> Option<(String, String)> {
+        match self {
+            Self::Run(grid) if !grid.contains(at) => Some((
+                format!("{at} s is outside of the run, which lasts {} s", grid.duration),
+                "use a time within the run, or a longer duration".into(),
+            )),
+            Self::Run(grid) => {
+                let (before, after) = grid.rows_around(at);
+                let help = format!("use {} or {}", short(before), short(after));
+                (before != after).then(|| (format!("no row is recorded at {at} s"), help))
+            }
+            Self::Sweep(values) => {
+                let near = values.iter().copied().reduce(|a, b| if (b - at).abs() < (a - at).abs() { b } else { a })?;
+                let missed = (near - at).abs() > 1e-9 * at.abs().max(near.abs());
+                missed.then(|| (format!("the sweep has no value {at}"), format!("the nearest is {near}")))
+            }
+        }
+    }
+
+    /// Why a window shows nothing, or reaches too far.
+    fn refuse_window(&self, from: f64, to: f64) -> Option<(String, String)> {
+        if from > to {
+            return Some((
+                format!("the window ends at {to}, before it begins at {from}"),
+                "give the earlier end first".into(),
+            ));
+        }
+        match self {
+            Self::Run(grid) if !grid.contains(from) || !grid.contains(to) => Some((
+                format!("the window from {from} s to {to} s is not inside the run, which lasts {} s", grid.duration),
+                format!("use times from 0 to {}", grid.duration),
+            )),
+            Self::Run(grid) => {
+                let ((before, after), last) = (grid.rows_around(from), grid.rows_around(to).0);
+                let empty = before != after && after > last;
+                let help = format!("rows are recorded at {} s and {} s", short(before), short(after));
+                empty.then(|| (format!("no row is recorded from {from} s to {to} s"), help))
+            }
+            Self::Sweep(values) => {
+                let empty = !values.is_empty() && !values.iter().any(|x| *x >= from && *x <= to);
+                empty.then(|| (format!("the sweep has no value from {from} to {to}"), "widen the window".into()))
+            }
+        }
+    }
+}
+
+fn known(names: &[&str]) -> String {
+    let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+    names.join(", ")
+}
+
+/// The place of a part of a string's value in the file; the whole string if it was written with escapes.
+fn inside_string(at: &Location, value: &str, part: &std::ops::Range<usize>) -> Location {
+    let written = at.text();
+    match written.find(value).filter(|_| !value.is_empty()) {
+        Some(quote) => {
+            let start = at.span.start + quote;
+            Location { source: at.source.clone(), span: start + part.start..start + part.end }
+        }
+        None => at.clone(),
+    }
+}

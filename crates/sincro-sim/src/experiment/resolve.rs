@@ -1,0 +1,277 @@
+//! From the experiment file as written to an [`Experiment`]; all problems at once.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sincro_math::expression::is_name;
+
+use super::checks::{CheckReader, Keys};
+use super::file::{ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, RangeFile, SweepFile};
+use super::grid::Grid;
+use super::{ErrorBar, Experiment, Integrator, Plot, Sweep, Variant};
+use crate::document::{Document, escape};
+use crate::folder::Folder;
+use crate::overrides::Override;
+use crate::problem::{Located, Problem, Problems};
+
+/// Most values of a sweep: a slip of the pen in `step` must not fill the memory.
+const MAX_SWEEP: f64 = 1e6;
+
+/// Resolves a document that fits the schema.
+pub(crate) fn resolve(document: &Document, folder: &Folder) -> (Option<Experiment>, Problems) {
+    let mut problems = Problems::new();
+    let file: ExperimentFile = match serde_json::from_value(document.root.clone()) {
+        Ok(file) => file,
+        Err(e) => {
+            let problem = Problem::error(&document.at(""), format!("the experiment cannot be read: {e}"));
+            return (None, problem.into());
+        }
+    };
+    let mut resolver = Resolver { document, folder, file: &file, problems: &mut problems };
+    let experiment = resolver.experiment();
+    (experiment, problems)
+}
+
+struct Resolver<'a> {
+    document: &'a Document,
+    folder: &'a Folder,
+    file: &'a ExperimentFile,
+    problems: &'a mut Problems,
+}
+
+impl Resolver<'_> {
+    fn experiment(&mut self) -> Option<Experiment> {
+        let file = self.file;
+        self.parameter_names();
+        let grid = Grid { duration: file.duration, step: file.step, record_every: file.record_every };
+        let n_steps = self.steps(&grid);
+        let record = self.record();
+        let parameters: Arc<[(String, f64)]> = file.parameters.iter().map(|(k, x)| (k.clone(), *x)).collect();
+        let checks = self.reader(&parameters, Keys::Run(grid)).list(&file.check, "");
+        let sweep = file.sweep.as_ref().map(|sweep| self.sweep(sweep, &parameters));
+        let variants = self.variants(&parameters, grid);
+        let plots = self.plots(&parameters, grid);
+        let scene_path = self.folder.path_of(&file.scene);
+        Some(Experiment {
+            title: file.title.clone(),
+            description: file.description.clone(),
+            scene_path,
+            duration: file.duration,
+            step: file.step,
+            n_steps: n_steps?,
+            record_every: file.record_every,
+            integrator: file.integrator.into(),
+            accuracy: file.accuracy,
+            error_bar: file.error_bar.into(),
+            seed: file.seed,
+            record,
+            parameters: file.parameters.clone(),
+            checks,
+            sweep,
+            variants,
+            plots,
+        })
+    }
+
+    fn reader(&mut self, parameters: &Arc<[(String, f64)]>, keys: Keys) -> CheckReader<'_> {
+        CheckReader {
+            document: self.document,
+            folder: self.folder,
+            parameters: parameters.clone(),
+            keys,
+            problems: self.problems,
+        }
+    }
+
+    fn error(&mut self, pointer: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.problems.push(Problem::error(&self.document.at(pointer), message).with_help(help));
+    }
+
+    fn parameter_names(&mut self) {
+        for name in self.file.parameters.keys() {
+            let reserved = name == "t" || name == "pi";
+            if is_name(name) && !reserved {
+                continue;
+            }
+            let message = format!("`{name}` cannot be the name of a parameter");
+            let help = if reserved {
+                format!("`{name}` has a meaning of its own in formulas")
+            } else {
+                "formulas know names of letters, digits and `_` that begin with a letter".into()
+            };
+            let at = self.document.key_at(&format!("/parameters/{}", escape(name)));
+            self.problems.push(Problem::error(&at, message).with_help(help));
+        }
+    }
+
+    fn steps(&mut self, grid: &Grid) -> Option<u64> {
+        match grid.n_steps() {
+            Ok(n) if n % grid.record_every != 0 => {
+                let every = grid.record_every;
+                let message = format!("the end of the run is not recorded: {n} steps, one row every {every}");
+                let at = self.document.at("/record_every");
+                let problem = Problem::error(&at, message).as_warning();
+                self.problems.push(problem.with_help("let `record_every` divide the number of steps"));
+                Some(n)
+            }
+            Ok(n) => Some(n),
+            Err((message, help)) => {
+                self.error("/duration", message, help);
+                None
+            }
+        }
+    }
+
+    fn record(&mut self) -> Vec<Located<String>> {
+        let mut record: Vec<Located<String>> = Vec::new();
+        for (k, name) in self.file.record.iter().enumerate() {
+            let pointer = format!("/record/{k}");
+            if let Some(first) = record.iter().find(|known| known.value == *name) {
+                let (line, column) = first.at.line_column();
+                self.error(
+                    &pointer,
+                    format!("`{name}` is recorded twice"),
+                    format!("first in line {line}, column {column}"),
+                );
+            } else {
+                record.push(Located { value: name.clone(), at: self.document.at(&pointer) });
+            }
+        }
+        record
+    }
+
+    fn sweep(&mut self, file: &SweepFile, parameters: &Arc<[(String, f64)]>) -> Sweep {
+        let values = match (&file.range, &file.values) {
+            (Some(range), _) => self.range(range),
+            (None, values) => values.clone().unwrap_or_default(),
+        };
+        if let Some(k) = (1..values.len()).find(|&k| values[..k].contains(&values[k])) {
+            self.error(&format!("/sweep/values/{k}"), format!("{} is run twice", values[k]), "leave one of them out");
+        }
+        let checks = self.reader(parameters, Keys::Sweep(values.clone())).list(&file.check, "/sweep");
+        let parameter = Located { value: file.parameter.clone(), at: self.document.at("/sweep/parameter") };
+        Sweep { parameter, values, checks }
+    }
+
+    fn range(&mut self, &RangeFile { from, to, step }: &RangeFile) -> Vec<f64> {
+        let n = ((to - from) / step).round();
+        let pointer = "/sweep/range/step";
+        if step == 0.0 || !n.is_finite() || n < 0.0 {
+            let message = format!("steps of {step} do not lead from {from} to {to}");
+            self.error(pointer, message, "the step is not zero and goes from `from` towards `to`");
+            return Vec::new();
+        }
+        if n > MAX_SWEEP {
+            self.error(pointer, format!("{n:e} values from {from} to {to}"), "use a larger step");
+            return Vec::new();
+        }
+        if (from + n * step - to).abs() > 1e-9 * (to - from).abs() {
+            let message = format!("from {from} to {to} is not a whole number of steps of {step}");
+            let last = super::grid::short(from + ((to - from) / step).floor() * step);
+            self.error("/sweep/range/to", message, format!("use {last}, or another step"));
+            return Vec::new();
+        }
+        (0..=n as u64).map(|k| from + k as f64 * step).collect()
+    }
+
+    fn variants(&mut self, parameters: &Arc<[(String, f64)]>, main: Grid) -> Vec<Variant> {
+        let mut names: BTreeMap<String, usize> = BTreeMap::new();
+        let mut variants = Vec::new();
+        for (k, file) in self.file.variant.iter().enumerate() {
+            let pointer = format!("/variant/{k}");
+            self.variant_name(&file.name, &pointer, &mut names);
+            let mut set = Vec::new();
+            for path in file.set.keys() {
+                let inner = format!("{pointer}/set/{}", escape(path));
+                let value = self.document.at(&inner);
+                set.push(Override {
+                    path: Located { value: path.clone(), at: self.document.key_at(&inner) },
+                    value: Located { value: value.text().to_owned(), at: value },
+                });
+            }
+            let own = own_parameters(parameters, &file.set);
+            let checks = self.reader(&own, Keys::Run(own_grid(main, &file.set))).list(&file.check, &pointer);
+            variants.push(Variant {
+                name: file.name.clone(),
+                description: file.description.clone(),
+                set,
+                inherit_checks: file.inherit_checks,
+                checks,
+                location: self.document.title_at(&pointer),
+            });
+        }
+        variants
+    }
+
+    fn variant_name(&mut self, name: &str, pointer: &str, names: &mut BTreeMap<String, usize>) {
+        let good = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+        let pointer = format!("{pointer}/name");
+        // the name becomes the name of a folder of results
+        if name.is_empty() || name.starts_with('.') || !name.chars().all(good) {
+            let help = "names have letters a–z and A–Z, digits, `_`, `-` and `.`";
+            self.error(&pointer, format!("`{name}` is not a name of a variant"), help);
+        }
+        let (line, _) = self.document.at(&pointer).line_column();
+        if let Some(first) = names.insert(name.to_owned(), line) {
+            self.error(
+                &pointer,
+                format!("there are two variants `{name}`"),
+                format!("the other one is in line {first}"),
+            );
+        }
+    }
+
+    fn plots(&mut self, parameters: &Arc<[(String, f64)]>, grid: Grid) -> Vec<Plot> {
+        let mut plots = Vec::new();
+        for (k, PlotFile { title, signals, reference }) in self.file.plot.iter().enumerate() {
+            let pointer = format!("/plot/{k}");
+            let located = |(i, name): (usize, &String)| Located {
+                value: name.clone(),
+                at: self.document.at(&format!("{pointer}/signals/{i}")),
+            };
+            let signals = signals.iter().enumerate().map(located).collect();
+            let mut reader = self.reader(parameters, Keys::Run(grid));
+            let reference = reference.as_ref().and_then(|file| reader.reference(file, &format!("{pointer}/reference")));
+            plots.push(Plot { title: title.clone(), signals, reference });
+        }
+        plots
+    }
+}
+
+/// The times of a variant: those of the main run but for what it sets.
+fn own_grid(main: Grid, set: &BTreeMap<String, serde_json::Value>) -> Grid {
+    let number = |key: &str| set.get(key).and_then(serde_json::Value::as_f64).filter(|x| *x > 0.0);
+    Grid {
+        duration: number("duration").unwrap_or(main.duration),
+        step: number("step").unwrap_or(main.step),
+        record_every: set.get("record_every").and_then(serde_json::Value::as_u64).unwrap_or(main.record_every).max(1),
+    }
+}
+
+/// The parameters of a variant: those of the main run but for what it sets.
+fn own_parameters(main: &Arc<[(String, f64)]>, set: &BTreeMap<String, serde_json::Value>) -> Arc<[(String, f64)]> {
+    let own = |name: &str| set.get(&format!("parameters.{name}")).and_then(serde_json::Value::as_f64);
+    main.iter().map(|(name, x)| (name.clone(), own(name).unwrap_or(*x))).collect()
+}
+
+impl From<IntegratorFile> for Integrator {
+    fn from(file: IntegratorFile) -> Self {
+        match file {
+            IntegratorFile::Auto => Self::Auto,
+            IntegratorFile::SemiImplicitEuler => Self::SemiImplicitEuler,
+            IntegratorFile::Rk4 => Self::Rk4,
+            IntegratorFile::Implicit => Self::Implicit,
+            IntegratorFile::DormandPrince => Self::DormandPrince,
+            IntegratorFile::Stiff => Self::Stiff,
+        }
+    }
+}
+
+impl From<ErrorBarFile> for ErrorBar {
+    fn from(file: ErrorBarFile) -> Self {
+        match file {
+            ErrorBarFile::Refine => Self::Refine,
+            ErrorBarFile::None => Self::None,
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Opening a scene folder: reads, sets, checks and compiles everything in it, and reports all problems at once.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::document::Document;
+use crate::experiment::{self, Experiment};
+use crate::folder::Folder;
+use crate::overrides::{Override, Target, apply_all};
+use crate::problem::{Problem, Problems, SourceText};
+use crate::scene::{self, Scene};
+use crate::schema::{experiment_schema, scene_schema, validate};
+
+/// The file that makes a folder an experiment.
+const EXPERIMENT: &str = "experiment.toml";
+
+/// An experiment and its scene, ready to run.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// What is run, recorded and checked.
+    pub experiment: Experiment,
+    /// The compiled scene.
+    pub scene: Scene,
+    /// What the user should know of.
+    pub warnings: Vec<Problem>,
+    /// Every file that was read: what a hash of the inputs covers.
+    pub sources: Vec<Arc<SourceText>>,
+}
+
+/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
+///
+/// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run a
+/// variant, load again with its `set` added to `overrides`.
+///
+/// # Errors
+///
+/// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
+pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
+    let folder = Folder::new(&find_folder(folder)?);
+    let mut loaded = open(&folder, overrides)?;
+    let mut problems = Problems(std::mem::take(&mut loaded.warnings));
+    for setting in further_settings(&loaded.experiment) {
+        let settings: Vec<Override> = overrides.iter().cloned().chain(setting).collect();
+        match open(&folder, &settings) {
+            Ok(variant) => problems.merge(Problems(variant.warnings)),
+            Err(found) => problems.merge(found),
+        }
+    }
+    if problems.any_error() {
+        return Err(problems.sorted());
+    }
+    Ok(Loaded { warnings: problems.sorted().0, sources: folder.sources(), ..loaded })
+}
+
+/// Settings of the variants, and of the first and last run of the sweep.
+fn further_settings(experiment: &Experiment) -> Vec<Vec<Override>> {
+    let mut all: Vec<Vec<Override>> = experiment.variants.iter().map(|variant| variant.set.clone()).collect();
+    if let Some(sweep) = &experiment.sweep {
+        let ends = [sweep.values.first(), sweep.values.last()];
+        all.extend(ends.into_iter().flatten().map(|value| vec![sweep.setting(*value)]));
+    }
+    all
+}
+
+/// The folder that is meant by a folder or by the experiment file in it.
+fn find_folder(path: &Path) -> Result<PathBuf, Problems> {
+    let shown = path.display();
+    let help = "name a folder with an `experiment.toml`";
+    let Ok(metadata) = std::fs::metadata(path) else {
+        return Err(Problem::nowhere(format!("there is no folder `{shown}`")).with_help(help).into());
+    };
+    if metadata.is_dir() {
+        if path.join(EXPERIMENT).exists() {
+            return Ok(path.to_owned());
+        }
+        let found = experiments_below(path);
+        let help = if found.is_empty() { help.to_owned() } else { format!("there is one in {}", found.join(", ")) };
+        return Err(Problem::nowhere(format!("the folder `{shown}` has no `{EXPERIMENT}`")).with_help(help).into());
+    }
+    if path.file_name().is_some_and(|name| name == EXPERIMENT) {
+        let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
+        return Ok(parent.unwrap_or(Path::new(".")).to_owned());
+    }
+    Err(Problem::nowhere(format!("`{shown}` is not a folder and not an `{EXPERIMENT}`")).with_help(help).into())
+}
+
+/// Up to five folders in a folder that are experiments.
+fn experiments_below(path: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+    let with_file = entries.map(|entry| entry.path()).filter(|p| p.join(EXPERIMENT).is_file());
+    let mut found: Vec<String> = with_file.map(|p| format!("`{}`", p.display())).collect();
+    found.sort();
+    found.truncate(5);
+    found
+}
+
+/// One experiment without its variants.
+fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
+    let mut problems = Problems::new();
+    let document = Document::parse(&folder.read(EXPERIMENT)?)?;
+    let document = prepared(document, Target::Experiment, overrides, &mut problems);
+    let found = validate(&document, experiment_schema());
+    let fits = !found.any_error();
+    problems.merge(found);
+    let experiment = fits.then(|| {
+        let (experiment, found) = experiment::resolve(&document, folder);
+        problems.merge(found);
+        experiment
+    });
+    let scene = open_scene(&document, folder, overrides, &mut problems);
+    match (experiment.flatten(), scene) {
+        (Some(experiment), Some(scene)) if !problems.any_error() => {
+            problems.merge(Problems(scene.warnings.clone()));
+            Ok(Loaded { experiment, scene, warnings: problems.0, sources: Vec::new() })
+        }
+        _ => Err(problems.sorted()),
+    }
+}
+
+/// The scene that an experiment names, also if the experiment has problems of its own.
+fn open_scene(
+    experiment: &Document,
+    folder: &Folder,
+    overrides: &[Override],
+    problems: &mut Problems,
+) -> Option<Scene> {
+    let read = match (experiment.located("/scene"), experiment.get("/scene")) {
+        (Some(name), _) => folder.read_named(&name),
+        (None, None) => folder
+            .read("scene.toml")
+            .map_err(|p| p.with_help("name the scene file in `experiment.toml`: scene = \"scene.toml\"")),
+        (None, Some(_)) => return None,
+    };
+    let document = match read.map_err(Problems::from).and_then(|source| Document::parse(&source)) {
+        Ok(document) => prepared(document, Target::Scene, overrides, problems),
+        Err(found) => {
+            problems.merge(found);
+            return None;
+        }
+    };
+    let found = validate(&document, scene_schema());
+    if found.any_error() {
+        problems.merge(found);
+        return None;
+    }
+    match scene::compile(&document, folder) {
+        Ok(scene) => Some(scene),
+        Err(found) => {
+            problems.merge(found);
+            None
+        }
+    }
+}
+
+/// The document with the settings that are for it.
+fn prepared(mut document: Document, target: Target, overrides: &[Override], problems: &mut Problems) -> Document {
+    problems.merge(apply_all(&mut document, target, overrides));
+    document
+}

@@ -1,0 +1,355 @@
+//! `run.json`: what a run was, what it gave, and how far to trust it.
+//!
+//! [`RunReport`] is the file: fields stand in it in the order in which they stand here, numbers with all their digits. JSON has
+//! no NaN and no infinity; such a number is null, and `not_finite` at the end of the file says what it was:
+//! `"/energy/residual": "NaN"`.
+
+pub mod file;
+mod number;
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::check::{Outcome, Verdict};
+use crate::sweep::Sweep;
+use crate::table::Table;
+pub use file::{FileError, prepare};
+
+/// The whole file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunReport {
+    /// Version of sincro that ran it.
+    pub sincro_version: String,
+    /// Name of the scene's folder.
+    pub scene: String,
+    /// The scene's folder as it was given.
+    pub scene_path: String,
+    /// Title of the experiment.
+    pub title: String,
+    /// Whether it came to its end.
+    pub status: Status,
+    /// How it was run.
+    pub settings: Settings,
+    /// Hash of the compiled model, hexadecimal.
+    pub model_hash: String,
+    /// Hash of the states of all ticks, hexadecimal: the same bits give the same hash.
+    pub trace_hash: String,
+    /// Degrees of freedom.
+    pub n_dof: usize,
+    /// The columns of `signals.csv`, in their order, `t` first.
+    pub columns: Vec<ColumnReport>,
+    /// The balance of energy.
+    pub energy: Option<EnergyReport>,
+    /// What must come out, and what did.
+    pub checks: Vec<CheckReport>,
+    /// The static characteristic, if the experiment has one.
+    pub sweep: Option<SweepReport>,
+    /// The same experiment with other settings.
+    pub variants: Vec<VariantReport>,
+    /// What to know before trusting the numbers.
+    pub warnings: Vec<String>,
+    /// How long it took [s].
+    #[serde(with = "number")]
+    pub wall_time_s: f64,
+    /// Simulated time by wall time.
+    #[serde(with = "number")]
+    pub real_time_factor: f64,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "state", rename_all = "kebab-case")]
+pub enum Status {
+    /// It lasted its duration.
+    Completed,
+    /// It could not go on.
+    Stopped {
+        /// The last good tick.
+        tick: u64,
+        /// Its time [s].
+        time: f64,
+        /// What happened, and to whom.
+        reason: String,
+        /// The setting that mends it; may be empty.
+        help: String,
+    },
+    /// The user ended it.
+    Interrupted {
+        /// The last tick.
+        tick: u64,
+        /// Its time [s].
+        time: f64,
+    },
+}
+
+impl Status {
+    /// When it ended before its duration [s], as [`crate::check::evaluate`] wants it.
+    #[must_use]
+    pub fn stopped_at(&self) -> Option<f64> {
+        match self {
+            Self::Completed => None,
+            Self::Stopped { time, .. } | Self::Interrupted { time, .. } => Some(*time),
+        }
+    }
+}
+
+/// How a run was run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// The integrator that ran, not `auto`.
+    pub integrator: String,
+    /// Base step [s].
+    pub step: f64,
+    /// Local tolerance of variable-step methods.
+    pub accuracy: f64,
+    /// How long was to be simulated [s].
+    pub duration: f64,
+    /// Base steps a recorded row.
+    pub record_every: u64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// What was set against the files, in the order of setting.
+    pub overrides: Vec<Override>,
+}
+
+/// One `--set PATH=VALUE`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Override {
+    /// What was set.
+    pub path: String,
+    /// To what, as it was written.
+    pub value: String,
+}
+
+/// A recorded signal and how well it is known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ColumnReport {
+    /// Its path: `/shoulder.position`.
+    pub path: String,
+    /// Its unit.
+    pub unit: String,
+    /// Estimated integration error, in the same unit; none if it was not estimated.
+    pub error_bar: Option<f64>,
+    /// How it was estimated, or why not.
+    pub error_bar_method: String,
+}
+
+/// The balance of energy over a run [J].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EnergyReport {
+    /// Kinetic energy at the start.
+    #[serde(with = "number")]
+    pub kinetic_start: f64,
+    /// Kinetic energy at the end.
+    #[serde(with = "number")]
+    pub kinetic_end: f64,
+    /// Potential energy at the start: gravity and springs.
+    #[serde(with = "number")]
+    pub potential_start: f64,
+    /// Potential energy at the end.
+    #[serde(with = "number")]
+    pub potential_end: f64,
+    /// Work done by motors and applied torques.
+    #[serde(with = "number")]
+    pub work: f64,
+    /// Energy taken by dampers and friction.
+    #[serde(with = "number")]
+    pub dissipated: f64,
+    /// Greatest |total − total(0) − work + dissipated| during the run.
+    #[serde(with = "number")]
+    pub residual: f64,
+}
+
+/// A check, judged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckReport {
+    /// Its name.
+    pub name: String,
+    /// What was compared with what.
+    pub about: String,
+    /// The judgement.
+    pub verdict: VerdictReport,
+    /// Why it was not made, or which number is not finite.
+    pub reason: Option<String>,
+    /// The value measured.
+    pub measured: Option<f64>,
+    /// The value expected.
+    pub expected: Option<f64>,
+    /// How far they are apart.
+    pub deviation: Option<f64>,
+    /// How far they may be.
+    pub limit: f64,
+    /// Whether deviation and limit are relative.
+    pub relative: bool,
+    /// Unit of measured and expected; empty if not known.
+    pub unit: String,
+    /// Time [s] of the measured value; in a sweep, the value of the parameter.
+    pub at: Option<f64>,
+    /// How many rows entered.
+    pub n_rows: usize,
+}
+
+/// The judgement of a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum VerdictReport {
+    /// Within its limit.
+    Holds,
+    /// Beyond it, or not finite.
+    Fails,
+    /// Nothing to compare.
+    NotMade,
+}
+
+impl From<&Outcome> for CheckReport {
+    fn from(outcome: &Outcome) -> Self {
+        let (verdict, reason) = match &outcome.verdict {
+            Verdict::Holds => (VerdictReport::Holds, None),
+            Verdict::Fails => (VerdictReport::Fails, not_finite_reason(outcome)),
+            Verdict::NotMade(reason) => (VerdictReport::NotMade, Some(reason.clone())),
+        };
+        Self {
+            name: outcome.name.clone(),
+            about: outcome.about.clone(),
+            verdict,
+            reason,
+            measured: outcome.measured,
+            expected: outcome.expected,
+            deviation: outcome.deviation,
+            limit: outcome.limit,
+            relative: outcome.relative,
+            unit: outcome.unit.clone(),
+            at: outcome.at,
+            n_rows: outcome.n_rows,
+        }
+    }
+}
+
+/// `the deviation is inf: measured 1, expected 0`, where a number is not finite.
+fn not_finite_reason(outcome: &Outcome) -> Option<String> {
+    let (deviation, measured, expected) = (outcome.deviation?, outcome.measured?, outcome.expected?);
+    let reason = || format!("the deviation is {deviation}: measured {measured}, expected {expected}");
+    (!deviation.is_finite()).then(reason)
+}
+
+/// The static characteristic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepReport {
+    /// What was varied.
+    pub parameter: String,
+    /// Its unit; may be empty.
+    pub unit: String,
+    /// How many runs.
+    pub n_runs: usize,
+    /// The columns of `sweep.csv` after the parameter, in their order.
+    pub columns: Vec<ColumnReport>,
+    /// The runs that stopped.
+    pub stops: Vec<SweepStopReport>,
+    /// What must come out, and what did.
+    pub checks: Vec<CheckReport>,
+}
+
+/// A run of a sweep that stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepStopReport {
+    /// The value of the parameter.
+    pub value: f64,
+    /// When [s].
+    pub time: f64,
+    /// Why.
+    pub reason: String,
+}
+
+impl SweepReport {
+    /// The sweep and its checks; error bars are not estimated.
+    #[must_use]
+    pub fn new(sweep: &Sweep, outcomes: &[Outcome]) -> Self {
+        let stops = sweep.stops.iter().map(|stop| SweepStopReport {
+            value: sweep.values[stop.run_idx],
+            time: stop.time,
+            reason: stop.reason.clone(),
+        });
+        Self {
+            parameter: sweep.parameter.clone(),
+            unit: sweep.unit.clone(),
+            n_runs: sweep.values.len(),
+            columns: sweep.columns.iter().map(|c| ColumnReport::without_error_bar(&c.name, &c.unit)).collect(),
+            stops: stops.collect(),
+            checks: outcomes.iter().map(CheckReport::from).collect(),
+        }
+    }
+}
+
+/// The same experiment with other settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VariantReport {
+    /// Its name.
+    pub name: String,
+    /// What is different, in words.
+    pub description: String,
+    /// Whether it came to its end.
+    pub status: Status,
+    /// How it was run; the overrides are the variant's own, after those of the command line.
+    pub settings: Settings,
+    /// Hash of the compiled model, hexadecimal.
+    pub model_hash: String,
+    /// Hash of the states of all ticks, hexadecimal.
+    pub trace_hash: String,
+    /// The recorded columns, `t` first.
+    pub columns: Vec<ColumnReport>,
+    /// The balance of energy.
+    pub energy: Option<EnergyReport>,
+    /// What must come out, and what did.
+    pub checks: Vec<CheckReport>,
+    /// What to know before trusting the numbers.
+    pub warnings: Vec<String>,
+    /// How long it took [s].
+    #[serde(with = "number")]
+    pub wall_time_s: f64,
+}
+
+impl ColumnReport {
+    /// A column without an estimate of its error.
+    #[must_use]
+    pub fn without_error_bar(path: &str, unit: &str) -> Self {
+        Self { path: path.into(), unit: unit.into(), error_bar: None, error_bar_method: "not estimated".into() }
+    }
+
+    /// All columns of a table, without estimates.
+    #[must_use]
+    pub fn of_table(table: &Table) -> Vec<Self> {
+        table.columns.iter().map(|column| Self::without_error_bar(&column.name, &column.unit)).collect()
+    }
+}
+
+impl RunReport {
+    /// The file's text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        number::to_json(self)
+    }
+
+    /// Writes `run.json` into a folder, whole or not at all.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be written.
+    pub fn write(&self, out_dir: &Path) -> Result<(), FileError> {
+        file::write_atomically(&out_dir.join("run.json"), self.to_json().as_bytes())
+    }
+
+    /// Reads `run.json` of a folder. A number that was not finite is NaN, or none.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be read or is none of ours.
+    pub fn read(out_dir: &Path) -> Result<Self, FileError> {
+        let path = out_dir.join("run.json");
+        let text = std::fs::read_to_string(&path).map_err(|e| FileError::new("read", &path, e))?;
+        serde_json::from_str(&text).map_err(|e| FileError::new("read", &path, e))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,177 @@
+//! Bodies: solids and their mass.
+//!
+//! | given | mass and inertia |
+//! |---|---|
+//! | `density` (of the body or of each shape) and shapes | of the shapes at that density |
+//! | `mass` and shapes | of the shapes, scaled to that mass |
+//! | `mass`, `inertia` (and `center_of_mass`) | as given; shapes only show |
+
+use sincro_dynamics::model::{MassProperties, Shape};
+
+use super::file::{BodyFile, ShapeFile};
+use super::object::ShapeInstance;
+use super::placement::{self, Placement};
+use crate::document::Document;
+use crate::problem::{Problem, Problems};
+
+/// Stands in for the mass of a body that has been refused, so that the rest can still be checked.
+const UNIT: MassProperties =
+    MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 1.0] };
+
+/// The solids of a body.
+pub(super) fn shapes(
+    file: &BodyFile,
+    pointer: &str,
+    document: &Document,
+    problems: &mut Problems,
+) -> Vec<ShapeInstance> {
+    let one = |(k, shape): (usize, &ShapeFile)| {
+        let pointer = format!("{pointer}/shape/{k}");
+        let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
+        ShapeInstance {
+            shape: solid(shape),
+            pose: placement::pose(&placement, &pointer, document, problems),
+            density: shape.density.or(file.density),
+            color: shape.color.as_ref().and_then(|text| color(text, &pointer, document, problems)),
+        }
+    };
+    file.shape.iter().enumerate().map(one).collect()
+}
+
+fn solid(file: &ShapeFile) -> Shape {
+    match file {
+        ShapeFile { cuboid: Some(c), .. } => Shape::Cuboid { size: c.size },
+        ShapeFile { cylinder: Some(c), .. } => Shape::Cylinder { radius: c.radius, length: c.length },
+        ShapeFile { capsule: Some(c), .. } => Shape::Capsule { radius: c.radius, length: c.length },
+        ShapeFile { cone: Some(c), .. } => Shape::Cone { radius: c.radius, length: c.length },
+        ShapeFile { sphere, .. } => {
+            Shape::Sphere { radius: sphere.as_ref().expect("the schema wants one kind of shape").radius }
+        }
+    }
+}
+
+fn color(text: &str, pointer: &str, document: &Document, problems: &mut Problems) -> Option<[u8; 3]> {
+    let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
+    let Some(digits) = digits else {
+        let at = document.at(&format!("{pointer}/color"));
+        problems.push(
+            Problem::error(&at, format!("`{text}` is not a colour"))
+                .with_help("write \"#rrggbb\", such as \"#8a5a2b\""),
+        );
+        return None;
+    };
+    let number = u32::from_str_radix(digits, 16).ok()?;
+    let [_, r, g, b] = number.to_be_bytes();
+    Some([r, g, b])
+}
+
+/// Mass properties of a body; notes combinations that make no sense.
+pub(super) fn mass(
+    file: &BodyFile,
+    shapes: &[ShapeInstance],
+    pointer: &str,
+    document: &Document,
+    problems: &mut Problems,
+) -> MassProperties {
+    let mut judge = Judge { file, shapes, pointer, document, problems };
+    judge.mass().unwrap_or(UNIT)
+}
+
+struct Judge<'a> {
+    file: &'a BodyFile,
+    shapes: &'a [ShapeInstance],
+    pointer: &'a str,
+    document: &'a Document,
+    problems: &'a mut Problems,
+}
+
+impl Judge<'_> {
+    fn mass(&mut self) -> Option<MassProperties> {
+        let BodyFile { mass, inertia, density, .. } = self.file;
+        match (mass, inertia, density) {
+            (Some(_), _, Some(_)) => {
+                self.refuse("density", "`mass` and `density` both say what it weighs", "leave one of them out")
+            }
+            (Some(mass), Some(inertia), None) => {
+                self.warn_of_idle_densities();
+                let center_of_mass = self.file.center_of_mass.unwrap_or([0.0; 3]);
+                let inertia = [inertia.xx, inertia.xy, inertia.xz, inertia.yy, inertia.yz, inertia.zz];
+                Some(MassProperties { mass: *mass, center_of_mass, inertia })
+            }
+            (Some(mass), None, None) => self.distributed(*mass),
+            (None, Some(_), _) => self.refuse("inertia", "`inertia` without `mass`", "give the mass too [kg]"),
+            (None, None, _) => self.from_density(),
+        }
+    }
+
+    /// Shapes say how a given mass is distributed.
+    fn distributed(&mut self, mass: f64) -> Option<MassProperties> {
+        self.no_center_of_mass()?;
+        if self.shapes.is_empty() {
+            let help = "give `inertia` too, or shapes that say how the mass is distributed";
+            return self.refuse("mass", "`mass` without `inertia` and without shapes", help);
+        }
+        let given = self.shapes.iter().filter(|s| s.density.is_some()).count();
+        if given != 0 && given != self.shapes.len() {
+            let help = "give every shape a density (they are scaled to `mass`) or none";
+            return self.refuse("mass", "some shapes have a density and some have none", help);
+        }
+        let sum = self.sum();
+        let factor = mass / sum.mass;
+        Some(MassProperties { mass, inertia: sum.inertia.map(|i| i * factor), ..sum })
+    }
+
+    fn from_density(&mut self) -> Option<MassProperties> {
+        self.no_center_of_mass()?;
+        if self.shapes.is_empty() {
+            return match self.file.density {
+                Some(_) => self.refuse("density", "`density` without shapes", "give shapes, or `mass` and `inertia`"),
+                None => {
+                    let help = "give `density` and shapes, or `mass` and `inertia`; what has no mass is a frame";
+                    self.refuse("name", "it has no mass", help)
+                }
+            };
+        }
+        if let Some(k) = self.shapes.iter().position(|s| s.density.is_none()) {
+            let help = "give `density` for the body or for each shape [kg/m³], or `mass` [kg]";
+            return self.refuse(&format!("shape/{k}"), "a shape has no density", help);
+        }
+        Some(self.sum())
+    }
+
+    /// Mass properties of all shapes; of density 1 where none is given.
+    fn sum(&self) -> MassProperties {
+        let placed =
+            |s: &ShapeInstance| s.shape.mass_properties(s.density.unwrap_or(1.0)).placed(&s.pose.rot, s.pose.pos);
+        let parts: Vec<MassProperties> = self.shapes.iter().map(placed).collect();
+        MassProperties::sum(&parts)
+    }
+
+    fn no_center_of_mass(&mut self) -> Option<()> {
+        if self.file.center_of_mass.is_none() {
+            return Some(());
+        }
+        let help = "it goes with `mass` and `inertia`; else the shapes say where it is";
+        self.refuse("center_of_mass", "`center_of_mass` without `mass` and `inertia`", help).map(|_| ())
+    }
+
+    fn warn_of_idle_densities(&mut self) {
+        for (k, shape) in self.file.shape.iter().enumerate() {
+            if shape.density.is_some() {
+                let at = self.document.key_at(&format!("{}/shape/{k}/density", self.pointer));
+                let message = format!("the density of a shape of `{}` has no effect", self.file.name);
+                let problem = Problem::error(&at, message).as_warning();
+                self.problems.push(problem.with_help("`mass` and `inertia` are given, shapes only show"));
+            }
+        }
+    }
+
+    fn refuse(&mut self, key: &str, message: &str, help: &str) -> Option<MassProperties> {
+        let pointer = format!("{}/{key}", self.pointer);
+        let at = if key.contains('/') { self.document.at(&pointer) } else { self.document.key_at(&pointer) };
+        let at = if key == "name" { self.document.title_at(self.pointer) } else { at };
+        let problem = Problem::error(&at, format!("body `{}`: {message}", self.file.name));
+        self.problems.push(problem.with_help(help));
+        None
+    }
+}

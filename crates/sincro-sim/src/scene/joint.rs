@@ -1,0 +1,135 @@
+//! Joints and motors: from what is written to the builder's specification.
+
+use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::JointSpec;
+use sincro_dynamics::signal::Signal;
+
+use super::file::{JointFile, JointKindFile, MotorFile, MotorModeFile, OneOrList};
+use super::signal_file::SignalReader;
+use crate::problem::Problem;
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// The specification of a joint, and the command of its motor if it has one.
+pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> (JointSpec, Option<Signal>) {
+    let mut spec = JointSpec::new(kind(file, pointer, signals));
+    spec.armature = numbers(&file.armature);
+    spec.damping = numbers(&file.damping);
+    spec.friction = numbers(&file.friction);
+    let springs = file.spring.as_ref().map(OneOrList::as_slice).unwrap_or_default();
+    spec.spring = springs.iter().map(|s| (s.stiffness, s.rest)).collect();
+    spec.torque = torques(file, pointer, signals);
+    let command = file.motor.as_ref().map(|file| {
+        let pointer = format!("{pointer}/motor");
+        spec.motor = Some(motor(file, &pointer, signals));
+        match &file.command {
+            Some(command) => signals.read(command, &format!("{pointer}/command")),
+            None => Signal::Constant(0.0),
+        }
+    });
+    (spec, command)
+}
+
+fn numbers(list: &Option<OneOrList<f64>>) -> Vec<f64> {
+    list.as_ref().map(|list| list.as_slice().to_vec()).unwrap_or_default()
+}
+
+fn torques(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> Vec<Signal> {
+    match &file.torque {
+        None => Vec::new(),
+        Some(OneOrList::One(torque)) => vec![signals.read(torque, &format!("{pointer}/torque"))],
+        Some(OneOrList::List(list)) => {
+            list.iter().enumerate().map(|(k, torque)| signals.read(torque, &format!("{pointer}/torque/{k}"))).collect()
+        }
+    }
+}
+
+fn kind(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> JointKind {
+    use JointKindFile as K;
+    let (axis, word) = (file.axis.unwrap_or(Z), kind_word(file.kind));
+    let has_axis = matches!(file.kind, K::Revolute | K::Prismatic | K::Screw | K::Universal);
+    let known = [("axis", has_axis), ("axis2", file.kind == K::Universal), ("pitch", file.kind == K::Screw)];
+    for (key, _) in known.iter().filter(|(_, fits)| !fits) {
+        refuse_key(&format!("{pointer}/{key}"), key, &format!("a {word} joint"), signals);
+    }
+    if file.kind == K::Screw && file.pitch.is_none() {
+        let at = signals.document.title_at(pointer);
+        let problem = Problem::error(&at, format!("`pitch` is missing in joint `{}`", file.name));
+        signals.problems.push(problem.with_help("a screw joint needs its advance, `pitch` [m/rad]"));
+    }
+    match file.kind {
+        K::Fixed => JointKind::Fixed,
+        K::Revolute => JointKind::Revolute { axis },
+        K::Prismatic => JointKind::Prismatic { axis },
+        K::Screw => JointKind::Screw { axis, pitch: file.pitch.unwrap_or(0.0) },
+        K::Universal => JointKind::Universal { axis: file.axis.unwrap_or(X), axis2: file.axis2.unwrap_or(Y) },
+        K::Ball => JointKind::Ball,
+        K::Planar => JointKind::Planar,
+        K::Free => JointKind::Free,
+    }
+}
+
+fn kind_word(kind: JointKindFile) -> &'static str {
+    match kind {
+        JointKindFile::Fixed => "fixed",
+        JointKindFile::Revolute => "revolute",
+        JointKindFile::Prismatic => "prismatic",
+        JointKindFile::Screw => "screw",
+        JointKindFile::Universal => "universal",
+        JointKindFile::Ball => "ball",
+        JointKindFile::Planar => "planar",
+        JointKindFile::Free => "free",
+    }
+}
+
+/// A key that is there but has no meaning.
+fn refuse_key(pointer: &str, key: &str, of: &str, signals: &mut SignalReader<'_>) {
+    if signals.document.get(pointer).is_some() {
+        let at = signals.document.key_at(pointer);
+        let problem = Problem::error(&at, format!("`{key}` has no meaning for {of}"));
+        signals.problems.push(problem.with_help("leave it out"));
+    }
+}
+
+fn motor(file: &MotorFile, pointer: &str, signals: &mut SignalReader<'_>) -> Motor<f64> {
+    let mode = match file.mode {
+        MotorModeFile::Free => MotorMode::Free,
+        MotorModeFile::Torque => MotorMode::Torque,
+        MotorModeFile::Velocity => MotorMode::Velocity,
+        MotorModeFile::Position => MotorMode::Position,
+        MotorModeFile::Spring => MotorMode::Spring,
+    };
+    let word = signals.document.text(&format!("{pointer}/mode")).unwrap_or("").to_owned();
+    let (position, spring) = (mode == MotorMode::Position, mode == MotorMode::Spring);
+    let driven = mode != MotorMode::Free;
+    let keys = [
+        ("kp", position),
+        ("max_velocity", position),
+        ("stiffness", spring),
+        ("damping", spring),
+        ("command", driven),
+        ("max_torque", driven),
+    ];
+    for (key, _) in keys.iter().filter(|(_, fits)| !fits) {
+        refuse_key(&format!("{pointer}/{key}"), key, &format!("a motor in mode `{word}`"), signals);
+    }
+    for (key, needed) in [("kp", position), ("stiffness", spring)] {
+        if needed && signals.document.get(&format!("{pointer}/{key}")).is_none() {
+            let at = signals.document.at(&format!("{pointer}/mode"));
+            let problem = Problem::error(&at, format!("`{key}` is missing: mode `{word}` needs it"));
+            let unit = if position { "[1/s]" } else { "[N·m/rad] or [N/m]" };
+            signals.problems.push(problem.with_help(format!("give `{key}` {unit}")));
+        }
+    }
+    Motor {
+        max_torque: file.max_torque.unwrap_or(f64::INFINITY),
+        kp: file.kp.unwrap_or(0.0),
+        max_velocity: file.max_velocity.unwrap_or(f64::INFINITY),
+        stiffness: file.stiffness.unwrap_or(0.0),
+        damping: file.damping.unwrap_or(0.0),
+        ..Motor::new(mode)
+    }
+}

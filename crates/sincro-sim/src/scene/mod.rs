@@ -1,0 +1,252 @@
+//! From a scene file to a compiled model: a tree of named objects, checked as a whole.
+//!
+//! [`file`](self) types are what is written; [`compile`] orders the tree, makes the builder's specifications of joints,
+//! bodies and forces, and brings what the builder finds back to lines of the file. All problems are reported at once.
+
+mod body;
+mod file;
+mod initial;
+mod joint;
+mod object;
+mod placement;
+mod signal_file;
+mod tree;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sincro_dynamics::model::{BodySpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId};
+use sincro_dynamics::signal::Signal;
+use sincro_dynamics::spatial::Pose;
+use sincro_dynamics::state::State;
+
+pub(crate) use file::SceneFile;
+pub use object::{Object, ObjectKind, ShapeInstance};
+
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Problem, Problems};
+use file::{ForceFile, InFrameFile};
+use signal_file::SignalReader;
+use tree::Entry;
+
+/// A scene, ready to run.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The compiled model; its names are the paths of the objects.
+    pub model: Arc<Model<f64>>,
+    /// Where it starts.
+    pub initial: State<f64>,
+    /// Commands of the motors over time, in the model's order of motors.
+    pub commands: Vec<Signal>,
+    /// Every object, parents before children, children in the order of the file.
+    pub objects: Vec<Object>,
+    /// What the user should know of.
+    pub warnings: Vec<Problem>,
+}
+
+impl Scene {
+    /// The object of a path.
+    #[must_use]
+    pub fn object(&self, path: &str) -> Option<&Object> {
+        self.objects.iter().find(|object| object.path == path)
+    }
+}
+
+/// What the builder is told of an object.
+enum Spec {
+    Joint(JointSpec, Option<Signal>),
+    Body(BodySpec, Vec<ShapeInstance>),
+    Frame,
+    Force(ForceSpec),
+}
+
+/// Compiles a document that fits the schema.
+pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Problems> {
+    let file: SceneFile = serde_json::from_value(document.root.clone())
+        .map_err(|e| Problem::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
+    let entries = tree::entries(&file);
+    let mut problems = Problems::new();
+    let order = tree::order(&entries, document, &mut problems);
+    let mut maker = Maker { document, folder, problems: &mut problems };
+    let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
+    if problems.any_error() {
+        return Err(problems.sorted());
+    }
+    let mut assembly = Assembly::new(file.gravity);
+    for place in &order {
+        let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
+        assembly.add(&entries[place.entry], place, spec, pose, document);
+    }
+    assembly.finish(&entries, document, problems)
+}
+
+/// Makes specifications, noting what is wrong.
+struct Maker<'a> {
+    document: &'a Document,
+    folder: &'a Folder,
+    problems: &'a mut Problems,
+}
+
+impl Maker<'_> {
+    fn spec(&mut self, entry: &Entry<'_>) -> Spec {
+        match entry.file {
+            tree::AnyFile::Joint(file) => {
+                let (spec, command) = joint::spec(file, &entry.pointer, &mut self.signals());
+                Spec::Joint(spec, command)
+            }
+            tree::AnyFile::Body(file) => {
+                let shapes = body::shapes(file, &entry.pointer, self.document, self.problems);
+                let mass = body::mass(file, &shapes, &entry.pointer, self.document, self.problems);
+                Spec::Body(BodySpec { mass }, shapes)
+            }
+            tree::AnyFile::Frame(_) => Spec::Frame,
+            tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
+        }
+    }
+
+    fn signals(&mut self) -> SignalReader<'_> {
+        SignalReader { document: self.document, folder: self.folder, problems: self.problems }
+    }
+
+    fn pose(&mut self, entry: &Entry<'_>) -> Pose<f64> {
+        placement::pose(&entry.placement(), &entry.pointer, self.document, self.problems)
+    }
+}
+
+fn force(file: &ForceFile, pointer: &str, signals: &mut SignalReader<'_>) -> ForceSpec {
+    let mut three = |list: &[signal_file::SignalFile; 3], key: &str| {
+        std::array::from_fn(|k| signals.read(&list[k], &format!("{pointer}/{key}/{k}")))
+    };
+    ForceSpec {
+        force: three(&file.force, "force"),
+        torque: three(&file.torque, "torque"),
+        in_body: file.in_frame == InFrameFile::Body,
+    }
+}
+
+/// The builder, and what must be known to find the way back from it.
+struct Assembly {
+    builder: ModelBuilder,
+    nodes: Vec<NodeId>,
+    objects: Vec<Object>,
+    /// Command of the motor of the joint that is object k.
+    commands: BTreeMap<usize, Signal>,
+    /// Entry that is object k.
+    entry_of: Vec<usize>,
+}
+
+impl Assembly {
+    fn new(gravity: [f64; 3]) -> Self {
+        Self {
+            builder: ModelBuilder::new(gravity),
+            nodes: Vec::new(),
+            objects: Vec::new(),
+            commands: BTreeMap::new(),
+            entry_of: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, entry: &Entry<'_>, place: &tree::PlaceInTree, spec: Spec, pose: Pose<f64>, document: &Document) {
+        let parent = place.parent.map_or(NodeId::WORLD, |k| self.nodes[k]);
+        let path = place.path.clone();
+        let mut shapes = Vec::new();
+        let (node, kind) = match spec {
+            Spec::Joint(spec, command) => {
+                let kind = ObjectKind::Joint { kind: spec.kind, motor: None };
+                if let Some(command) = command {
+                    self.commands.insert(self.objects.len(), command);
+                }
+                (self.builder.joint(&path, parent, pose, spec), kind)
+            }
+            Spec::Body(spec, of_body) => {
+                shapes = of_body;
+                let kind = ObjectKind::Body { mass: spec.mass };
+                (self.builder.body(&path, parent, pose, spec), kind)
+            }
+            Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
+            Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
+        };
+        let name = entry.name.to_owned();
+        let location = document.title_at(&entry.pointer);
+        self.objects.push(Object { path, name, kind, parent: place.parent, pose, shapes, location });
+        self.nodes.push(node);
+        self.entry_of.push(place.entry);
+    }
+
+    fn finish(mut self, entries: &[Entry<'_>], document: &Document, mut problems: Problems) -> Result<Scene, Problems> {
+        let (model, found) = match self.builder.build() {
+            Ok((model, warnings)) => (Some(model), warnings),
+            Err(found) => (None, found),
+        };
+        for problem in found {
+            problems.push(self.place(problem, entries, document));
+        }
+        let Some(model) = model else { return Err(problems.sorted()) };
+        let mut starts = Vec::new();
+        for (object, &entry) in self.objects.iter().zip(&self.entry_of) {
+            if let tree::AnyFile::Joint(file) = entries[entry].file {
+                starts.push((object.path.as_str(), entries[entry].pointer.as_str(), &file.initial));
+            }
+        }
+        let initial = initial::state(&model, &starts, document, &mut problems);
+        let commands = self.motors(&model);
+        self.warn_of_idle_forces(&model, &mut problems);
+        if problems.any_error() {
+            return Err(problems.sorted());
+        }
+        let warnings = problems.sorted().0;
+        Ok(Scene { model: Arc::new(model), initial, commands, objects: self.objects, warnings })
+    }
+
+    /// Commands in the model's order of motors; tells joints the index of theirs.
+    fn motors(&mut self, model: &Model<f64>) -> Vec<Signal> {
+        let mut commands = vec![Signal::Constant(0.0); model.motors().len()];
+        for joint in &model.names().joints {
+            let Some(index) = self.objects.iter().position(|o| o.path == joint.name) else { continue };
+            if let (Some(motor), ObjectKind::Joint { motor: known, .. }) = (joint.motor, &mut self.objects[index].kind)
+            {
+                *known = Some(motor);
+                commands[motor] = self.commands.remove(&index).expect("a joint with a motor has a command");
+            }
+        }
+        commands
+    }
+
+    fn warn_of_idle_forces(&self, model: &Model<f64>, problems: &mut Problems) {
+        for object in self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force)) {
+            let carrier = object.parent.and_then(|k| model.names().frame(&self.objects[k].path));
+            if carrier.is_some_and(|frame| frame.link.is_none()) {
+                let message = format!("force `{}` acts on something that is fixed in the world", object.path);
+                let problem = Problem::error(&object.location, message).as_warning();
+                problems.push(problem.with_help("it moves nothing; hang its parent on a joint"));
+            }
+        }
+    }
+
+    /// A finding of the builder, at the key of the file that it is about.
+    fn place(&self, found: sincro_dynamics::model::Problem, entries: &[Entry<'_>], document: &Document) -> Problem {
+        let object = found.node.and_then(|node| self.nodes.iter().position(|n| *n == node));
+        let at = match object {
+            Some(k) => {
+                let pointer = &entries[self.entry_of[k]].pointer;
+                let mut keys = keys_of_field(found.field).into_iter().map(|key| format!("{pointer}/{key}"));
+                let written = keys.find(|p| document.get(p).is_some());
+                written.map_or_else(|| document.title_at(pointer), |p| document.at(&p))
+            }
+            None => document.at(&format!("/{}", found.field)),
+        };
+        Problem { severity: found.severity, ..Problem::error(&at, found.message) }.with_help(found.help)
+    }
+}
+
+/// Keys of the file that a field of the builder may come from, the likeliest first.
+fn keys_of_field(field: &'static str) -> Vec<&'static str> {
+    match field {
+        "mass" => vec!["mass", "density", "shape"],
+        "center_of_mass" => vec!["center_of_mass", "shape"],
+        "inertia" => vec!["inertia", "shape"],
+        "rotation" => vec!["rotation_deg", "quaternion_wxyz"],
+        other => vec![other],
+    }
+}

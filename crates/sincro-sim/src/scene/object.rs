@@ -1,0 +1,82 @@
+//! Objects of a scene as the user named them: for trees, viewers and paths.
+
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::{MassProperties, Shape};
+use sincro_dynamics::spatial::Pose;
+
+use crate::problem::Location;
+
+/// A joint, body, frame or force.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Parent's path, `/` and name.
+    pub path: String,
+    /// Last part of the path.
+    pub name: String,
+    /// What it is.
+    pub kind: ObjectKind,
+    /// Index of its parent among the objects; none for children of the world.
+    pub parent: Option<usize>,
+    /// Where its frame stands in its parent's (at zero coordinates, if it hangs on a joint).
+    pub pose: Pose<f64>,
+    /// What a body looks like.
+    pub shapes: Vec<ShapeInstance>,
+    /// Its name in the file.
+    pub location: Location,
+}
+
+/// What an object is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ObjectKind {
+    /// Joint; fixed ones too.
+    Joint {
+        /// How it moves.
+        kind: JointKind,
+        /// Index of its motor among the model's, if it has one.
+        motor: Option<usize>,
+    },
+    /// Body.
+    Body {
+        /// In its own frame.
+        mass: MassProperties,
+    },
+    /// Named point.
+    Frame,
+    /// External force on its parent.
+    Force,
+}
+
+impl ObjectKind {
+    /// The word for it, such as `revolute joint` or `body`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Joint { kind, .. } => match kind {
+                JointKind::Fixed => "fixed joint",
+                JointKind::Revolute { .. } => "revolute joint",
+                JointKind::Prismatic { .. } => "prismatic joint",
+                JointKind::Screw { .. } => "screw joint",
+                JointKind::Universal { .. } => "universal joint",
+                JointKind::Ball => "ball joint",
+                JointKind::Planar => "planar joint",
+                JointKind::Free => "free joint",
+            },
+            Self::Body { .. } => "body",
+            Self::Frame => "frame",
+            Self::Force => "force",
+        }
+    }
+}
+
+/// A solid of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShapeInstance {
+    /// The solid.
+    pub shape: Shape,
+    /// Where it stands in the body's frame.
+    pub pose: Pose<f64>,
+    /// [kg/m³], if it has one: its own or the body's.
+    pub density: Option<f64>,
+    /// Red, green, blue.
+    pub color: Option<[u8; 3]>,
+}

@@ -1,0 +1,198 @@
+//! The tree of a scene: who hangs on whom, whatever the order in the file.
+//!
+//! A path is the parent's path, `/` and the name, so a parent's path is always shorter than its child's and no object can
+//! be its own ancestor; what a user means as a circle shows as parents that do not exist, and is told as a circle.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::file::{BodyFile, ForceFile, FrameFile, JointFile, SceneFile};
+use super::placement::Placement;
+use crate::document::Document;
+use crate::problem::{Problem, Problems};
+use crate::suggest;
+use crate::tree::join;
+
+/// An object of the file, whatever its kind.
+pub(super) struct Entry<'a> {
+    pub name: &'a str,
+    pub parent: &'a str,
+    pub path: String,
+    /// Its table in the document.
+    pub pointer: String,
+    pub file: AnyFile<'a>,
+}
+
+/// The kinds of objects.
+#[derive(Clone, Copy)]
+pub(super) enum AnyFile<'a> {
+    Joint(&'a JointFile),
+    Body(&'a BodyFile),
+    Frame(&'a FrameFile),
+    Force(&'a ForceFile),
+}
+
+/// An object that hangs, by a chain of others, on the world.
+pub(super) struct PlaceInTree {
+    /// Index among the entries.
+    pub entry: usize,
+    /// Index of the parent among the places; none for the world.
+    pub parent: Option<usize>,
+    pub path: String,
+}
+
+impl Entry<'_> {
+    /// Where its frame stands in its parent's.
+    pub fn placement(&self) -> Placement {
+        match self.file {
+            AnyFile::Joint(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Body(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Frame(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Force(_) => Placement::new([0.0; 3], None, None),
+        }
+    }
+}
+
+/// Every object of the file.
+pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
+    let joints = file.joint.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Joint(f))).enumerate();
+    let bodies = file.body.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Body(f))).enumerate();
+    let frames = file.frame.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Frame(f))).enumerate();
+    let forces = file.force.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Force(f))).enumerate();
+    let named = |list: &'static str| {
+        move |(k, (name, parent, file))| Entry {
+            name,
+            parent,
+            path: join(parent, name),
+            pointer: format!("/{list}/{k}"),
+            file,
+        }
+    };
+    let joints = joints.map(named("joint")).chain(bodies.map(named("body")));
+    joints.chain(frames.map(named("frame"))).chain(forces.map(named("force"))).collect()
+}
+
+/// The objects, parents before children and children in the order of the file; notes what does not fit.
+pub(super) fn order(entries: &[Entry<'_>], document: &Document, problems: &mut Problems) -> Vec<PlaceInTree> {
+    check_names(entries, document, problems);
+    let mut by_path: BTreeMap<&str, usize> = BTreeMap::new();
+    for (k, entry) in entries.iter().enumerate() {
+        match by_path.get(entry.path.as_str()) {
+            Some(&first) => problems.push(duplicate(entry, &entries[first], document)),
+            None => {
+                by_path.insert(&entry.path, k);
+            }
+        }
+    }
+    let mut children: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
+    for (k, entry) in entries.iter().enumerate() {
+        match parent_of(entry, entries, &by_path) {
+            Ok(parent) => {
+                check_parent(entry, parent.map(|p| &entries[p]), document, problems);
+                children.entry(parent).or_default().push(k);
+            }
+            Err(()) => problems.push(unknown_parent(entry, entries, document)),
+        }
+    }
+    for list in children.values_mut() {
+        list.sort_by_key(|k| document.at(&entries[*k].pointer).span.start);
+    }
+    let mut places = Vec::new();
+    descend(None, None, &children, entries, &mut places);
+    places
+}
+
+/// Depth first with a stack of our own: a chain of ten thousand links is no reason to fall over.
+fn descend(
+    root: Option<usize>,
+    parent_place: Option<usize>,
+    children: &BTreeMap<Option<usize>, Vec<usize>>,
+    entries: &[Entry<'_>],
+    places: &mut Vec<PlaceInTree>,
+) {
+    let of = |entry: Option<usize>| children.get(&entry).map(Vec::as_slice).unwrap_or_default();
+    let mut stack: Vec<(usize, Option<usize>)> = of(root).iter().rev().map(|k| (*k, parent_place)).collect();
+    while let Some((entry, parent)) = stack.pop() {
+        let place = places.len();
+        places.push(PlaceInTree { entry, parent, path: entries[entry].path.clone() });
+        stack.extend(of(Some(entry)).iter().rev().map(|k| (*k, Some(place))));
+    }
+}
+
+fn parent_of(entry: &Entry<'_>, entries: &[Entry<'_>], by_path: &BTreeMap<&str, usize>) -> Result<Option<usize>, ()> {
+    if entry.parent == "/" {
+        return Ok(None);
+    }
+    let parent = by_path.get(entry.parent).copied().ok_or(())?;
+    debug_assert!(entries[parent].path.len() < entry.path.len(), "a parent's path is shorter than its child's");
+    Ok(Some(parent))
+}
+
+fn check_names(entries: &[Entry<'_>], document: &Document, problems: &mut Problems) {
+    for entry in entries {
+        let good = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if entry.name.is_empty() || !entry.name.chars().all(good) {
+            let at = document.at(&format!("{}/name", entry.pointer));
+            let problem = Problem::error(&at, format!("`{}` is not a name", entry.name));
+            problems.push(problem.with_help("names have letters a–z and A–Z, digits, `_` and `-`"));
+        }
+    }
+}
+
+fn duplicate(entry: &Entry<'_>, first: &Entry<'_>, document: &Document) -> Problem {
+    let at = document.title_at(&entry.pointer);
+    let (line, _) = document.title_at(&first.pointer).line_column();
+    Problem::error(&at, format!("there are two objects `{}`", entry.path))
+        .with_help(format!("the other one is in line {line}; give one of them another name or parent"))
+}
+
+fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Document, problems: &mut Problems) {
+    let at = document.at(&format!("{}/parent", entry.pointer));
+    let carrier = parent.map(|p| p.file);
+    match (entry.file, carrier) {
+        (_, Some(AnyFile::Force(_))) => {
+            let problem = Problem::error(&at, format!("`{}` is a force, it carries nothing", entry.parent));
+            problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));
+        }
+        (AnyFile::Force(_), None | Some(AnyFile::Joint(_))) => {
+            let message = format!("force `{}` acts on `{}`, which is no body and no frame", entry.path, entry.parent);
+            problems.push(Problem::error(&at, message).with_help("the parent of a force is a body or a frame"));
+        }
+        _ => {}
+    }
+}
+
+fn unknown_parent(entry: &Entry<'_>, entries: &[Entry<'_>], document: &Document) -> Problem {
+    let at = document.at(&format!("{}/parent", entry.pointer));
+    if let Some(circle) = circle(entry, entries) {
+        let problem = Problem::error(&at, format!("`{}` hangs on itself: {}", entry.name, circle.join(" on ")));
+        return problem.with_help("one of them must hang on something that hangs on the world, `/`");
+    }
+    let problem = Problem::error(&at, format!("there is no object `{}` to hang `{}` on", entry.parent, entry.name));
+    let last = last_name(entry.parent);
+    let same_name = entries.iter().find(|e| e.name == last && !std::ptr::eq(*e, entry));
+    if let Some(meant) = same_name {
+        return problem.with_help(format!("did you mean `{}`?", meant.path));
+    }
+    let known: Vec<&str> = entries.iter().filter(|e| !std::ptr::eq(*e, entry)).map(|e| e.path.as_str()).collect();
+    problem.with_help(suggest::help(entry.parent, &known, "objects"))
+}
+
+/// The names of a circle that leads from an object, by the last names of parents, back to it.
+fn circle<'a>(entry: &'a Entry<'_>, entries: &'a [Entry<'_>]) -> Option<Vec<&'a str>> {
+    let mut names = vec![entry.name];
+    let mut seen = BTreeSet::new();
+    let mut at = entry;
+    while seen.insert(at.pointer.as_str()) {
+        let parent = last_name(at.parent);
+        names.push(parent);
+        if parent == entry.name {
+            return Some(names);
+        }
+        at = entries.iter().find(|e| e.name == parent)?;
+    }
+    None
+}
+
+fn last_name(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
+}
