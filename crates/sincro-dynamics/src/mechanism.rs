@@ -128,6 +128,11 @@ impl<R: Real> Mechanism<R> {
         &self.motor_torque
     }
 
+    /// Computes poses, twists and accelerations of all links.
+    pub(crate) fn locate(&mut self, x: &State<R>, v_dot: &[R]) {
+        kinematics::motions(&self.model, &x.q, &x.v, v_dot, &mut self.scratch);
+    }
+
     /// Working memory of the last evaluation.
     #[must_use]
     pub fn scratch(&mut self) -> &mut Scratch<R> {

@@ -7,9 +7,12 @@
 //! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
 
 use crate::drive::DriveKind;
+use crate::energy::{Energy, energy, momentum};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::spatial::Force;
 use crate::state::State;
 
 /// Relative width below which two velocities count as equal.
@@ -77,7 +80,58 @@ pub struct World {
     wanted: Vec<f64>,
     accelerations: Vec<f64>,
     slope: Vec<f64>,
+    substeps: u32,
     effort: Effort,
+}
+
+/// A world looked at: kinematics are computed, nothing can be changed.
+#[derive(Clone, Copy, Debug)]
+pub struct Observation<'a> {
+    /// The state.
+    pub state: &'a State<f64>,
+    /// Accelerations [rad/s²] or [m/s²].
+    pub accelerations: &'a [f64],
+    mechanism: &'a Mechanism<f64>,
+}
+
+impl Observation<'_> {
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model<f64> {
+        self.mechanism.model()
+    }
+
+    /// Smooth torque of each motor now [N·m] or [N].
+    #[must_use]
+    pub fn motor_torque(&self) -> &[f64] {
+        self.mechanism.motor_torque()
+    }
+
+    /// Torque [N·m] of Coulomb friction on a degree of freedom.
+    #[must_use]
+    pub fn friction_torque(&self, dof: usize) -> f64 {
+        let drives = self.model().drives();
+        let friction = drives.iter().position(|d| d.dof == dof && d.kind == DriveKind::Friction);
+        friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
+    }
+
+    /// Poses, twists and accelerations of the links.
+    #[must_use]
+    pub fn scratch(&self) -> &Scratch<f64> {
+        &self.mechanism.scratch
+    }
+
+    /// Kinetic and potential energy.
+    #[must_use]
+    pub fn energy(&self) -> Energy<f64> {
+        energy(self.model(), &self.state.q, &self.state.v, self.scratch())
+    }
+
+    /// Momentum of all bodies about the world's origin.
+    #[must_use]
+    pub fn momentum(&self) -> Force<f64> {
+        momentum(self.model(), self.scratch())
+    }
 }
 
 impl World {
@@ -117,6 +171,7 @@ impl World {
             y: vec![0.0; dim],
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
+            substeps: 1,
             base_before,
             wanted: vec![0.0; n_drives],
             accelerations,
@@ -155,6 +210,26 @@ impl World {
         }
     }
 
+    /// Divides every fixed step into `n` equal ones; commands are still latched once a tick. For estimating errors.
+    pub fn set_substeps(&mut self, n: u32) {
+        self.substeps = n.max(1);
+    }
+
+    /// Decides which drives hold at the start of a run, velocities as they are (nothing jumps before the first command).
+    pub fn settle_start(&mut self, t: f64) {
+        self.mechanism.load(&self.state, &mut self.y);
+        self.latch();
+        self.settle(t);
+        self.mechanism.store(&self.y, &mut self.state);
+    }
+
+    /// Everything that can be looked at in the present state.
+    pub fn observe(&mut self, t: f64) -> Observation<'_> {
+        self.rates(t);
+        self.mechanism.locate(&self.state, &self.accelerations);
+        Observation { state: &self.state, accelerations: &self.accelerations, mechanism: &self.mechanism }
+    }
+
     /// Bytes that this world takes beside the shared model's numbers.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
@@ -177,7 +252,8 @@ impl World {
         self.mechanism.load(&self.state, &mut self.y);
         self.latch();
         let reached = if let Method::SemiImplicitEuler(_) = self.method {
-            self.euler_step(t, h)
+            let h = h / f64::from(self.substeps);
+            (0..self.substeps).try_for_each(|k| self.euler_step(t + f64::from(k) * h, h))
         } else {
             self.begin(t);
             self.sub_steps(t, h)
@@ -197,14 +273,6 @@ impl World {
         self.mechanism.find_motor_torques(&self.state.v, 0.0);
         self.accelerations.copy_from_slice(&self.slope[n..2 * n]);
         (&self.accelerations, self.mechanism.motor_torque())
-    }
-
-    /// Torque [N·m] of Coulomb friction on a degree of freedom, after [`World::rates`].
-    #[must_use]
-    pub fn friction_torque(&self, dof: usize) -> f64 {
-        let drives = self.model().drives();
-        let friction = drives.iter().position(|d| d.dof == dof && d.kind == DriveKind::Friction);
-        friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
     }
 
     /// The mechanism, for kinematics and energies at the state.
@@ -348,6 +416,7 @@ impl World {
             let corner = self.model().next_corner(t).min(end);
             // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
             let h_max = if t == start && corner == end { span } else { corner - t };
+            let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
             self.keep();
             let control = self.control();
             let h = self.method_step(t, h_max).map_err(|failure| (t, Stop::Integration(failure)))?;
@@ -356,7 +425,7 @@ impl World {
                 return Err((t, Stop::Integration(Failure::NotFinite { t })));
             }
             self.effort.steps += 1;
-            let reached = if h >= h_max { corner } else { t + h };
+            let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
             if self.has_limited_drives() && self.is_violated(reached) {
                 t = self.locate(t, h, control)?;
                 events += 1;
@@ -369,6 +438,12 @@ impl World {
             }
         }
         Ok(())
+    }
+
+    /// Longest step of a fixed-step method within a tick of `span`.
+    fn substep(&self, span: f64) -> f64 {
+        // a hair longer, so that rounding leaves no sliver behind
+        if self.control().is_some() { span } else { span / f64::from(self.substeps) * (1.0 + 1e-12) }
     }
 
     /// One step of the method from `t`, at most `h_max`; y is charted anew. Returns the length made.

@@ -59,7 +59,7 @@ impl Document {
     pub fn parse(source: &Arc<SourceText>) -> Result<Self, Problems> {
         let (root, errors) = DeTable::parse_recoverable(&source.text);
         if !errors.is_empty() {
-            return Err(Problems(errors.iter().map(|e| syntax_problem(source, e)).collect()));
+            return Err(Problems(errors.iter().map(|e| syntax_problem(source, e)).collect()).sorted());
         }
         let mut reader = Reader { source, shift: 0, places: BTreeMap::new(), odd: BTreeMap::new() };
         let content = reader.table(root.get_ref(), "");

@@ -1,15 +1,26 @@
-//! Scene files and the run.
+//! Who acts when: scenes, experiments, the run and what comes out of it.
+//!
+//! [`load`] opens a scene folder and reports every problem in it at once; [`run::run_campaign`] runs it with its variants, sweep,
+//! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
 
+pub mod check;
 pub mod document;
 pub mod experiment;
 mod folder;
 mod load;
 pub mod overrides;
 pub mod problem;
+pub mod record;
+pub mod results;
+pub mod rollout;
+pub mod run;
 pub mod scene;
 pub mod schema;
 mod series;
+pub mod snapshot;
 mod suggest;
+pub mod sweep;
+pub mod table;
 mod tree;
 
 pub use load::{Loaded, load};

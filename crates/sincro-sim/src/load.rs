@@ -39,7 +39,11 @@ pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
     let folder = Folder::new(&find_folder(folder)?);
     let mut loaded = open(&folder, overrides)?;
     let mut problems = Problems(std::mem::take(&mut loaded.warnings));
-    for setting in further_settings(&loaded.experiment) {
+    // a variant was opened with the main run: its own settings must not meet those of the others
+    let file = folder.path_of(EXPERIMENT);
+    let is_variant = overrides.iter().any(|setting| setting.path.at.source.path == file);
+    let further = if is_variant { Vec::new() } else { further_settings(&loaded.experiment) };
+    for setting in further {
         let settings: Vec<Override> = overrides.iter().cloned().chain(setting).collect();
         match open(&folder, &settings) {
             Ok(variant) => problems.merge(Problems(variant.warnings)),
@@ -50,6 +54,14 @@ pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
         return Err(problems.sorted());
     }
     Ok(Loaded { warnings: problems.sorted().0, sources: folder.sources(), ..loaded })
+}
+
+/// Name of a scene: that of its folder.
+pub(crate) fn folder_name(path: &Path) -> String {
+    let folder =
+        if path.file_name().is_some_and(|name| name == EXPERIMENT) { path.parent().unwrap_or(path) } else { path };
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
 }
 
 /// Settings of the variants, and of the first and last run of the sweep.
@@ -94,6 +106,12 @@ fn experiments_below(path: &Path) -> Vec<String> {
     found
 }
 
+/// Whether the recorded times are others than those the file was written for. Checks that look between them are then not
+/// refused, they cannot be made: who shortens a run to have a look at it has not made a mistake in the file.
+fn sets_times(overrides: &[Override]) -> bool {
+    overrides.iter().any(|setting| matches!(setting.path.value.as_str(), "duration" | "step" | "record_every"))
+}
+
 /// One experiment without its variants.
 fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     let mut problems = Problems::new();
@@ -103,7 +121,7 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     let fits = !found.any_error();
     problems.merge(found);
     let experiment = fits.then(|| {
-        let (experiment, found) = experiment::resolve(&document, folder);
+        let (experiment, found) = experiment::resolve(&document, folder, !sets_times(overrides));
         problems.merge(found);
         experiment
     });

@@ -226,6 +226,9 @@ impl<'a> Walk<'a> {
         let known: Vec<&str> = known.iter().copied().filter(|k| !matches!(*k, "name" | "parent")).collect();
         let what = if self.pointer.is_empty() { "a scene or experiment".into() } else { format!("`{}`", self.title()) };
         let problem = self.setting.error(format!("`{}`: {what} has no `{key}`", self.setting.path.value));
+        if known.is_empty() && self.lists().next().is_some() {
+            return problem.with_help("it is a list; its entries are counted from 0");
+        }
         problem.with_help(suggest::help(key, &known, "keys"))
     }
 

@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn columns_count_characters_and_lines_count_from_one() {
-        let place = at("é = 1\nmass° = 2\n", 15..16);
+        let place = at("é = 1\nmass° = 2\n", 16..17);
         assert_eq!(place.text(), "2");
         assert_eq!(place.to_string(), "a.toml:2:9");
         assert_eq!(place.source.line_column(usize::MAX), (3, 1));

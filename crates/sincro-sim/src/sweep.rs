@@ -91,8 +91,7 @@ impl Sweep {
     #[must_use]
     pub fn table(&self, run_idxs: &[usize]) -> Table {
         let take = |values: &[f64]| run_idxs.iter().map(|run_idx| values[*run_idx]).collect();
-        let parameter =
-            Column { name: self.parameter.clone(), unit: self.unit.clone(), values: take(&self.values) };
+        let parameter = Column { name: self.parameter.clone(), unit: self.unit.clone(), values: take(&self.values) };
         let signal = |c: &Column| Column { values: take(&c.values), ..c.clone() };
         Table { columns: std::iter::once(parameter).chain(self.columns.iter().map(signal)).collect() }
     }

@@ -122,7 +122,8 @@ impl Table {
         for (row_idx, record) in reader.records().enumerate() {
             let record = record.map_err(|e| failed(e.into()))?;
             let row: Result<Vec<f64>, _> = record.iter().map(number).collect();
-            let row = row.map_err(|what| io::Error::new(io::ErrorKind::InvalidData, format!("row {}: {what}", row_idx + 1)));
+            let row =
+                row.map_err(|what| io::Error::new(io::ErrorKind::InvalidData, format!("row {}: {what}", row_idx + 1)));
             table.push_row(&row.map_err(failed)?);
         }
         Ok(table)
@@ -218,7 +219,8 @@ mod tests {
 
     #[test]
     fn bits_survive_the_file() {
-        let values = [0.0, -0.0, 1.0 / 3.0, -1e-12, 5e-324, f64::MAX, 1e16, 123_456.789, f64::INFINITY, f64::NEG_INFINITY];
+        let values =
+            [0.0, -0.0, 1.0 / 3.0, -1e-12, 5e-324, f64::MAX, 1e16, 123_456.789, f64::INFINITY, f64::NEG_INFINITY];
         let mut table = Table::new([("t", "s"), ("/a, b.position", "rad")], values.len());
         for (k, value) in values.iter().enumerate() {
             table.push_row(&[k as f64 * 0.005, *value]);
@@ -227,7 +229,8 @@ mod tests {
         table.write_csv(&path).unwrap();
         let back = Table::read_csv(&path).unwrap();
         assert_eq!(back.columns[1].name, "/a, b.position");
-        let bits = |table: &Table| table.columns.iter().flat_map(|c| c.values.clone()).map(f64::to_bits).collect::<Vec<_>>();
+        let bits =
+            |table: &Table| table.columns.iter().flat_map(|c| c.values.clone()).map(f64::to_bits).collect::<Vec<_>>();
         assert_eq!(bits(&table), bits(&back));
     }
 

@@ -118,6 +118,14 @@ pub struct Dof<R> {
     pub(crate) q_idx: u32,
 }
 
+impl<R> Dof<R> {
+    /// Index in q of the coordinate that this degree of freedom moves; none for those of ball and free joints.
+    #[must_use]
+    pub fn coordinate(&self) -> Option<usize> {
+        (self.q_idx != WORLD).then_some(self.q_idx as usize)
+    }
+}
+
 /// A compiled model. Numbers are of type `R`: one world's, or several worlds' packed into lanes ([`Model::pack`]).
 #[derive(Clone, Debug)]
 pub struct Model<R> {
@@ -202,6 +210,13 @@ impl<R: Real> Model<R> {
 }
 
 impl Model<f64> {
+    /// Applied torque [N·m] or force [N] on a degree of freedom at time `t` [s].
+    #[must_use]
+    pub fn applied_torque(&self, dof: usize, t: f64) -> f64 {
+        let signals = self.applied.iter().filter(|a| a.dof == dof).map(|a| a.torque::<f64>(t));
+        self.dofs[dof].torque + signals.sum::<f64>()
+    }
+
     /// The first instant after `t` [s] at which an input signal or its slope jumps; infinite if there is none.
     #[must_use]
     pub fn next_corner(&self, t: f64) -> f64 {

@@ -56,7 +56,11 @@ fn no_row_at(along: &Along, at: f64) -> String {
     let wanted = along.place(at);
     match (next.checked_sub(1).map(|k| keys[k]), keys.get(next)) {
         (Some(before), Some(after)) => {
-            format!("no row was recorded at {wanted}; the nearest are at {} and {}", short(before), along.amount(*after))
+            format!(
+                "no row was recorded at {wanted}; the nearest are at {} and {}",
+                short(before),
+                along.amount(*after)
+            )
         }
         (Some(_), None) if !along.is_sweep() => format!("{}, the check looks at {wanted}", along.ending()),
         (Some(nearest), None) | (None, Some(&nearest)) => {
@@ -145,10 +149,9 @@ fn between_rows(along: &Along, reference: &Reference, inside: Range<usize>, key:
     let place = along.place(key);
     let what = format!("the row {place} of {file} falls between the recorded rows, and nothing is interpolated");
     match common_step(&reference.keys[inside], along.tolerance) {
-        Some(step) => format!(
-            "{what}: `step` times `record_every` must be {} or a whole fraction of it",
-            along.amount(step)
-        ),
+        Some(step) => {
+            format!("{what}: `step` times `record_every` must be {} or a whole fraction of it", along.amount(step))
+        }
         None => format!("{what}: no step fits the reference"),
     }
 }

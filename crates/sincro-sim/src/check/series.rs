@@ -22,8 +22,8 @@ impl<'a> Source<'a> {
     pub(super) fn new(check: &'a Check, along: &'a Along<'a>) -> Result<Self, String> {
         let aliases: Result<_, _> = check.aliases.iter().map(|(_, signal)| column(along, &signal.value)).collect();
         let key = along.table.columns[0].name.as_str();
-        let key = key.strip_prefix("parameters.").unwrap_or(key);
-        let swept = check.parameters.iter().position(|(name, _)| along.is_sweep() && name == key);
+        let swept = key.strip_prefix("parameters.").filter(|_| along.is_sweep());
+        let swept = swept.and_then(|swept| check.parameters.iter().position(|(name, _)| name == swept));
         Ok(Self { check, along, aliases: aliases?, swept })
     }
 

@@ -250,7 +250,8 @@ fn rows_of_a_reference_outside_the_run_and_the_window_do_not_matter() {
     let window = Some((0.1, 0.2));
     let outcome = judged(Check { window, expected: reference(&rows), ..check("/j.position", 0.0) });
     assert_eq!((outcome.verdict, outcome.n_rows), (Verdict::Holds, 2));
-    let whole = judged(Check { expected: reference(&[(-0.1, 7.0), (0.4, 16.0), (0.5, 7.0)]), ..check("/j.position", 0.0) });
+    let whole =
+        judged(Check { expected: reference(&[(-0.1, 7.0), (0.4, 16.0), (0.5, 7.0)]), ..check("/j.position", 0.0) });
     assert_eq!((whole.verdict, whole.n_rows), (Verdict::Holds, 1));
 }
 
@@ -358,8 +359,11 @@ fn a_reference_of_a_sweep_may_have_more_rows_or_fewer_but_not_both() {
 
 #[test]
 fn formulas_of_a_sweep_see_its_value_of_the_parameter_and_no_time() {
-    let outcome = swept(Check { tolerance: 0.0, ..of_x("x", "0.5/k") });
+    let own = [Check { tolerance: 0.0, ..of_x("x", "0.5/k") }];
+    let parameter = Sweep { parameter: "parameters.k".into(), ..sweep() };
+    let outcome = evaluate_sweep(&own, &parameter).remove(0);
     assert_eq!((outcome.verdict, outcome.n_rows), (Verdict::Holds, 3));
+    assert_eq!(evaluate_sweep(&own, &sweep()).remove(0).at, Some(1.0), "a key of the scene is no parameter: k stays 2");
     let reason = reason(swept(of_x("x", "0.5*t")));
     assert_eq!(reason, "`0.5*t` depends on `t`, which the final values of a sweep do not have");
 }

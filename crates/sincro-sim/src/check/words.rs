@@ -76,7 +76,10 @@ mod tests {
 
     #[test]
     fn units_multiply() {
-        assert_eq!([times("N·m", "s"), times("rad/s", "s"), times("1", "s"), times("rad", "")], ["N·m·s", "rad", "s", "rad"]);
+        assert_eq!(
+            [times("N·m", "s"), times("rad/s", "s"), times("1", "s"), times("rad", "")],
+            ["N·m·s", "rad", "s", "rad"]
+        );
         assert_eq!(times("rad/s²", "s"), "rad/s²·s");
     }
 }

@@ -99,7 +99,8 @@ pub enum Measure {
     Rms,
     /// Standard deviation over time.
     Std,
-    /// Integral over time.
+    /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value stands for
+    /// the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
     Integral,
     /// Time [s] of the least value.
     TimeOfMin,

@@ -27,6 +27,8 @@ pub(super) struct CheckReader<'a> {
     pub folder: &'a Folder,
     pub parameters: Arc<[(String, f64)]>,
     pub keys: Keys,
+    /// Whether to refuse what looks where nothing is recorded.
+    pub check_times: bool,
     pub problems: &'a mut Problems,
 }
 
@@ -58,7 +60,7 @@ impl CheckReader<'_> {
             .collect();
         let what = self.subject(file, pointer, &slots);
         let expected = self.expected(file, pointer, &slots);
-        self.times(file, pointer);
+        self.times(file, pointer, "");
         if file.floor.is_some() && !file.relative {
             let at = self.document.key_at(&format!("{pointer}/floor"));
             let problem = Problem::error(&at, "`floor` without `relative = true`");
@@ -145,9 +147,11 @@ impl CheckReader<'_> {
             Err(error) => {
                 let at = inside_string(&self.document.at(pointer), text, &error.span);
                 let problem = Problem::error(&at, format!("formula: {}", error.message));
+                let unknown = error.message.starts_with("unknown name");
                 self.problems.push(match error.help {
                     Some(help) => problem.with_help(help),
-                    None => problem.with_help(format!("it knows {}", known(&names))),
+                    None if unknown => problem.with_help(format!("it knows {}", known(&names))),
+                    None => problem,
                 });
                 None
             }
@@ -165,8 +169,9 @@ impl CheckReader<'_> {
             return None;
         }
         let key_pointer = format!("{pointer}/{own}");
-        let key = match self.document.located(&key_pointer) {
-            Some(key) => key,
+        let written = if is_sweep { &file.parameter } else { &file.time };
+        let key = match written {
+            Some(key) => Located { value: key.clone(), at: self.document.at(&key_pointer) },
             None if is_sweep => {
                 let problem = Problem::error(&self.document.at(pointer), "`parameter` is missing in `reference`");
                 self.problems.push(problem.with_help("it names the column of the values of the swept parameter"));
@@ -174,8 +179,11 @@ impl CheckReader<'_> {
             }
             None => Located { value: "t".into(), at: self.document.at(pointer) },
         };
-        let name = self.document.located(&format!("{pointer}/file"))?;
-        let column = self.document.located(&format!("{pointer}/column"))?;
+        let located = |key: &str, value: &String| Located {
+            value: value.clone(),
+            at: self.document.at(&format!("{pointer}/{key}")),
+        };
+        let (name, column) = (located("file", &file.file), located("column", &file.column));
         let query = Query { file: &name, key: &key, column: &column };
         let (keys, values) = series::read(self.folder, &query, self.problems)?;
         Some(Reference {
@@ -190,7 +198,17 @@ impl CheckReader<'_> {
         })
     }
 
-    fn times(&mut self, file: &CheckFile, pointer: &str) {
+    /// Refuses checks of the main run that cannot be made on a variant which inherits them.
+    pub fn inherited_times(&mut self, files: &[CheckFile], variant: &str) {
+        for (k, file) in files.iter().enumerate() {
+            self.times(file, &format!("/check/{k}"), &format!("in variant `{variant}` "));
+        }
+    }
+
+    fn times(&mut self, file: &CheckFile, pointer: &str, of: &str) {
+        if !self.check_times {
+            return;
+        }
         let refused = match (file.at, file.window) {
             (Some(at), _) => self.keys.refuse_at(at).map(|found| ("at", found)),
             (None, Some([from, to])) => self.keys.refuse_window(from, to).map(|found| ("window", found)),
@@ -198,7 +216,7 @@ impl CheckReader<'_> {
         };
         if let Some((key, (message, help))) = refused {
             let at = self.document.at(&format!("{pointer}/{key}"));
-            self.problems.push(Problem::error(&at, message).with_help(help));
+            self.problems.push(Problem::error(&at, format!("{of}{message}")).with_help(help));
         }
     }
 }
@@ -252,8 +270,13 @@ impl Keys {
 }
 
 fn known(names: &[&str]) -> String {
-    let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-    names.join(", ")
+    let mut all: Vec<String> = Vec::new();
+    for name in names.iter().map(|n| format!("`{n}`")) {
+        if !all.contains(&name) {
+            all.push(name);
+        }
+    }
+    all.join(", ")
 }
 
 /// The place of a part of a string's value in the file; the whole string if it was written with escapes.

@@ -17,8 +17,8 @@ use crate::problem::{Located, Problem, Problems};
 /// Most values of a sweep: a slip of the pen in `step` must not fill the memory.
 const MAX_SWEEP: f64 = 1e6;
 
-/// Resolves a document that fits the schema.
-pub(crate) fn resolve(document: &Document, folder: &Folder) -> (Option<Experiment>, Problems) {
+/// Resolves a document that fits the schema. With `check_times`, checks that look where nothing is recorded are refused.
+pub(crate) fn resolve(document: &Document, folder: &Folder, check_times: bool) -> (Option<Experiment>, Problems) {
     let mut problems = Problems::new();
     let file: ExperimentFile = match serde_json::from_value(document.root.clone()) {
         Ok(file) => file,
@@ -27,7 +27,7 @@ pub(crate) fn resolve(document: &Document, folder: &Folder) -> (Option<Experimen
             return (None, problem.into());
         }
     };
-    let mut resolver = Resolver { document, folder, file: &file, problems: &mut problems };
+    let mut resolver = Resolver { document, folder, file: &file, check_times, problems: &mut problems };
     let experiment = resolver.experiment();
     (experiment, problems)
 }
@@ -36,6 +36,7 @@ struct Resolver<'a> {
     document: &'a Document,
     folder: &'a Folder,
     file: &'a ExperimentFile,
+    check_times: bool,
     problems: &'a mut Problems,
 }
 
@@ -73,12 +74,13 @@ impl Resolver<'_> {
         })
     }
 
-    fn reader(&mut self, parameters: &Arc<[(String, f64)]>, keys: Keys) -> CheckReader<'_> {
+    fn reader<'s>(&'s mut self, parameters: &Arc<[(String, f64)]>, keys: Keys) -> CheckReader<'s> {
         CheckReader {
             document: self.document,
             folder: self.folder,
             parameters: parameters.clone(),
             keys,
+            check_times: self.check_times,
             problems: self.problems,
         }
     }
@@ -190,7 +192,10 @@ impl Resolver<'_> {
                 });
             }
             let own = own_parameters(parameters, &file.set);
-            let checks = self.reader(&own, Keys::Run(own_grid(main, &file.set))).list(&file.check, &pointer);
+            let inherited = if file.inherit_checks { &self.file.check[..] } else { &[] };
+            let mut reader = self.reader(&own, Keys::Run(own_grid(main, &file.set)));
+            reader.inherited_times(inherited, &file.name);
+            let checks = reader.list(&file.check, &pointer);
             variants.push(Variant {
                 name: file.name.clone(),
                 description: file.description.clone(),

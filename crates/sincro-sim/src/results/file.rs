@@ -102,7 +102,10 @@ mod tests {
         let file = test_folder("prepare-file").join("results");
         fs::write(&file, "").unwrap();
         let message = prepare(&file).unwrap_err().to_string();
-        assert!(message.starts_with("cannot create the results folder `") && message.contains("results`: "), "{message}");
+        assert!(
+            message.starts_with("cannot create the results folder `") && message.contains("results`: "),
+            "{message}"
+        );
         let message = prepare(&file.join("run")).unwrap_err().to_string();
         assert!(message.contains("Not a directory") || message.contains("exists"), "{message}");
     }

@@ -29,7 +29,8 @@ pub(super) fn to_json(report: &RunReport) -> String {
     let mut found = Found::default();
     found.report(report);
     let whole = Whole { report, not_finite: found.0 };
-    let mut text = serde_json::to_string_pretty(&whole).expect("a report is JSON: its keys are texts, its types our own");
+    let mut text =
+        serde_json::to_string_pretty(&whole).expect("a report is JSON: its keys are texts, its types our own");
     text.push('\n');
     text
 }

@@ -89,10 +89,11 @@ fn outcome(verdict: Verdict, deviation: Option<f64>) -> Outcome {
 #[test]
 fn fields_stand_in_their_order_and_numbers_have_all_their_digits() {
     let text = report().to_json();
-    let places: Vec<usize> = ["\"sincro_version\"", "\"status\"", "\"trace_hash\"", "\"checks\"", "\"warnings\"", "\"not_finite\""]
-        .iter()
-        .map(|key| text.find(key).unwrap())
-        .collect();
+    let places: Vec<usize> =
+        ["\"sincro_version\"", "\"status\"", "\"trace_hash\"", "\"checks\"", "\"warnings\"", "\"not_finite\""]
+            .iter()
+            .map(|key| text.find(key).unwrap())
+            .collect();
     assert!(places.is_sorted(), "{text}");
     assert!(text.contains("\"measured\": 0.30000000000000004"), "{text}");
     assert_eq!(text, report().to_json());
@@ -102,7 +103,8 @@ fn fields_stand_in_their_order_and_numbers_have_all_their_digits() {
 fn a_report_reads_back_as_it_was_written() {
     let folder = test_folder("report");
     let mut whole = report();
-    whole.status = Status::Stopped { tick: 7, time: 0.035, reason: "not finite".into(), help: "a smaller `step`".into() };
+    whole.status =
+        Status::Stopped { tick: 7, time: 0.035, reason: "not finite".into(), help: "a smaller `step`".into() };
     whole.write(&folder).unwrap();
     assert_eq!(RunReport::read(&folder).unwrap(), whole);
     assert_eq!(whole.status.stopped_at(), Some(0.035));
@@ -160,13 +162,19 @@ fn every_number_of_variants_and_sweep_is_looked_at() {
     whole.sweep = Some(SweepReport { checks: vec![bad], ..SweepReport::new(&sweep, &[]) });
     let json: Value = serde_json::from_str(&whole.to_json()).unwrap();
     let keys: Vec<&String> = json["not_finite"].as_object().unwrap().keys().collect();
-    assert_eq!(keys, ["/sweep/checks/0/deviation", "/variants/0/checks/0/deviation", "/variants/0/columns/0/error_bar"]);
+    assert_eq!(
+        keys,
+        ["/sweep/checks/0/deviation", "/variants/0/checks/0/deviation", "/variants/0/columns/0/error_bar"]
+    );
 }
 
 #[test]
 fn a_check_says_why_it_was_not_made_or_is_not_finite() {
     let reason = |outcome: Outcome| CheckReport::from(&outcome).reason;
-    assert_eq!(reason(outcome(Verdict::NotMade("nothing was recorded".into()), None)).as_deref(), Some("nothing was recorded"));
+    assert_eq!(
+        reason(outcome(Verdict::NotMade("nothing was recorded".into()), None)).as_deref(),
+        Some("nothing was recorded")
+    );
     assert_eq!(
         reason(outcome(Verdict::Fails, Some(f64::NAN))).as_deref(),
         Some("the deviation is NaN: measured NaN, expected 0")

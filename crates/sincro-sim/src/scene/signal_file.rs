@@ -215,15 +215,18 @@ impl SignalReader<'_> {
 
     fn points_of_file(&mut self, table: &TableFile, pointer: &str) -> Option<(Vec<f64>, Vec<f64>)> {
         self.refuse(pointer, &["values"], "the points are in the file");
-        let Some(column) = self.document.located(&format!("{pointer}/column")) else {
+        let located = |key: &str, value: &String| Located {
+            value: value.clone(),
+            at: self.document.at(&format!("{pointer}/{key}")),
+        };
+        let Some(column) = table.column.as_ref().map(|value| located("column", value)) else {
             let at = self.document.at(pointer);
             let problem = Problem::error(&at, "`column` is missing in `table`");
             self.problems.push(problem.with_help("`column` names the column of values in the file"));
             return None;
         };
-        let file = self.document.located(&format!("{pointer}/file"))?;
-        let key_pointer = format!("{pointer}/time");
-        let key = Located { value: table.time.clone().unwrap_or("t".into()), at: self.document.at(&key_pointer) };
+        let file = located("file", table.file.as_ref()?);
+        let key = located("time", table.time.as_ref().unwrap_or(&"t".to_owned()));
         series::read(self.folder, &series::Query { file: &file, key: &key, column: &column }, self.problems)
     }
 

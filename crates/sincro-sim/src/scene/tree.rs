@@ -83,14 +83,13 @@ pub(super) fn order(entries: &[Entry<'_>], document: &Document, problems: &mut P
             }
         }
     }
+    let parents: Vec<Result<Option<usize>, ()>> = entries.iter().map(|e| parent_of(e, entries, &by_path)).collect();
+    report_orphans(entries, &parents, document, problems);
     let mut children: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
-    for (k, entry) in entries.iter().enumerate() {
-        match parent_of(entry, entries, &by_path) {
-            Ok(parent) => {
-                check_parent(entry, parent.map(|p| &entries[p]), document, problems);
-                children.entry(parent).or_default().push(k);
-            }
-            Err(()) => problems.push(unknown_parent(entry, entries, document)),
+    for (k, parent) in parents.iter().enumerate() {
+        if let Ok(parent) = *parent {
+            check_parent(&entries[k], parent.map(|p| &entries[p]), document, problems);
+            children.entry(parent).or_default().push(k);
         }
     }
     for list in children.values_mut() {
@@ -161,16 +160,54 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
     }
 }
 
-fn unknown_parent(entry: &Entry<'_>, entries: &[Entry<'_>], document: &Document) -> Problem {
-    let at = document.at(&format!("{}/parent", entry.pointer));
-    if let Some(circle) = circle(entry, entries) {
-        let problem = Problem::error(&at, format!("`{}` hangs on itself: {}", entry.name, circle.join(" on ")));
-        return problem.with_help("one of them must hang on something that hangs on the world, `/`");
+/// Tells whose parents are not there; once for each circle, and not again for what hangs on those already told.
+fn report_orphans(
+    entries: &[Entry<'_>],
+    parents: &[Result<Option<usize>, ()>],
+    document: &Document,
+    problems: &mut Problems,
+) {
+    let told_before = problems.0.len();
+    let mut in_circles: BTreeSet<&str> = BTreeSet::new();
+    let orphans = || (0..entries.len()).filter(|k| parents[*k].is_err()).map(|k| &entries[k]);
+    for entry in orphans() {
+        let Some(circle) = circle(entry, entries) else { continue };
+        if !in_circles.contains(entry.name) {
+            let at = document.at(&format!("{}/parent", entry.pointer));
+            let problem = Problem::error(&at, format!("`{}` hangs on itself: {}", entry.name, circle.join(" on ")));
+            problems.push(problem.with_help("one of them must hang on something that hangs on the world, `/`"));
+        }
+        in_circles.extend(circle);
     }
+    let adrift = |k: usize| {
+        let mut at = Ok(Some(k));
+        while let Ok(Some(k)) = at {
+            at = parents[k];
+        }
+        at.is_err()
+    };
+    for entry in orphans().filter(|entry| !in_circles.contains(entry.name)) {
+        let wanted = last_name(entry.parent);
+        let namesake = (0..entries.len()).find(|k| entries[*k].name == wanted);
+        if !namesake.is_some_and(adrift) {
+            problems.push(unknown_parent(entry, entries, namesake.map(|k| &entries[k]), document));
+        }
+    }
+    // same names in several places can hide all of them behind each other: nothing is dropped in silence
+    if problems.0.len() == told_before {
+        orphans().for_each(|entry| problems.push(unknown_parent(entry, entries, None, document)));
+    }
+}
+
+fn unknown_parent(
+    entry: &Entry<'_>,
+    entries: &[Entry<'_>],
+    namesake: Option<&Entry<'_>>,
+    document: &Document,
+) -> Problem {
+    let at = document.at(&format!("{}/parent", entry.pointer));
     let problem = Problem::error(&at, format!("there is no object `{}` to hang `{}` on", entry.parent, entry.name));
-    let last = last_name(entry.parent);
-    let same_name = entries.iter().find(|e| e.name == last && !std::ptr::eq(*e, entry));
-    if let Some(meant) = same_name {
+    if let Some(meant) = namesake {
         return problem.with_help(format!("did you mean `{}`?", meant.path));
     }
     let known: Vec<&str> = entries.iter().filter(|e| !std::ptr::eq(*e, entry)).map(|e| e.path.as_str()).collect();

@@ -27,8 +27,8 @@ struct Walker<'a> {
 impl<'a> Walker<'a> {
     fn value(&mut self, pointer: &str, value: &Value, schema: &'a Value) {
         let choices = alternatives(self.root, schema);
-        if choices.iter().any(|choice| !choice.contains_key("type") && describe::words(choice).is_none()) {
-            return; // anything goes
+        if choices.is_empty() {
+            return; // `true`: anything goes
         }
         if value.is_null() && self.may_be_infinite(pointer, schema) {
             return;
@@ -52,9 +52,13 @@ impl<'a> Walker<'a> {
 
     fn mismatch(&mut self, pointer: &str, value: &Value, schema: &Value) {
         let found = found(value, self.document.odd(pointer));
-        let expected = expected(self.root, schema);
-        let finite = if self.document.odd(pointer).is_some() { "finite: " } else { "" };
-        let message = format!("`{}` is {found}, expected {finite}{expected}", shown(pointer));
+        let expected = match self.document.odd(pointer) {
+            Some(Odd::Infinite { .. } | Odd::NotANumber) => {
+                expected(self.root, schema).replacen("a number", "a finite number", 1)
+            }
+            _ => expected(self.root, schema),
+        };
+        let message = format!("`{}` is {found}, expected {expected}", shown(pointer));
         self.error_at_value(pointer, message, self.help_of(schema));
     }
 
@@ -121,10 +125,10 @@ impl<'a> Walker<'a> {
     fn exclusive(&mut self, pointer: &str, table: &Map<String, Value>, rule: &Map<String, Value>) {
         if let Some(keys) = rule.get("oneOf").and_then(exclusive_keys) {
             let given: Vec<&str> = keys.iter().copied().filter(|k| table.contains_key(*k)).collect();
-            if given.is_empty() {
-                let near = table.keys().find_map(|k| suggest::nearest(k, keys.iter().copied()));
-                let help = near.map(|near| format!("did you mean `{near}`?"));
-                self.missing(pointer, &format!("one of {} is missing", quoted(&keys)), help);
+            // a misspelt one has been reported as an unknown key
+            let misspelt = table.keys().any(|k| suggest::nearest(k, keys.iter().copied()).is_some());
+            if given.is_empty() && !misspelt {
+                self.missing(pointer, &format!("one of {} is missing", quoted(&keys)), None);
             } else if given.len() > 1 {
                 self.too_many(pointer, &given);
             }

@@ -1,0 +1,149 @@
+//! Every signal that a model offers, with its unit.
+
+use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::{JointInfo, Model};
+
+use super::{EnergyQuantity, FrameQuantity, Probe};
+
+/// A signal on offer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// As it is written in `record`.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Where it is read.
+    pub probe: Probe,
+}
+
+const XYZ: [&str; 3] = ["x", "y", "z"];
+const WXYZ: [&str; 4] = ["w", "x", "y", "z"];
+
+struct List(Vec<Entry>);
+
+impl List {
+    fn add(&mut self, name: String, unit: &'static str, probe: Probe) {
+        self.0.push(Entry { name, unit, probe });
+    }
+
+    fn vector(&mut self, stem: &str, names: &[&str], unit: &'static str, probe: impl Fn(usize) -> Probe) {
+        for (k, component) in names.iter().enumerate() {
+            self.add(format!("{stem}.{component}"), unit, probe(k));
+        }
+    }
+}
+
+/// All signals of a model: joints, bodies and frames in their order, then the world's.
+#[must_use]
+pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
+    let mut list = List(Vec::new());
+    for joint in &model.names().joints {
+        joint_signals(&mut list, joint, model);
+    }
+    for (i, frame) in model.names().frames.iter().enumerate() {
+        frame_signals(&mut list, &frame.name, i, frame.body.is_some());
+    }
+    world_signals(&mut list);
+    list.0
+}
+
+/// Units of a coordinate, its rate, its acceleration and its torque.
+struct Units([&'static str; 4]);
+
+const ANGLE: Units = Units(["rad", "rad/s", "rad/s²", "N·m"]);
+const LENGTH: Units = Units(["m", "m/s", "m/s²", "N"]);
+
+fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
+    let name = &joint.name;
+    let (q, v) = (joint.q_idx, joint.v_idx);
+    match joint.kind {
+        JointKind::Fixed => {}
+        JointKind::Revolute { .. } | JointKind::Screw { .. } => scalar(list, name, "", &ANGLE, q, v),
+        JointKind::Prismatic { .. } => scalar(list, name, "", &LENGTH, q, v),
+        JointKind::Universal { .. } => {
+            scalar(list, name, ".1", &ANGLE, q, v);
+            scalar(list, name, ".2", &ANGLE, q + 1, v + 1);
+        }
+        JointKind::Planar => {
+            scalar(list, name, ".x", &LENGTH, q, v);
+            scalar(list, name, ".y", &LENGTH, q + 1, v + 1);
+            scalar(list, name, ".angle", &ANGLE, q + 2, v + 2);
+        }
+        JointKind::Ball => {
+            list.vector(&format!("{name}.quaternion"), &WXYZ, "1", |k| Probe::Coordinate(q + k));
+            list.vector(&format!("{name}.velocity"), &XYZ, "rad/s", |k| Probe::Rate(v + k));
+            list.vector(&format!("{name}.acceleration"), &XYZ, "rad/s²", |k| Probe::Acceleration(v + k));
+        }
+        JointKind::Free => {
+            list.vector(&format!("{name}.position"), &XYZ, "m", |k| Probe::Coordinate(q + k));
+            list.vector(&format!("{name}.quaternion"), &WXYZ, "1", |k| Probe::Coordinate(q + 3 + k));
+            list.vector(&format!("{name}.angular_velocity"), &XYZ, "rad/s", |k| Probe::Rate(v + k));
+            list.vector(&format!("{name}.velocity"), &XYZ, "m/s", |k| Probe::Rate(v + 3 + k));
+            list.vector(&format!("{name}.angular_acceleration"), &XYZ, "rad/s²", |k| Probe::Acceleration(v + k));
+            list.vector(&format!("{name}.acceleration"), &XYZ, "m/s²", |k| Probe::Acceleration(v + 3 + k));
+        }
+    }
+    if let Some(motor) = joint.motor {
+        let is_length = matches!(joint.kind, JointKind::Prismatic { .. });
+        let units = if is_length { LENGTH.0 } else { ANGLE.0 };
+        let torque = units[3];
+        let command = match model.motors()[motor].mode {
+            MotorMode::Torque => torque,
+            MotorMode::Velocity => units[1],
+            MotorMode::Position | MotorMode::Spring => units[0],
+            MotorMode::Free => "",
+        };
+        list.add(format!("{name}.command"), command, Probe::Command(motor));
+        list.add(format!("{name}.motor_torque"), torque, Probe::MotorTorqueMean(motor));
+        list.add(format!("{name}.motor_torque_now"), torque, Probe::MotorTorqueNow(motor));
+    }
+}
+
+/// The signals of one scalar coordinate; `component` is empty for a joint that has no other.
+fn scalar(list: &mut List, name: &str, component: &str, units: &Units, q: usize, v: usize) {
+    let torque = units.0[3];
+    let entries = [
+        ("position", units.0[0], Probe::Coordinate(q)),
+        ("velocity", units.0[1], Probe::Rate(v)),
+        ("acceleration", units.0[2], Probe::Acceleration(v)),
+        ("spring_torque", torque, Probe::SpringTorque(v)),
+        ("damping_torque", torque, Probe::DampingTorque(v)),
+        ("friction_torque", torque, Probe::FrictionTorque(v)),
+        ("applied_torque", torque, Probe::AppliedTorque(v)),
+    ];
+    for (what, unit, probe) in entries {
+        list.add(format!("{name}.{what}{component}"), unit, probe);
+    }
+}
+
+fn frame_signals(list: &mut List, name: &str, i: usize, is_body: bool) {
+    use FrameQuantity as F;
+    let at = |quantity: F| move |k: usize| Probe::Frame(quantity, i, k);
+    list.vector(&format!("{name}.position"), &XYZ, "m", at(F::Position));
+    list.vector(&format!("{name}.quaternion"), &WXYZ, "1", at(F::Quaternion));
+    list.vector(name, &["roll", "pitch", "yaw"], "rad", at(F::Angles));
+    list.vector(&format!("{name}.velocity"), &XYZ, "m/s", at(F::Velocity));
+    list.vector(&format!("{name}.angular_velocity"), &XYZ, "rad/s", at(F::AngularVelocity));
+    list.vector(&format!("{name}.acceleration"), &XYZ, "m/s²", at(F::Acceleration));
+    if is_body {
+        list.vector(&format!("{name}.center_of_mass"), &XYZ, "m", at(F::CenterOfMass));
+    }
+}
+
+fn world_signals(list: &mut List) {
+    use EnergyQuantity as E;
+    let energies = [
+        ("kinetic", E::Kinetic),
+        ("potential", E::Potential),
+        ("total", E::Total),
+        ("work", E::Work),
+        ("dissipated", E::Dissipated),
+        ("balance", E::Balance),
+    ];
+    for (name, quantity) in energies {
+        list.add(format!("energy.{name}"), "J", Probe::Energy(quantity));
+    }
+    list.vector("momentum.angular", &XYZ, "kg·m²/s", Probe::Momentum);
+    list.vector("momentum.linear", &XYZ, "kg·m/s", |k| Probe::Momentum(3 + k));
+}

@@ -1,0 +1,215 @@
+//! Recorded signals: from names to numbers.
+//!
+//! [`catalogue`] lists everything that a model can be asked for; a [`Recorder`] holds the chosen ones resolved, so that a row costs
+//! no look-up and no allocation.
+
+mod catalogue;
+
+pub use catalogue::{Entry, catalogue};
+
+use sincro_dynamics::force::{damper, spring};
+use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::model::Model;
+use sincro_dynamics::world::{Observation, World};
+
+use crate::problem::{Located, Problem, Problems};
+use crate::suggest;
+
+/// One number that can be read off a world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Probe {
+    /// Coordinate in q.
+    Coordinate(usize),
+    /// Entry of v.
+    Rate(usize),
+    /// Entry of v̇.
+    Acceleration(usize),
+    /// Latched command of a motor.
+    Command(usize),
+    /// Mean torque of a motor over the step that ended here.
+    MotorTorqueMean(usize),
+    /// Torque of a motor now.
+    MotorTorqueNow(usize),
+    /// Torque of a joint's spring.
+    SpringTorque(usize),
+    /// Torque of a joint's damper.
+    DampingTorque(usize),
+    /// Torque of Coulomb friction.
+    FrictionTorque(usize),
+    /// Torque applied by a signal.
+    AppliedTorque(usize),
+    /// Component of a frame's quantity in the world.
+    Frame(FrameQuantity, usize, usize),
+    /// Of the whole world.
+    Energy(EnergyQuantity),
+    /// Component 0–2 of the angular, 3–5 of the linear momentum.
+    Momentum(usize),
+}
+
+/// What can be read of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameQuantity {
+    /// Origin [m].
+    Position,
+    /// w, x, y, z.
+    Quaternion,
+    /// Roll, pitch, yaw [rad].
+    Angles,
+    /// Of the origin [m/s].
+    Velocity,
+    /// [rad/s]
+    AngularVelocity,
+    /// Of the origin [m/s²].
+    Acceleration,
+    /// Of a body [m].
+    CenterOfMass,
+}
+
+/// What can be read of the energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum EnergyQuantity {
+    Kinetic,
+    Potential,
+    Total,
+    Work,
+    Dissipated,
+    Balance,
+}
+
+/// The chosen signals of one model.
+#[derive(Clone, Debug)]
+pub struct Recorder {
+    entries: Vec<Entry>,
+    motor_impulse: Vec<f64>,
+    last_t: f64,
+    energy_at_start: f64,
+    row: Vec<f64>,
+}
+
+impl Recorder {
+    /// Resolves names against a model.
+    ///
+    /// # Errors
+    ///
+    /// All names that mean nothing, each with the nearest ones that do.
+    pub fn new(names: &[Located<String>], model: &Model<f64>) -> Result<Self, Problems> {
+        let all = catalogue(model);
+        let mut problems = Problems::new();
+        let mut entries = Vec::with_capacity(names.len());
+        for name in names {
+            match all.iter().find(|e| e.name == name.value) {
+                Some(entry) => entries.push(entry.clone()),
+                None => problems.push(unknown(name, &all)),
+            }
+        }
+        if problems.any_error() {
+            return Err(problems);
+        }
+        let row = Vec::with_capacity(entries.len() + 1);
+        let motor_impulse = vec![0.0; model.motors().len()];
+        Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, row })
+    }
+
+    /// Names and units of the columns, `t` first.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &str)> {
+        [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), e.unit)))
+    }
+
+    /// The row of the present state, `t` first. To be called at every recorded instant, in order, the start included.
+    pub fn row(&mut self, world: &mut World, t: f64, is_start: bool) -> &[f64] {
+        let seen = world.observe(t);
+        if is_start {
+            self.energy_at_start = seen.energy().total();
+            self.last_t = t;
+        }
+        self.row.clear();
+        self.row.push(t);
+        for i in 0..self.entries.len() {
+            let value = self.read(&seen, self.entries[i].probe, t);
+            self.row.push(value);
+        }
+        for (kept, now) in self.motor_impulse.iter_mut().zip(&seen.state.totals[2..]) {
+            *kept = *now;
+        }
+        self.last_t = t;
+        &self.row
+    }
+
+    fn read(&self, seen: &Observation<'_>, probe: Probe, t: f64) -> f64 {
+        let state = seen.state;
+        let dof = |k: usize| &seen.model().dofs()[k];
+        match probe {
+            Probe::Coordinate(i) => state.q[i],
+            Probe::Rate(k) => state.v[k],
+            Probe::Acceleration(k) => seen.accelerations[k],
+            Probe::Command(m) => state.commands[m],
+            Probe::MotorTorqueMean(m) => {
+                let span = t - self.last_t;
+                if span > 0.0 { (state.totals[2 + m] - self.motor_impulse[m]) / span } else { 0.0 }
+            }
+            Probe::MotorTorqueNow(m) => seen.motor_torque()[m],
+            Probe::SpringTorque(k) => spring::torque(dof(k), state.q[dof(k).coordinate().expect("a scalar joint")]),
+            Probe::DampingTorque(k) => damper::torque(dof(k), state.v[k]),
+            Probe::FrictionTorque(k) => seen.friction_torque(k),
+            Probe::AppliedTorque(k) => seen.model().applied_torque(k, t),
+            Probe::Frame(quantity, frame, component) => frame_quantity(seen, quantity, frame, component),
+            Probe::Energy(quantity) => self.energy(seen, quantity),
+            Probe::Momentum(k) if k < 3 => seen.momentum().ang[k],
+            Probe::Momentum(k) => seen.momentum().lin[k - 3],
+        }
+    }
+
+    fn energy(&self, seen: &Observation<'_>, quantity: EnergyQuantity) -> f64 {
+        let (energy, totals) = (seen.energy(), &seen.state.totals);
+        match quantity {
+            EnergyQuantity::Kinetic => energy.kinetic,
+            EnergyQuantity::Potential => energy.potential,
+            EnergyQuantity::Total => energy.total(),
+            EnergyQuantity::Work => totals[0],
+            EnergyQuantity::Dissipated => totals[1],
+            EnergyQuantity::Balance => energy.total() - self.energy_at_start - totals[0] + totals[1],
+        }
+    }
+}
+
+fn frame_quantity(seen: &Observation<'_>, quantity: FrameQuantity, frame: usize, component: usize) -> f64 {
+    let info = &seen.model().names().frames[frame];
+    let at = Attached { link: info.link, pose: info.pose };
+    let scratch = seen.scratch();
+    let pose = || kinematics::frame_pose(scratch, &at);
+    match quantity {
+        FrameQuantity::Position => pose().pos[component],
+        FrameQuantity::Quaternion => {
+            let q = sincro_dynamics::spatial::Quat::from_matrix(&pose().rot);
+            [q.w, q.xyz[0], q.xyz[1], q.xyz[2]][component]
+        }
+        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&pose().rot)[component],
+        FrameQuantity::Velocity => kinematics::frame_velocity(scratch, &at).lin[component],
+        FrameQuantity::AngularVelocity => kinematics::frame_velocity(scratch, &at).ang[component],
+        FrameQuantity::Acceleration => kinematics::frame_acceleration(scratch, &at).lin[component],
+        FrameQuantity::CenterOfMass => {
+            let com = info.body.map_or([0.0; 3], |(com, _)| com);
+            pose().point(sincro_dynamics::spatial::Vec3(com))[component]
+        }
+    }
+}
+
+/// The finding about a name that means nothing: what is near, or what the object it names offers.
+fn unknown(name: &Located<String>, all: &[Entry]) -> Problem {
+    let message = format!("there is no signal `{}`", name.value);
+    let of_object: Vec<&str> = match name.value.split_once('.') {
+        Some((object, _)) => {
+            let prefix = format!("{object}.");
+            all.iter().map(|e| e.name.as_str()).filter(|n| n.starts_with(&prefix)).collect()
+        }
+        None => Vec::new(),
+    };
+    let nearest = suggest::nearest(&name.value, all.iter().map(|e| e.name.as_str()));
+    let help = match (nearest, of_object.is_empty()) {
+        (Some(near), _) => format!("did you mean `{near}`?"),
+        (None, false) => format!("its object has {}", of_object.join(", ")),
+        (None, true) => "`sincro check SCENE` lists every signal".into(),
+    };
+    Problem::error(&name.at, message).with_help(help)
+}

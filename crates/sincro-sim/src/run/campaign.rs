@@ -1,0 +1,243 @@
+//! An experiment with everything that belongs to it: the main run, its error bars, its variants, its sweep, their checks.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use super::{Manner, RunError, Simulated, Watch, method_word, model_hash, refine, simulate};
+use crate::check::{Outcome, evaluate, evaluate_sweep};
+use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
+use crate::load::{Loaded, load};
+use crate::overrides::Override;
+use crate::results::{
+    CheckReport, ColumnReport, Override as Setting, RunReport, Settings, Status, SweepReport, VariantReport,
+};
+use crate::sweep::Sweep;
+
+/// One run of a campaign with its judgement.
+#[derive(Clone, Debug)]
+pub struct Done {
+    /// What came out.
+    pub simulated: Simulated,
+    /// Columns with their error bars.
+    pub columns: Vec<ColumnReport>,
+    /// Its checks.
+    pub outcomes: Vec<Outcome>,
+    /// How it was run.
+    pub settings: Settings,
+    /// Hash of its model.
+    pub model_hash: String,
+}
+
+/// Everything that came out.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// The main run.
+    pub main: Done,
+    /// The variants, each with its name and description.
+    pub variants: Vec<(Variant, Done)>,
+    /// The sweep and its checks.
+    pub sweep: Option<(Sweep, Vec<Outcome>)>,
+    /// All of it as it stands in `run.json`.
+    pub report: RunReport,
+}
+
+/// Told what is being done and the share of it.
+pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
+
+/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a folder a variant.
+///
+/// # Errors
+///
+/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that fails is a
+/// result, not an error.
+pub fn run_campaign(
+    folder: &Path,
+    overrides: &[Override],
+    loaded: &Loaded,
+    out_dir: Option<&Path>,
+    interrupt: &AtomicBool,
+    progress: Progress<'_>,
+) -> Result<Campaign, RunError> {
+    let csv = out_dir.map(|dir| dir.join("signals.csv"));
+    let main = one_run(loaded, None, csv.as_deref(), (interrupt, "run", &mut *progress))?;
+    let interrupted = |done: &Done| matches!(done.simulated.status, Status::Interrupted { .. });
+
+    let mut variants = Vec::new();
+    for variant in &loaded.experiment.variants {
+        if interrupted(&main) {
+            break;
+        }
+        let settings: Vec<Override> = overrides.iter().chain(&variant.set).cloned().collect();
+        let other = load(folder, &settings)?;
+        let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
+        if let Some(dir) = &dir {
+            crate::results::prepare(dir)?;
+        }
+        let csv = dir.map(|dir| dir.join("signals.csv"));
+        let words = format!("variant {}", variant.name);
+        let done = one_run(&other, Some(&variant.name), csv.as_deref(), (interrupt, &words, &mut *progress))?;
+        variants.push((variant.clone(), done));
+    }
+    let sweep = match &loaded.experiment.sweep {
+        Some(plan) if !interrupted(&main) => Some(run_sweep(folder, overrides, loaded, plan, interrupt, progress)?),
+        _ => None,
+    };
+    let report = report(folder, loaded, &main, &variants, sweep.as_ref());
+    if let Some(dir) = out_dir {
+        if let Some((sweep, _)) = &sweep {
+            sweep.write(dir)?;
+        }
+        report.write(dir)?;
+    }
+    Ok(Campaign { main, variants, sweep, report })
+}
+
+type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
+
+/// One run with error bars and checks; for a variant the checks that the file gives it.
+fn one_run(
+    loaded: &Loaded,
+    variant: Option<&str>,
+    csv: Option<&Path>,
+    observer: Observer<'_, '_>,
+) -> Result<Done, RunError> {
+    let (scene, experiment) = (&loaded.scene, &loaded.experiment);
+    let (interrupt, words, progress) = observer;
+    let mut tell = |share: f64| progress(words, share);
+    let mut watch = Watch { interrupt, progress: &mut tell };
+    let simulated = simulate(scene, experiment, Manner { csv, refined: false }, &mut watch)?;
+    let columns = match simulated.status {
+        Status::Completed => refine::columns(scene, experiment, &simulated, &mut watch)?,
+        _ => ColumnReport::of_table(&simulated.table),
+    };
+    let stopped = simulated.status.stopped_at();
+    let outcomes = match variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) {
+        None => evaluate(&experiment.checks, &simulated.table, stopped),
+        Some(variant) => {
+            let mut outcomes = evaluate(&variant.checks, &simulated.table, stopped);
+            if variant.inherit_checks {
+                outcomes.extend(evaluate(&experiment.checks, &simulated.table, stopped));
+            }
+            outcomes
+        }
+    };
+    let settings = settings(experiment, &simulated);
+    let model_hash = model_hash(&scene.model);
+    Ok(Done { simulated, columns, outcomes, settings, model_hash })
+}
+
+fn settings(experiment: &Experiment, run: &Simulated) -> Settings {
+    Settings {
+        integrator: method_word(run.method).into(),
+        step: experiment.step,
+        accuracy: experiment.accuracy,
+        duration: experiment.duration,
+        record_every: experiment.record_every,
+        seed: experiment.seed,
+        overrides: Vec::new(),
+    }
+}
+
+/// The runs of a sweep on all processors; results in the order of the values.
+fn run_sweep(
+    folder: &Path,
+    overrides: &[Override],
+    loaded: &Loaded,
+    plan: &SweepPlan,
+    interrupt: &AtomicBool,
+    progress: Progress<'_>,
+) -> Result<(Sweep, Vec<Outcome>), RunError> {
+    let n = plan.values.len();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
+    let point = |value: f64| -> Result<Simulated, RunError> {
+        let settings: Vec<Override> = overrides.iter().cloned().chain([plan.setting(value)]).collect();
+        let at = load(folder, &settings)?;
+        simulate(&at.scene, &at.experiment, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
+    };
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let mut points: Vec<Option<Result<Simulated, RunError>>> = (0..n).map(|_| None).collect();
+    std::thread::scope(|scope| {
+        let worker = || {
+            let take = || next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let mut mine = Vec::new();
+            let mut k = take();
+            while k < n {
+                mine.push((k, point(plan.values[k])));
+                k = take();
+            }
+            mine
+        };
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        for handle in handles {
+            for (k, result) in handle.join().expect("a run does not panic") {
+                points[k] = Some(result);
+            }
+        }
+    });
+    progress("sweep", 1.0);
+    let signals: Vec<(&str, &str)> = Vec::new();
+    let mut sweep = Sweep::new(&plan.parameter.value, "", signals, n);
+    for (k, result) in points.into_iter().enumerate() {
+        let run = result.expect("every point was run")?;
+        if k == 0 {
+            let columns = run.table.columns.iter().skip(1).map(|c| (c.name.as_str(), c.unit.as_str()));
+            sweep = Sweep::new(&plan.parameter.value, "", columns, n);
+        }
+        let finals: Vec<f64> =
+            run.table.columns.iter().skip(1).map(|c| c.values.last().copied().unwrap_or(f64::NAN)).collect();
+        match &run.status {
+            Status::Completed => sweep.push(plan.values[k], &finals),
+            Status::Stopped { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
+            Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
+        }
+    }
+    let outcomes = evaluate_sweep(&loaded.experiment.sweep.as_ref().map_or(Vec::new(), |s| s.checks.clone()), &sweep);
+    Ok((sweep, outcomes))
+}
+
+fn report(
+    folder: &Path,
+    loaded: &Loaded,
+    main: &Done,
+    variants: &[(Variant, Done)],
+    sweep: Option<&(Sweep, Vec<Outcome>)>,
+) -> RunReport {
+    let scene = crate::load::folder_name(folder);
+    let problems = loaded.warnings.iter().map(|w| w.message.clone());
+    RunReport {
+        sincro_version: env!("CARGO_PKG_VERSION").into(),
+        scene,
+        scene_path: folder.display().to_string(),
+        title: loaded.experiment.title.clone(),
+        status: main.simulated.status.clone(),
+        settings: main.settings.clone(),
+        model_hash: main.model_hash.clone(),
+        trace_hash: main.simulated.trace.to_string(),
+        n_dof: loaded.scene.model.n_v(),
+        columns: main.columns.clone(),
+        energy: Some(main.simulated.energy),
+        checks: main.outcomes.iter().map(CheckReport::from).collect(),
+        sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
+        variants: variants.iter().map(variant_report).collect(),
+        warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
+        wall_time_s: main.simulated.wall_time,
+        real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
+    }
+}
+
+fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {
+    let set = variant.set.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
+    VariantReport {
+        name: variant.name.clone(),
+        description: variant.description.clone(),
+        status: done.simulated.status.clone(),
+        settings: Settings { overrides: set.collect(), ..done.settings.clone() },
+        model_hash: done.model_hash.clone(),
+        trace_hash: done.simulated.trace.to_string(),
+        columns: done.columns.clone(),
+        energy: Some(done.simulated.energy),
+        checks: done.outcomes.iter().map(CheckReport::from).collect(),
+        warnings: done.simulated.warnings.clone(),
+        wall_time_s: done.simulated.wall_time,
+    }
+}

@@ -1,0 +1,54 @@
+//! Error bars: the same run once more, finer; the difference of the recorded signals estimates the error of the coarser one.
+//!
+//! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a method
+//! estimates of itself.
+
+use sincro_dynamics::world::MethodKind;
+
+use super::{FINER, Manner, RunError, Simulated, Watch, simulate};
+use crate::experiment::{ErrorBar, Experiment};
+use crate::results::ColumnReport;
+use crate::scene::Scene;
+
+/// The recorded columns with their error bars.
+pub(super) fn columns(
+    scene: &Scene,
+    experiment: &Experiment,
+    run: &Simulated,
+    watch: &mut Watch<'_>,
+) -> Result<Vec<ColumnReport>, RunError> {
+    let mut columns = ColumnReport::of_table(&run.table);
+    if experiment.error_bar == ErrorBar::None {
+        return Ok(columns);
+    }
+    let finer = simulate(scene, experiment, Manner { csv: None, refined: true }, watch)?;
+    let (factor, method) = estimate(run.method);
+    // the first column is time, which is exact
+    for (k, column) in columns.iter_mut().enumerate().skip(1) {
+        let (coarse, fine) = (&run.table.columns[k].values, &finer.table.columns[k].values);
+        let worst = coarse.iter().zip(fine).fold(0.0_f64, |worst, (a, b)| {
+            let difference = (a - b).abs();
+            if difference.is_nan() { f64::INFINITY } else { worst.max(difference) }
+        });
+        column.error_bar = Some(factor * worst);
+        column.error_bar_method.clone_from(&method);
+    }
+    columns[0].error_bar_method = "exact: tick times step".into();
+    Ok(columns)
+}
+
+/// Factor on the difference, and the estimate in words.
+fn estimate(method: MethodKind) -> (f64, String) {
+    let order = match method {
+        MethodKind::SemiImplicitEuler => 1,
+        MethodKind::Implicit => 2,
+        MethodKind::Rk4 => 4,
+        MethodKind::DormandPrince | MethodKind::Stiff => {
+            let words = format!("tolerance tightened {FINER}-fold: largest difference from that run");
+            return (FINER / (FINER - 1.0), words);
+        }
+    };
+    let power = f64::from(1 << order);
+    let factor = power / (power - 1.0);
+    (factor, format!("step halved: largest difference from that run times {factor:.3} (order {order})"))
+}

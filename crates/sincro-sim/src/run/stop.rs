@@ -1,0 +1,58 @@
+//! Why a run stopped: tick, joint, likely cause, and the setting that mends it.
+
+use sincro_dynamics::integrate::Failure;
+use sincro_dynamics::stiffness::{RK4_LIMIT, stiffest};
+use sincro_dynamics::world::{MethodKind, Stop, World};
+
+use super::method_word;
+use crate::experiment::Experiment;
+use crate::results::Status;
+
+/// The stop in words, from the last state that was still finite.
+pub(super) fn explain(
+    world: &World,
+    experiment: &Experiment,
+    (tick, time, cause): (u64, f64, Stop),
+    method: MethodKind,
+) -> Status {
+    let what = match cause {
+        Stop::Integration(Failure::NotFinite { .. }) => "the motion stopped being finite".to_owned(),
+        Stop::Integration(Failure::StepTooSmall { h, .. }) => {
+            format!("`{}` found no step small enough (down to {h:.1e} s)", method_word(method))
+        }
+        Stop::Chatter { .. } => "a limited motor or a friction changed too often within one step".to_owned(),
+    };
+    let suspect = suspect(world);
+    let reason = format!("{what} in tick {tick} at t = {time:.6} s; {}", suspect.0);
+    let help = help(world, experiment, method).unwrap_or(suspect.1);
+    Status::Stopped { tick, time, reason, help }
+}
+
+/// The fastest joint of the last finite state, and general advice.
+fn suspect(world: &World) -> (String, String) {
+    let v = &world.state.v;
+    let fastest = (0..v.len()).max_by(|a, b| v[*a].abs().total_cmp(&v[*b].abs()));
+    let advice = "look for a torque without limit, or take a smaller step or integrator = \"auto\"".to_owned();
+    match fastest {
+        Some(k) => {
+            (format!("joint `{}` was fastest, with a rate of {:.3e}", world.model().names().dof_name(k), v[k]), advice)
+        }
+        None => ("nothing moves in this scene".to_owned(), advice),
+    }
+}
+
+/// The mend, if a stiff joint under an explicit method explains it.
+fn help(world: &World, experiment: &Experiment, method: MethodKind) -> Option<String> {
+    let s = stiffest(world.model(), &world.state)?;
+    let product = s.rate * experiment.step;
+    (method == MethodKind::Rk4 && product > RK4_LIMIT).then(|| {
+        format!(
+            "spring and damper of joint `{}` act at {:.2e} 1/s, too fast for `rk4` at {} s: use integrator = \"implicit\" or \
+             \"auto\", or a step below {:.1e} s",
+            world.model().names().dof_name(s.dof),
+            s.rate,
+            experiment.step,
+            RK4_LIMIT / s.rate
+        )
+    })
+}

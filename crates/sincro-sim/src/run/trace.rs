@@ -1,0 +1,49 @@
+//! Hashes: of a model, and of every state that a run went through.
+
+use std::fmt;
+use std::hash::Hasher;
+
+use sincro_dynamics::model::Model;
+use sincro_dynamics::state::State;
+use twox_hash::XxHash3_64;
+
+/// Hash of all states of a run so far, in their order. Each state is hashed together with the hash before it, so that these
+/// eight bytes are all that a snapshot must hold of the past.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Trace(pub u64);
+
+impl Trace {
+    /// With the initial state.
+    #[must_use]
+    pub fn start(state: &State<f64>) -> Self {
+        let mut trace = Self(0);
+        trace.add(state);
+        trace
+    }
+
+    /// Adds the state after one more tick.
+    pub fn add(&mut self, state: &State<f64>) {
+        let mut hasher = XxHash3_64::with_seed(self.0);
+        let parts = [&state.q, &state.v, &state.commands, &state.drives, &state.totals];
+        for x in parts.into_iter().flatten() {
+            hasher.write(&x.to_bits().to_le_bytes());
+        }
+        hasher.write(&state.tick.to_le_bytes());
+        self.0 = hasher.finish();
+    }
+}
+
+impl fmt::Display for Trace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+/// Hash of a compiled model: every number and name in it.
+#[must_use]
+pub fn model_hash(model: &Model<f64>) -> String {
+    let mut hasher = XxHash3_64::with_seed(0);
+    // the debug form has every field with all its digits
+    hasher.write(format!("{model:?}").as_bytes());
+    format!("{:016x}", hasher.finish())
+}

@@ -1,0 +1,140 @@
+//! Snapshots: everything a run needs to continue bit for bit, as bytes.
+//!
+//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error control of the
+//! integrator, the five vectors of [`State`] with their lengths, and a checksum of all that.
+
+use std::fmt;
+use std::hash::Hasher;
+
+use sincro_dynamics::integrate::Control;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::state::State;
+use twox_hash::XxHash3_64;
+
+use crate::run::{Trace, model_hash};
+
+const MAGIC: &[u8; 8] = b"sincro01";
+
+/// A moment of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// The state.
+    pub state: State<f64>,
+    /// Hash of all states so far.
+    pub trace: Trace,
+    /// Error control of the integrator, none for fixed steps.
+    pub control: Option<Control>,
+}
+
+/// Why bytes are not a snapshot of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SnapshotError {
+    /// Not a snapshot, or of another version.
+    NotASnapshot,
+    /// Cut short or altered.
+    Damaged,
+    /// Of another model.
+    OtherModel,
+}
+
+impl fmt::Display for SnapshotError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotASnapshot => "these bytes are not a snapshot of this version of sincro",
+            Self::Damaged => "the snapshot is cut short or was altered",
+            Self::OtherModel => {
+                "the snapshot belongs to another model: load the scene with the settings it was run with"
+            }
+        })
+    }
+}
+
+impl std::error::Error for SnapshotError {}
+
+impl Snapshot {
+    /// As bytes, for the model that it belongs to.
+    #[must_use]
+    pub fn to_bytes(&self, model: &Model<f64>) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(model_hash(model).as_bytes());
+        bytes.extend(self.state.tick.to_le_bytes());
+        bytes.extend(self.trace.0.to_le_bytes());
+        let control = self.control.unwrap_or(Control { accuracy: f64::NAN, h: 0.0, last_error: 0.0 });
+        for x in [control.accuracy, control.h, control.last_error] {
+            bytes.extend(x.to_le_bytes());
+        }
+        let s = &self.state;
+        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.totals] {
+            bytes.extend((vector.len() as u64).to_le_bytes());
+            vector.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        }
+        let sum = checksum(&bytes);
+        bytes.extend(sum.to_le_bytes());
+        bytes
+    }
+
+    /// From bytes.
+    ///
+    /// # Errors
+    ///
+    /// If they are no snapshot, damaged, or of another model.
+    pub fn from_bytes(bytes: &[u8], model: &Model<f64>) -> Result<Self, SnapshotError> {
+        let (body, sum) = bytes.split_last_chunk::<8>().ok_or(SnapshotError::NotASnapshot)?;
+        let mut reader = Reader(body);
+        if reader.take(8)? != MAGIC {
+            return Err(SnapshotError::NotASnapshot);
+        }
+        if checksum(body) != u64::from_le_bytes(*sum) {
+            return Err(SnapshotError::Damaged);
+        }
+        if reader.take(16)? != model_hash(model).as_bytes() {
+            return Err(SnapshotError::OtherModel);
+        }
+        let tick = reader.integer()?;
+        let trace = Trace(reader.integer()?);
+        let [accuracy, h, last_error] = [reader.number()?, reader.number()?, reader.number()?];
+        let control = (!accuracy.is_nan()).then_some(Control { accuracy, h, last_error });
+        let state = State {
+            q: reader.vector()?,
+            v: reader.vector()?,
+            commands: reader.vector()?,
+            drives: reader.vector()?,
+            totals: reader.vector()?,
+            tick,
+        };
+        Ok(Self { state, trace, control })
+    }
+}
+
+fn checksum(bytes: &[u8]) -> u64 {
+    let mut hasher = XxHash3_64::with_seed(1);
+    hasher.write(bytes);
+    hasher.finish()
+}
+
+struct Reader<'a>(&'a [u8]);
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, n: usize) -> Result<&'a [u8], SnapshotError> {
+        let (head, tail) = self.0.split_at_checked(n).ok_or(SnapshotError::Damaged)?;
+        self.0 = tail;
+        Ok(head)
+    }
+
+    fn integer(&mut self) -> Result<u64, SnapshotError> {
+        let bytes = self.take(8)?.try_into().map_err(|_| SnapshotError::Damaged)?;
+        Ok(u64::from_le_bytes(bytes))
+    }
+
+    fn number(&mut self) -> Result<f64, SnapshotError> {
+        self.integer().map(f64::from_bits)
+    }
+
+    fn vector(&mut self) -> Result<Vec<f64>, SnapshotError> {
+        let n = usize::try_from(self.integer()?).map_err(|_| SnapshotError::Damaged)?;
+        if n > self.0.len() / 8 {
+            return Err(SnapshotError::Damaged);
+        }
+        (0..n).map(|_| self.number()).collect()
+    }
+}
