@@ -64,11 +64,11 @@ center_of_mass = [0, 0, 0]"#,
     ),
     (
         "scene.toml",
-        "density = 1000.0",
-        r#"mass = 2.0
-inertia = { xx = 1, yy = 1, zz = 1 }
-#"#,
-        "loads",
+        "density = 1000.0\nshape = [ {",
+        "mass = 2.0\ninertia = { xx = 1, yy = 1, zz = 1 }\nshape = [ { density = 500.0,",
+        r"loads
+scene.toml:16:13: warning: the density of a shape of `rod` has no effect
+  help: `mass` and `inertia` are given, shapes only show",
     ),
     (
         "scene.toml",

@@ -1,2 +1,72 @@
-//! sincro
-fn main() {}
+//! The command line of sincro.
+//!
+//! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run stopped
+//! (what was recorded is kept).
+
+//mod bench;
+mod commands;
+mod diagnostics;
+mod plot;
+mod present;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Simulates robots and their controllers in lock-step: exact, deterministic, with an error bar on every run.
+#[derive(Debug, Parser)]
+#[command(name = "sincro", version, about, propagate_version = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene folder, judge its checks, write signals, figures and a report
+    Run(commands::run::Arguments),
+    /// Look a scene over without running it: objects, degrees of freedom, warnings, signals on offer
+    Check(commands::check::Arguments),
+    /// Run every experiment of the thesis and put measured beside expected on one page
+    Reproduce(commands::reproduce::Arguments),
+    // Measure speed, memory and accuracy on this machine, beside peers if asked
+    //Bench(bench::Options),
+}
+
+/// What a command ends with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// All checks hold.
+    Holds,
+    /// A check fails or could not be made.
+    Fails,
+    /// Bad input.
+    Refused,
+    /// The run stopped.
+    Stopped,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(match exit {
+            Exit::Holds => 0,
+            Exit::Fails => 1,
+            Exit::Refused => 2,
+            Exit::Stopped => 3,
+        })
+    }
+}
+
+fn main() -> ExitCode {
+    let exit = match Cli::parse().command {
+        Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
+/*        Command::Bench(options) => match bench::run(&options) {
+            Ok(()) => Exit::Holds,
+            Err(message) => diagnostics::refuse(&message, None),
+        },*/
+    };
+    exit.into()
+}

@@ -100,7 +100,7 @@ impl Judge<'_> {
             }
             (Some(mass), None, None) => self.distributed(*mass),
             (None, Some(_), _) => self.refuse("inertia", "`inertia` without `mass`", "give the mass too [kg]"),
-            (None, None, _) => self.from_density(),
+            (None, None, _) => self.at_density(),
         }
     }
 
@@ -121,7 +121,7 @@ impl Judge<'_> {
         Some(MassProperties { mass, inertia: sum.inertia.map(|i| i * factor), ..sum })
     }
 
-    fn from_density(&mut self) -> Option<MassProperties> {
+    fn at_density(&mut self) -> Option<MassProperties> {
         self.no_center_of_mass()?;
         if self.shapes.is_empty() {
             return match self.file.density {

@@ -10,6 +10,7 @@ mod joint;
 mod object;
 mod placement;
 mod signal_file;
+mod text;
 mod tree;
 
 use std::collections::BTreeMap;
@@ -22,6 +23,7 @@ use sincro_dynamics::state::State;
 
 pub(crate) use file::SceneFile;
 pub use object::{Object, ObjectKind, ShapeInstance};
+pub use text::from_text;
 
 use crate::document::Document;
 use crate::folder::Folder;

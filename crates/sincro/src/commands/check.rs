@@ -1,0 +1,91 @@
+//! `sincro check`: a scene looked over, nothing run.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use sincro_sim::overrides::Override;
+use sincro_sim::record::{Recorder, catalogue};
+use sincro_sim::run::{choose_method, method_word, model_hash};
+use sincro_sim::scene::{Object, ObjectKind, Scene};
+use sincro_sim::{Loaded, load};
+
+use super::console::{degrees, short};
+use crate::{Exit, diagnostics};
+
+/// What `check` takes.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of the scene, or its experiment.toml
+    scene: PathBuf,
+    /// Set a number first, as in `run`; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// List every signal that can be recorded, with its unit
+    #[arg(long)]
+    signals: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Exit {
+    let parsed: Result<Vec<Override>, _> = arguments.set.iter().map(|text| Override::parse(text)).collect();
+    let overrides = match parsed {
+        Ok(overrides) => overrides,
+        Err(problem) => return diagnostics::refuse_problems(&sincro_sim::problem::Problems(vec![problem])),
+    };
+    let loaded = match load(&arguments.scene, &overrides) {
+        Ok(loaded) => loaded,
+        Err(problems) => return diagnostics::refuse_problems(&problems),
+    };
+    if let Err(problems) = Recorder::new(&loaded.experiment.record, &loaded.scene.model) {
+        return diagnostics::refuse_problems(&problems);
+    }
+    print(&loaded);
+    if arguments.signals {
+        println!("signals");
+        for entry in catalogue(&loaded.scene.model) {
+            println!("  {:<48} {}", entry.name, entry.unit);
+        }
+    }
+    diagnostics::print_problems(&loaded.warnings);
+    Exit::Holds
+}
+
+fn print(loaded: &Loaded) {
+    let (scene, experiment) = (&loaded.scene, &loaded.experiment);
+    println!("{}", experiment.title);
+    println!("objects");
+    print_children(scene, None, 1);
+    let model = &scene.model;
+    println!("model");
+    println!("  {}, {} moving links, {} kg", degrees(model.n_v()), model.links().len(), short(model.total_mass()));
+    println!("  hash {}", model_hash(model));
+    let (method, warnings) = choose_method(scene, experiment);
+    println!("run");
+    println!("  {} s at {} s: {} steps, {} recorded signals", short(experiment.duration), short(experiment.step),
+        experiment.n_steps, experiment.record.len());
+    println!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
+    println!("  {} checks, {} variants{}", experiment.checks.len(), experiment.variants.len(),
+        experiment.sweep.as_ref().map_or(String::new(), |s| format!(", sweep of {} over {} values", s.parameter.value, s.values.len())));
+    for warning in warnings {
+        println!("warning: {warning}");
+    }
+}
+
+fn print_children(scene: &Scene, parent: Option<usize>, depth: usize) {
+    for (i, object) in scene.objects.iter().enumerate().filter(|(_, o)| o.parent == parent) {
+        println!("{:indent$}{:<width$} {}", "", object.name, words(object), indent = 2 * depth, width = 24 - 2 * depth.min(10));
+        print_children(scene, Some(i), depth + 1);
+    }
+}
+
+/// What an object is, in one line.
+fn words(object: &Object) -> String {
+    match &object.kind {
+        ObjectKind::Body { mass } => {
+            let [a, b, c] = mass.principal_moments();
+            format!("body, {} kg, principal moments {} {} {} kg·m²", short(mass.mass), short(a), short(b), short(c))
+        }
+        ObjectKind::Joint { motor: Some(_), .. } => format!("{} with motor", object.kind.word()),
+        other => other.word().to_owned(),
+    }
+}

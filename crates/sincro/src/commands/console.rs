@@ -1,0 +1,193 @@
+//! What a run says on the terminal.
+
+use std::io::IsTerminal;
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use sincro_sim::Loaded;
+use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
+use sincro_sim::run::Campaign;
+
+use crate::diagnostics::count;
+use crate::plot::number::significant;
+
+/// A number as it is typed: six digits are more than a setting has.
+pub(crate) fn short(x: f64) -> String {
+    crate::plot::number::short(x, 6)
+}
+
+/// Progress on a terminal, nothing in a pipe.
+pub(crate) struct Bar(Option<ProgressBar>);
+
+impl Bar {
+    /// A bar with a title.
+    pub(crate) fn new(title: &str) -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self(None);
+        }
+        let bar = ProgressBar::new(1000);
+        if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {percent:>3} %  {msg}") {
+            bar.set_style(style);
+        }
+        bar.set_prefix(title.to_owned());
+        Self(Some(bar))
+    }
+
+    /// What is being done, and the share of it.
+    pub(crate) fn show(&self, words: &str, share: f64) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(words.to_owned());
+            bar.set_position((1000.0 * share) as u64);
+        }
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// The whole summary of a run.
+pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
+    let report = &campaign.report;
+    println!("{}", report.title);
+    println!("  {}", how(report));
+    for warning in &campaign.main.simulated.warnings {
+        println!("  warning: {warning}");
+    }
+    print_status("  ", &report.status);
+    print_checks("", &report.checks);
+    if let Some(sweep) = &report.sweep {
+        println!("  sweep of {} over {} runs", sweep.parameter, sweep.n_runs);
+        for stop in &sweep.stops {
+            println!("    at {}: {}", short(stop.value), stop.reason);
+        }
+        print_checks("  ", &sweep.checks);
+    }
+    for variant in &report.variants {
+        println!("  variant {}: {}", variant.name, variant.description);
+        for warning in &variant.warnings {
+            println!("    warning: {warning}");
+        }
+        print_status("    ", &variant.status);
+        print_checks("  ", &variant.checks);
+    }
+    print_error_bars(report);
+    println!("{}", verdict_line(report));
+    println!(
+        "  trace {}   wall time {} s, {} times real time",
+        report.trace_hash,
+        significant(report.wall_time_s, 2),
+        significant(report.real_time_factor, 2)
+    );
+    println!("  report {}", out.join("report.html").display());
+    let _ = loaded;
+}
+
+/// Duration, step, integrator, size.
+fn how(report: &RunReport) -> String {
+    let s = &report.settings;
+    let accuracy = match s.integrator.as_str() {
+        "dormand-prince" | "stiff" => format!(", accuracy {}", short(s.accuracy)),
+        _ => String::new(),
+    };
+    format!(
+        "{} s at a base step of {} s, {}{accuracy}; {}",
+        short(s.duration),
+        short(s.step),
+        s.integrator,
+        degrees(report.n_dof)
+    )
+}
+
+/// `1 degree of freedom`, `8 degrees of freedom`.
+pub(crate) fn degrees(n: usize) -> String {
+    format!("{n} degree{} of freedom", if n == 1 { "" } else { "s" })
+}
+
+fn print_status(indent: &str, status: &Status) {
+    match status {
+        Status::Completed => {}
+        Status::Stopped { reason, help, .. } => {
+            println!("{indent}stopped: {reason}");
+            if !help.is_empty() {
+                println!("{indent}  help: {help}");
+            }
+        }
+        Status::Interrupted { time, .. } => println!("{indent}interrupted at t = {} s", short(*time)),
+    }
+}
+
+fn print_checks(indent: &str, checks: &[CheckReport]) {
+    let width = checks.iter().map(|c| c.name.chars().count()).max().unwrap_or(0).min(64);
+    for check in checks {
+        let sign = match check.verdict {
+            VerdictReport::Holds => "ok  ",
+            VerdictReport::Fails => "FAIL",
+            VerdictReport::NotMade => "none",
+        };
+        println!("{indent}  {sign}  {:<width$}  {}", check.name, figures(check));
+    }
+}
+
+/// Deviation against its limit; for a failed check also the two values.
+fn figures(check: &CheckReport) -> String {
+    if check.verdict == VerdictReport::NotMade {
+        return check.reason.clone().unwrap_or_default();
+    }
+    let unit = if check.relative { "(relative)" } else { check.unit.as_str() };
+    let deviation = check.deviation.map_or_else(|| "not finite".into(), |d| significant(d, 2));
+    let mut text = format!("off by {deviation}, allowed {} {unit}", short(check.limit));
+    if check.verdict == VerdictReport::Fails {
+        if let (Some(measured), Some(expected)) = (check.measured, check.expected) {
+            text += &format!("; measured {}, expected {}", significant(measured, 8), significant(expected, 8));
+        }
+        if let Some(at) = check.at {
+            text += &format!(" at {}", short(at));
+        }
+    }
+    text
+}
+
+fn print_error_bars(report: &RunReport) {
+    let worst = |unit: &str| {
+        let bars = report.columns.iter().filter(|c| c.unit == unit).filter_map(|c| c.error_bar);
+        bars.fold(None, |worst: Option<f64>, bar| Some(worst.map_or(bar, |w| w.max(bar))))
+    };
+    let mut units: Vec<&str> = Vec::new();
+    for column in report.columns.iter().skip(1) {
+        if !units.contains(&column.unit.as_str()) {
+            units.push(&column.unit);
+        }
+    }
+    let bars: Vec<String> =
+        units.iter().filter_map(|u| worst(u).map(|bar| format!("{} {u}", significant(bar, 1)))).collect();
+    if !bars.is_empty() {
+        println!("  error bars up to {}", bars.join(", "));
+    }
+    if let Some(energy) = &report.energy {
+        println!("  energy balance off by at most {} J", significant(energy.residual, 2));
+    }
+}
+
+/// `all 22 checks hold`, or how many do not.
+pub(crate) fn verdict_line(report: &RunReport) -> String {
+    let checks: Vec<&CheckReport> = report
+        .checks
+        .iter()
+        .chain(report.variants.iter().flat_map(|v| &v.checks))
+        .chain(report.sweep.iter().flat_map(|s| &s.checks))
+        .collect();
+    let of = |verdict: VerdictReport| checks.iter().filter(|c| c.verdict == verdict).count();
+    let (fails, missing) = (of(VerdictReport::Fails), of(VerdictReport::NotMade));
+    match (checks.len(), fails, missing) {
+        (0, ..) => "no checks in this experiment".into(),
+        (1, 0, 0) => "the check holds".into(),
+        (n, 0, 0) => format!("all {n} checks hold"),
+        (n, 0, missing) => format!("{missing} of {} could not be made", count(n, "check")),
+        (n, fails, 0) => format!("{fails} of {} fail", count(n, "check")),
+        (n, fails, missing) => format!("{fails} of {} fail, {missing} could not be made", count(n, "check")),
+    }
+}

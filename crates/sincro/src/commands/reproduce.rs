@@ -1,0 +1,110 @@
+//! `sincro reproduce`: every experiment, one page.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use sincro_sim::load;
+use sincro_sim::run::Campaign;
+
+use super::console::verdict_line;
+use super::run::{Job, verdict};
+use crate::plot::number::significant;
+use crate::report::{IndexPage, index_html};
+use crate::{Exit, diagnostics, present};
+
+/// What `reproduce` takes.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Where the results go
+    #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
+    out: PathBuf,
+    /// Folder of the scenes [default: scenes, here or in the source tree this program was built from]
+    #[arg(long, value_name = "DIR")]
+    scenes: Option<PathBuf>,
+}
+
+/// The order of the thesis; what is not named follows by name.
+const ORDER: [&str; 8] = [
+    "motor-step",
+    "motor-ramp",
+    "spring-static",
+    "spring-dynamic",
+    "two-dof-open-loop",
+    "flexible-open-loop",
+    "flexible-velocity-step",
+    "alexandros-release",
+];
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Exit {
+    let clock = Instant::now();
+    let scenes = match find_scenes(arguments.scenes.as_deref()) {
+        Ok(scenes) => scenes,
+        Err(message) => return diagnostics::refuse(&message, Some("name the folder with --scenes DIR")),
+    };
+    let (mut cards, mut worst) = (Vec::new(), Exit::Holds);
+    for scene in &scenes {
+        match one(scene, &arguments.out) {
+            Ok((card, exit)) => {
+                cards.push(card);
+                worst = if worst == Exit::Holds { exit } else { worst };
+            }
+            Err(exit) => worst = exit,
+        }
+    }
+    let page = IndexPage {
+        title: "sincro reproduces the thesis".into(),
+        description: "Every experiment of «V-REP como herramienta de simulación de sistemas dinámicos» (Á. Morales, Seville, \
+                      2019) that is built so far, and textbook examples, run from their scene folders and checked against their \
+                      equations."
+            .into(),
+        cards,
+        settings: vec![
+            ("sincro".into(), env!("CARGO_PKG_VERSION").into()),
+            ("vector instructions".into(), sincro_math::lanes::instruction_set().into()),
+            ("time for all".into(), format!("{} s", significant(clock.elapsed().as_secs_f64(), 2))),
+        ],
+        notes: vec!["Results do not depend on the machine, the number of threads or the build profile: the trace hash in each \
+                     report says so."
+            .into()],
+    };
+    if let Err(error) = present::write_text(&arguments.out.join("index.html"), &index_html(&page)) {
+        return diagnostics::refuse_file(&error);
+    }
+    println!("{} experiments in {} s", scenes.len(), significant(clock.elapsed().as_secs_f64(), 2));
+    println!("open {}", arguments.out.join("index.html").display());
+    worst
+}
+
+/// Runs one scene into its folder below `out`; its card for the index.
+fn one(scene: &Path, out: &Path) -> Result<(crate::report::Card, Exit), Exit> {
+    let loaded = load(scene, &[]).map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    let name = super::run::scene_name(scene);
+    let folder = out.join(&name);
+    let up = Some(("all experiments".to_owned(), "../index.html".to_owned()));
+    let campaign: Campaign = Job { scene, overrides: &[], loaded: &loaded, out: &folder, up }.run()?;
+    let exit = verdict(&campaign);
+    println!("{:<24} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
+    Ok((present::card(&loaded, &campaign, &format!("{name}/report.html")), exit))
+}
+
+/// The scene folders in the order of the thesis.
+fn find_scenes(asked: Option<&Path>) -> Result<Vec<PathBuf>, String> {
+    let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let candidates: Vec<&Path> = match asked {
+        Some(dir) => vec![dir],
+        None => vec![Path::new("scenes"), &built_from],
+    };
+    let dir = candidates.iter().find(|dir| dir.is_dir());
+    let dir = dir.ok_or_else(|| format!("there is no folder of scenes at `{}`", candidates[0].display()))?;
+    let entries = std::fs::read_dir(dir).map_err(|e| format!("the folder `{}` cannot be read: {e}", dir.display()))?;
+    let mut scenes: Vec<PathBuf> =
+        entries.filter_map(Result::ok).map(|e| e.path()).filter(|p| p.join("experiment.toml").is_file()).collect();
+    let rank = |path: &Path| {
+        let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+        (ORDER.iter().position(|known| *known == name).unwrap_or(ORDER.len()), name)
+    };
+    scenes.sort_by_key(|path| rank(path));
+    if scenes.is_empty() { Err(format!("no scene in `{}`", dir.display())) } else { Ok(scenes) }
+}

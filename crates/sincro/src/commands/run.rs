@@ -1,0 +1,164 @@
+//! `sincro run`: one scene, its checks, its report.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+
+use clap::Args;
+use sincro_sim::overrides::Override;
+use sincro_sim::problem::Problems;
+use sincro_sim::results::{self, Override as Setting, Status, VerdictReport};
+use sincro_sim::run::{Campaign, run_campaign};
+use sincro_sim::{Loaded, load};
+
+use super::console::{self, Bar};
+use crate::{Exit, diagnostics, present};
+
+/// What `run` takes.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of the scene, or its experiment.toml
+    scene: PathBuf,
+    /// Set a number of the scene (/link.mass=2) or of the experiment (parameters.m=3); may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Simulate until this time [s]
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Base step [s]
+    #[arg(long, value_name = "S")]
+    step: Option<f64>,
+    /// auto, semi-implicit-euler, rk4, implicit, dormand-prince or stiff
+    #[arg(long, value_name = "NAME")]
+    integrator: Option<String>,
+    /// Local tolerance of the variable-step integrators
+    #[arg(long, value_name = "X")]
+    accuracy: Option<f64>,
+    /// Where the results go [default: results/<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Seed of everything random
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Print run.json on standard output instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Exit {
+    let overrides = match overrides(arguments) {
+        Ok(overrides) => overrides,
+        Err(problems) => return diagnostics::refuse_problems(&problems),
+    };
+    let loaded = match load(&arguments.scene, &overrides) {
+        Ok(loaded) => loaded,
+        Err(problems) => return diagnostics::refuse_problems(&problems),
+    };
+    let name = scene_name(&arguments.scene);
+    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
+    let job = Job { scene: &arguments.scene, overrides: &overrides, loaded: &loaded, out: &out, up: None };
+    let campaign = match job.run() {
+        Ok(campaign) => campaign,
+        Err(exit) => return exit,
+    };
+    if arguments.json {
+        println!("{}", campaign.report.to_json());
+    } else {
+        diagnostics::print_problems(&loaded.warnings);
+        console::print_summary(&loaded, &campaign, &out);
+    }
+    verdict(&campaign)
+}
+
+/// Everything set on the command line, in the order of reading.
+fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Problems> {
+    let (mut problems, mut overrides) = (Problems::new(), Vec::new());
+    for text in &arguments.set {
+        match Override::parse(text) {
+            Ok(setting) => overrides.push(setting),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    let number = |x: Option<f64>| x.map(|x| format!("{x:?}"));
+    let flags = [
+        ("duration", number(arguments.until)),
+        ("step", number(arguments.step)),
+        ("integrator", arguments.integrator.as_ref().map(|word| format!("\"{word}\""))),
+        ("accuracy", number(arguments.accuracy)),
+        ("seed", arguments.seed.map(|n| n.to_string())),
+    ];
+    for (path, value) in flags {
+        overrides.extend(value.map(|value| Override::new(path, &value)));
+    }
+    if problems.any_error() { Err(problems) } else { Ok(overrides) }
+}
+
+/// Name of a scene: that of its folder.
+pub(crate) fn scene_name(path: &Path) -> String {
+    let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
+}
+
+/// A run with everything it writes.
+pub(crate) struct Job<'a> {
+    pub(crate) scene: &'a Path,
+    pub(crate) overrides: &'a [Override],
+    pub(crate) loaded: &'a Loaded,
+    pub(crate) out: &'a Path,
+    /// Label and address of the page above, if there is one.
+    pub(crate) up: Option<(String, String)>,
+}
+
+impl Job<'_> {
+    /// Runs it and writes signals, `run.json`, figures and the report.
+    pub(crate) fn run(&self) -> Result<Campaign, Exit> {
+        results::prepare(self.out).map_err(|e| diagnostics::refuse_file(&e))?;
+        let bar = Bar::new(&scene_name(self.scene));
+        let mut tell = |words: &str, share: f64| bar.show(words, share);
+        let interrupt = interrupt();
+        let done = run_campaign(self.scene, self.overrides, self.loaded, Some(self.out), &interrupt, &mut tell);
+        let mut campaign = done.map_err(|e| diagnostics::refuse_run(&e))?;
+        bar.finish();
+        let set = self.overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
+        campaign.report.settings.overrides = set.collect();
+        campaign.report.write(self.out).map_err(|e| diagnostics::refuse_file(&e))?;
+        present::write(self.loaded, &campaign, self.out, self.up.clone()).map_err(|e| diagnostics::refuse_file(&e))?;
+        Ok(campaign)
+    }
+}
+
+/// Set by Ctrl-C; a second one ends the program at once.
+fn interrupt() -> Arc<AtomicBool> {
+    static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    let flag = FLAG.get_or_init(|| {
+        let flag = Arc::new(AtomicBool::new(false));
+        let seen = flag.clone();
+        let handler = move || {
+            if seen.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        };
+        // without a handler Ctrl-C ends the program as usual
+        let _ = ctrlc::set_handler(handler);
+        flag
+    });
+    flag.clone()
+}
+
+/// The exit status of a campaign.
+pub(crate) fn verdict(campaign: &Campaign) -> Exit {
+    let report = &campaign.report;
+    let statuses = [&report.status].into_iter().chain(report.variants.iter().map(|v| &v.status));
+    let sweep_stopped = report.sweep.as_ref().is_some_and(|s| !s.stops.is_empty());
+    if statuses.into_iter().any(|s| *s != Status::Completed) || sweep_stopped {
+        return Exit::Stopped;
+    }
+    let mut checks = report
+        .checks
+        .iter()
+        .chain(report.variants.iter().flat_map(|v| &v.checks))
+        .chain(report.sweep.iter().flat_map(|s| &s.checks));
+    if checks.all(|c| c.verdict == VerdictReport::Holds) { Exit::Holds } else { Exit::Fails }
+}

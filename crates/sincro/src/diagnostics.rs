@@ -1,0 +1,126 @@
+//! Problems on the terminal: the line of the file, what is wrong in it, how to mend it.
+
+use std::fmt;
+use std::io::IsTerminal;
+use std::sync::Arc;
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use sincro_sim::problem::{Problem, Problems, SourceText};
+use sincro_sim::results::FileError;
+use sincro_sim::run::RunError;
+
+use crate::Exit;
+
+/// Prints all problems to standard error.
+pub(crate) fn print_problems(problems: &[Problem]) {
+    let theme = if std::io::stderr().is_terminal() { GraphicalTheme::unicode() } else { plain() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_context_lines(1);
+    for problem in problems {
+        let mut text = String::new();
+        let shown = Shown::new(problem);
+        if handler.render_report(&mut text, &shown).is_err() {
+            text = problem.to_string();
+        }
+        eprintln!("{}", text.trim_end());
+    }
+}
+
+/// Without colour, for pipes and files.
+fn plain() -> GraphicalTheme {
+    let mut theme = GraphicalTheme::unicode_nocolor();
+    theme.characters = miette::ThemeCharacters::ascii();
+    theme
+}
+
+/// Prints the problems and a summary; the command ends with bad input.
+pub(crate) fn refuse_problems(problems: &Problems) -> Exit {
+    print_problems(&problems.0);
+    let errors = problems.0.iter().filter(|p| p.is_error()).count();
+    eprintln!("{}; nothing was run or written", count(errors, "error"));
+    Exit::Refused
+}
+
+/// Prints one message without a place in a file.
+pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
+    let problem = Problem::nowhere(message);
+    print_problems(&[match help {
+        Some(help) => problem.with_help(help),
+        None => problem,
+    }]);
+    Exit::Refused
+}
+
+/// Why a run could not be made or written.
+pub(crate) fn refuse_run(error: &RunError) -> Exit {
+    match error {
+        RunError::Problems(problems) => refuse_problems(problems),
+        RunError::File(error) => refuse_file(error),
+    }
+}
+
+/// A file or folder that cannot be written.
+pub(crate) fn refuse_file(error: &FileError) -> Exit {
+    refuse(&error.to_string(), Some("choose another place with --out DIR, or make room there"))
+}
+
+/// `1 error`, `2 errors`.
+pub(crate) fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+/// A problem as miette sees it.
+#[derive(Debug)]
+struct Shown<'a> {
+    problem: &'a Problem,
+    source: Option<NamedSource<Text>>,
+}
+
+/// A file's text, shared.
+#[derive(Debug)]
+struct Text(Arc<SourceText>);
+
+impl SourceCode for Text {
+    fn read_span<'a>(
+        &'a self,
+        span: &miette::SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn miette::SpanContents<'a> + 'a>, miette::MietteError> {
+        self.0.text.as_str().read_span(span, before, after)
+    }
+}
+
+impl<'a> Shown<'a> {
+    fn new(problem: &'a Problem) -> Self {
+        let source = problem.source.as_ref().map(|s| NamedSource::new(s.path.display().to_string(), Text(s.clone())));
+        Self { problem, source }
+    }
+}
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = if self.problem.is_error() { "error" } else { "warning" };
+        write!(f, "{word}: {}", self.problem.message)
+    }
+}
+
+impl std::error::Error for Shown<'_> {}
+
+impl Diagnostic for Shown<'_> {
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(if self.problem.is_error() { miette::Severity::Error } else { miette::Severity::Warning })
+    }
+
+    fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        self.problem.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|s| s as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let span = self.problem.span.clone()?;
+        Some(Box::new([LabeledSpan::new(None, span.start, span.end - span.start)].into_iter()))
+    }
+}

@@ -1,0 +1,180 @@
+//! Which figures a run has, and what is drawn in them.
+//!
+//! A figure shows recorded signals of one unit, what the checks expect of them, the variants over them, and under them the
+//! difference from what is expected, with the error bar of the run as a band and the tolerance as lines.
+
+use sincro_sim::Loaded;
+use sincro_sim::check::{Outcome, Series as Expected};
+use sincro_sim::experiment::Plot;
+use sincro_sim::run::{Campaign, Done};
+use sincro_sim::table::{Column, Table};
+
+use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Stroke};
+
+/// Most signals in a figure that nobody asked for.
+const MOST_SIGNALS: usize = 4;
+/// Instants closer than this are the same [s].
+const SAME_INSTANT: f64 = 1e-9;
+
+/// All figures of a campaign: the sweep first, if it has one, then the asked-for plots, or one a kind of signal.
+pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
+    let mut figures = sweep_figures(loaded, campaign);
+    let plots = &loaded.experiment.plots;
+    if plots.is_empty() {
+        figures.extend(groups(&campaign.main.simulated.table).iter().map(|names| {
+            let title = group_title(names);
+            figure(&title, names, None, campaign)
+        }));
+    } else {
+        figures.extend(plots.iter().map(|plot| asked_for(plot, campaign)));
+    }
+    figures
+}
+
+fn asked_for(plot: &Plot, campaign: &Campaign) -> Figure {
+    let names: Vec<&str> = plot.signals.iter().map(|s| s.value.as_str()).collect();
+    let reference =
+        plot.reference.as_ref().map(|r| Expected { times: r.keys.to_vec(), values: r.values.to_vec() });
+    figure(&plot.title, &names, reference, campaign)
+}
+
+/// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together.
+fn groups(table: &Table) -> Vec<Vec<&str>> {
+    let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
+    for column in table.columns.iter().skip(1) {
+        let key = format!("{} {}", quantity(&column.name), column.unit);
+        match groups.iter_mut().find(|(k, names)| *k == key && names.len() < MOST_SIGNALS) {
+            Some((_, names)) => names.push(&column.name),
+            None => groups.push((key, vec![&column.name])),
+        }
+    }
+    groups.into_iter().map(|(_, names)| names).collect()
+}
+
+/// `position` of `/arm/hinge.position.x`; `energy` of `energy.total`.
+fn quantity(name: &str) -> &str {
+    match name.split_once('.') {
+        Some((object, rest)) if object.starts_with('/') => rest.split('.').next().unwrap_or(rest),
+        Some((head, _)) => head,
+        None => name,
+    }
+}
+
+fn group_title(names: &[&str]) -> String {
+    let what = quantity(names[0]).replace('_', " ");
+    let what = what[..1].to_uppercase() + &what[1..];
+    match names {
+        [one] => format!("{what}: {one}"),
+        _ => what,
+    }
+}
+
+/// A figure of recorded signals; `reference` is drawn with the first one instead of what the checks say.
+fn figure(title: &str, names: &[&str], reference: Option<Expected>, campaign: &Campaign) -> Figure {
+    let table = &campaign.main.simulated.table;
+    let columns: Vec<&Column> = names.iter().filter_map(|name| table.column(name)).collect();
+    let unit = columns.first().map_or("", |c| c.unit.as_str());
+    let label = columns.first().map_or_else(String::new, |c| quantity(&c.name).replace('_', " "));
+    let mut panel = Panel::new(Axis::new(label, unit));
+    let mut error = Panel::error(unit);
+    for (k, column) in columns.iter().enumerate() {
+        panel.series.push(curve(column, &column.name, Role::Simulated, k, table.times()));
+        let checked = expected_of(&campaign.main.outcomes, &column.name);
+        let given = if k == 0 { reference.clone().map(|r| (r, None)) } else { None };
+        if let Some((expected, tolerance)) = given.or(checked) {
+            add_reference(&mut panel, &mut error, (k, column, table.times()), expected, tolerance);
+            add_band(&mut error, k, column, &campaign.main, table.times());
+        }
+        for (v, (variant, done)) in campaign.variants.iter().enumerate() {
+            let other = &done.simulated.table;
+            if let Some(same) = other.column(&column.name) {
+                let name = if k == 0 { variant.name.as_str() } else { "" };
+                panel.series.push(curve(same, name, Role::Variant(v), k, other.times()));
+            }
+        }
+    }
+    let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };
+    Figure { title: title.to_owned(), x: Axis::time(), panels }
+}
+
+fn curve(column: &Column, name: &str, role: Role, signal: usize, times: &[f64]) -> Series {
+    // commands hold from tick to tick, mean torques over the step that ends
+    let stroke = if column.name.ends_with(".command") { Stroke::Steps } else { Stroke::Line };
+    let series = Series::new(name, role, times.to_vec(), column.values.clone());
+    Series { signal, stroke, ..series }
+}
+
+/// What the checks expect of a signal, and the tolerance if it is absolute: the check that looks at most rows.
+fn expected_of(outcomes: &[Outcome], name: &str) -> Option<(Expected, Option<f64>)> {
+    let of_signal = outcomes.iter().filter(|o| o.signal.as_deref() == Some(name) && o.series.is_some());
+    let widest = of_signal.max_by_key(|o| o.n_rows)?;
+    Some((widest.series.clone()?, (!widest.relative).then_some(widest.limit)))
+}
+
+fn add_reference(
+    panel: &mut Panel,
+    error: &mut Panel,
+    (signal, column, times): (usize, &Column, &[f64]),
+    expected: Expected,
+    tolerance: Option<f64>,
+) {
+    let (mut x, mut y) = (Vec::new(), Vec::new());
+    for (t, value) in expected.times.iter().zip(&expected.values) {
+        let at = times.partition_point(|row| *row < t - SAME_INSTANT);
+        if times.get(at).is_some_and(|row| (row - t).abs() <= SAME_INSTANT) {
+            x.push(*t);
+            y.push(column.values[at] - value);
+        }
+    }
+    let name = if signal == 0 { "expected" } else { "" };
+    let reference = Series::new(name, Role::Reference, expected.times, expected.values);
+    panel.series.push(Series { signal, ..reference });
+    error.series.push(Series { signal, ..Series::new("", Role::Simulated, x, y) });
+    if let (Some(tolerance), true) = (tolerance, error.limits.is_empty()) {
+        error.limits.extend([tolerance, -tolerance].map(|value| Limit { name: "tolerance".into(), value }));
+    }
+}
+
+/// The error bar of the run around zero difference.
+fn add_band(error: &mut Panel, signal: usize, column: &Column, done: &Done, times: &[f64]) {
+    let bar = done.columns.iter().find(|c| c.path == column.name).and_then(|c| c.error_bar);
+    let (Some(bar), Some(first), Some(last)) = (bar, times.first(), times.last()) else { return };
+    if bar > 0.0 && bar.is_finite() {
+        let name = if signal == 0 { "error bar of the run" } else { "" };
+        error.bands.push(Band {
+            name: name.into(),
+            signal,
+            x: vec![*first, *last],
+            lower: vec![-bar; 2],
+            upper: vec![bar; 2],
+        });
+    }
+}
+
+/// Static characteristics: one figure for each signal that the sweep's checks look at, or for all.
+fn sweep_figures(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
+    let (Some((sweep, outcomes)), Some(plan)) = (&campaign.sweep, &loaded.experiment.sweep) else {
+        return Vec::new();
+    };
+    let runs = sweep.ascending();
+    let table = sweep.table(&runs);
+    let checked = |c: &&Column| outcomes.iter().any(|o| o.signal.as_deref() == Some(c.name.as_str()));
+    let chosen: Vec<&Column> = table.columns.iter().skip(1).filter(checked).collect();
+    let chosen = if chosen.is_empty() { table.columns.iter().skip(1).collect() } else { chosen };
+    let one = |column: &&Column| {
+        let mut panel = Panel::new(Axis::new(quantity(&column.name).replace('_', " "), column.unit.as_str()));
+        let mut error = Panel::error(column.unit.as_str());
+        let mut series = curve(column, &column.name, Role::Simulated, 0, table.times());
+        series.stroke = Stroke::Points;
+        panel.series.push(series);
+        if let Some((expected, tolerance)) = expected_of(outcomes, &column.name) {
+            add_reference(&mut panel, &mut error, (0, column, table.times()), expected, tolerance);
+        }
+        error.series.iter_mut().for_each(|s| s.stroke = Stroke::Points);
+        let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };
+        let parameter = plan.parameter.value.rsplit('.').next().unwrap_or("parameter");
+        let title = format!("Final {} over {}", quantity(&column.name), plan.parameter.value);
+        Figure { title, x: Axis::new(parameter, sweep.unit.as_str()), panels }
+    };
+    chosen.iter().map(one).collect()
+}

@@ -1,0 +1,201 @@
+//! From what came out of a run to what is shown: report, figures, card.
+
+mod figures;
+
+use std::path::Path;
+
+use sincro_sim::Loaded;
+use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
+use sincro_sim::run::Campaign;
+
+use crate::plot::{self, Figure, Size};
+use crate::report::{self, Card, CheckRow, CheckVerdict, Energy, Page, SignalRow, Stop};
+
+/// Writes `report.html` and the figures as SVG files into a results folder.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub(crate) fn write(
+    loaded: &Loaded,
+    campaign: &Campaign,
+    out: &Path,
+    up: Option<(String, String)>,
+) -> Result<(), FileError> {
+    let figures = figures::all(loaded, campaign);
+    let folder = out.join("figures");
+    sincro_sim::results::prepare(&folder)?;
+    for (k, figure) in figures.iter().enumerate() {
+        let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
+        write_text(&folder.join(name), &plot::svg(figure, Size::wide(figure)))?;
+    }
+    write_text(&out.join("report.html"), &report::html(&page(loaded, campaign, figures, up)))
+}
+
+/// Writes a text file, whole or not at all.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+    file::write_atomically(path, text.as_bytes())
+}
+
+/// The card of a run in the gallery; `href` leads to its report.
+pub(crate) fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
+    let figures = figures::all(loaded, campaign);
+    let report = &campaign.report;
+    Card {
+        title: report.title.clone(),
+        source: report.scene.clone(),
+        summary: loaded.experiment.description.clone(),
+        href: href.to_owned(),
+        figure: figures.into_iter().next(),
+        checks: checks(campaign),
+        stop: stop(&report.status),
+        run_time: format!("{} s", plot::number::significant(report.wall_time_s, 2)),
+    }
+}
+
+fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(String, String)>) -> Page {
+    let report = &campaign.report;
+    let signals = report.columns.iter().skip(1).enumerate().map(|(k, column)| {
+        let values = &campaign.main.simulated.table.columns[k + 1].values;
+        SignalRow {
+            path: column.path.clone(),
+            unit: column.unit.clone(),
+            largest: values.iter().copied().map(f64::abs).reduce(f64::max),
+            error_bar: column.error_bar,
+            method: column.error_bar_method.clone(),
+        }
+    });
+    let energy = report.energy.map(|e| Energy {
+        start: e.kinetic_start + e.potential_start,
+        end: e.kinetic_end + e.potential_end,
+        work: e.work,
+        dissipated: e.dissipated,
+        residual: e.residual,
+    });
+    Page {
+        title: report.title.clone(),
+        description: loaded.experiment.description.clone(),
+        up,
+        stop: stop(&report.status),
+        warnings: warnings(campaign),
+        figures,
+        checks: checks(campaign),
+        signals: signals.collect(),
+        energy,
+        settings: settings(campaign),
+        notes: notes(campaign),
+    }
+}
+
+/// Warnings of the scene, the run and the variants.
+fn warnings(campaign: &Campaign) -> Vec<String> {
+    let variants = campaign.report.variants.iter();
+    let of_variants = variants.flat_map(|v| v.warnings.iter().map(move |w| format!("variant `{}`: {w}", v.name)));
+    campaign.report.warnings.iter().cloned().chain(of_variants).collect()
+}
+
+fn notes(campaign: &Campaign) -> Vec<String> {
+    let variants = campaign.report.variants.iter().filter(|v| !v.description.is_empty());
+    let mut notes: Vec<String> = variants.map(|v| format!("Variant `{}`: {}", v.name, v.description)).collect();
+    notes.push("`signals.csv` has the recorded signals with all digits, `run.json` everything on this page.".into());
+    notes
+}
+
+fn stop(status: &Status) -> Option<Stop> {
+    match status {
+        Status::Completed => None,
+        Status::Stopped { time, reason, help, .. } => {
+            Some(Stop { time: *time, reason: reason.clone(), help: help.clone() })
+        }
+        Status::Interrupted { time, .. } => {
+            Some(Stop { time: *time, reason: "it was interrupted".into(), help: String::new() })
+        }
+    }
+}
+
+/// The checks of the run, of the sweep, of the variants.
+fn checks(campaign: &Campaign) -> Vec<CheckRow> {
+    let report = &campaign.report;
+    let main = report.checks.iter().map(|c| check_row(c, ""));
+    let sweep = report.sweep.iter().flat_map(|s| &s.checks).map(|c| check_row(c, "sweep"));
+    let variants = report.variants.iter().flat_map(|v| v.checks.iter().map(move |c| check_row(c, &v.name)));
+    main.chain(sweep).chain(variants).collect()
+}
+
+fn check_row(check: &CheckReport, run: &str) -> CheckRow {
+    let mut about = check.about.clone();
+    if let (VerdictReport::NotMade, Some(reason)) = (check.verdict, &check.reason) {
+        about = format!("{about}: {reason}");
+    }
+    CheckRow {
+        name: if run.is_empty() { check.name.clone() } else { format!("{run}: {}", check.name) },
+        about,
+        measured: check.measured,
+        expected: check.expected,
+        deviation: check.deviation.unwrap_or(f64::NAN),
+        limit: check.limit,
+        is_relative: check.relative,
+        unit: check.unit.clone(),
+        at: if run == "sweep" { None } else { check.at },
+        verdict: match check.verdict {
+            VerdictReport::Holds => CheckVerdict::Holds,
+            VerdictReport::Fails => CheckVerdict::Fails,
+            VerdictReport::NotMade => CheckVerdict::NotMade,
+        },
+    }
+}
+
+fn settings(campaign: &Campaign) -> Vec<(String, String)> {
+    let (report, effort) = (&campaign.report, campaign.main.simulated.effort);
+    let s = &report.settings;
+    let number = crate::commands::console::short;
+    let mut rows = vec![
+        ("scene".to_owned(), report.scene.clone()),
+        ("degrees of freedom".to_owned(), report.n_dof.to_string()),
+        ("integrator".to_owned(), s.integrator.clone()),
+        ("base step".to_owned(), format!("{} s", number(s.step))),
+    ];
+    if matches!(s.integrator.as_str(), "dormand-prince" | "stiff") {
+        rows.push(("accuracy".to_owned(), number(s.accuracy)));
+    }
+    rows.extend([
+        ("duration".to_owned(), format!("{} s", number(s.duration))),
+        ("steps of the integrator".to_owned(), effort.steps.to_string()),
+        ("seed".to_owned(), s.seed.to_string()),
+    ]);
+    for setting in &s.overrides {
+        rows.push((format!("set {}", setting.path), setting.value.clone()));
+    }
+    rows.extend([
+        ("model hash".to_owned(), report.model_hash.clone()),
+        ("trace hash".to_owned(), report.trace_hash.clone()),
+        (
+            "wall time".to_owned(),
+            format!(
+                "{} s, {} times real time",
+                plot::number::significant(report.wall_time_s, 2),
+                plot::number::significant(report.real_time_factor, 2)
+            ),
+        ),
+        ("sincro".to_owned(), report.sincro_version.clone()),
+    ]);
+    rows
+}
+
+/// A title as part of a file's name.
+fn file_name(title: &str) -> String {
+    let mut name = String::new();
+    for c in title.to_lowercase().chars() {
+        if c.is_ascii_alphanumeric() {
+            name.push(c);
+        } else if !name.ends_with('-') {
+            name.push('-');
+        }
+    }
+    let name = name.trim_matches('-');
+    name.get(..48).unwrap_or(name).trim_matches('-').to_owned()
+}
