@@ -11,7 +11,7 @@ use sincro_math::Real;
 use crate::aba::{self, Held};
 use crate::drive::DriveKind;
 use crate::force::{Instant, damper, friction, joint_torques};
-use crate::integrate::System;
+use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
 use crate::kinematics;
 use crate::model::Model;
@@ -154,10 +154,10 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Accelerations at (t, q in `self.q`, v); `implicit_step` as in [`Instant`].
+    /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].
     #[inline(always)]
-    fn accelerations(&mut self, t: f64, v: &[R], implicit_step: Option<f64>, v_dot: &mut [R]) {
-        let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit_step };
+    fn accelerations(&mut self, t: f64, v: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
+        let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
         let external = if self.model.wrenches.is_empty() {
             None
@@ -188,7 +188,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Rates of the totals at the last evaluation, for velocities `v` over which forces do their work.
     #[inline(always)]
-    fn total_rates(&mut self, t: f64, v_at: &[R], v: &[R], h: R, rates: &mut [R]) {
+    fn total_rates(&mut self, t: f64, v_at: &[R], v: &[R], steps: (R, R), rates: &mut [R]) {
         let (mut work, mut dissipation) = (R::zero(), R::zero());
         for (k, dof) in self.model.dofs.iter().enumerate() {
             work += dof.torque * v[k];
@@ -200,7 +200,7 @@ impl<R: Real> Mechanism<R> {
         for (i, link) in self.scratch.links.iter().enumerate().take(self.external.len()) {
             work += link.v.dot(&self.external[i]);
         }
-        self.find_motor_torques(v_at, h);
+        self.find_motor_torques(v_at, steps);
         for (i, drive) in self.model.drives.iter().enumerate() {
             if drive.kind == DriveKind::Friction {
                 dissipation += friction::dissipation(self.friction_torque(i), v[drive.dof]);
@@ -226,10 +226,10 @@ impl<R: Real> Mechanism<R> {
 
     /// Torque of every motor in the last evaluation.
     #[inline(always)]
-    pub(crate) fn find_motor_torques(&mut self, v: &[R], h: R) {
+    pub(crate) fn find_motor_torques(&mut self, v: &[R], steps: (R, R)) {
         for (i, motor) in self.model.motors.iter().enumerate() {
             let q = self.q[self.model.dofs[motor.dof].q_idx as usize];
-            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], h).0;
+            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
         }
         for d in 0..self.model.drives.len() {
             let drive = self.model.drives[d];
@@ -310,18 +310,18 @@ impl<R: Real> System<R> for Mechanism<R> {
         self.chart_rate(delta, v, rate);
         self.accelerations(t, v, None, &mut rest[..n]);
         if self.tracks_totals {
-            self.total_rates(t, v, v, R::zero(), &mut rest[n..]);
+            self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
         }
     }
 
     #[inline(always)]
-    fn implicit_slope(&mut self, t: f64, h: f64, y: &[R], slope: &mut [R]) {
+    fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
         let n = self.model.n_v();
         let (delta, rest) = y.split_at(n);
         let v = &rest[..n];
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
-        self.accelerations(t, v, Some(h), &mut rest[..n]);
+        self.accelerations(t, v, Some((h, implicit)), &mut rest[..n]);
         // the position moves with the new velocity; forces do their work over the mean of old and new
         let step = R::splat(h);
         for k in 0..n {
@@ -336,7 +336,8 @@ impl<R: Real> System<R> for Mechanism<R> {
                 self.torque[k] = half * (self.torque[k] + v[k]);
             }
             let mean_v = core::mem::take(&mut self.torque);
-            self.total_rates(t, v, &mean_v, step, &mut rest[n..]);
+            let of_springs = if implicit == Implicit::Dampers { R::zero() } else { step };
+            self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
             self.torque = mean_v;
         }
     }

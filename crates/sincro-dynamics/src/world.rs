@@ -78,6 +78,7 @@ pub struct World {
     before: Vec<f64>,
     base_before: Vec<f64>,
     wanted: Vec<f64>,
+    jumps: Vec<bool>,
     accelerations: Vec<f64>,
     slope: Vec<f64>,
     substeps: u32,
@@ -174,6 +175,7 @@ impl World {
             substeps: 1,
             base_before,
             wanted: vec![0.0; n_drives],
+            jumps: vec![false; n_drives],
             accelerations,
             effort: Effort::default(),
         }
@@ -270,7 +272,7 @@ impl World {
         self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.mark_held();
         self.mechanism.slope(t, &self.y, &mut self.slope);
-        self.mechanism.find_motor_torques(&self.state.v, 0.0);
+        self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
         self.accelerations.copy_from_slice(&self.slope[n..2 * n]);
         (&self.accelerations, self.mechanism.motor_torque())
     }
@@ -304,14 +306,28 @@ impl World {
         self.settle(t);
     }
 
-    /// Unlimited motors take their commanded velocity at once: an impulse that leaves every other generalised momentum as it is.
+    /// Unlimited motors take their commanded velocity at once.
     fn jump(&mut self) {
+        for i in 0..self.wanted.len() {
+            self.jumps[i] = self.is_unlimited(i);
+        }
+        self.strike();
+        for i in 0..self.wanted.len() {
+            if self.jumps[i] {
+                self.mechanism.drives[i] = 0.0;
+            }
+        }
+    }
+
+    /// Brings the drives marked in `jumps` to their velocity by an impulse that leaves every other generalised momentum as it is;
+    /// unlimited motors keep what they have.
+    fn strike(&mut self) {
         let n = self.model().n_v();
         let mut needed = false;
         self.mechanism.held_mask.fill(0.0);
         self.mechanism.held_acceleration.fill(0.0);
         for i in 0..self.wanted.len() {
-            if self.is_unlimited(i) {
+            if self.jumps[i] || self.is_unlimited(i) {
                 let dof = self.mechanism.model.drives[i].dof;
                 let change = self.wanted[i] - self.velocity(dof);
                 self.mechanism.held_mask[dof] = 1.0;
@@ -327,29 +343,31 @@ impl World {
             self.count_impulses();
         }
         for i in 0..self.wanted.len() {
-            if self.is_unlimited(i) {
-                let dof = self.mechanism.model.drives[i].dof;
-                self.y[n + dof] = self.wanted[i];
-                self.mechanism.drives[i] = 0.0;
+            if self.jumps[i] {
+                self.y[n + self.mechanism.model.drives[i].dof] = self.wanted[i];
             }
         }
     }
 
-    /// Adds the work and the impulses of a jump to the totals: ΔT = Σ λ·(mean of the velocities before and after).
+    /// Adds the work and the impulses of a strike to the totals: ΔT = Σ λ·(mean of the velocities before and after).
     fn count_impulses(&mut self) {
         let n = self.model().n_v();
         if self.y.len() == 2 * n {
             return;
         }
         for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
-            let DriveKind::Motor(motor) = drive.kind else { continue };
-            if self.mechanism.held_mask[drive.dof] == 0.0 {
+            if !self.jumps[i] && !self.is_unlimited(i) {
                 continue;
             }
             let impulse = self.mechanism.scratch.reaction[drive.dof];
-            let mean = self.wanted[i] - 0.5 * self.mechanism.held_acceleration[drive.dof];
-            self.y[2 * n] += impulse * mean;
-            self.y[2 * n + 2 + motor] += impulse;
+            let work = impulse * (self.wanted[i] - 0.5 * self.mechanism.held_acceleration[drive.dof]);
+            match drive.kind {
+                DriveKind::Friction => self.y[2 * n + 1] -= work,
+                DriveKind::Motor(motor) => {
+                    self.y[2 * n] += work;
+                    self.y[2 * n + 2 + motor] += impulse;
+                }
+            }
         }
     }
 
@@ -500,13 +518,13 @@ impl World {
             if self.is_violated(t + middle) { bad = middle } else { good = middle }
         }
         self.replay(t, bad, control)?;
-        let n = self.model().n_v();
+        // a pulling drive that has just passed its velocity is brought back to it, momentum and impulses kept right
         for i in 0..self.wanted.len() {
-            // a pulling drive that has just passed its velocity is at it
-            let (drive, pull) = (self.mechanism.model.drives[i], self.mechanism.drives[i]);
-            if !self.is_unlimited(i) && pull != 0.0 && self.missing_velocity(i) * pull < 0.0 {
-                self.y[n + drive.dof] = self.wanted[i];
-            }
+            let pull = self.mechanism.drives[i];
+            self.jumps[i] = !self.is_unlimited(i) && pull != 0.0 && self.missing_velocity(i) * pull < 0.0;
+        }
+        if self.jumps.contains(&true) {
+            self.strike();
         }
         self.settle(t + bad);
         Ok(t + bad)

@@ -63,7 +63,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
-/*        Command::Bench(options) => match bench::run(&options) {
+        /*        Command::Bench(options) => match bench::run(&options) {
             Ok(()) => Exit::Holds,
             Err(message) => diagnostics::refuse(&message, None),
         },*/

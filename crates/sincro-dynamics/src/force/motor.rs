@@ -83,14 +83,15 @@ impl<R: Real> Motor<R> {
         }
     }
 
-    /// Torque in modes that are not constraints, and the implicit diagonal, for a linearly implicit step `h` (0: explicit).
+    /// Torque in modes that are not constraints, and the implicit diagonal, for a step that takes dampers implicitly over
+    /// `steps.0` and springs over `steps.1` (0: explicit).
     #[inline(always)]
-    pub(crate) fn torque(&self, q: R, v: R, command: R, h: R) -> (R, R) {
+    pub(crate) fn torque(&self, q: R, v: R, command: R, steps: (R, R)) -> (R, R) {
         match self.mode {
             MotorMode::Torque => (command.clamp_abs(self.max_torque), R::zero()),
             MotorMode::Spring => {
-                let wanted = self.stiffness * (command - (q + h * v)) - self.damping * v;
-                let implicit = h * (self.damping + h * self.stiffness);
+                let wanted = self.stiffness * (command - (q + steps.1 * v)) - self.damping * v;
+                let implicit = steps.0 * (self.damping + steps.1 * self.stiffness);
                 // beyond its limit the motor pulls constantly
                 let within = wanted.abs().if_less(self.max_torque, implicit, R::zero());
                 (wanted.clamp_abs(self.max_torque), within)

@@ -1,11 +1,11 @@
-//! Semi-implicit Euler: new velocity from forces at the old state, new position from the new velocity; joint springs and dampers
-//! at the end of the step. Order 1.
+//! Semi-implicit Euler: new velocity from forces at the old state, new position from the new velocity; joint dampers act at the new
+//! velocity. Order 1. What most engines do: symplectic, so that an undamped swing keeps its amplitude, as long as h·ω < 2.
 //!
-//! v⁺ = v + h (M + h D + h² K)⁻¹ (τ(q + h v, v)),  q⁺ = q ⊕ h v⁺.
+//! v⁺ = v + h (M + h D)⁻¹ τ(q, v),  q⁺ = q ⊕ h v⁺, with D the joint dampers.
 
 use sincro_math::Real;
 
-use super::{FixedStep, System};
+use super::{FixedStep, Implicit, System};
 
 /// The method and its working memory.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ impl<R: Real> SemiImplicitEuler<R> {
 impl<R: Real> FixedStep<R> for SemiImplicitEuler<R> {
     #[inline(always)]
     fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]) {
-        system.implicit_slope(t, h, y, &mut self.slope);
+        system.implicit_slope(t, h, Implicit::Dampers, y, &mut self.slope);
         for (y, k) in y.iter_mut().zip(&self.slope) {
             *y += R::splat(h) * *k;
         }

@@ -11,7 +11,7 @@
 
 use sincro_math::Real;
 
-use super::{Control, Failure, FixedStep, System, power, too_small};
+use super::{Control, Failure, FixedStep, Implicit, System, power, too_small};
 
 /// Most rows of the tableau.
 const MAX_ROWS: usize = 8;
@@ -47,7 +47,7 @@ impl<R: Real> Extrapolated<R> {
         let x = &mut newest[0];
         x.copy_from_slice(y);
         for i in 0..n {
-            system.implicit_slope(t + i as f64 * small, small, x, &mut self.slope);
+            system.implicit_slope(t + i as f64 * small, small, Implicit::SpringsAndDampers, x, &mut self.slope);
             for (x, k) in x.iter_mut().zip(&self.slope) {
                 *x += R::splat(small) * *k;
             }

@@ -36,14 +36,23 @@ pub trait System<R: Real> {
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]);
 
     /// One linearly implicit Euler step of length `h` from `y`: `slope` such that the new y is `y + h·slope`. Its dependence on
-    /// h is smooth, which extrapolation lives on; stiff terms are taken at the new state.
-    fn implicit_slope(&mut self, t: f64, h: f64, y: &[R], slope: &mut [R]);
+    /// h is smooth, which extrapolation lives on; the terms named by `implicit` are taken at the new state.
+    fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]);
 
     /// Lays a new chart at `y`, after which the same state is described by what `y` then holds.
     fn rechart(&mut self, y: &mut [R]);
 
     /// Typical magnitude of each controlled entry, for relative errors: the state's own, not the chart's.
     fn magnitude(&self, y: &[R], k: usize) -> f64;
+}
+
+/// Which terms a linearly implicit step takes at the new state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Implicit {
+    /// Joint dampers; springs at the old state keep an undamped swing undamped.
+    Dampers,
+    /// Joint springs and dampers: stable whatever they are.
+    SpringsAndDampers,
 }
 
 /// A fixed-step method: y is in a fresh chart before and after.

@@ -61,11 +61,24 @@ fn print(loaded: &Loaded) {
     println!("  hash {}", model_hash(model));
     let (method, warnings) = choose_method(scene, experiment);
     println!("run");
-    println!("  {} s at {} s: {} steps, {} recorded signals", short(experiment.duration), short(experiment.step),
-        experiment.n_steps, experiment.record.len());
+    println!(
+        "  {} s at {} s: {} steps, {} recorded signals",
+        short(experiment.duration),
+        short(experiment.step),
+        experiment.n_steps,
+        experiment.record.len()
+    );
     println!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
-    println!("  {} checks, {} variants{}", experiment.checks.len(), experiment.variants.len(),
-        experiment.sweep.as_ref().map_or(String::new(), |s| format!(", sweep of {} over {} values", s.parameter.value, s.values.len())));
+    println!(
+        "  {} checks, {} variants{}",
+        experiment.checks.len(),
+        experiment.variants.len(),
+        experiment.sweep.as_ref().map_or(String::new(), |s| format!(
+            ", sweep of {} over {} values",
+            s.parameter.value,
+            s.values.len()
+        ))
+    );
     for warning in warnings {
         println!("warning: {warning}");
     }
@@ -73,7 +86,14 @@ fn print(loaded: &Loaded) {
 
 fn print_children(scene: &Scene, parent: Option<usize>, depth: usize) {
     for (i, object) in scene.objects.iter().enumerate().filter(|(_, o)| o.parent == parent) {
-        println!("{:indent$}{:<width$} {}", "", object.name, words(object), indent = 2 * depth, width = 24 - 2 * depth.min(10));
+        println!(
+            "{:indent$}{:<width$} {}",
+            "",
+            object.name,
+            words(object),
+            indent = 2 * depth,
+            width = 24 - 2 * depth.min(10)
+        );
         print_children(scene, Some(i), depth + 1);
     }
 }

@@ -33,8 +33,7 @@ pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
 
 fn asked_for(plot: &Plot, campaign: &Campaign) -> Figure {
     let names: Vec<&str> = plot.signals.iter().map(|s| s.value.as_str()).collect();
-    let reference =
-        plot.reference.as_ref().map(|r| Expected { times: r.keys.to_vec(), values: r.values.to_vec() });
+    let reference = plot.reference.as_ref().map(|r| Expected { times: r.keys.to_vec(), values: r.values.to_vec() });
     figure(&plot.title, &names, reference, campaign)
 }
 
