@@ -1,5 +1,6 @@
 //! Identities that hold for every mechanism, on random trees with every kind of joint.
 
 mod batch;
+mod derivatives;
 mod dynamics;
 mod random;

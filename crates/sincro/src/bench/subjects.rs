@@ -109,7 +109,10 @@ impl Stepper {
 
     #[inline]
     fn call(&mut self) {
-        if self.tick == STEPS_A_SECOND || !black_box(self.advance()) {
+        if self.tick == STEPS_A_SECOND {
+            self.restart();
+        }
+        if !black_box(self.advance()) {
             self.restart();
         }
     }
@@ -134,7 +137,7 @@ pub(super) fn step(scene: &Scene, method: MethodKind, totals: bool) -> Subject {
     let mut stepper = Stepper::new(scene, method, totals);
     let note = stepper.note();
     let subject = if stepper.control.is_some() {
-        let second = move || (0..=STEPS_A_SECOND).for_each(|_| stepper.call());
+        let second = move || (0..STEPS_A_SECOND).for_each(|_| stepper.call());
         Subject::new(second).with_units(f64::from(STEPS_A_SECOND))
     } else {
         Subject::new(move || stepper.call())

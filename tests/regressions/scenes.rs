@@ -1,0 +1,57 @@
+//! Every scene folder: all checks of the run, its variants and its sweep hold, and the trace hash is the committed one.
+//!
+//! The hash is the same in debug and release builds and on every machine; `SINCRO_BLESS=1` writes the file anew after a change that
+//! is meant to move trajectories (which `CHANGELOG.md` then tells under Trajectories).
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use sincro_sim::load;
+use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
+use sincro_sim::run::run_campaign;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn folders() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join("scenes")).unwrap();
+    let mut folders: Vec<PathBuf> =
+        entries.map(|e| e.unwrap().path()).filter(|p| p.join("experiment.toml").is_file()).collect();
+    folders.sort();
+    folders
+}
+
+fn run(folder: &Path) -> RunReport {
+    let loaded = load(folder, &[]).unwrap_or_else(|problems| panic!("{problems}"));
+    run_campaign(folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap().report
+}
+
+fn all_checks(report: &RunReport) -> impl Iterator<Item = &CheckReport> {
+    let variants = report.variants.iter().flat_map(|v| &v.checks);
+    let sweep = report.sweep.iter().flat_map(|s| &s.checks);
+    report.checks.iter().chain(variants).chain(sweep)
+}
+
+#[test]
+fn every_scene_holds_its_checks_and_its_bits() {
+    let mut traces = String::new();
+    for folder in folders() {
+        let report = run(&folder);
+        assert_eq!(report.status, Status::Completed, "{}", folder.display());
+        for check in all_checks(&report) {
+            assert_eq!(check.verdict, VerdictReport::Holds, "{}: {check:?}", folder.display());
+        }
+        assert!(all_checks(&report).count() > 0, "{} checks nothing", folder.display());
+        writeln!(traces, "{} {}", report.scene, report.trace_hash).unwrap();
+        for variant in &report.variants {
+            writeln!(traces, "{}/{} {}", report.scene, variant.name, variant.trace_hash).unwrap();
+        }
+    }
+    let committed = root().join("tests/regressions/traces.txt");
+    if std::env::var_os("SINCRO_BLESS").is_some() {
+        std::fs::write(&committed, &traces).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&committed).unwrap(), traces, "trajectories have moved");
+}
