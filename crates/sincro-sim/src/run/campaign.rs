@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use sincro_dynamics::joint::JointKind;
+
 use super::{Manner, RunError, Simulated, Watch, method_word, model_hash, refine, simulate};
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
@@ -11,6 +13,7 @@ use crate::overrides::Override;
 use crate::results::{
     CheckReport, ColumnReport, Override as Setting, RunReport, Settings, Status, SweepReport, VariantReport,
 };
+use crate::scene::{ObjectKind, Scene};
 use crate::sweep::Sweep;
 
 /// One run of a campaign with its judgement.
@@ -175,13 +178,14 @@ fn run_sweep(
         }
     });
     progress("sweep", 1.0);
+    let unit = parameter_unit(&loaded.scene, &plan.parameter.value);
     let signals: Vec<(&str, &str)> = Vec::new();
-    let mut sweep = Sweep::new(&plan.parameter.value, "", signals, n);
+    let mut sweep = Sweep::new(&plan.parameter.value, unit, signals, n);
     for (k, result) in points.into_iter().enumerate() {
         let run = result.expect("every point was run")?;
         if k == 0 {
             let columns = run.table.columns.iter().skip(1).map(|c| (c.name.as_str(), c.unit.as_str()));
-            sweep = Sweep::new(&plan.parameter.value, "", columns, n);
+            sweep = Sweep::new(&plan.parameter.value, unit, columns, n);
         }
         let finals: Vec<f64> =
             run.table.columns.iter().skip(1).map(|c| c.values.last().copied().unwrap_or(f64::NAN)).collect();
@@ -193,6 +197,28 @@ fn run_sweep(
     }
     let outcomes = evaluate_sweep(&loaded.experiment.sweep.as_ref().map_or(Vec::new(), |s| s.checks.clone()), &sweep);
     Ok((sweep, outcomes))
+}
+
+/// Unit of what a `--set` path reaches, as far as its last word and the kind of its joint tell; else empty.
+fn parameter_unit(scene: &Scene, path: &str) -> &'static str {
+    let (object, keys) = path.split_once('.').unwrap_or(("", path));
+    let is_length = scene
+        .object(object)
+        .is_some_and(|o| matches!(o.kind, ObjectKind::Joint { kind: JointKind::Prismatic { .. }, .. }));
+    let of_joint = |angle: &'static str, length: &'static str| if is_length { length } else { angle };
+    match keys.rsplit('.').next().unwrap_or(keys) {
+        "stiffness" => of_joint("N·m/rad", "N/m"),
+        "damping" => of_joint("N·m·s/rad", "N·s/m"),
+        "friction" | "max_torque" | "torque" => of_joint("N·m", "N"),
+        "rest" => of_joint("rad", "m"),
+        "velocity" | "max_velocity" => of_joint("rad/s", "m/s"),
+        "armature" => of_joint("kg·m²", "kg"),
+        "mass" => "kg",
+        "density" => "kg/m³",
+        "radius" | "length" => "m",
+        "step" | "duration" => "s",
+        _ => "",
+    }
 }
 
 fn report(

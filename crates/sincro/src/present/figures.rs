@@ -103,10 +103,11 @@ fn curve(column: &Column, name: &str, role: Role, signal: usize, times: &[f64]) 
     Series { signal, stroke, ..series }
 }
 
-/// What the checks expect of a signal, and the tolerance if it is absolute: the check that looks at most rows.
+/// What the checks expect of a signal, and the tolerance if it is absolute: the check that looks at most rows, of those the
+/// strictest.
 fn expected_of(outcomes: &[Outcome], name: &str) -> Option<(Expected, Option<f64>)> {
     let of_signal = outcomes.iter().filter(|o| o.signal.as_deref() == Some(name) && o.series.is_some());
-    let widest = of_signal.max_by_key(|o| o.n_rows)?;
+    let widest = of_signal.max_by(|a, b| a.n_rows.cmp(&b.n_rows).then(b.limit.total_cmp(&a.limit)))?;
     Some((widest.series.clone()?, (!widest.relative).then_some(widest.limit)))
 }
 
