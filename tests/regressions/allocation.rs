@@ -30,7 +30,7 @@ fn a_step_and_a_row_allocate_nothing() {
                     *command = signal.value(t);
                 }
                 world.advance(t, step).unwrap();
-                recorder.row(&mut world, t + step, start).len()
+                recorder.row(&world.observe(t + step), t + step, start).len()
             };
             tick(0, true);
             let count = allocation_counter::measure(|| {

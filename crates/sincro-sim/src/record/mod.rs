@@ -7,10 +7,11 @@ mod catalogue;
 
 pub use catalogue::{Entry, catalogue};
 
+use sincro_dynamics::energy::Energy;
 use sincro_dynamics::force::{damper, spring};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
-use sincro_dynamics::world::{Observation, World};
+use sincro_dynamics::world::Observation;
 
 use crate::problem::{Located, Problem, Problems};
 use crate::suggest;
@@ -116,17 +117,22 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), e.unit)))
     }
 
-    /// The row of the present state, `t` first. To be called at every recorded instant, in order, the start included.
-    pub fn row(&mut self, world: &mut World, t: f64, is_start: bool) -> &[f64] {
-        let seen = world.observe(t);
+    /// The row of what is seen at time `t` [s], `t` first. To be called at every recorded instant, in order, the start included.
+    pub fn row(&mut self, seen: &Observation<'_>, t: f64, is_start: bool) -> &[f64] {
+        let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {
-            self.energy_at_start = seen.energy().total();
+            self.energy_at_start = energy.total();
             self.last_t = t;
         }
         self.row.clear();
         self.row.push(t);
         for i in 0..self.entries.len() {
-            let value = self.read(&seen, self.entries[i].probe, t);
+            let value = match self.entries[i].probe {
+                Probe::Energy(quantity) => self.energy(&energy, &seen.state.totals, quantity),
+                Probe::Momentum(k) if k < 3 => momentum.ang[k],
+                Probe::Momentum(k) => momentum.lin[k - 3],
+                probe => self.read(seen, probe, t),
+            };
             self.row.push(value);
         }
         for (kept, now) in self.motor_impulse.iter_mut().zip(&seen.state.totals[2..]) {
@@ -154,14 +160,11 @@ impl Recorder {
             Probe::FrictionTorque(k) => seen.friction_torque(k),
             Probe::AppliedTorque(k) => seen.model().applied_torque(k, t),
             Probe::Frame(quantity, frame, component) => frame_quantity(seen, quantity, frame, component),
-            Probe::Energy(quantity) => self.energy(seen, quantity),
-            Probe::Momentum(k) if k < 3 => seen.momentum().ang[k],
-            Probe::Momentum(k) => seen.momentum().lin[k - 3],
+            Probe::Energy(_) | Probe::Momentum(_) => unreachable!("read once a row"),
         }
     }
 
-    fn energy(&self, seen: &Observation<'_>, quantity: EnergyQuantity) -> f64 {
-        let (energy, totals) = (seen.energy(), &seen.state.totals);
+    fn energy(&self, energy: &Energy<f64>, totals: &[f64], quantity: EnergyQuantity) -> f64 {
         match quantity {
             EnergyQuantity::Kinetic => energy.kinetic,
             EnergyQuantity::Potential => energy.potential,

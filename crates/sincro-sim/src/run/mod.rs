@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
-use sincro_dynamics::world::{Effort, MethodKind, World};
+use sincro_dynamics::world::{Effort, MethodKind, Observation, World};
 
 pub use campaign::{Campaign, Done, Progress, run_campaign};
 pub use trace::{Trace, model_hash};
@@ -192,7 +192,9 @@ pub fn simulate(
     let mut ledger = Ledger::start(&mut world);
     let mut trace = Trace::start(&world.state);
     let mut publish = |world: &mut World, t: f64, is_start: bool| -> Result<(), FileError> {
-        let row = recorder.row(world, t, is_start);
+        let seen = world.observe(t);
+        ledger.look(&seen);
+        let row = recorder.row(&seen, t, is_start);
         table.push_row(row);
         csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
     };
@@ -211,7 +213,6 @@ pub fn simulate(
         trace.add(&world.state);
         let now = (tick + 1) as f64 * experiment.step;
         if (tick + 1) % experiment.record_every == 0 {
-            ledger.look(&mut world, now);
             publish(&mut world, now, false)?;
         }
         if watch.interrupt.load(Ordering::Relaxed) {
@@ -226,7 +227,7 @@ pub fn simulate(
         csv.finish()?;
     }
     let wall_time = clock.elapsed().as_secs_f64();
-    let energy = ledger.close(&mut world);
+    let energy = ledger.close(&world);
     Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
 }
 
@@ -243,15 +244,14 @@ impl Ledger {
         Self { start: (e.kinetic, e.potential), worst: 0.0, last: (e.kinetic, e.potential) }
     }
 
-    fn look(&mut self, world: &mut World, t: f64) {
-        let seen = world.observe(t);
+    fn look(&mut self, seen: &Observation<'_>) {
         let (e, totals) = (seen.energy(), &seen.state.totals);
         let balance = e.total() - (self.start.0 + self.start.1) - totals[0] + totals[1];
         self.worst = self.worst.max(balance.abs());
         self.last = (e.kinetic, e.potential);
     }
 
-    fn close(self, world: &mut World) -> EnergyReport {
+    fn close(&self, world: &World) -> EnergyReport {
         let totals = &world.state.totals;
         EnergyReport {
             kinetic_start: self.start.0,
