@@ -16,15 +16,18 @@ pub fn mass_matrix<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>,
     let n = model.n_v();
     mass.fill(R::zero());
     kinematics::place(model, q, scratch);
-    let mut composite: Vec<RigidInertia<R>> = model.links.iter().map(|l| l.inertia).collect();
+    for (composite, link) in scratch.composite.iter_mut().zip(&model.links) {
+        *composite = link.inertia;
+    }
     for i in (0..model.links.len()).rev() {
         let link = &model.links[i];
         if let Some(parent) = link.parent() {
-            let seen = link.kind.dispatch(RigidToParent { link, at: &scratch.links[i].at, inertia: &composite[i] });
-            composite[parent] = composite[parent].plus(&seen);
+            let seen =
+                link.kind.dispatch(RigidToParent { link, at: &scratch.links[i].at, inertia: &scratch.composite[i] });
+            scratch.composite[parent] = scratch.composite[parent].plus(&seen);
         }
         for j in 0..link.kind.n_v() {
-            column(model, scratch, &composite[i], (i, j), n, mass);
+            column(model, scratch, (i, j), n, mass);
         }
     }
     for (k, dof) in model.dofs.iter().enumerate() {
@@ -33,18 +36,11 @@ pub fn mass_matrix<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>,
 }
 
 /// The column of degree of freedom `j` of link `i`, and by symmetry its row.
-fn column<R: Real>(
-    model: &Model<R>,
-    scratch: &Scratch<R>,
-    composite: &RigidInertia<R>,
-    (i, j): (usize, usize),
-    n: usize,
-    mass: &mut [R],
-) {
+fn column<R: Real>(model: &Model<R>, scratch: &Scratch<R>, (i, j): (usize, usize), n: usize, mass: &mut [R]) {
     let link = &model.links[i];
     let col = link.v_idx as usize + j;
     // F = I S_j, then down the tree: H_ji = F · S_k
-    let mut force = link.kind.dispatch(Column { link, j, inertia: composite });
+    let mut force = link.kind.dispatch(Column { link, j, inertia: &scratch.composite[i] });
     let mut at = i;
     loop {
         let carrier = &model.links[at];

@@ -5,7 +5,7 @@ use sincro_math::Real;
 
 use crate::joint::Placement;
 use crate::model::Model;
-use crate::spatial::{ArticulatedInertia, Force, Motion, Pose};
+use crate::spatial::{ArticulatedInertia, Force, Motion, Pose, RigidInertia};
 
 /// Per link.
 ///
@@ -52,6 +52,8 @@ pub struct Scratch<R> {
     pub(crate) dofs: Vec<DofScratch<R>>,
     /// Poses of the link frames in the world, [`crate::kinematics::poses`].
     pub(crate) poses: Vec<Pose<R>>,
+    /// Inertia of each link with everything hanging on it held rigid (mass matrix).
+    pub(crate) composite: Vec<RigidInertia<R>>,
     /// Torque that each held degree of freedom needed beyond the given one [N·m].
     pub(crate) reaction: Vec<R>,
 }
@@ -64,6 +66,7 @@ impl<R: Real> Scratch<R> {
             links: vec![LinkScratch::default(); model.links.len()],
             dofs: vec![DofScratch::default(); model.n_v()],
             poses: vec![Pose::default(); model.links.len()],
+            composite: vec![RigidInertia::zero(); model.links.len()],
             reaction: vec![R::zero(); model.n_v()],
         }
     }
