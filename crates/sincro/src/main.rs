@@ -3,7 +3,7 @@
 //! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run stopped
 //! (what was recorded is kept).
 
-//mod bench;
+mod bench;
 mod commands;
 mod diagnostics;
 mod plot;
@@ -30,8 +30,8 @@ enum Command {
     Check(commands::check::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
     Reproduce(commands::reproduce::Arguments),
-    // Measure speed, memory and accuracy on this machine, beside peers if asked
-    //Bench(bench::Options),
+    /// Measure speed, memory and accuracy on this machine, beside peers if asked
+    Bench(bench::Options),
 }
 
 /// What a command ends with.
@@ -63,10 +63,10 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
-        /*        Command::Bench(options) => match bench::run(&options) {
+        Command::Bench(options) => match bench::run(&options) {
             Ok(()) => Exit::Holds,
             Err(message) => diagnostics::refuse(&message, None),
-        },*/
+        },
     };
     exit.into()
 }

@@ -58,7 +58,9 @@ impl Peer {
         let mut child = command.spawn().map_err(|e| format!("{name}: `python3` cannot be started: {e}"))?;
         let output = child.stdout.take().expect("piped");
         let (send, answers) = channel();
-        thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).try_for_each(|line| send.send(line)));
+        thread::spawn(move || {
+            BufReader::new(output).lines().map_while(Result::ok).try_for_each(|line| send.send(line))
+        });
         let complaints = Arc::default();
         listen(child.stderr.take().expect("piped"), &complaints);
         let mut peer = Self { name, hello: Value::Null, input: child.stdin.take(), child, answers, complaints };

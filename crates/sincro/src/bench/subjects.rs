@@ -151,7 +151,7 @@ fn moving(scene: &Scene) -> (State<f64>, Vec<f64>) {
     state.v.fill(0.1);
     let model = &scene.model;
     let torque = model.dofs().iter().enumerate().map(|(k, dof)| {
-        let deflection = if model.has_scalar_coordinate(k) { state.q[dof.q_idx as usize] - dof.rest } else { 0.0 };
+        let deflection = dof.coordinate().map_or(0.0, |q| state.q[q] - dof.rest);
         model.applied_torque(k, 0.0) - dof.stiffness * deflection - dof.damping * state.v[k]
     });
     let torque = torque.collect();

@@ -165,7 +165,8 @@ mod tests {
     #[test]
     fn columns_stand_under_each_other() {
         let head = line(["model", "figure", "sincro", "peer", "", "ratio", "bar", "verdict"]);
-        let row = line(["alexandros", "step semi-implicit-euler", "0.45 µs", "mujoco", "1.51 µs", "3.3×", "≥ 3", "met"]);
+        let row =
+            line(["alexandros", "step semi-implicit-euler", "0.45 µs", "mujoco", "1.51 µs", "3.3×", "≥ 3", "met"]);
         let at = |text: &str, word: &str| text.split(word).next().unwrap().chars().count();
         assert_eq!(at(&head, "verdict"), at(&row, "met"));
     }
