@@ -20,7 +20,7 @@ use sincro_math::{Real, Task};
 use crate::joint::{Stage, StageVisitor};
 use crate::model::{Link, Model, WORLD};
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
-use crate::spatial::{Force, Motion};
+use crate::spatial::{ArticulatedInertia, Force, Motion};
 use crate::state::State;
 
 /// What forward dynamics is asked for. Lengths are `n_q` for `q`, `n_v` for everything else but `external`.
@@ -160,29 +160,52 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
     #[inline(always)]
     fn visit<S: Stage>(self) {
         let Self { link, input, this, parent, dofs } = self;
-        let v_idx = link.v_idx as usize;
-        let is_root = parent.is_none();
         // `ia` holds what the children left there
-        let mut ia = if link.has_children { this.ia.plus_rigid(&link.inertia) } else { link.inertia.articulated() };
-        let mut pa = this.pa;
-        if !is_root {
+        let ia = if link.has_children { this.ia.plus_rigid(&link.inertia) } else { link.inertia.articulated() };
+        let mut left = Remainder { ia, pa: this.pa, is_root: parent.is_none() };
+        if !left.is_root {
             // bias of the velocity product, for the whole link at once
-            pa += S::inertia_times_bias(&ia, &this.c);
+            left.pa += S::inertia_times_bias(&left.ia, &this.c);
         }
-        for j in (0..S::N_V).rev() {
-            let dof = &mut dofs[j];
-            eliminate::<S, R>(link, j, &ia, &pa, input, v_idx + j, dof);
-            if is_root && j == 0 {
-                return;
-            }
-            // Ia = IA − U Uᵀ/D,  pa = pA + U u/D   (held: Ia = IA, pa = pA + U·acceleration)
-            ia = ia.minus_outer(&dof.u, &dof.u.scale(dof.inv_d));
-            pa += dof.u.scale(dof.x);
+        // written out, so that each index is a constant and what it leaves unused is not computed
+        if S::N_V == 6 {
+            left.give_way::<S>(link, 5, input, dofs);
+            left.give_way::<S>(link, 4, input, dofs);
+            left.give_way::<S>(link, 3, input, dofs);
         }
+        if S::N_V >= 3 {
+            left.give_way::<S>(link, 2, input, dofs);
+            left.give_way::<S>(link, 1, input, dofs);
+        }
+        left.give_way::<S>(link, 0, input, dofs);
         if let Some(parent) = parent {
-            let ia = link.articulated_to_parent::<S>(&this.at, &ia);
+            let ia = link.articulated_to_parent::<S>(&this.at, &left.ia);
             parent.ia = if link.is_last_child { ia } else { parent.ia.plus(&ia) };
-            parent.pa += link.force_to_parent::<S>(&this.at, &pa);
+            parent.pa += link.force_to_parent::<S>(&this.at, &left.pa);
+        }
+    }
+}
+
+/// What a link shows to its parent while one degree of freedom after the other gives way.
+struct Remainder<R> {
+    ia: ArticulatedInertia<R>,
+    pa: Force<R>,
+    is_root: bool,
+}
+
+impl<R: Real> Remainder<R> {
+    #[inline(always)]
+    fn give_way<S: Stage>(&mut self, link: &Link<R>, j: usize, input: &Input<'_, R>, dofs: &mut [DofScratch<R>]) {
+        let dof = &mut dofs[j];
+        eliminate::<S, R>(link, j, &self.ia, &self.pa, input, link.v_idx as usize + j, dof);
+        // Ia = IA − U Uᵀ/D,  pa = pA + U u/D   (held: Ia = IA, pa = pA + U·acceleration)
+        let ku = dof.u.scale(dof.inv_d);
+        if !self.is_root {
+            self.ia = self.ia.minus_outer(&dof.u, &ku);
+            self.pa += dof.u.scale(dof.x);
+        } else if S::N_V > 1 {
+            self.ia = S::minus_outer_before(&self.ia, &dof.u, &ku, j);
+            self.pa += dof.u.scale(dof.x);
         }
     }
 }
@@ -192,7 +215,7 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
 fn eliminate<S: Stage, R: Real>(
     link: &Link<R>,
     j: usize,
-    ia: &crate::spatial::ArticulatedInertia<R>,
+    ia: &ArticulatedInertia<R>,
     pa: &Force<R>,
     input: &Input<'_, R>,
     dof_idx: usize,
@@ -255,18 +278,37 @@ impl<R: Real> StageVisitor for Acceleration<'_, R> {
         let Self { link, this, a_parent, dofs, v_dot, mut reaction } = self;
         // a' = X a_parent
         let mut a = link.to_link::<S>(&this.at, a_parent);
-        for j in 0..S::N_V {
-            // v̇ = x − Uᵀ a'/D,  a' += S v̇
-            let dof = &dofs[j];
-            let along = a.dot(&dof.u);
-            let acceleration = dof.x - dof.inv_d * along;
-            a += S::column(link, j, acceleration);
-            v_dot[j] = link.signed::<S>(acceleration);
-            if let Some(reaction) = &mut reaction {
-                reaction[j] = link.signed::<S>(dof.d * acceleration + along - dof.force);
-            }
+        advance::<S, R>(link, 0, &mut a, dofs, v_dot, &mut reaction);
+        if S::N_V >= 3 {
+            advance::<S, R>(link, 1, &mut a, dofs, v_dot, &mut reaction);
+            advance::<S, R>(link, 2, &mut a, dofs, v_dot, &mut reaction);
+        }
+        if S::N_V == 6 {
+            advance::<S, R>(link, 3, &mut a, dofs, v_dot, &mut reaction);
+            advance::<S, R>(link, 4, &mut a, dofs, v_dot, &mut reaction);
+            advance::<S, R>(link, 5, &mut a, dofs, v_dot, &mut reaction);
         }
         this.a = a + this.c;
+    }
+}
+
+/// v̇ = x − Uᵀ a'/D,  a' += S v̇ for degree of freedom `j` of a link, and its reaction.
+#[inline(always)]
+fn advance<S: Stage, R: Real>(
+    link: &Link<R>,
+    j: usize,
+    a: &mut Motion<R>,
+    dofs: &[DofScratch<R>],
+    v_dot: &mut [R],
+    reaction: &mut Option<&mut [R]>,
+) {
+    let dof = &dofs[j];
+    let along = a.dot(&dof.u);
+    let acceleration = dof.x - dof.inv_d * along;
+    *a += S::column(link, j, acceleration);
+    v_dot[j] = link.signed::<S>(acceleration);
+    if let Some(reaction) = reaction {
+        reaction[j] = link.signed::<S>(dof.d * acceleration + along - dof.force);
     }
 }
 

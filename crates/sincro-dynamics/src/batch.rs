@@ -253,7 +253,12 @@ impl<R: Real> LaneWorlds<R> {
     /// A lane that stopped being finite keeps the state it had before and says so; the others are not concerned.
     #[inline(always)]
     fn note_stops(&self, worlds: &mut [BatchWorld], t: f64) {
-        if self.y.iter().all(|y| y.is_finite()) {
+        // x − x is 0, or NaN where x is not finite: one look at the lanes instead of one an entry
+        let mut probe = R::zero();
+        for y in &self.y {
+            probe += *y - *y;
+        }
+        if probe.is_finite() {
             return;
         }
         for (k, world) in worlds.iter_mut().enumerate() {

@@ -435,16 +435,19 @@ impl World {
             // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
             let h_max = if t == start && corner == end { span } else { corner - t };
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
-            self.keep();
-            let control = self.control();
+            let limited = self.has_limited_drives();
+            let control = if limited { self.control() } else { None };
+            if limited {
+                self.keep();
+            }
             let h = self.method_step(t, h_max).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
-                self.restore();
-                return Err((t, Stop::Integration(Failure::NotFinite { t })));
+                self.mechanism.load(&self.state, &mut self.y);
+                return Err((start, Stop::Integration(Failure::NotFinite { t })));
             }
             self.effort.steps += 1;
             let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
-            if self.has_limited_drives() && self.is_violated(reached) {
+            if limited && self.is_violated(reached) {
                 t = self.locate(t, h, control)?;
                 events += 1;
                 self.effort.events += 1;

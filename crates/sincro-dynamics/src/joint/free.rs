@@ -71,4 +71,30 @@ impl Stage for Free {
             Force { ang: ia.coupling.col(j - 3), lin: ia.linear.col(j - 3) }
         }
     }
+
+    #[inline(always)]
+    fn minus_outer_before<R: Real>(
+        ia: &ArticulatedInertia<R>,
+        u: &Force<R>,
+        ku: &Force<R>,
+        j: usize,
+    ) -> ArticulatedInertia<R> {
+        let mut out = *ia;
+        // whole columns before j: rotations first, then translations
+        let (rotations, translations) = if j < 3 { (j, 0) } else { (3, j - 3) };
+        for a in 0..3 {
+            for b in 0..3 {
+                if a <= b && a < rotations {
+                    out.rotational.set(a, b, ia.rotational.at(a, b) - u.ang[a] * ku.ang[b]);
+                }
+                if a < rotations {
+                    out.coupling.0[a][b] -= u.ang[a] * ku.lin[b];
+                }
+                if a <= b && a < translations {
+                    out.linear.set(a, b, ia.linear.at(a, b) - u.lin[a] * ku.lin[b]);
+                }
+            }
+        }
+        out
+    }
 }

@@ -128,6 +128,17 @@ pub trait Stage {
     /// `IA · S_j`.
     fn inertia_column<R: Real>(link: &Link<R>, j: usize, ia: &ArticulatedInertia<R>) -> Force<R>;
 
+    /// `ia − u·kuᵀ` in the columns of the degrees of freedom before `j`: at the root nobody needs the others.
+    #[inline(always)]
+    fn minus_outer_before<R: Real>(
+        ia: &ArticulatedInertia<R>,
+        u: &Force<R>,
+        ku: &Force<R>,
+        _j: usize,
+    ) -> ArticulatedInertia<R> {
+        ia.minus_outer(u, ku)
+    }
+
     /// Velocity product `c = v × v_J` of a link that moves with `v`, `v_J = S q̇` of it in its joint.
     #[inline(always)]
     fn velocity_product<R: Real>(v: &Motion<R>, v_joint: &Motion<R>) -> Motion<R> {

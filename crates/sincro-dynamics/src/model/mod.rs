@@ -220,6 +220,9 @@ impl Model<f64> {
     /// The first instant after `t` [s] at which an input signal or its slope jumps; infinite if there is none.
     #[must_use]
     pub fn next_corner(&self, t: f64) -> f64 {
+        if self.applied.is_empty() && self.wrenches.is_empty() {
+            return f64::INFINITY;
+        }
         let applied = self.applied.iter().flat_map(|a| &a.signal);
         let wrenches = self.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.torque).flatten());
         applied.chain(wrenches).map(|s| s.next_corner(t)).fold(f64::INFINITY, f64::min)
