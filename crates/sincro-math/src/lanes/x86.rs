@@ -7,6 +7,7 @@
 
 use core::arch::x86_64::*;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::LaneVisitor;
 use crate::Real;
@@ -21,19 +22,34 @@ pub(super) enum Level {
     Avx512,
 }
 
-/// Looked up once by the standard library, then a load.
+/// Asked of the processor once, then one load: it stands before every hot call.
 #[inline]
 pub(super) fn level() -> Level {
-    if is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("avx512vl")
-    {
-        Level::Avx512
-    } else if is_x86_feature_detected!("avx2") {
-        Level::Avx2
-    } else {
-        Level::Baseline
+    match KNOWN.load(Ordering::Relaxed) {
+        1 => Level::Baseline,
+        2 => Level::Avx2,
+        3 => Level::Avx512,
+        _ => ask(),
     }
+}
+
+/// 0 until asked; then what [`level`] says, counted from 1.
+static KNOWN: AtomicU8 = AtomicU8::new(0);
+
+#[cold]
+fn ask() -> Level {
+    let avx512 = is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl");
+    let (known, level) = if avx512 {
+        (3, Level::Avx512)
+    } else if is_x86_feature_detected!("avx2") {
+        (2, Level::Avx2)
+    } else {
+        (1, Level::Baseline)
+    };
+    KNOWN.store(known, Ordering::Relaxed);
+    level
 }
 
 #[inline]
