@@ -111,7 +111,7 @@ impl<R: Real> StageVisitor for Velocity<'_, R> {
         match parent {
             Some(v_parent) => {
                 // v = X v_parent + v_J,  c = v × v_J
-                out.v = link.to_link::<S>(&out.at, v_parent) + v_joint;
+                out.v = link.motion_in_link::<S>(&out.at, v_parent) + v_joint;
                 out.c = S::velocity_product(&out.v, &v_joint);
             }
             None => {
@@ -277,7 +277,7 @@ impl<R: Real> StageVisitor for Acceleration<'_, R> {
     fn visit<S: Stage>(self) {
         let Self { link, this, a_parent, dofs, v_dot, mut reaction } = self;
         // a' = X a_parent
-        let mut a = link.to_link::<S>(&this.at, a_parent);
+        let mut a = link.motion_in_link::<S>(&this.at, a_parent);
         advance::<S, R>(link, 0, &mut a, dofs, v_dot, &mut reaction);
         if S::N_V >= 3 {
             advance::<S, R>(link, 1, &mut a, dofs, v_dot, &mut reaction);

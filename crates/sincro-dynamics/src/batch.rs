@@ -253,10 +253,10 @@ impl<R: Real> LaneWorlds<R> {
     /// A lane that stopped being finite keeps the state it had before and says so; the others are not concerned.
     #[inline(always)]
     fn note_stops(&self, worlds: &mut [BatchWorld], t: f64) {
-        // x − x is 0, or NaN where x is not finite: one look at the lanes instead of one an entry
+        // 0·x is 0, or NaN where x is not finite: one look at the lanes instead of one an entry
         let mut probe = R::zero();
         for y in &self.y {
-            probe += *y - *y;
+            probe += R::zero() * *y;
         }
         if probe.is_finite() {
             return;

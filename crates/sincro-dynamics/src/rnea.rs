@@ -84,8 +84,8 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
         // v = X v_parent + S q̇,  a = X a_parent + S q̈ + v × S q̇
         let v_joint = joint_motion::<S, R>(link, &v[v_idx..]);
         let a_joint = joint_motion::<S, R>(link, &v_dot[v_idx..]);
-        out.v = link.to_link::<S>(&out.at, parent.0) + v_joint;
-        out.a = link.to_link::<S>(&out.at, parent.1) + a_joint + S::velocity_product(&out.v, &v_joint);
+        out.v = link.motion_in_link::<S>(&out.at, parent.0) + v_joint;
+        out.a = link.motion_in_link::<S>(&out.at, parent.1) + a_joint + S::velocity_product(&out.v, &v_joint);
         // f = I a + v ×* I v
         out.pa = link.inertia.mul(&out.a) + out.v.cross_force(&link.inertia.mul(&out.v));
     }

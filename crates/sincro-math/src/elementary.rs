@@ -143,7 +143,7 @@ fn polynomial<R: Real>(c: &[f64; 6], z: R) -> R {
 #[cold]
 #[inline(never)]
 fn sin_cos_far<R: Bits>(x: R, near: (R, R)) -> (R, R) {
-    let far = |k: usize| !(x.lane(k).abs() < REDUCTION_LIMIT);
+    let far = |k: usize| x.lane(k).is_nan() || x.lane(k).abs() >= REDUCTION_LIMIT;
     let sin = R::from_lanes(|k| if far(k) { libm::sincos(x.lane(k)).0 } else { near.0.lane(k) });
     let cos = R::from_lanes(|k| if far(k) { libm::sincos(x.lane(k)).1 } else { near.1.lane(k) });
     (sin, cos)

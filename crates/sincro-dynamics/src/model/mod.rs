@@ -239,7 +239,7 @@ impl<R: Real> Link<R> {
 
     /// A motion of the parent link as the motion of this link's origin, in link axes.
     #[inline(always)]
-    pub(crate) fn to_link<S: Stage>(&self, at: &Placement<R>, m: &Motion<R>) -> Motion<R> {
+    pub(crate) fn motion_in_link<S: Stage>(&self, at: &Placement<R>, m: &Motion<R>) -> Motion<R> {
         let (mut ang, mut lin) = (m.ang, m.lin);
         let r = S::offset(self, at);
         match self.shift {

@@ -1,12 +1,14 @@
 //! Claims about whole figures.
 
+use sincro_math::elementary::{exp, sin_cos};
+
 use super::*;
 
 /// A damped oscillation with reference, error and tolerance.
 fn oscillation(n: usize) -> Figure {
     let t: Vec<f64> = (0..n).map(|i| i as f64 * 0.01).collect();
-    let y: Vec<f64> = t.iter().map(|t| (-0.3 * t).exp() * (4.0 * t).cos()).collect();
-    let error: Vec<f64> = t.iter().map(|t| 1e-9 * (7.0 * t).sin()).collect();
+    let y: Vec<f64> = t.iter().map(|t| exp(-0.3 * t).0 * sin_cos(4.0 * t).1).collect();
+    let error: Vec<f64> = t.iter().map(|t| 1e-9 * sin_cos(7.0 * t).0).collect();
     let mut main = Panel::new(Axis::new("angle", "rad"));
     main.series.push(Series::new("simulated", Role::Simulated, t.clone(), y.clone()));
     main.series.push(Series::new("reference", Role::Reference, t.clone(), y.clone()));

@@ -6,6 +6,8 @@
 //!
 //! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
 
+mod drives;
+
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
@@ -15,8 +17,6 @@ use crate::scratch::Scratch;
 use crate::spatial::Force;
 use crate::state::State;
 
-/// Relative width below which two velocities count as equal.
-const SAME_VELOCITY: f64 = 1e-12;
 /// Changes of drives in one tick beyond which they are said to chatter.
 const MAX_EVENTS: usize = 10_000;
 
@@ -282,149 +282,8 @@ impl World {
         &mut self.mechanism
     }
 
-    /// Velocity that each drive wants during this tick.
-    fn latch(&mut self) {
-        for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
-            self.wanted[i] = drive.wanted(&self.mechanism.model, self.mechanism.base(), &self.mechanism.commands);
-        }
-    }
-
     fn velocity(&self, dof: usize) -> f64 {
         self.y[self.model().n_v() + dof]
-    }
-
-    fn is_unlimited(&self, drive: usize) -> bool {
-        self.mechanism.model.drives[drive].limit(&self.mechanism.model).is_none()
-    }
-
-    /// The jump at the start of a tick and the state of the drives after it.
-    fn begin(&mut self, t: f64) {
-        if self.mechanism.drives.is_empty() {
-            return;
-        }
-        self.jump();
-        self.settle(t);
-    }
-
-    /// Unlimited motors take their commanded velocity at once.
-    fn jump(&mut self) {
-        for i in 0..self.wanted.len() {
-            self.jumps[i] = self.is_unlimited(i);
-        }
-        self.strike();
-        for i in 0..self.wanted.len() {
-            if self.jumps[i] {
-                self.mechanism.drives[i] = 0.0;
-            }
-        }
-    }
-
-    /// Brings the drives marked in `jumps` to their velocity by an impulse that leaves every other generalised momentum as it is;
-    /// unlimited motors keep what they have.
-    fn strike(&mut self) {
-        let n = self.model().n_v();
-        let mut needed = false;
-        self.mechanism.held_mask.fill(0.0);
-        self.mechanism.held_acceleration.fill(0.0);
-        for i in 0..self.wanted.len() {
-            if self.jumps[i] || self.is_unlimited(i) {
-                let dof = self.mechanism.model.drives[i].dof;
-                let change = self.wanted[i] - self.velocity(dof);
-                self.mechanism.held_mask[dof] = 1.0;
-                self.mechanism.held_acceleration[dof] = change;
-                needed |= change != 0.0;
-            }
-        }
-        if needed {
-            self.mechanism.impulse(&mut self.accelerations);
-            for k in 0..n {
-                self.y[n + k] += self.accelerations[k];
-            }
-            self.count_impulses();
-        }
-        for i in 0..self.wanted.len() {
-            if self.jumps[i] {
-                self.y[n + self.mechanism.model.drives[i].dof] = self.wanted[i];
-            }
-        }
-    }
-
-    /// Adds the work and the impulses of a strike to the totals: ΔT = Σ λ·(mean of the velocities before and after).
-    fn count_impulses(&mut self) {
-        let n = self.model().n_v();
-        if self.y.len() == 2 * n {
-            return;
-        }
-        for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
-            if !self.jumps[i] && !self.is_unlimited(i) {
-                continue;
-            }
-            let impulse = self.mechanism.scratch.reaction[drive.dof];
-            let work = impulse * (self.wanted[i] - 0.5 * self.mechanism.held_acceleration[drive.dof]);
-            match drive.kind {
-                DriveKind::Friction => self.y[2 * n + 1] -= work,
-                DriveKind::Motor(motor) => {
-                    self.y[2 * n] += work;
-                    self.y[2 * n + 2 + motor] += impulse;
-                }
-            }
-        }
-    }
-
-    /// Decides for each limited drive whether it holds: those at their velocity hold if their limit allows it.
-    fn settle(&mut self, t: f64) {
-        for i in 0..self.wanted.len() {
-            if !self.is_unlimited(i) {
-                let missing = self.missing_velocity(i);
-                self.mechanism.drives[i] = if missing == 0.0 { 0.0 } else { missing.signum() };
-            }
-        }
-        self.mechanism.mark_held();
-        if !self.has_limited_drives() {
-            return;
-        }
-        for _ in 0..=self.wanted.len() {
-            self.mechanism.mark_held();
-            self.mechanism.slope(t, &self.y, &mut self.slope);
-            if !self.release_overloaded() {
-                return;
-            }
-        }
-    }
-
-    /// Wanted minus present velocity of a drive, zero within rounding.
-    fn missing_velocity(&self, i: usize) -> f64 {
-        let v = self.velocity(self.mechanism.model.drives[i].dof);
-        let missing = self.wanted[i] - v;
-        if missing.abs() <= SAME_VELOCITY * self.wanted[i].abs().max(v.abs()).max(1e-3) { 0.0 } else { missing }
-    }
-
-    /// Lets go of the holding drives whose reaction in the last evaluation exceeds their limit; says whether any did.
-    fn release_overloaded(&mut self) -> bool {
-        let mut released = false;
-        for i in 0..self.wanted.len() {
-            if let Some(reaction) = self.overload(i) {
-                self.mechanism.drives[i] = reaction.signum();
-                released = true;
-            }
-        }
-        released
-    }
-
-    /// The reaction on a holding drive, if the drives that hold its joint cannot give it together.
-    fn overload(&self, i: usize) -> Option<f64> {
-        if self.mechanism.drives[i] != 0.0 {
-            return None;
-        }
-        let dof = self.mechanism.model.drives[i].dof;
-        let mut limit = 0.0;
-        for (drive, pull) in self.mechanism.model.drives.iter().zip(&self.mechanism.drives) {
-            if drive.dof == dof && *pull == 0.0 {
-                limit += drive.limit(&self.mechanism.model)?;
-            }
-        }
-        let reaction = self.mechanism.scratch.reaction[dof];
-        (reaction.abs() > limit * (1.0 + 1e-12)).then_some(reaction)
     }
 
     /// Sub-steps over `span` from `start`, ending at corners of signals and at events of drives.
@@ -490,49 +349,6 @@ impl World {
         self.mechanism.set_base(&self.base_before);
     }
 
-    fn has_limited_drives(&self) -> bool {
-        (0..self.wanted.len()).any(|i| !self.is_unlimited(i))
-    }
-
-    /// Whether a limited drive is past the point where it should have changed: it pulled beyond its velocity, or holds more than
-    /// its limit.
-    fn is_violated(&mut self, t: f64) -> bool {
-        let crossed = (0..self.wanted.len()).any(|i| {
-            let pull = self.mechanism.drives[i];
-            !self.is_unlimited(i) && pull != 0.0 && self.missing_velocity(i) * pull < 0.0
-        });
-        if crossed {
-            return true;
-        }
-        if self.mechanism.drives.iter().all(|pull| *pull != 0.0) {
-            return false;
-        }
-        self.mechanism.slope(t, &self.y, &mut self.slope);
-        (0..self.wanted.len()).any(|i| self.overload(i).is_some())
-    }
-
-    /// Finds the first instant in (t, t + h] at which a drive must change, goes there and changes it.
-    fn locate(&mut self, t: f64, h: f64, control: Option<Control>) -> Result<f64, (f64, Stop)> {
-        let (mut good, mut bad) = (0.0, h);
-        let resolution = (h * 1e-13).max(4.0 * f64::EPSILON * t.abs());
-        while bad - good > resolution {
-            let middle = 0.5 * (good + bad);
-            self.replay(t, middle, control)?;
-            if self.is_violated(t + middle) { bad = middle } else { good = middle }
-        }
-        self.replay(t, bad, control)?;
-        // a pulling drive that has just passed its velocity is brought back to it, momentum and impulses kept right
-        for i in 0..self.wanted.len() {
-            let pull = self.mechanism.drives[i];
-            self.jumps[i] = !self.is_unlimited(i) && pull != 0.0 && self.missing_velocity(i) * pull < 0.0;
-        }
-        if self.jumps.contains(&true) {
-            self.strike();
-        }
-        self.settle(t + bad);
-        Ok(t + bad)
-    }
-
     /// From the kept sub-step start, exactly `h` further.
     fn replay(&mut self, t: f64, h: f64, control: Option<Control>) -> Result<(), (f64, Stop)> {
         self.restore();
@@ -571,33 +387,5 @@ impl World {
             }
         }
         Ok(())
-    }
-
-    /// Holding drives reach their velocity within `h`.
-    fn mark_targets(&mut self, h: f64) {
-        self.mechanism.mark_held();
-        let n = self.model().n_v();
-        for i in 0..self.wanted.len() {
-            if self.mechanism.drives[i] == 0.0 {
-                let dof = self.mechanism.model.drives[i].dof;
-                self.mechanism.held_acceleration[dof] = (self.wanted[i] - self.before[n + dof]) / h;
-            }
-        }
-    }
-
-    /// After a trial step: overloaded drives let go, drives that passed their velocity hold; says whether any changed.
-    fn correct_drives(&mut self) -> bool {
-        if self.release_overloaded() {
-            return true;
-        }
-        let mut changed = false;
-        for i in 0..self.wanted.len() {
-            let pull = self.mechanism.drives[i];
-            if pull != 0.0 && self.missing_velocity(i) * pull <= 0.0 {
-                self.mechanism.drives[i] = 0.0;
-                changed = true;
-            }
-        }
-        changed
     }
 }

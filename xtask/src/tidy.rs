@@ -1,0 +1,152 @@
+//! What no compiler checks: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking crates stay pure,
+//! that keys of references resolve.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Lines above which a source file must be split.
+const MOST_LINES: usize = 1000;
+
+/// Which crates of ours each crate may use.
+const ARROWS: [(&str, &[&str]); 4] = [
+    ("sincro-math", &[]),
+    ("sincro-dynamics", &["sincro-math"]),
+    ("sincro-sim", &["sincro-math", "sincro-dynamics"]),
+    ("sincro", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
+];
+
+/// What must not stand in the crates that compute: no files, clock, threads, unordered maps.
+const IMPURE: [&str; 6] = ["std::fs", "std::time", "std::thread", "std::net", "HashMap", "HashSet"];
+
+/// Checks everything and prints what is wrong; whether nothing is.
+pub fn check(root: &Path) -> bool {
+    let mut found = Vec::new();
+    let sources = files(root, &["crates", "tests", "xtask", "benches"], &["rs", "py", "cpp"]);
+    let texts: Vec<(PathBuf, String)> =
+        sources.into_iter().filter_map(|path| fs::read_to_string(&path).ok().map(|text| (path, text))).collect();
+    for (path, text) in &texts {
+        source(root, path, text, &mut found);
+    }
+    references(root, &texts, &mut found);
+    tree(root, &mut found);
+    arrows(root, &mut found);
+    scenes(root, &mut found);
+    for problem in &found {
+        println!("tidy: {problem}");
+    }
+    found.is_empty()
+}
+
+/// All files below `tops` with one of the endings, in a fixed order.
+fn files(root: &Path, tops: &[&str], endings: &[&str]) -> Vec<PathBuf> {
+    let mut stack: Vec<PathBuf> = tops.iter().map(|top| root.join(top)).collect();
+    let mut out = Vec::new();
+    while let Some(path) = stack.pop() {
+        if path.is_dir() {
+            stack.extend(children(&path));
+        } else if path.extension().is_some_and(|e| endings.iter().any(|known| e == *known)) {
+            out.push(path);
+        }
+    }
+    out.sort();
+    out
+}
+
+fn children(folder: &Path) -> Vec<PathBuf> {
+    fs::read_dir(folder).map(|entries| entries.flatten().map(|e| e.path()).collect()).unwrap_or_default()
+}
+
+fn source(root: &Path, path: &Path, text: &str, found: &mut Vec<String>) {
+    let name = path.strip_prefix(root).unwrap_or(path).display().to_string();
+    let lines = text.lines().count();
+    if lines > MOST_LINES {
+        found.push(format!("{name} has {lines} lines: split it"));
+    }
+    let is_rust = name.ends_with(".rs");
+    if is_rust && !text.starts_with("//!") && !text.starts_with("#!") {
+        found.push(format!("{name} does not say what it is for in its first line"));
+    }
+    for (k, line) in text.lines().enumerate() {
+        let at = format!("{name}:{}", k + 1);
+        if line.ends_with(' ') || line.ends_with('\t') {
+            found.push(format!("{at} ends in white space"));
+        }
+        if ["/wo", "/ro", "/ho"].iter().zip(["rk/", "ot/", "me/"]).any(|(a, b)| line.contains(&format!("{a}{b}"))) {
+            found.push(format!("{at} names a folder of somebody's machine"));
+        }
+        if line.contains("#[ignore") && is_rust && !name.contains("tidy.rs") {
+            found.push(format!("{at} ignores a test"));
+        }
+        let thinks = name.starts_with("crates/sincro-math/src") || name.starts_with("crates/sincro-dynamics/src");
+        if thinks && !line.trim_start().starts_with("//") {
+            for word in IMPURE.iter().filter(|word| line.contains(**word)) {
+                found.push(format!("{at} uses {word} in a crate that only computes"));
+            }
+        }
+    }
+}
+
+/// Keys of the form ``key `name` `` resolve in docs/references.md.
+fn references(root: &Path, texts: &[(PathBuf, String)], found: &mut Vec<String>) {
+    let known = fs::read_to_string(root.join("docs/references.md")).unwrap_or_default();
+    for (path, text) in texts.iter().filter(|(path, _)| !path.ends_with("tidy.rs")) {
+        for part in text.split("key `").skip(1) {
+            let key = part.split('`').next().unwrap_or("");
+            let is_key = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
+            if is_key && key.chars().any(|c| c.is_ascii_digit() || c == '-') && !known.contains(&format!("| {key} |")) {
+                found.push(format!("{}: the key `{key}` is not in docs/references.md", path.display()));
+            }
+        }
+    }
+}
+
+/// The tree in ARCHITECTURE.md has every folder of the top and every crate, and no other.
+fn tree(root: &Path, found: &mut Vec<String>) {
+    let page = fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap_or_default();
+    let drawn: Vec<String> = page
+        .split("```")
+        .nth(1)
+        .unwrap_or("")
+        .lines()
+        .filter_map(|line| line.split_whitespace().next())
+        .filter_map(|word| word.strip_suffix('/').map(str::to_owned))
+        .collect();
+    let hidden = ["target", "results"];
+    let mut there: Vec<String> = Vec::new();
+    for folder in children(root).into_iter().chain(children(&root.join("crates"))).filter(|p| p.is_dir()) {
+        let name = folder.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+        if !name.starts_with('.') && !hidden.contains(&name.as_str()) {
+            there.push(name);
+        }
+    }
+    for name in there.iter().filter(|name| !drawn.contains(name)) {
+        found.push(format!("ARCHITECTURE.md does not draw `{name}/`"));
+    }
+    for name in drawn.iter().filter(|name| !there.contains(name)) {
+        found.push(format!("ARCHITECTURE.md draws `{name}/`, which is not there"));
+    }
+}
+
+/// Crates use only those of ours that stand below them.
+fn arrows(root: &Path, found: &mut Vec<String>) {
+    for (name, allowed) in ARROWS {
+        let manifest = fs::read_to_string(root.join("crates").join(name).join("Cargo.toml")).unwrap_or_default();
+        for line in manifest.lines().filter(|line| line.starts_with("sincro")) {
+            let used = line.split(['.', ' ', '=']).next().unwrap_or("");
+            if !allowed.contains(&used) {
+                found.push(format!("{name} uses {used}, which does not stand below it"));
+            }
+        }
+    }
+}
+
+/// Every scene folder is whole.
+fn scenes(root: &Path, found: &mut Vec<String>) {
+    for folder in children(&root.join("scenes")).into_iter().filter(|p| p.is_dir()) {
+        for file in ["README.md", "experiment.toml", "scene.toml"] {
+            if !folder.join(file).is_file() {
+                found.push(format!("{} has no {file}", folder.display()));
+            }
+        }
+    }
+}
