@@ -16,7 +16,7 @@ pub const ALL: [MethodKind; 5] = [
     MethodKind::Stiff,
 ];
 
-/// A cart on a rail, mass [kg].
+/// A cart on a rail, mass `[kg]`.
 pub fn cart(mass: f64, spec: JointSpec) -> Model<f64> {
     let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
     let joint = JointSpec { kind: JointKind::Prismatic { axis: [1.0, 0.0, 0.0] }, ..spec };

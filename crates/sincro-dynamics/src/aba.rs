@@ -30,9 +30,9 @@ pub struct Input<'a, R> {
     pub q: &'a [R],
     /// Velocities.
     pub v: &'a [R],
-    /// Joint torques [N·m] or forces [N], everything but gravity.
+    /// Joint torques [N·m] or forces `[N]`, everything but gravity.
     pub torque: &'a [R],
-    /// Added to the diagonal of the mass matrix [kg·m²] or [kg].
+    /// Added to the diagonal of the mass matrix [kg·m²] or `[kg]`.
     pub diagonal: &'a [R],
     /// Held degrees of freedom, if any.
     pub held: Option<Held<'a, R>>,
@@ -313,7 +313,7 @@ fn advance<S: Stage, R: Real>(
 }
 
 /// D of every degree of freedom at a state: the inertia that a torque on it meets with everything else left free
-/// [kg·m²] or [kg], armature included. Springs and dampers against it give the rates that limit an explicit integrator.
+/// [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an explicit integrator.
 #[must_use]
 pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
     let n = model.n_v();

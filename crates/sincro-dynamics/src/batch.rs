@@ -43,7 +43,7 @@ impl BatchWorld {
 pub struct BatchSettings {
     /// A fixed-step method.
     pub method: MethodKind,
-    /// Step [s].
+    /// Step `[s]`.
     pub h: f64,
     /// Number of steps.
     pub n_steps: u32,

@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
 
-/// Mechanical energy [J].
+/// Mechanical energy `[J]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy<R> {
     /// ½ vᵀ M v, armature included.
@@ -18,7 +18,7 @@ pub struct Energy<R> {
 }
 
 impl<R: Real> Energy<R> {
-    /// Kinetic plus potential [J].
+    /// Kinetic plus potential `[J]`.
     pub fn total(&self) -> R {
         self.kinetic + self.potential
     }

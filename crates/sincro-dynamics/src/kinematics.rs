@@ -164,7 +164,7 @@ impl<R: Real> StageVisitor for UnitColumn<'_, R> {
     }
 }
 
-/// Roll, pitch, yaw [rad] of a rotation R = Rz(yaw)·Ry(pitch)·Rx(roll).
+/// Roll, pitch, yaw `[rad]` of a rotation R = Rz(yaw)·Ry(pitch)·Rx(roll).
 #[must_use]
 pub fn roll_pitch_yaw(rot: &Mat3<f64>) -> Vec3<f64> {
     let m = &rot.0;

@@ -122,7 +122,7 @@ impl<R: Real> Mechanism<R> {
         self.base.copy_from_slice(q);
     }
 
-    /// Torque of each motor [N·m] or [N] in the last evaluation.
+    /// Torque of each motor [N·m] or `[N]` in the last evaluation.
     #[must_use]
     pub fn motor_torque(&self) -> &[R] {
         &self.motor_torque

@@ -11,7 +11,7 @@ use crate::model::{Link, Model, WORLD};
 use crate::scratch::{LinkScratch, Scratch};
 use crate::spatial::{Force, Motion, Vec3};
 
-/// Joint torques `torque` [N·m] or forces [N] (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity − external`.
+/// Joint torques `torque` [N·m] or forces `[N]` (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity − external`.
 ///
 /// Springs, dampers and armature are not part of it. `external`: wrench on each link, link axes, about the link's origin.
 #[inline(always)]

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use sincro_math::elementary::sin_cos;
 
-/// A number that depends on time [s], and on nothing else.
+/// A number that depends on time `[s]`, and on nothing else.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Signal {
     /// The same at all times.
     Constant(f64),
     /// `from` before `time`, `to` from then on.
     Step {
-        /// Instant of the jump [s].
+        /// Instant of the jump `[s]`.
         time: f64,
         /// Before.
         from: f64,
@@ -20,13 +20,13 @@ pub enum Signal {
     },
     /// `from` until `start`, then rising by `slope` a second, constant again from `until`.
     Ramp {
-        /// Where it begins [s].
+        /// Where it begins `[s]`.
         start: f64,
         /// Rise [1/s].
         slope: f64,
         /// Value at and before the start.
         from: f64,
-        /// Where it ends [s]; infinite for never.
+        /// Where it ends `[s]`; infinite for never.
         until: f64,
     },
     /// `offset + amplitude·sin(angular_frequency·t + phase)`.
@@ -35,27 +35,27 @@ pub enum Signal {
         amplitude: f64,
         /// [rad/s]
         angular_frequency: f64,
-        /// [rad]
+        /// `[rad]`
         phase: f64,
         /// Mean value.
         offset: f64,
     },
     /// From `start` on `high` for the first `width` seconds of every `period`, `low` otherwise.
     Pulse {
-        /// [s]
+        /// `[s]`
         period: f64,
-        /// Time at `high` in each period [s].
+        /// Time at `high` in each period `[s]`.
         width: f64,
         /// Value between pulses.
         low: f64,
         /// Value of a pulse.
         high: f64,
-        /// First rising edge [s].
+        /// First rising edge `[s]`.
         start: f64,
     },
     /// Given points; before the first and after the last it is constant.
     Table {
-        /// Increasing times [s].
+        /// Increasing times `[s]`.
         times: Arc<[f64]>,
         /// Values at those times.
         values: Arc<[f64]>,
@@ -64,11 +64,11 @@ pub enum Signal {
     },
 }
 
-/// Times closer than this are the same instant [s]: ticks are exact multiples, typed numbers are not.
+/// Times closer than this are the same instant `[s]`: ticks are exact multiples, typed numbers are not.
 const SAME_INSTANT: f64 = 1e-9;
 
 impl Signal {
-    /// Value at time `t` [s].
+    /// Value at time `t` `[s]`.
     #[must_use]
     pub fn value(&self, t: f64) -> f64 {
         match *self {

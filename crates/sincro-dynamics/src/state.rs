@@ -10,7 +10,7 @@ use crate::spatial::{Quat, Vec3};
 ///
 /// | field | meaning | length |
 /// |---|---|---|
-/// | `q` | joint coordinates [rad], [m], quaternions (w, x, y, z) | `n_q` |
+/// | `q` | joint coordinates `[rad]`, `[m]`, quaternions (w, x, y, z) | `n_q` |
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
 /// | `commands` | latched motor commands | motors |
 /// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
@@ -26,7 +26,7 @@ pub struct State<R> {
     pub commands: Vec<R>,
     /// State of each set-valued drive.
     pub drives: Vec<R>,
-    /// Integrated work [J], dissipation [J], and impulse of each motor [N·m·s].
+    /// Integrated work `[J]`, dissipation `[J]`, and impulse of each motor [N·m·s].
     pub totals: Vec<R>,
     /// Base steps since the start.
     pub tick: u64,

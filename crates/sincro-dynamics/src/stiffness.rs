@@ -23,7 +23,7 @@ pub struct Stiffness {
     pub stiffness: f64,
     /// Damping on it [N·m·s/rad] or [N·s/m].
     pub damping: f64,
-    /// Inertia it acts on [kg·m²] or [kg].
+    /// Inertia it acts on [kg·m²] or `[kg]`.
     pub inertia: f64,
 }
 

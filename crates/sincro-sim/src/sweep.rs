@@ -25,7 +25,7 @@ pub struct Sweep {
 pub struct SweepStop {
     /// Which of the runs, counted from 0.
     pub run_idx: usize,
-    /// When [s].
+    /// When `[s]`.
     pub time: f64,
     /// Why.
     pub reason: String,
@@ -66,7 +66,7 @@ impl Sweep {
         }
     }
 
-    /// Adds a run that stopped at `time` [s]: it has no final values.
+    /// Adds a run that stopped at `time` `[s]`: it has no final values.
     pub fn push_stopped(&mut self, value: f64, time: f64, reason: &str) {
         self.stops.push(SweepStop { run_idx: self.values.len(), time, reason: reason.to_owned() });
         let missing = vec![f64::NAN; self.columns.len()];

@@ -20,7 +20,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// Recorded signals, all of the same length. The first column is `t` [s], strictly increasing.
+/// Recorded signals, all of the same length. The first column is `t` `[s]`, strictly increasing.
 ///
 /// ```
 /// use sincro_sim::table::Table;
@@ -72,7 +72,7 @@ impl Table {
         self.times().len()
     }
 
-    /// The first column: times [s]; in a table of a sweep, values of the parameter.
+    /// The first column: times `[s]`; in a table of a sweep, values of the parameter.
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.columns[0].values

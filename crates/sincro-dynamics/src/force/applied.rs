@@ -5,7 +5,7 @@ use sincro_math::Real;
 use crate::signal::Signal;
 use crate::spatial::{Force, Pose, Vec3};
 
-/// A torque [N·m] or force [N] on one degree of freedom.
+/// A torque [N·m] or force `[N]` on one degree of freedom.
 #[derive(Clone, Debug)]
 pub struct AppliedTorque {
     /// Degree of freedom.
@@ -15,7 +15,7 @@ pub struct AppliedTorque {
 }
 
 impl AppliedTorque {
-    /// Value at time `t` [s].
+    /// Value at time `t` `[s]`.
     #[inline(always)]
     pub fn torque<R: Real>(&self, t: f64) -> R {
         value(&self.signal, t)
@@ -31,14 +31,14 @@ pub struct AppliedWrench<R> {
     pub pose: Pose<R>,
     /// Whether components are along the frame's axes; else along the world's.
     pub in_body: bool,
-    /// Force components [N], one signal a lane each.
+    /// Force components `[N]`, one signal a lane each.
     pub force: [Vec<Signal>; 3],
     /// Torque components [N·m], one signal a lane each.
     pub torque: [Vec<Signal>; 3],
 }
 
 impl<R: Real> AppliedWrench<R> {
-    /// The wrench at time `t` [s] about the link's origin, link axes; `r_wl` takes link to world axes.
+    /// The wrench at time `t` `[s]` about the link's origin, link axes; `r_wl` takes link to world axes.
     #[inline(always)]
     pub fn wrench(&self, t: f64, r_wl: &crate::spatial::Mat3<R>) -> Force<R> {
         let mut lin = Vec3([value(&self.force[0], t), value(&self.force[1], t), value(&self.force[2], t)]);

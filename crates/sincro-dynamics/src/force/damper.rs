@@ -4,13 +4,13 @@ use sincro_math::Real;
 
 use crate::model::Dof;
 
-/// Torque [N·m] or force [N] at rate `v`.
+/// Torque [N·m] or force `[N]` at rate `v`.
 #[inline(always)]
 pub fn torque<R: Real>(dof: &Dof<R>, v: R) -> R {
     -(dof.damping * v)
 }
 
-/// Power taken from the mechanism c q̇² [W], never negative.
+/// Power taken from the mechanism c q̇² `[W]`, never negative.
 #[inline(always)]
 pub fn dissipation<R: Real>(dof: &Dof<R>, v: R) -> R {
     dof.damping * v * v

@@ -5,7 +5,7 @@
 
 use sincro_math::Real;
 
-/// Power taken from the mechanism [W] by friction `torque` at rate `v`, never negative.
+/// Power taken from the mechanism `[W]` by friction `torque` at rate `v`, never negative.
 #[inline(always)]
 pub fn dissipation<R: Real>(torque: R, v: R) -> R {
     -(torque * v)

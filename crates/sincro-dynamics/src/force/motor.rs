@@ -17,13 +17,13 @@ use sincro_math::Real;
 pub enum MotorMode {
     /// Nothing.
     Free,
-    /// Command: torque [N·m] or force [N].
+    /// Command: torque [N·m] or force `[N]`.
     Torque,
     /// Command: velocity [rad/s] or [m/s].
     Velocity,
-    /// Command: position [rad] or [m].
+    /// Command: position `[rad]` or `[m]`.
     Position,
-    /// Command: rest position [rad] or [m].
+    /// Command: rest position `[rad]` or `[m]`.
     Spring,
 }
 
@@ -34,7 +34,7 @@ pub struct Motor<R> {
     pub dof: usize,
     /// Mode.
     pub mode: MotorMode,
-    /// Largest torque [N·m] or force [N]; infinite for an ideal motor.
+    /// Largest torque [N·m] or force `[N]`; infinite for an ideal motor.
     pub max_torque: R,
     /// Position mode: velocity a unit of error [1/s].
     pub kp: R,

@@ -4,13 +4,13 @@ use sincro_math::Real;
 
 use crate::model::Dof;
 
-/// Torque [N·m] or force [N] at coordinate `q`.
+/// Torque [N·m] or force `[N]` at coordinate `q`.
 #[inline(always)]
 pub fn torque<R: Real>(dof: &Dof<R>, q: R) -> R {
     dof.stiffness * (dof.rest - q)
 }
 
-/// Stored energy ½ k (q − rest)² [J].
+/// Stored energy ½ k (q − rest)² `[J]`.
 #[inline(always)]
 pub fn energy<R: Real>(dof: &Dof<R>, q: R) -> R {
     let deflection = q - dof.rest;

@@ -66,14 +66,14 @@ pub trait FixedStep<R: Real> {
 pub enum Failure {
     /// The state stopped being finite.
     NotFinite {
-        /// Where it happened [s].
+        /// Where it happened `[s]`.
         t: f64,
     },
     /// Error control asked for a step too small to advance time.
     StepTooSmall {
-        /// Where it happened [s].
+        /// Where it happened `[s]`.
         t: f64,
-        /// The step it asked for [s].
+        /// The step it asked for `[s]`.
         h: f64,
     },
 }
@@ -83,14 +83,14 @@ pub enum Failure {
 pub struct Control {
     /// Local error allowed in a step, relative to max(|y|, 1).
     pub accuracy: f64,
-    /// Next step [s]; part of the state of a run.
+    /// Next step `[s]`; part of the state of a run.
     pub h: f64,
     /// Error estimate of the last accepted step as a share of the tolerance.
     pub last_error: f64,
 }
 
 impl Control {
-    /// With a first step of `h` [s].
+    /// With a first step of `h` `[s]`.
     #[must_use]
     pub fn new(accuracy: f64, h: f64) -> Self {
         Self { accuracy, h, last_error: 1.0 }

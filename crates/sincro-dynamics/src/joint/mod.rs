@@ -30,24 +30,24 @@ use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3
 pub enum JointKind {
     /// Welded.
     Fixed,
-    /// Rotation about `axis` (joint frame; any length but zero). Coordinate: angle [rad], unbounded.
+    /// Rotation about `axis` (joint frame; any length but zero). Coordinate: angle `[rad]`, unbounded.
     Revolute {
         /// Axis of rotation.
         axis: [f64; 3],
     },
-    /// Translation along `axis`. Coordinate: displacement [m].
+    /// Translation along `axis`. Coordinate: displacement `[m]`.
     Prismatic {
         /// Direction of motion.
         axis: [f64; 3],
     },
-    /// Rotation about `axis` with a translation of `pitch` along it. Coordinate: angle [rad].
+    /// Rotation about `axis` with a translation of `pitch` along it. Coordinate: angle `[rad]`.
     Screw {
         /// Axis of the screw.
         axis: [f64; 3],
         /// Advance [m/rad].
         pitch: f64,
     },
-    /// Rotation about `axis`, then about `axis2`, which the first one carries. Coordinates: the two angles [rad].
+    /// Rotation about `axis`, then about `axis2`, which the first one carries. Coordinates: the two angles `[rad]`.
     Universal {
         /// First axis, fixed in the parent.
         axis: [f64; 3],
@@ -57,9 +57,9 @@ pub enum JointKind {
     /// Any rotation. Coordinates: unit quaternion (w, x, y, z) of the child in the parent; rates: angular velocity of the
     /// child against the parent in child axes [rad/s].
     Ball,
-    /// Translation along x and y of the joint frame and rotation about z. Coordinates: x, y [m], angle [rad].
+    /// Translation along x and y of the joint frame and rotation about z. Coordinates: x, y `[m]`, angle `[rad]`.
     Planar,
-    /// Six degrees of freedom. Coordinates: position of the child's joint frame [m], unit quaternion (w, x, y, z);
+    /// Six degrees of freedom. Coordinates: position of the child's joint frame `[m]`, unit quaternion (w, x, y, z);
     /// rates: angular [rad/s] then linear velocity [m/s] of that frame against the parent, both in child axes.
     Free,
 }
@@ -87,7 +87,7 @@ pub struct Placement<R> {
     pub cos: R,
     /// Link to base rotation (ball and free only).
     pub rot: Mat3<R>,
-    /// Origin of the link frame in the parent's axes (stages that translate only) [m].
+    /// Origin of the link frame in the parent's axes (stages that translate only) `[m]`.
     pub offset: Vec3<R>,
 }
 
@@ -101,7 +101,7 @@ pub trait Stage {
     /// Configuration from the stage's coordinates `q` (`N_Q` of them); writes only what the stage's other verbs read.
     fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>);
 
-    /// Origin of the link frame in the parent's axes, from the parent's origin [m].
+    /// Origin of the link frame in the parent's axes, from the parent's origin `[m]`.
     fn offset<R: Real>(link: &Link<R>, at: &Placement<R>) -> Vec3<R>;
 
     /// Components of a vector from link to base axes.

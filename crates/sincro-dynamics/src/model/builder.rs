@@ -21,15 +21,15 @@ impl NodeId {
 pub struct JointSpec {
     /// Kind and axes.
     pub kind: JointKind,
-    /// Reflected inertia [kg·m²] or [kg].
+    /// Reflected inertia [kg·m²] or `[kg]`.
     pub armature: Vec<f64>,
-    /// Spring stiffness [N·m/rad] or [N/m] and rest position [rad] or [m].
+    /// Spring stiffness [N·m/rad] or [N/m] and rest position `[rad]` or `[m]`.
     pub spring: Vec<(f64, f64)>,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: Vec<f64>,
-    /// Coulomb friction [N·m] or [N].
+    /// Coulomb friction [N·m] or `[N]`.
     pub friction: Vec<f64>,
-    /// Applied torque [N·m] or force [N] over time, evaluated inside the step.
+    /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
     /// Motor, for a joint with one degree of freedom; its command is an input of the world.
     pub motor: Option<Motor<f64>>,
@@ -61,7 +61,7 @@ pub struct BodySpec {
 /// An external wrench on a body or frame, at its origin.
 #[derive(Clone, Debug)]
 pub struct ForceSpec {
-    /// Force components [N] over time.
+    /// Force components `[N]` over time.
     pub force: [Signal; 3],
     /// Torque components [N·m] over time.
     pub torque: [Signal; 3],

@@ -5,9 +5,9 @@ use crate::spatial::{Mat3, Sym3, Vec3};
 /// Mass, centre of mass and inertia of one body in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
-    /// [kg]
+    /// `[kg]`
     pub mass: f64,
-    /// Centre of mass in the body frame [m].
+    /// Centre of mass in the body frame `[m]`.
     pub center_of_mass: [f64; 3],
     /// About the centre of mass, body axes (xx, xy, xz, yy, yz, zz) [kg·m²].
     pub inertia: [f64; 6],

@@ -66,7 +66,7 @@ pub struct Link<R> {
     pub(crate) q_idx: u32,
     /// First degree of freedom in v.
     pub(crate) v_idx: u32,
-    /// Origin of the base frame in the parent link [m].
+    /// Origin of the base frame in the parent link `[m]`.
     pub(crate) origin: Vec3<R>,
     /// Base to parent axes, if `turned`.
     pub(crate) base_rotation: Mat3<R>,
@@ -102,17 +102,17 @@ impl<R: Real> Link<R> {
 /// Passive properties of one degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dof<R> {
-    /// Reflected inertia [kg·m²] or [kg].
+    /// Reflected inertia [kg·m²] or `[kg]`.
     pub armature: R,
     /// Spring stiffness [N·m/rad] or [N/m].
     pub stiffness: R,
-    /// Where the spring is at rest [rad] or [m].
+    /// Where the spring is at rest `[rad]` or `[m]`.
     pub rest: R,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: R,
-    /// Coulomb friction torque [N·m] or force [N].
+    /// Coulomb friction torque [N·m] or force `[N]`.
     pub friction: R,
-    /// Constant applied torque [N·m] or force [N].
+    /// Constant applied torque [N·m] or force `[N]`.
     pub torque: R,
     /// Coordinate in q that this degree of freedom moves; `WORLD` for those of ball and free joints.
     pub(crate) q_idx: u32,
@@ -190,7 +190,7 @@ impl<R: Real> Model<R> {
         self.dofs[dof].q_idx != WORLD
     }
 
-    /// Mass of everything that moves [kg].
+    /// Mass of everything that moves `[kg]`.
     #[must_use]
     pub fn total_mass(&self) -> R {
         self.links.iter().fold(R::zero(), |sum, link| sum + link.inertia.mass)
@@ -210,14 +210,14 @@ impl<R: Real> Model<R> {
 }
 
 impl Model<f64> {
-    /// Applied torque [N·m] or force [N] on a degree of freedom at time `t` [s].
+    /// Applied torque [N·m] or force `[N]` on a degree of freedom at time `t` `[s]`.
     #[must_use]
     pub fn applied_torque(&self, dof: usize, t: f64) -> f64 {
         let signals = self.applied.iter().filter(|a| a.dof == dof).map(|a| a.torque::<f64>(t));
         self.dofs[dof].torque + signals.sum::<f64>()
     }
 
-    /// The first instant after `t` [s] at which an input signal or its slope jumps; infinite if there is none.
+    /// The first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if there is none.
     #[must_use]
     pub fn next_corner(&self, t: f64) -> f64 {
         if self.applied.is_empty() && self.wrenches.is_empty() {

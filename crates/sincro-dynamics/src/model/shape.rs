@@ -9,41 +9,41 @@ use super::MassProperties;
 /// A homogeneous solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Box with full edge lengths [m].
+    /// Box with full edge lengths `[m]`.
     Cuboid {
         /// Lengths along x, y, z.
         size: [f64; 3],
     },
-    /// Ball of a radius [m].
+    /// Ball of a radius `[m]`.
     Sphere {
         /// Radius.
         radius: f64,
     },
     /// Circular cylinder along z.
     Cylinder {
-        /// Radius [m].
+        /// Radius `[m]`.
         radius: f64,
-        /// Length [m].
+        /// Length `[m]`.
         length: f64,
     },
     /// Cylinder along z with two half spheres; `length` is that of the cylinder alone.
     Capsule {
-        /// Radius [m].
+        /// Radius `[m]`.
         radius: f64,
-        /// Length between the centres of the caps [m].
+        /// Length between the centres of the caps `[m]`.
         length: f64,
     },
     /// Circular cone along z: base at z = −length/4, apex at z = 3·length/4.
     Cone {
-        /// Radius of the base [m].
+        /// Radius of the base `[m]`.
         radius: f64,
-        /// Height [m].
+        /// Height `[m]`.
         length: f64,
     },
 }
 
 impl Shape {
-    /// Volume [m³].
+    /// Volume `[m³]`.
     #[must_use]
     pub fn volume(&self) -> f64 {
         match *self {
@@ -55,7 +55,7 @@ impl Shape {
         }
     }
 
-    /// The dimensions by name [m]: each must be positive and finite.
+    /// The dimensions by name `[m]`: each must be positive and finite.
     #[must_use]
     pub fn dimensions(&self) -> Vec<(&'static str, f64)> {
         match *self {

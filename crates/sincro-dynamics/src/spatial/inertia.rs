@@ -17,7 +17,7 @@ use super::{Force, Mat3, Motion, Vec3};
 /// Inertia of a rigid body about the origin of its frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RigidInertia<R> {
-    /// Mass m [kg].
+    /// Mass m `[kg]`.
     pub mass: R,
     /// First moment h = m·c [kg·m], c the centre of mass.
     pub moment: Vec3<R>,
@@ -32,7 +32,7 @@ impl<R: Real> RigidInertia<R> {
         Self { mass: R::zero(), moment: Vec3::zero(), rotational: Sym3::zero() }
     }
 
-    /// From mass [kg], centre of mass [m] and inertia about the centre of mass [kg·m²], all in the frame's axes.
+    /// From mass `[kg]`, centre of mass `[m]` and inertia about the centre of mass [kg·m²], all in the frame's axes.
     pub fn from_center_of_mass(mass: R, com: Vec3<R>, inertia: &Sym3<R>) -> Self {
         // Steiner: I_o = I_c + m (|c|² 1 − c cᵀ)
         let cc = com.dot(com);

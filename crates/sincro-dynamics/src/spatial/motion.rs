@@ -15,7 +15,7 @@ pub struct Motion<R> {
     pub lin: Vec3<R>,
 }
 
-/// A wrench or spatial momentum: moment about the frame's origin [N·m], force [N].
+/// A wrench or spatial momentum: moment about the frame's origin [N·m], force `[N]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Force<R> {
     /// Moment about the origin.
@@ -31,7 +31,7 @@ impl<R: Real> Motion<R> {
         Self { ang: Vec3::zero(), lin: Vec3::zero() }
     }
 
-    /// Power of a force along this motion: `self · f` [W].
+    /// Power of a force along this motion: `self · f` `[W]`.
     #[inline(always)]
     pub fn dot(&self, f: &Force<R>) -> R {
         self.ang.dot(f.ang) + self.lin.dot(f.lin)

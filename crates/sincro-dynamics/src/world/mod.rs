@@ -53,7 +53,7 @@ pub enum Stop {
     Integration(Failure),
     /// Drives changed state too often within one tick.
     Chatter {
-        /// Where [s].
+        /// Where `[s]`.
         t: f64,
     },
 }
@@ -102,7 +102,7 @@ impl Observation<'_> {
         self.mechanism.model()
     }
 
-    /// Smooth torque of each motor now [N·m] or [N].
+    /// Smooth torque of each motor now [N·m] or `[N]`.
     #[must_use]
     pub fn motor_torque(&self) -> &[f64] {
         self.mechanism.motor_torque()
@@ -138,7 +138,7 @@ impl Observation<'_> {
 impl World {
     /// A world of `model` in `state`.
     ///
-    /// `accuracy` and `first_step` [s] matter to error-controlled methods only.
+    /// `accuracy` and `first_step` `[s]` matter to error-controlled methods only.
     #[must_use]
     pub fn new(model: Model<f64>, state: State<f64>, kind: MethodKind, accuracy: f64, first_step: f64) -> Self {
         Self::with_totals(model, state, kind, Control::new(accuracy, first_step), true)
@@ -245,7 +245,7 @@ impl World {
         self.state.heap_bytes() + self.mechanism.heap_bytes() + 8 * (own + method)
     }
 
-    /// Advances the state from time `t` by `h` [s] under the latched commands; the tick is counted up.
+    /// Advances the state from time `t` by `h` `[s]` under the latched commands; the tick is counted up.
     ///
     /// # Errors
     ///
@@ -266,7 +266,7 @@ impl World {
         Ok(())
     }
 
-    /// Accelerations [rad/s²], [m/s²] and motor torques [N·m], [N] at the present state, as the drives now stand.
+    /// Accelerations [rad/s²], [m/s²] and motor torques [N·m], `[N]` at the present state, as the drives now stand.
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);

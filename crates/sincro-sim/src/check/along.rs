@@ -3,7 +3,7 @@
 use crate::sweep::SweepStop;
 use crate::table::{Table, number_text};
 
-/// Times closer than this are the same [s]. Rounding of a day's time in a scene file is 1e-11 s, no step is below 1e-7 s.
+/// Times closer than this are the same `[s]`. Rounding of a day's time in a scene file is 1e-11 s, no step is below 1e-7 s.
 const SAME_TIME: f64 = 1e-9;
 
 /// The same for points of a sweep, as a share of the smallest gap between them.
@@ -23,7 +23,7 @@ enum Kind<'a> {
 }
 
 impl<'a> Along<'a> {
-    /// Rows of a run, which may have stopped at a time [s].
+    /// Rows of a run, which may have stopped at a time `[s]`.
     pub(super) fn run(table: &'a Table, stopped: Option<f64>) -> Self {
         Self { table, tolerance: SAME_TIME, kind: Kind::Run { stopped } }
     }
@@ -36,7 +36,7 @@ impl<'a> Along<'a> {
         Self { table, tolerance: SAME_POINT * gap, kind: Kind::Sweep { stops } }
     }
 
-    /// Times [s], or values of the parameter.
+    /// Times `[s]`, or values of the parameter.
     pub(super) fn keys(&self) -> &'a [f64] {
         self.table.times()
     }
@@ -45,7 +45,7 @@ impl<'a> Along<'a> {
         matches!(self.kind, Kind::Sweep { .. })
     }
 
-    /// When the run stopped [s], if it did.
+    /// When the run stopped `[s]`, if it did.
     pub(super) fn stopped(&self) -> Option<f64> {
         match self.kind {
             Kind::Run { stopped } => stopped,

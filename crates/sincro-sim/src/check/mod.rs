@@ -57,7 +57,7 @@ pub struct Outcome {
     pub relative: bool,
     /// Unit of measured and expected; empty where it is not known (formulas).
     pub unit: String,
-    /// Where the measured value stands, if it is that of a row: time [s]; in a sweep, the value of the parameter.
+    /// Where the measured value stands, if it is that of a row: time `[s]`; in a sweep, the value of the parameter.
     pub at: Option<f64>,
     /// How many rows entered.
     pub n_rows: usize,
@@ -81,7 +81,7 @@ pub enum Verdict {
 /// Expected values over time, or over the parameter of a sweep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// Times [s], or values of the parameter.
+    /// Times `[s]`, or values of the parameter.
     pub times: Vec<f64>,
     /// What is expected there.
     pub values: Vec<f64>,
@@ -89,7 +89,7 @@ pub struct Series {
 
 /// Judges the checks of one run, in their order.
 ///
-/// `stopped` is the time [s] at which the run ended before its duration; `None` if it came to its end.
+/// `stopped` is the time `[s]` at which the run ended before its duration; `None` if it came to its end.
 #[must_use]
 pub fn evaluate(checks: &[Check], table: &Table, stopped: Option<f64>) -> Vec<Outcome> {
     let along = Along::run(table, stopped);

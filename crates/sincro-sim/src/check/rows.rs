@@ -162,7 +162,7 @@ pub(super) fn file_name(reference: &Reference) -> String {
 
 /// The greatest step of which all times are whole multiples: Euclid's algorithm, with remainders below `tolerance` taken as zero.
 fn common_step(times: &[f64], tolerance: f64) -> Option<f64> {
-    /// No step is as small as this [s].
+    /// No step is as small as this `[s]`.
     const LEAST: f64 = 1e-7;
     let mut step = 0.0;
     for time in times {

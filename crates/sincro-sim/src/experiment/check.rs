@@ -25,9 +25,9 @@ pub struct Check {
     pub expected: Expected,
     /// What of the series is compared.
     pub measure: Measure,
-    /// The one time [s] that is looked at, if given; it excludes `window`.
+    /// The one time `[s]` that is looked at, if given; it excludes `window`.
     pub at: Option<f64>,
-    /// First and last time [s] that are looked at, ends included; all if not given.
+    /// First and last time `[s]` that are looked at, ends included; all if not given.
     pub window: Option<(f64, f64)>,
     /// Largest |measured − expected| that holds, in the unit of what is measured (or 1, if `relative`); not negative.
     pub tolerance: f64,
@@ -64,7 +64,7 @@ pub enum Expected {
 pub struct Reference {
     /// The file; the folder of the experiment is part of it.
     pub file: PathBuf,
-    /// Name of the column of times [s] (in a sweep: of the values of the swept parameter).
+    /// Name of the column of times `[s]` (in a sweep: of the values of the swept parameter).
     pub key_column: String,
     /// Name of the column of values.
     pub column: String,
@@ -102,9 +102,9 @@ pub enum Measure {
     /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value stands for
     /// the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
     Integral,
-    /// Time [s] of the least value.
+    /// Time `[s]` of the least value.
     TimeOfMin,
-    /// Time [s] of the greatest value.
+    /// Time `[s]` of the greatest value.
     TimeOfMax,
 }
 
@@ -138,7 +138,7 @@ impl Check {
         own.into_iter().chain(self.aliases.iter().map(|(_, signal)| signal))
     }
 
-    /// The slots of the check's formulas for one row: the aliases' values in their order, the time [s], the parameters.
+    /// The slots of the check's formulas for one row: the aliases' values in their order, the time `[s]`, the parameters.
     #[must_use]
     pub fn values(&self, aliases: &[f64], t: f64) -> Vec<f64> {
         let parameters = self.parameters.iter().map(|(_, value)| *value);

@@ -9,9 +9,9 @@ const MAX_STEPS: f64 = 1e15;
 /// Times of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Grid {
-    /// [s]
+    /// `[s]`
     pub duration: f64,
-    /// [s]
+    /// `[s]`
     pub step: f64,
     pub record_every: u64,
 }

@@ -27,9 +27,9 @@ pub struct Experiment {
     pub description: String,
     /// The scene file; the folder is part of it.
     pub scene_path: PathBuf,
-    /// How long is simulated [s].
+    /// How long is simulated `[s]`.
     pub duration: f64,
-    /// Base step [s].
+    /// Base step `[s]`.
     pub step: f64,
     /// Base steps in `duration`; at least one.
     pub n_steps: u64,

@@ -50,11 +50,11 @@ pub enum Probe {
 /// What can be read of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameQuantity {
-    /// Origin [m].
+    /// Origin `[m]`.
     Position,
     /// w, x, y, z.
     Quaternion,
-    /// Roll, pitch, yaw [rad].
+    /// Roll, pitch, yaw `[rad]`.
     Angles,
     /// Of the origin [m/s].
     Velocity,
@@ -62,7 +62,7 @@ pub enum FrameQuantity {
     AngularVelocity,
     /// Of the origin [m/s²].
     Acceleration,
-    /// Of a body [m].
+    /// Of a body `[m]`.
     CenterOfMass,
 }
 
@@ -117,7 +117,7 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), e.unit)))
     }
 
-    /// The row of what is seen at time `t` [s], `t` first. To be called at every recorded instant, in order, the start included.
+    /// The row of what is seen at time `t` `[s]`, `t` first. To be called at every recorded instant, in order, the start included.
     pub fn row(&mut self, seen: &Observation<'_>, t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {

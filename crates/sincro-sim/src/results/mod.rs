@@ -49,7 +49,7 @@ pub struct RunReport {
     pub variants: Vec<VariantReport>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
-    /// How long it took [s].
+    /// How long it took `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
     /// Simulated time by wall time.
@@ -67,7 +67,7 @@ pub enum Status {
     Stopped {
         /// The last good tick.
         tick: u64,
-        /// Its time [s].
+        /// Its time `[s]`.
         time: f64,
         /// What happened, and to whom.
         reason: String,
@@ -78,13 +78,13 @@ pub enum Status {
     Interrupted {
         /// The last tick.
         tick: u64,
-        /// Its time [s].
+        /// Its time `[s]`.
         time: f64,
     },
 }
 
 impl Status {
-    /// When it ended before its duration [s], as [`crate::check::evaluate`] wants it.
+    /// When it ended before its duration `[s]`, as [`crate::check::evaluate`] wants it.
     #[must_use]
     pub fn stopped_at(&self) -> Option<f64> {
         match self {
@@ -99,11 +99,11 @@ impl Status {
 pub struct Settings {
     /// The integrator that ran, not `auto`.
     pub integrator: String,
-    /// Base step [s].
+    /// Base step `[s]`.
     pub step: f64,
     /// Local tolerance of variable-step methods.
     pub accuracy: f64,
-    /// How long was to be simulated [s].
+    /// How long was to be simulated `[s]`.
     pub duration: f64,
     /// Base steps a recorded row.
     pub record_every: u64,
@@ -135,7 +135,7 @@ pub struct ColumnReport {
     pub error_bar_method: String,
 }
 
-/// The balance of energy over a run [J].
+/// The balance of energy over a run `[J]`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnergyReport {
     /// Kinetic energy at the start.
@@ -184,7 +184,7 @@ pub struct CheckReport {
     pub relative: bool,
     /// Unit of measured and expected; empty if not known.
     pub unit: String,
-    /// Time [s] of the measured value; in a sweep, the value of the parameter.
+    /// Time `[s]` of the measured value; in a sweep, the value of the parameter.
     pub at: Option<f64>,
     /// How many rows entered.
     pub n_rows: usize,
@@ -255,7 +255,7 @@ pub struct SweepReport {
 pub struct SweepStopReport {
     /// The value of the parameter.
     pub value: f64,
-    /// When [s].
+    /// When `[s]`.
     pub time: f64,
     /// Why.
     pub reason: String,
@@ -304,7 +304,7 @@ pub struct VariantReport {
     pub checks: Vec<CheckReport>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
-    /// How long it took [s].
+    /// How long it took `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
 }

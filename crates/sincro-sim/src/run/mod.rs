@@ -7,7 +7,7 @@
 //! 3. the new state is hashed, and recorded if a row is due.
 //!
 //! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
-//! why ([`stop`]).
+//! why (`stop.rs`).
 
 mod campaign;
 mod refine;
@@ -55,7 +55,7 @@ pub struct Simulated {
     pub effort: Effort,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
-    /// How long it took [s], recording included.
+    /// How long it took `[s]`, recording included.
     pub wall_time: f64,
 }
 

@@ -1,6 +1,6 @@
 //! From a scene file to a compiled model: a tree of named objects, checked as a whole.
 //!
-//! [`file`](self) types are what is written; [`compile`] orders the tree, makes the builder's specifications of joints,
+//! The types of `file.rs` are what is written; `compile` orders the tree, makes the builder's specifications of joints,
 //! bodies and forces, and brings what the builder finds back to lines of the file. All problems are reported at once.
 
 mod body;

@@ -6,7 +6,7 @@ use sincro_math::elementary::sin_cos;
 use crate::document::Document;
 use crate::problem::{Problem, Problems};
 
-/// Position [m] and one of the two forms of a rotation; the schema lets only one through.
+/// Position `[m]` and one of the two forms of a rotation; the schema lets only one through.
 pub(super) struct Placement {
     position: [f64; 3],
     rotation_deg: Option<[f64; 3]>,
@@ -37,7 +37,7 @@ pub(super) fn pose(placement: &Placement, pointer: &str, document: &Document, pr
     Pose { rot, pos: Vec3(placement.position) }
 }
 
-/// Rz(yaw)·Ry(pitch)·Rx(roll) of angles [deg].
+/// Rz(yaw)·Ry(pitch)·Rx(roll) of angles `[deg]`.
 fn rotation([roll, pitch, yaw]: [f64; 3]) -> Mat3<f64> {
     let about = |degrees: f64| sin_cos_degrees(degrees);
     let ((sx, cx), (sy, cy), (sz, cz)) = (about(roll), about(pitch), about(yaw));

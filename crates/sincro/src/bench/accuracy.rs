@@ -9,7 +9,7 @@ use super::subjects::{STEP, default_experiment, world};
 /// Tolerance of the reference.
 const REFERENCE_ACCURACY: f64 = 1e-13;
 
-/// Largest difference of any joint [rad] between the default settings and the reference at the ticks of the first `duration`
+/// Largest difference of any joint `[rad]` between the default settings and the reference at the ticks of the first `duration`
 /// seconds; infinite if a run stops.
 pub(super) fn joint_error(scene: &Scene, duration: f64) -> f64 {
     let experiment = default_experiment(STEP, duration);

@@ -4,11 +4,11 @@
 
 use std::time::{Duration, Instant};
 
-/// Shortest repetition [s]: shorter, and the clock shows.
+/// Shortest repetition `[s]`: shorter, and the clock shows.
 const REPETITION_S: f64 = 0.010;
 /// Repetitions of a round at least, unless a single call is longer than [`SLOW_S`].
 const MIN_REPETITIONS: usize = 3;
-/// A call longer than this is repeated once a round [s].
+/// A call longer than this is repeated once a round `[s]`.
 const SLOW_S: f64 = 0.050;
 
 /// Something to be timed: `run(n)` makes n calls, each of which does `units` of what is counted.
@@ -36,7 +36,7 @@ impl Subject {
     }
 }
 
-/// Time per unit [ns].
+/// Time per unit `[ns]`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
     /// On the wall.
@@ -45,7 +45,7 @@ pub(super) struct Sample {
     pub cpu: f64,
 }
 
-/// Median and minimum over repetitions [ns].
+/// Median and minimum over repetitions `[ns]`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Timing {
     /// Medians.

@@ -126,7 +126,7 @@ impl<'a> Session<'a> {
         all.into_iter().filter(|kind| self.wants(*kind)).collect()
     }
 
-    /// How long it will take, roughly [s].
+    /// How long it will take, roughly `[s]`.
     pub fn estimate(&self) -> f64 {
         let seconds = self.options.seconds_per_figure;
         let mut sum = 2.0;

@@ -34,7 +34,7 @@ pub(crate) struct Options {
     /// Figures, separated by commas; all unless given
     #[arg(long, value_enum, value_name = "FIGURE,…", value_delimiter = ',')]
     figure: Vec<FigureKind>,
-    /// Time spent on each figure [s]
+    /// Time spent on each figure `[s]`
     #[arg(long, value_name = "SECONDS", default_value_t = 0.2, value_parser = seconds)]
     seconds_per_figure: f64,
     /// Write everything that was measured to this file

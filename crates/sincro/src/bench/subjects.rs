@@ -20,7 +20,7 @@ use sincro_sim::scene::Scene;
 
 use super::clock::Subject;
 
-/// The step of every figure [s].
+/// The step of every figure `[s]`.
 pub(super) const STEP: f64 = 0.005;
 /// Steps in a simulated second.
 pub(super) const STEPS_A_SECOND: u32 = 200;
@@ -151,7 +151,9 @@ fn moving(scene: &Scene) -> (State<f64>, Vec<f64>) {
     state.v.fill(0.1);
     let model = &scene.model;
     let torque = model.dofs().iter().enumerate().map(|(k, dof)| {
-        let deflection = dof.coordinate().map_or(0.0, |q| state.q[q] - dof.rest);
+        let joint = &model.names().joints[model.names().dof_joint[k]];
+        let place = joint.q_idx + k - joint.v_idx;
+        let deflection = if model.has_scalar_coordinate(k) { state.q[place] - dof.rest } else { 0.0 };
         model.applied_torque(k, 0.0) - dof.stiffness * deflection - dof.damping * state.v[k]
     });
     let torque = torque.collect();

@@ -31,7 +31,7 @@ pub(super) struct Rival {
     pub peer: &'static str,
     /// What it was asked for.
     pub request: String,
-    /// Its median [ns].
+    /// Its median `[ns]`.
     pub time: Sample,
     /// Its time over ours: how many times faster sincro is.
     pub ratio: f64,

@@ -22,10 +22,10 @@ pub(crate) struct Arguments {
     /// Set a number of the scene (/link.mass=2) or of the experiment (parameters.m=3); may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Simulate until this time [s]
+    /// Simulate until this time `[s]`
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Base step [s]
+    /// Base step `[s]`
     #[arg(long, value_name = "S")]
     step: Option<f64>,
     /// auto, semi-implicit-euler, rk4, implicit, dormand-prince or stiff
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     /// Local tolerance of the variable-step integrators
     #[arg(long, value_name = "X")]
     accuracy: Option<f64>,
-    /// Where the results go [default: results/<scene>]
+    /// Where the results go [default: results/SCENE]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of everything random

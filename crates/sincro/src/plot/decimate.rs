@@ -4,7 +4,7 @@
 //! order. A curve that runs back and forth in x (a path, a phase portrait) is cut by index instead, and
 //! the leftmost and rightmost point of each piece are kept as well.
 
-/// A position on the canvas [px].
+/// A position on the canvas `[px]`.
 pub(super) type Point = (f64, f64);
 
 /// Keeps the first and the last point and the extremes of each column; at most `2·columns + 2` points.

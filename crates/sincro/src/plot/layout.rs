@@ -8,14 +8,14 @@ use super::number::short;
 use super::text::{fit, width, wrap};
 use super::{Figure, Limit, Panel, Size};
 
-/// Length of a legend sample [px].
+/// Length of a legend sample `[px]`.
 pub(super) const SAMPLE: f64 = 35.0;
-/// A plot area is never lower than this [px].
+/// A plot area is never lower than this `[px]`.
 const MIN_AREA: f64 = 56.0;
-/// Free border around everything [px].
+/// Free border around everything `[px]`.
 const BORDER: f64 = 8.0;
 
-/// Font sizes [px] and what they imply.
+/// Font sizes `[px]` and what they imply.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fonts {
     pub(super) title: f64,

@@ -128,9 +128,9 @@ pub(crate) struct Limit {
 /// Width and height of a picture in CSS pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Size {
-    /// Width [px].
+    /// Width `[px]`.
     pub(crate) width: f64,
-    /// Height [px].
+    /// Height `[px]`.
     pub(crate) height: f64,
 }
 

@@ -9,9 +9,9 @@ use super::style::{self, Look};
 use super::text::{fit, width};
 use super::{Band, Role, Series, Stroke};
 
-/// How far curves may reach over the plot area, so that lines and markers on the edge are whole [px].
+/// How far curves may reach over the plot area, so that lines and markers on the edge are whole `[px]`.
 const SPILL: f64 = 5.0;
-/// Distance of markers along the x axis [px].
+/// Distance of markers along the x axis `[px]`.
 const MARKER_SPACING: f64 = 88.0;
 /// Points of one curve: never more than this, however wide the figure.
 const MAX_COLUMNS: usize = 999;

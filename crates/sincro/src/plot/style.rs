@@ -10,9 +10,9 @@ use super::{Role, Series};
 const N_COLORS: usize = 6;
 /// Count of marker shapes; no multiple of the colours, so that pairs repeat late.
 const N_MARKERS: usize = 7;
-/// Dashes of the variants [px]; the main run is solid.
+/// Dashes of the variants `[px]`; the main run is solid.
 const VARIANT_DASHES: [&str; 5] = ["9 3", "2.5 2.5", "9 3 2 3", "15 4", "5 2 1.5 2 1.5 2"];
-/// Dash of a reference [px].
+/// Dash of a reference `[px]`.
 const REFERENCE_DASH: &str = "5 5";
 
 /// Colour variables for light, dark and print, and the classes that use them: goes once into a page with inline figures.
@@ -31,7 +31,7 @@ pub(super) fn standalone_css() -> String {
 pub(super) struct Look {
     /// Class that gives the colour to stroke.
     pub(super) class: &'static str,
-    /// Stroke width [px].
+    /// Stroke width `[px]`.
     pub(super) weight: f64,
     /// Value of `stroke-dasharray`; empty for solid.
     pub(super) dash: &'static str,

@@ -13,7 +13,7 @@ use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Stroke};
 
 /// Most signals in a figure that nobody asked for.
 const MOST_SIGNALS: usize = 4;
-/// Instants closer than this are the same [s].
+/// Instants closer than this are the same `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
 /// All figures of a campaign: the sweep first, if it has one, then the asked-for plots, or one a kind of signal.

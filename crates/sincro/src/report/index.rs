@@ -8,7 +8,7 @@ use crate::plot::{self, Size, escape, thumbnail};
 
 /// Checks shown on a card.
 const N_SHOWN: usize = 4;
-/// Size of a thumbnail [px].
+/// Size of a thumbnail `[px]`.
 const THUMBNAIL: Size = Size { width: 340.0, height: 186.0 };
 
 /// The page as HTML.

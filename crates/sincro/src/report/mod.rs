@@ -43,7 +43,7 @@ pub(crate) struct Page {
 /// A run that ended before its time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stop {
-    /// When [s].
+    /// When `[s]`.
     pub(crate) time: f64,
     /// What happened, and to whom.
     pub(crate) reason: String,
@@ -70,7 +70,7 @@ pub(crate) struct CheckRow {
     pub(crate) is_relative: bool,
     /// Unit of measured and expected.
     pub(crate) unit: String,
-    /// Time of the measured value [s], if it belongs to one.
+    /// Time of the measured value `[s]`, if it belongs to one.
     pub(crate) at: Option<f64>,
     /// The judgement.
     pub(crate) verdict: CheckVerdict,
@@ -102,7 +102,7 @@ pub(crate) struct SignalRow {
     pub(crate) method: String,
 }
 
-/// The balance of energy over a run [J].
+/// The balance of energy over a run `[J]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Energy {
     /// Total at the start.

@@ -22,7 +22,7 @@ pub(super) fn document(title: &str, class: &str, body: &str) -> String {
 /// How a run came out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outcome {
-    /// It stopped at that time [s].
+    /// It stopped at that time `[s]`.
     Stopped(f64),
     /// That many of so many checks fail or could not be made.
     Fails(usize, usize),
