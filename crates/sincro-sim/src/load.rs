@@ -8,6 +8,7 @@ use crate::experiment::{self, Experiment};
 use crate::folder::Folder;
 use crate::overrides::{Override, Target, apply_all};
 use crate::problem::{Problem, Problems, SourceText};
+use crate::record::Recorder;
 use crate::scene::{self, Scene};
 use crate::schema::{experiment_schema, scene_schema, validate};
 
@@ -126,7 +127,13 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         experiment
     });
     let scene = open_scene(&document, folder, overrides, &mut problems);
-    match (experiment.flatten(), scene) {
+    let experiment = experiment.flatten();
+    if let (Some(experiment), Some(scene)) = (&experiment, &scene)
+        && let Err(found) = Recorder::new(&experiment.record, &scene.model)
+    {
+        problems.merge(found);
+    }
+    match (experiment, scene) {
         (Some(experiment), Some(scene)) if !problems.any_error() => {
             problems.merge(Problems(scene.warnings.clone()));
             Ok(Loaded { experiment, scene, warnings: problems.0, sources: Vec::new() })

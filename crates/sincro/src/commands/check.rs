@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use sincro_sim::overrides::Override;
-use sincro_sim::record::{Recorder, catalogue};
+use sincro_sim::record::catalogue;
 use sincro_sim::run::{choose_method, method_word, model_hash};
 use sincro_sim::scene::{Object, ObjectKind, Scene};
 use sincro_sim::{Loaded, load};
@@ -36,9 +36,6 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(loaded) => loaded,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };
-    if let Err(problems) = Recorder::new(&loaded.experiment.record, &loaded.scene.model) {
-        return diagnostics::refuse_problems(&problems);
-    }
     print(&loaded);
     if arguments.signals {
         println!("signals");

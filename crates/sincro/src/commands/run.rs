@@ -23,16 +23,16 @@ pub(crate) struct Arguments {
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Simulate until this time `[s]`
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     until: Option<f64>,
     /// Base step `[s]`
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     step: Option<f64>,
     /// auto, semi-implicit-euler, rk4, implicit, dormand-prince or stiff
     #[arg(long, value_name = "NAME")]
     integrator: Option<String>,
     /// Local tolerance of the variable-step integrators
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
     accuracy: Option<f64>,
     /// Where the results go [default: results/SCENE]
     #[arg(long, value_name = "DIR")]

@@ -1,0 +1,262 @@
+//! The contract of the command line, on the program as it is built: files, exit status, messages.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own for one test, taken away at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("sincro-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// A pendulum; `experiment` and `scene` are put behind what is always there.
+    fn pendulum(&self, experiment: &str, scene: &str) -> PathBuf {
+        let folder = self.path("pendulum");
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("experiment.toml"), format!("{EXPERIMENT}{experiment}")).unwrap();
+        fs::write(folder.join("scene.toml"), format!("{SCENE}{scene}")).unwrap();
+        folder
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+const SCENE: &str = r#"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+initial = { position = 1.0 }
+
+[[body]]
+name = "rod"
+parent = "/hinge"
+position = [0.0, 0.0, -0.25]
+density = 1000.0
+shape = [{ cylinder = { radius = 0.05, length = 0.5 } }]
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "A <pendulum> & more"
+scene = "scene.toml"
+duration = 0.5
+step = 0.01
+record = ["/hinge.position", "energy.balance", "/hinge/rod.position.z"]
+
+[[check]]
+name = "no energy appears or is lost"
+signal = "energy.balance"
+value = 0.0
+tolerance = 1e-7
+"#;
+
+fn sincro(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_sincro")).args(arguments).output().unwrap()
+}
+
+fn status(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs a scene into `out`; standard output, standard error, exit status.
+fn run(scene: &Path, out: &Path, more: &[&str]) -> (String, String, i32) {
+    let mut arguments = vec!["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
+    arguments.extend(more);
+    let output = sincro(&arguments);
+    (text(&output.stdout), text(&output.stderr), status(&output))
+}
+
+#[test]
+fn a_run_writes_what_the_contract_says() {
+    let folder = Folder::new("contract");
+    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let (stdout, stderr, exit) = run(&scene, &out, &[]);
+    assert_eq!(exit, 0, "{stdout}{stderr}");
+    assert!(stdout.contains("the check holds"), "{stdout}");
+    let csv = fs::read_to_string(out.join("signals.csv")).unwrap();
+    assert_eq!(csv.lines().next(), Some("t,/hinge.position,energy.balance,/hinge/rod.position.z"));
+    assert_eq!(csv.lines().count(), 52);
+    let json = fs::read_to_string(out.join("run.json")).unwrap();
+    for key in ["model_hash", "trace_hash", "columns", "error_bar", "checks", "wall_time_s", "real_time_factor"] {
+        assert!(json.contains(&format!("\"{key}\"")), "{key}");
+    }
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("A &lt;pendulum&gt; &amp; more") && !page.contains("<pendulum>"));
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http") && !page.contains("<script"));
+    assert!(fs::read_dir(out.join("figures")).unwrap().count() >= 2);
+    assert!(!out.join("signals.csv.partial").exists());
+}
+
+#[test]
+fn the_same_run_gives_the_same_bytes() {
+    let folder = Folder::new("bytes");
+    let scene = folder.pendulum("", "");
+    let signals = |name: &str| {
+        run(&scene, &folder.path(name), &[]);
+        fs::read(folder.path(name).join("signals.csv")).unwrap()
+    };
+    assert_eq!(signals("one"), signals("two"));
+}
+
+#[test]
+fn a_check_that_fails_is_status_one() {
+    let folder = Folder::new("fails");
+    let scene = folder.pendulum(
+        "[[check]]\nname = \"wrong\"\nsignal = \"/hinge.position\"\nat = 0.5\nvalue = 7.0\ntolerance = 0.1\n",
+        "",
+    );
+    let (stdout, _, exit) = run(&scene, &folder.path("out"), &[]);
+    assert_eq!(exit, 1);
+    assert!(stdout.contains("FAIL  wrong") && stdout.contains("expected 7.0000000"), "{stdout}");
+}
+
+#[test]
+fn settings_reach_scene_and_experiment() {
+    let folder = Folder::new("set");
+    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let set = ["--set", "/hinge.initial.position=0.5", "--until", "0.2", "--step", "0.02", "--integrator", "rk4"];
+    let (_, stderr, exit) = run(&scene, &out, &set);
+    assert!(exit <= 1, "{stderr}");
+    let csv = fs::read_to_string(out.join("signals.csv")).unwrap();
+    assert_eq!(csv.lines().nth(1).unwrap().split(',').nth(1), Some("0.5"));
+    assert_eq!(csv.lines().count(), 12);
+    let json = text(&sincro(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap(), "--json"]).stdout);
+    assert!(json.trim_start().starts_with('{') && json.contains("\"dormand-prince\""));
+}
+
+#[test]
+fn bad_input_is_status_two_and_writes_nothing() {
+    let folder = Folder::new("bad");
+    let out = folder.path("out");
+    let cases: [(&str, &str, &[&str], &str); 12] = [
+        ("", "[[body]]\nname = \"x\"\nmasss = 1.0\n", &[], "masss"),
+        (
+            "",
+            "[[body]]\nname = \"x\"\nparent = \"/hing\"\nmass = 1.0\ninertia = { xx = 1, yy = 1, zz = 1 }\n",
+            &[],
+            "/hing",
+        ),
+        ("", "[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\n", &[], "hinge"),
+        ("", "[[joint]]\nname = \"lonely\"\nkind = \"revolute\"\n", &[], "lonely"),
+        ("", "gravity = = 3\n", &[], "scene.toml"),
+        ("record_every = \"two\"\n", "", &[], "record_every"),
+        ("", "", &["--set", "/hinge.axis=[0, 0, 0]"], "axis"),
+        ("", "", &["--set", "/hinge/rod.density=-1"], "density"),
+        ("", "", &["--set", "/nobody.mass=1"], "/nobody"),
+        ("", "", &["--set", "step=0"], "step"),
+        ("", "", &["--until", "-1"], "duration"),
+        ("", "", &["--set", "record=[\"/hinge.positon\"]"], "positon"),
+    ];
+    for (experiment, scene, more, named) in cases {
+        let folder = folder.pendulum("", "");
+        let with = |file: &str, base: &str, text: &str| {
+            // top-level keys must stand before the tables
+            let whole = if text.starts_with('[') { format!("{base}{text}") } else { format!("{text}{base}") };
+            fs::write(folder.join(file), whole).unwrap();
+        };
+        with("experiment.toml", EXPERIMENT, experiment);
+        with("scene.toml", SCENE, scene);
+        let (stdout, stderr, exit) = run(&folder, &out, more);
+        assert_eq!(exit, 2, "{experiment}{scene}{more:?}: {stdout}{stderr}");
+        assert!(stderr.contains("error") && stderr.contains(named), "{named}: {stderr}");
+        assert!(!out.exists(), "{named}: something was written");
+    }
+    let (_, stderr, exit) = run(&folder.path("nowhere"), &out, &[]);
+    assert!(exit == 2 && stderr.contains("nowhere"), "{stderr}");
+}
+
+#[test]
+fn results_that_cannot_be_written_are_refused_before_the_run() {
+    let folder = Folder::new("unwritable");
+    let scene = folder.pendulum("", "");
+    fs::write(folder.path("file"), "in the way").unwrap();
+    let (_, stderr, exit) = run(&scene, &folder.path("file/below"), &[]);
+    assert!(exit == 2 && stderr.contains("file") && stderr.contains("--out"), "{stderr}");
+}
+
+#[test]
+fn a_run_that_blows_up_is_status_three_and_keeps_its_rows() {
+    let folder = Folder::new("stops");
+    let joint = "[[joint]]\nname = \"stiff\"\nparent = \"/hinge/rod\"\nkind = \"revolute\"\ndamping = 1e6\n";
+    let body = "[[body]]\nname = \"tip\"\nparent = \"/hinge/rod/stiff\"\nposition = [0.1, 0.0, 0.0]\ndensity = 1000.0\nshape = [{ sphere = { radius = 0.05 } }]\n";
+    let (scene, out) = (folder.pendulum("", &format!("{joint}{body}")), folder.path("out"));
+    let (stdout, _, exit) = run(&scene, &out, &["--integrator", "rk4", "--set", "/hinge/rod/stiff.initial.velocity=1"]);
+    assert_eq!(exit, 3, "{stdout}");
+    // announced before it diverges, then explained
+    assert!(
+        stdout.contains("warning: joint `/hinge/rod/stiff`") && stdout.contains("is too fast for `rk4`"),
+        "{stdout}"
+    );
+    assert!(stdout.contains("stopped: ") && stdout.contains("in tick") && stdout.contains("implicit"), "{stdout}");
+    let rows = fs::read_to_string(out.join("signals.csv")).unwrap().lines().count();
+    assert!((2..52).contains(&rows), "{rows}");
+    let (stdout, _, exit) = run(&scene, &out, &["--set", "/hinge/rod/stiff.initial.velocity=1"]);
+    assert!(exit <= 1 && stdout.contains("stiff"), "auto takes it in its stride: {stdout}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_was_recorded() {
+    let folder = Folder::new("interrupt");
+    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sincro"))
+        .args(["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()])
+        .args(["--until", "50000", "--set", "record_every=1000"])
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !out.join("signals.csv.partial").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        assert!(child.try_wait().unwrap().is_none(), "ended before it was interrupted");
+    }
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stdout).contains("interrupted at t ="));
+    let json = fs::read_to_string(out.join("run.json")).unwrap();
+    assert!(json.contains("\"interrupted\"") && out.join("signals.csv").is_file());
+}
+
+#[test]
+fn check_looks_a_scene_over_and_writes_nothing() {
+    let folder = Folder::new("check");
+    let scene = folder.pendulum("", "");
+    let output = sincro(&["check", scene.to_str().unwrap(), "--signals"]);
+    let stdout = text(&output.stdout);
+    assert_eq!(status(&output), 0, "{stdout}");
+    for words in ["revolute joint", "1 degree of freedom", "/hinge.position", "dormand-prince"] {
+        assert!(stdout.contains(words), "{words}: {stdout}");
+    }
+    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
+}
+
+#[test]
+fn reproduce_makes_one_page_of_all_scenes() {
+    let folder = Folder::new("reproduce");
+    folder.pendulum("", "");
+    let out = folder.path("out");
+    let scenes = folder.0.to_str().unwrap();
+    let output = sincro(&["reproduce", "--scenes", scenes, "--out", out.to_str().unwrap()]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let index = fs::read_to_string(out.join("index.html")).unwrap();
+    assert!(index.contains("pendulum/report.html") && out.join("pendulum/report.html").is_file());
+}
