@@ -15,6 +15,9 @@ use crate::schema::{experiment_schema, scene_schema, validate};
 /// The file that makes a folder an experiment.
 const EXPERIMENT: &str = "experiment.toml";
 
+/// Numbers that a recording may have: 800 MB.
+const MOST_NUMBERS: u64 = 100_000_000;
+
 /// An experiment and its scene, ready to run.
 #[derive(Clone, Debug)]
 pub struct Loaded {
@@ -113,6 +116,21 @@ fn sets_times(overrides: &[Override]) -> bool {
     overrides.iter().any(|setting| matches!(setting.path.value.as_str(), "duration" | "step" | "record_every"))
 }
 
+/// Refuses a recording that no memory would hold.
+fn too_large(experiment: &Experiment) -> Problems {
+    let rows = experiment.n_steps / experiment.record_every + 1;
+    let numbers = rows.saturating_mul(experiment.record.len() as u64 + 1);
+    if numbers <= MOST_NUMBERS {
+        return Problems::new();
+    }
+    let message = format!("{rows} rows of {} signals are more than memory is asked to hold", experiment.record.len());
+    let help = format!(
+        "record fewer rows: record_every = {} or more",
+        experiment.record_every * numbers.div_ceil(MOST_NUMBERS)
+    );
+    Problems::from(Problem::error(&experiment.record[0].at, message).with_help(help))
+}
+
 /// One experiment without its variants.
 fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     let mut problems = Problems::new();
@@ -132,6 +150,9 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         && let Err(found) = Recorder::new(&experiment.record, &scene.model)
     {
         problems.merge(found);
+    }
+    if let Some(experiment) = &experiment {
+        problems.merge(too_large(experiment));
     }
     match (experiment, scene) {
         (Some(experiment), Some(scene)) if !problems.any_error() => {

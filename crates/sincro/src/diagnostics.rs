@@ -50,11 +50,15 @@ pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
     Exit::Refused
 }
 
-/// Why a run could not be made or written.
+/// Why a run could not be made, or not be written to its end.
 pub(crate) fn refuse_run(error: &RunError) -> Exit {
     match error {
         RunError::Problems(problems) => refuse_problems(problems),
-        RunError::File(error) => refuse_file(error),
+        RunError::File(error) => {
+            refuse_file(error);
+            eprintln!("the run stopped; rows written so far are in files that end in `.partial`");
+            Exit::Stopped
+        }
     }
 }
 

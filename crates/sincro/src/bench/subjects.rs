@@ -151,9 +151,7 @@ fn moving(scene: &Scene) -> (State<f64>, Vec<f64>) {
     state.v.fill(0.1);
     let model = &scene.model;
     let torque = model.dofs().iter().enumerate().map(|(k, dof)| {
-        let joint = &model.names().joints[model.names().dof_joint[k]];
-        let place = joint.q_idx + k - joint.v_idx;
-        let deflection = if model.has_scalar_coordinate(k) { state.q[place] - dof.rest } else { 0.0 };
+        let deflection = dof.coordinate().map_or(0.0, |q| state.q[q] - dof.rest);
         model.applied_torque(k, 0.0) - dof.stiffness * deflection - dof.damping * state.v[k]
     });
     let torque = torque.collect();

@@ -38,9 +38,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     print(&loaded);
     if arguments.signals {
-        println!("signals");
+        say!("signals");
         for entry in catalogue(&loaded.scene.model) {
-            println!("  {:<48} {}", entry.name, entry.unit);
+            say!("  {:<48} {}", entry.name, entry.unit);
         }
     }
     diagnostics::print_problems(&loaded.warnings);
@@ -49,24 +49,24 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 fn print(loaded: &Loaded) {
     let (scene, experiment) = (&loaded.scene, &loaded.experiment);
-    println!("{}", experiment.title);
-    println!("objects");
+    say!("{}", experiment.title);
+    say!("objects");
     print_children(scene, None, 1);
     let model = &scene.model;
-    println!("model");
-    println!("  {}, {} moving links, {} kg", degrees(model.n_v()), model.links().len(), short(model.total_mass()));
-    println!("  hash {}", model_hash(model));
+    say!("model");
+    say!("  {}, {} moving links, {} kg", degrees(model.n_v()), model.links().len(), short(model.total_mass()));
+    say!("  hash {}", model_hash(model));
     let (method, warnings) = choose_method(scene, experiment);
-    println!("run");
-    println!(
+    say!("run");
+    say!(
         "  {} s at {} s: {} steps, {} recorded signals",
         short(experiment.duration),
         short(experiment.step),
         experiment.n_steps,
         experiment.record.len()
     );
-    println!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
-    println!(
+    say!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
+    say!(
         "  {} checks, {} variants{}",
         experiment.checks.len(),
         experiment.variants.len(),
@@ -77,13 +77,13 @@ fn print(loaded: &Loaded) {
         ))
     );
     for warning in warnings {
-        println!("warning: {warning}");
+        say!("warning: {warning}");
     }
 }
 
 fn print_children(scene: &Scene, parent: Option<usize>, depth: usize) {
     for (i, object) in scene.objects.iter().enumerate().filter(|(_, o)| o.parent == parent) {
-        println!(
+        say!(
             "{:indent$}{:<width$} {}",
             "",
             object.name,

@@ -52,37 +52,37 @@ impl Bar {
 /// The whole summary of a run.
 pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
     let report = &campaign.report;
-    println!("{}", report.title);
-    println!("  {}", how(report));
+    say!("{}", report.title);
+    say!("  {}", how(report));
     for warning in &campaign.main.simulated.warnings {
-        println!("  warning: {warning}");
+        say!("  warning: {warning}");
     }
     print_status("  ", &report.status);
     print_checks("", &report.checks);
     if let Some(sweep) = &report.sweep {
-        println!("  sweep of {} over {} runs", sweep.parameter, sweep.n_runs);
+        say!("  sweep of {} over {} runs", sweep.parameter, sweep.n_runs);
         for stop in &sweep.stops {
-            println!("    at {}: {}", short(stop.value), stop.reason);
+            say!("    at {}: {}", short(stop.value), stop.reason);
         }
         print_checks("  ", &sweep.checks);
     }
     for variant in &report.variants {
-        println!("  variant {}: {}", variant.name, variant.description);
+        say!("  variant {}: {}", variant.name, variant.description);
         for warning in &variant.warnings {
-            println!("    warning: {warning}");
+            say!("    warning: {warning}");
         }
         print_status("    ", &variant.status);
         print_checks("  ", &variant.checks);
     }
     print_error_bars(report);
-    println!("{}", verdict_line(report));
-    println!(
+    say!("{}", verdict_line(report));
+    say!(
         "  trace {}   wall time {} s, {} times real time",
         report.trace_hash,
         significant(report.wall_time_s, 2),
         significant(report.real_time_factor, 2)
     );
-    println!("  report {}", out.join("report.html").display());
+    say!("  report {}", out.join("report.html").display());
     let _ = loaded;
 }
 
@@ -111,12 +111,12 @@ fn print_status(indent: &str, status: &Status) {
     match status {
         Status::Completed => {}
         Status::Stopped { reason, help, .. } => {
-            println!("{indent}stopped: {reason}");
+            say!("{indent}stopped: {reason}");
             if !help.is_empty() {
-                println!("{indent}  help: {help}");
+                say!("{indent}  help: {help}");
             }
         }
-        Status::Interrupted { time, .. } => println!("{indent}interrupted at t = {} s", short(*time)),
+        Status::Interrupted { time, .. } => say!("{indent}interrupted at t = {} s", short(*time)),
     }
 }
 
@@ -128,7 +128,7 @@ fn print_checks(indent: &str, checks: &[CheckReport]) {
             VerdictReport::Fails => "FAIL",
             VerdictReport::NotMade => "none",
         };
-        println!("{indent}  {sign}  {:<width$}  {}", check.name, figures(check));
+        say!("{indent}  {sign}  {:<width$}  {}", check.name, figures(check));
     }
 }
 
@@ -165,10 +165,10 @@ fn print_error_bars(report: &RunReport) {
     let bars: Vec<String> =
         units.iter().filter_map(|u| worst(u).map(|bar| format!("{} {u}", significant(bar, 1)))).collect();
     if !bars.is_empty() {
-        println!("  error bars up to {}", bars.join(", "));
+        say!("  error bars up to {}", bars.join(", "));
     }
     if let Some(energy) = &report.energy {
-        println!("  energy balance off by at most {} J", significant(energy.residual, 2));
+        say!("  energy balance off by at most {} J", significant(energy.residual, 2));
     }
 }
 

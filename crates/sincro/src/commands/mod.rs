@@ -1,5 +1,13 @@
 //! The commands, one file each.
 
+/// Prints a line; a reader that has gone away (`| head`) is no reason to panic.
+macro_rules! say {
+    ($($words:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($words)*);
+    }};
+}
+
 pub(crate) mod check;
 pub(crate) mod console;
 pub(crate) mod reproduce;

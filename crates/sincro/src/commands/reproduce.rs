@@ -72,8 +72,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     if let Err(error) = present::write_text(&arguments.out.join("index.html"), &index_html(&page)) {
         return diagnostics::refuse_file(&error);
     }
-    println!("{} experiments in {} s", scenes.len(), significant(clock.elapsed().as_secs_f64(), 2));
-    println!("open {}", arguments.out.join("index.html").display());
+    say!("{} experiments in {} s", scenes.len(), significant(clock.elapsed().as_secs_f64(), 2));
+    say!("open {}", arguments.out.join("index.html").display());
     worst
 }
 
@@ -85,7 +85,7 @@ fn one(scene: &Path, out: &Path) -> Result<(crate::report::Card, Exit), Exit> {
     let up = Some(("all experiments".to_owned(), "../index.html".to_owned()));
     let campaign: Campaign = Job { scene, overrides: &[], loaded: &loaded, out: &folder, up }.run()?;
     let exit = verdict(&campaign);
-    println!("{:<24} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
+    say!("{:<24} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
     Ok((present::card(&loaded, &campaign, &format!("{name}/report.html")), exit))
 }
 

@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Err(exit) => return exit,
     };
     if arguments.json {
-        println!("{}", campaign.report.to_json());
+        say!("{}", campaign.report.to_json());
     } else {
         diagnostics::print_problems(&loaded.warnings);
         console::print_summary(&loaded, &campaign, &out);
