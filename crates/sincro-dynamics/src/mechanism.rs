@@ -253,6 +253,10 @@ impl<R: Real> Mechanism<R> {
     /// Rate of the chart's displacement for velocity `v` at displacement `delta`.
     #[inline(always)]
     fn chart_rate(&self, delta: &[R], v: &[R], rate: &mut [R]) {
+        if !self.model.has_quaternions() {
+            rate.copy_from_slice(v);
+            return;
+        }
         for link in &self.model.links {
             let k = link.v_idx as usize;
             match link.kind {

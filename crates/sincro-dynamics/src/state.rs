@@ -67,6 +67,12 @@ impl<R: Real> State<R> {
 /// axes. `out` may not overlap `q`.
 #[inline(always)]
 pub fn displace<R: Real>(model: &Model<R>, q: &[R], step: &[R], out: &mut [R]) {
+    if !model.has_quaternions() {
+        for ((out, q), step) in out.iter_mut().zip(q).zip(step) {
+            *out = *q + *step;
+        }
+        return;
+    }
     for link in model.links() {
         let (i, k) = (link.q_idx as usize, link.v_idx as usize);
         match link.kind {

@@ -190,6 +190,13 @@ impl<R: Real> Model<R> {
         self.dofs[dof].q_idx != WORLD
     }
 
+    /// Whether there are ball or free joints. Without them coordinates and velocities match one to one.
+    #[inline(always)]
+    #[must_use]
+    pub fn has_quaternions(&self) -> bool {
+        self.n_q != self.dofs.len()
+    }
+
     /// Mass of everything that moves `[kg]`.
     #[must_use]
     pub fn total_mass(&self) -> R {
