@@ -66,6 +66,10 @@ fn seconds(text: &str) -> Result<f64, String> {
 pub(crate) fn run(options: &Options) -> Result<(), String> {
     let clock = Instant::now();
     let robots = models::robots(&options.only)?;
+    if let Some(path) = &options.json {
+        // better now than after minutes of measuring
+        write(path, "")?;
+    }
     let peers = start_peers(options);
     say_header(options, &peers);
     let mut session = Session::new(options, peers, robots);
@@ -148,5 +152,9 @@ fn write_json(path: &std::path::Path, session: &Session<'_>, seconds: f64) -> Re
         "bars": table::bars_json(&session.rows),
     });
     let text = serde_json::to_string_pretty(&all).expect("numbers and words");
-    std::fs::write(path, text + "\n").map_err(|e| format!("`{}` cannot be written: {e}", path.display()))
+    write(path, &(text + "\n"))
+}
+
+fn write(path: &std::path::Path, text: &str) -> Result<(), String> {
+    std::fs::write(path, text).map_err(|e| format!("`{}` cannot be written: {e}", path.display()))
 }

@@ -52,7 +52,7 @@ pub(super) fn say_columns() {
 }
 
 fn line([model, figure, ours, peer, theirs, ratio, bar, verdict]: [&str; 8]) -> String {
-    format!("{model:<12}{figure:<32}{ours:>10}  {peer:<11}{theirs:>9}{ratio:>9}  {bar:<8}{verdict}")
+    format!("{model:<12}{figure:<32}{ours:>12}  {peer:<11}{theirs:>9}{ratio:>9}  {bar:<8}{verdict}")
 }
 
 impl Row {
@@ -117,27 +117,26 @@ fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// Prints all bars and what became of them.
+/// Prints the bars that were measured and what became of them.
 pub(super) fn say_bars(rows: &[Row]) {
-    let head = format!("{:<54}{:>10}  {:<10}{:<10}verdict", "bar", "measured", "first", "goal");
+    let numbers = BARS.iter().map(|bar| (bar, rows.iter().find_map(|row| row.number(bar))));
+    let measured: Vec<(&Bar, f64)> = numbers.filter_map(|(bar, number)| Some((bar, number?))).collect();
+    if measured.is_empty() {
+        return;
+    }
+    let head = format!("{:<54}{:>12}  {:<10}{:<10}verdict", "bar", "measured", "first", "goal");
     say(&head);
-    let mut met = (0, 0);
-    for bar in &BARS {
+    for (bar, value) in &measured {
         let name = match bar.peer {
             Some(peer) => format!("{}, {} against {peer}", bar.model, bar.figure),
             None => format!("{}, {}", bar.model, bar.figure),
         };
-        let number = rows.iter().find_map(|row| row.number(bar));
         let (first, goal) = (bar.first.words(), bar.goal.words());
-        let (measured, verdict) = match number {
-            Some(value) => (quantity(value, bar.unit), bar.verdict(value)),
-            None => ("–".into(), "not measured".into()),
-        };
-        met.0 += usize::from(number.is_some_and(|value| bar.is_met(value)));
-        met.1 += usize::from(number.is_some());
-        say(&format!("{name:<54}{measured:>10}  {first:<10}{goal:<10}{verdict}"));
+        let (number, verdict) = (quantity(*value, bar.unit), bar.verdict(*value));
+        say(&format!("{name:<54}{number:>12}  {first:<10}{goal:<10}{verdict}"));
     }
-    say(&format!("{} of {} measured bars met", met.0, met.1));
+    let met = measured.iter().filter(|(bar, value)| bar.is_met(*value)).count();
+    say(&format!("{met} of {} measured bars met, {} not measured", measured.len(), BARS.len() - measured.len()));
 }
 
 /// All bars for JSON.
