@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 const MOST_LINES: usize = 1000;
 
 /// Which crates of ours each crate may use.
-const ARROWS: [(&str, &[&str]); 4] = [
+const ARROWS: [(&str, &[&str]); 5] = [
     ("sincro-math", &[]),
     ("sincro-dynamics", &["sincro-math"]),
-    ("sincro-sim", &["sincro-math", "sincro-dynamics"]),
-    ("sincro", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
+    ("sincro-blocks", &["sincro-math"]),
+    ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
+    ("sincro", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim"]),
 ];
 
 /// What must not stand in the crates that compute: no files, clock, threads, unordered maps.

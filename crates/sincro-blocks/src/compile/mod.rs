@@ -1,0 +1,327 @@
+//! From a drawn diagram to a program: names resolved, sizes and units inferred, sample times settled, order found.
+//!
+//! The passes, each in its file: `flatten` (sub-diagrams dissolve into blocks with paths), `widths`, `rates`, `order` (with the
+//! algebraic loops), `units`. All problems of a pass are reported at once; a pass that needs the one before is not begun after
+//! an error.
+
+mod flatten;
+mod order;
+mod rates;
+mod units;
+mod widths;
+
+use core::fmt;
+
+use crate::diagram::Diagram;
+use crate::program::Program;
+use crate::unit::Unit;
+
+/// What stands around a diagram: the world's ports and the clock.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    /// Base step `[s]`.
+    pub step: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// What the world gives: measurements.
+    pub measurements: Vec<Terminal>,
+    /// What the world takes: commands.
+    pub commands: Vec<Terminal>,
+}
+
+impl Interface {
+    /// A clock alone.
+    #[must_use]
+    pub fn new(step: f64) -> Self {
+        Self { step, seed: 0, measurements: Vec::new(), commands: Vec::new() }
+    }
+}
+
+/// A port of the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Terminal {
+    /// Its name, then other names for the same.
+    pub names: Vec<String>,
+    /// How many numbers.
+    pub width: usize,
+    /// Unit, if it has one.
+    pub unit: Option<Unit>,
+    /// Of a measurement: depends at once on the commands, as an acceleration does. Of a command: taken at ticks only and held, as
+    /// the velocity of an ideal motor is.
+    pub is_special: bool,
+}
+
+/// Where a problem is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Names of the entries that lead to the diagram; empty for the outermost.
+    pub diagram: Vec<String>,
+    /// What of it.
+    pub what: Spot,
+}
+
+/// What of a diagram.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// The entry of a name.
+    Entry(String),
+    /// The sample time of an entry.
+    SampleTime(String),
+    /// Where the wire of a number comes from.
+    From(usize),
+    /// Where the wire of a number goes.
+    To(usize),
+    /// A port of the diagram.
+    Port(String),
+}
+
+/// Something wrong with a diagram.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Where.
+    pub place: Place,
+    /// What.
+    pub message: String,
+    /// What would mend it.
+    pub help: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\nhelp: {}", self.message, self.help)
+    }
+}
+
+/// Compiles a diagram.
+///
+/// # Errors
+///
+/// Everything that is wrong with it.
+pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, Vec<Problem>> {
+    let mut flat = flatten::flatten(diagram, interface)?;
+    widths::infer(&mut flat)?;
+    let order = order::order(&flat)?;
+    let rates = rates::infer(&flat, &order, interface.step)?;
+    units::check(&flat, &order)?;
+    Program::assemble(flat, &order, &rates, interface)
+}
+
+/// A diagram without inner diagrams. Node 0 is the world's measurements, node 1 those that depend on its commands.
+#[derive(Debug)]
+pub(crate) struct Flat {
+    pub nodes: Vec<FlatNode>,
+    /// The measurements in use: number of the terminal in the interface, by output port of node 0 and 1.
+    pub measurements: [Vec<usize>; 2],
+    /// The commands in use: number of the terminal, by input port of node 1.
+    pub commands: Vec<usize>,
+}
+
+/// The world's measurements that depend on its state alone.
+pub(crate) const EARLY: usize = 0;
+/// The world: takes the commands, gives what depends on them at once.
+pub(crate) const LATE: usize = 1;
+
+#[derive(Debug)]
+pub(crate) struct FlatNode {
+    /// Names of all entries that lead to it, with `/` between them.
+    pub path: String,
+    pub place: Place,
+    /// None for the world.
+    pub template: Option<Box<dyn crate::instance::Template>>,
+    /// With whether it is inherited from a diagram around it.
+    pub sample_time: Option<(f64, bool)>,
+    pub unit: Option<String>,
+    pub inputs: Vec<Input>,
+    pub input_names: Vec<String>,
+    pub output_names: Vec<String>,
+    pub in_widths: Vec<Option<usize>>,
+    pub out_widths: Vec<Option<usize>>,
+    /// Units of the world's ports; empty for blocks.
+    pub in_units: Vec<Option<Unit>>,
+    pub out_units: Vec<Option<Unit>>,
+}
+
+/// Where an input gets its numbers from.
+#[derive(Clone, Debug)]
+pub(crate) struct Input {
+    pub node: usize,
+    pub port: usize,
+    pub range: Option<core::ops::Range<usize>>,
+    /// The wire's end, for messages.
+    pub place: Place,
+}
+
+impl Flat {
+    /// `block.port`, or `block` if it has but one output.
+    pub fn output_name(&self, node: usize, port: usize) -> String {
+        let n = &self.nodes[node];
+        match (node, n.output_names.len()) {
+            (EARLY | LATE, _) => n.output_names[port].clone(),
+            (_, 1) => n.path.clone(),
+            _ => format!("{}.{}", n.path, n.output_names[port]),
+        }
+    }
+
+    /// `block.port`, or `block` if it has but one input.
+    pub fn input_name(&self, node: usize, port: usize) -> String {
+        let n = &self.nodes[node];
+        match (node, n.input_names.len()) {
+            (EARLY | LATE, _) => n.input_names[port].clone(),
+            (_, 1) => n.path.clone(),
+            _ => format!("{}.{}", n.path, n.input_names[port]),
+        }
+    }
+
+    pub fn feeds_through(&self, node: usize, input: usize) -> bool {
+        self.nodes[node].template.as_ref().is_none_or(|t| t.feeds_through(input))
+    }
+}
+
+/// `a`, `b` and `c`.
+pub(crate) fn listed(names: impl IntoIterator<Item = impl AsRef<str>>) -> String {
+    let quoted: Vec<String> = names.into_iter().map(|n| format!("`{}`", n.as_ref())).collect();
+    match quoted.split_last() {
+        None => "none".into(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::continuous::Integrator;
+    use crate::library::discrete::UnitDelay;
+    use crate::library::maths::{Gain, Sum};
+    use crate::library::sources::Constant;
+    use crate::solo::Solo;
+
+    fn problems(diagram: &Diagram) -> Vec<String> {
+        compile(diagram, &Interface::new(0.001)).unwrap_err().iter().map(ToString::to_string).collect()
+    }
+
+    fn decay() -> Diagram {
+        let mut d = Diagram::new();
+        d.block("target", Constant::new(1.0)).block("error", Sum::new("+-")).block("rate", Gain::new(2.0));
+        d.block("x", Integrator::new(0.0));
+        d.wire("target", "error.u1").wire("error", "rate").wire("rate", "x").wire("x", "error.u2");
+        d
+    }
+
+    #[test]
+    fn first_order_lag_follows_its_exponential() {
+        let mut solo = Solo::new(&decay(), 0.01).unwrap();
+        let x = solo.record("x", 100);
+        let exact = 1.0 - sincro_math::elementary::exp(-2.0).0;
+        assert!((x[100] - exact).abs() < 1e-9, "{} {exact}", x[100]);
+    }
+
+    #[test]
+    fn an_algebraic_loop_is_printed_whole() {
+        let mut d = Diagram::new();
+        d.block("a", Sum::new("+-"))
+            .block("b", Gain::new(2.0))
+            .block("c", Gain::new(2.0))
+            .block("one", Constant::new(1.0));
+        d.wire("one", "a.u1").wire("c", "a.u2").wire("a", "b").wire("b", "c");
+        let found = problems(&d);
+        assert_eq!(found.len(), 1);
+        assert!(found[0].starts_with("algebraic loop: a -> b -> c -> a"), "{}", found[0]);
+        // a delay breaks it
+        d.wires.pop();
+        d.block("delay", UnitDelay::new(0.0)).wire("b", "delay").wire("delay", "c");
+        assert!(compile(&d, &Interface::new(0.001)).is_ok());
+    }
+
+    #[test]
+    fn an_open_input_an_unknown_block_and_two_wires_are_found_together() {
+        let mut d = Diagram::new();
+        d.block("one", Constant::new(1.0)).block("gain", Gain::new(2.0));
+        d.wire("one", "gain").wire("one", "gain").wire("on", "gain.v").wire("gain.x", "gian");
+        let found = problems(&d).join("\n");
+        for part in [
+            "two wires go into `gain`",
+            "there is no block `on`\nhelp: did you mean `one`?",
+            "`gain` has no input `v`",
+            "`gain` has no output `x`",
+            "there is no block `gian`\nhelp: did you mean `gain`?",
+        ] {
+            assert!(found.contains(part), "{part} in {found}");
+        }
+        let mut d = Diagram::new();
+        d.block("gain", Gain::new(2.0)).block("sum", Sum::new("++")).wire("gain", "sum.u1");
+        let found = problems(&d).join("\n");
+        assert!(
+            found.contains("the input of `gain` is not connected") && found.contains("the input `u2` of `sum`"),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn sizes_that_do_not_fit_name_both_ends() {
+        let mut d = Diagram::new();
+        d.block("a", Constant { value: vec![1.0, 2.0] }).block("b", Constant { value: vec![1.0, 2.0, 3.0] });
+        d.block("sum", Sum::new("++")).wire("a", "sum.u1").wire("b", "sum.u2");
+        let found = problems(&d).join("\n");
+        assert!(found.contains("`u1` gets 2 from `a`, `u2` gets 3 from `b`"), "{found}");
+        d.wires.clear();
+        d.wire("a[0:1]", "sum.u1").wire("b[3]", "sum.u2");
+        let found = problems(&d).join("\n");
+        assert!(found.contains("`b` has 3 components: there is no [3]"), "{found}");
+    }
+
+    #[test]
+    fn sample_times_are_multiples_of_the_step() {
+        let mut d = Diagram::new();
+        d.sampled("one", 0.0015, UnitDelay::new(0.0)).wire("one", "one");
+        let found = problems(&d).join("\n");
+        assert!(found.contains("0.0015 s of `one` is no multiple of the base step 0.001 s"), "{found}");
+        assert!(found.contains("use 0.001 s or 0.002 s"), "{found}");
+        let mut d = decay();
+        d.entries[3].sample_time = Some(0.002);
+        assert!(problems(&d)[0].contains("`x` is a continuous block"), "{:?}", problems(&d));
+    }
+
+    #[test]
+    fn inner_diagrams_dissolve() {
+        let mut lag = Diagram { inputs: vec!["r".into()], outputs: vec!["out".into()], ..Diagram::new() };
+        lag.block("error", Sum::new("+-")).block("x", Integrator::new(0.0));
+        lag.wire("r", "error.u1").wire("x", "error.u2").wire("error", "x").wire("x", "out");
+        let mut d = Diagram::new();
+        d.block("one", Constant { value: vec![1.0, 3.0] });
+        d.diagram("first", lag.clone(), None).diagram("second", lag, None);
+        d.block("both", Gain::new(1.0));
+        d.wire("one[1]", "first").wire("first", "second").wire("[first, second.out]", "both");
+        let mut solo = Solo::new(&d, 0.01).unwrap();
+        assert_eq!(
+            solo.runner.program().order(),
+            ["one", "first/x", "first/error", "second/x", "second/error", "[both]", "both"]
+        );
+        solo.record("both", 2000);
+        assert!((solo.output("both")[1] - 3.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_sampled_block_holds_between_its_ticks() {
+        let mut d = Diagram::new();
+        d.block("one", Constant::new(1.0)).block("x", Integrator::new(0.0)).sampled("held", 0.004, Gain::new(1.0));
+        d.wire("one", "x").wire("x", "held");
+        let held = Solo::new(&d, 0.001).unwrap().record("held", 8);
+        assert_eq!(held.iter().map(|x| (x * 1000.0).round()).collect::<Vec<_>>(), [0., 0., 0., 0., 4., 4., 4., 4., 8.]);
+    }
+
+    #[test]
+    fn units_are_compared_where_they_are_known() {
+        let mut d = Diagram::new();
+        d.block("a", Constant::new(1.0)).block("b", Constant::new(1.0)).block("sum", Sum::new("++"));
+        d.wire("a", "sum.u1").wire("b", "sum.u2");
+        d.entries[0].unit = Some("rad".into());
+        assert!(compile(&d, &Interface::new(0.001)).is_ok());
+        d.entries[1].unit = Some("deg".into());
+        assert!(
+            problems(&d)[0].contains("units do not fit in `sum`: rad and deg are not the same"),
+            "{:?}",
+            problems(&d)
+        );
+    }
+}

@@ -1,0 +1,86 @@
+//! The order of evaluation: every block after those whose outputs it needs at once; otherwise as written. A circle of such
+//! needs is an algebraic loop.
+
+use super::{EARLY, Flat, LATE, Problem};
+
+/// Numbers of all nodes in the order of evaluation, the world's late measurements (if there are any) as late as possible.
+pub(super) fn order(flat: &Flat) -> Result<Vec<usize>, Vec<Problem>> {
+    let n = flat.nodes.len();
+    let needs: Vec<Vec<usize>> = (0..n).map(|node| needed(flat, node)).collect();
+    let mut done = vec![false; n];
+    let mut order = Vec::with_capacity(n);
+    while order.len() < n {
+        let ready = |&k: &usize| !done[k] && needs[k].iter().all(|&m| done[m]);
+        // the world last of those that are ready: everything that does not depend on its accelerations comes before it
+        let next = (0..n).filter(|&k| k != LATE).find(ready).or(Some(LATE).filter(ready));
+        match next {
+            Some(k) => {
+                done[k] = true;
+                order.push(k);
+            }
+            None => return Err(loops(flat, &needs, &done)),
+        }
+    }
+    Ok(order)
+}
+
+/// Nodes whose outputs a node's outputs depend on at once.
+fn needed(flat: &Flat, node: usize) -> Vec<usize> {
+    if node == LATE && flat.nodes[LATE].output_names.is_empty() {
+        return Vec::new();
+    }
+    let inputs = flat.nodes[node].inputs.iter().enumerate();
+    inputs.filter(|(k, _)| flat.feeds_through(node, *k)).map(|(_, input)| input.node).collect()
+}
+
+/// One loop for each knot of blocks that wait for each other.
+fn loops(flat: &Flat, needs: &[Vec<usize>], done: &[bool]) -> Vec<Problem> {
+    let mut seen = done.to_vec();
+    let mut problems = Vec::new();
+    for start in 0..needs.len() {
+        if seen[start] {
+            continue;
+        }
+        if let Some(circle) = shortest_circle(start, needs, done)
+            && !circle.iter().any(|&k| seen[k])
+        {
+            circle.iter().for_each(|&k| seen[k] = true);
+            problems.push(describe(flat, &circle));
+        }
+    }
+    problems
+}
+
+/// The shortest way from a node back to itself against the wires, given in the direction of the wires.
+fn shortest_circle(start: usize, needs: &[Vec<usize>], done: &[bool]) -> Option<Vec<usize>> {
+    let mut reached_from: Vec<Option<usize>> = vec![None; needs.len()];
+    let mut queue = std::collections::VecDeque::from([start]);
+    while let Some(node) = queue.pop_front() {
+        for &source in needs[node].iter().filter(|&&s| !done[s] && s != EARLY) {
+            if source == start {
+                let mut circle = vec![start];
+                let mut at = node;
+                while at != start {
+                    circle.push(at);
+                    at = reached_from[at].expect("reached from somewhere");
+                }
+                return Some(circle);
+            }
+            if reached_from[source].is_none() {
+                reached_from[source] = Some(node);
+                queue.push_back(source);
+            }
+        }
+    }
+    None
+}
+
+fn describe(flat: &Flat, circle: &[usize]) -> Problem {
+    let first = circle.iter().copied().min_by_key(|&k| if k == LATE { usize::MAX } else { k }).unwrap_or(circle[0]);
+    let turn = circle.iter().position(|&k| k == first).unwrap_or(0);
+    let names: Vec<&str> = circle[turn..].iter().chain(&circle[..=turn]).map(|&k| &*flat.nodes[k].path).collect();
+    let message = format!("algebraic loop: {}", names.join(" -> "));
+    let help = "each of these needs the output of the one before it at the same instant. Break the loop with a block that does not \
+                pass its input on at once: `unit-delay` (one sample), or `low-pass` or `integrator` (continuous)";
+    Problem { place: flat.nodes[first].place.clone(), message, help: help.into() }
+}

@@ -1,0 +1,111 @@
+//! Widths: from what is known to what follows, until nothing changes; what is then still open is a scalar.
+
+use super::{EARLY, Flat, Input, LATE, Problem};
+
+pub(super) fn infer(flat: &mut Flat) -> Result<(), Vec<Problem>> {
+    loop {
+        let changed = sweep(flat)?;
+        if changed {
+            continue;
+        }
+        // a loop of blocks of any width, such as a delay that feeds itself: a scalar
+        let open = (LATE + 1..flat.nodes.len()).find(|&n| flat.nodes[n].out_widths.contains(&None));
+        match open {
+            Some(n) => flat.nodes[n].out_widths.iter_mut().for_each(|w| *w = Some(w.unwrap_or(1))),
+            None => break,
+        }
+    }
+    let problems: Vec<Problem> = (0..flat.nodes.len()).flat_map(|n| ranges(flat, n)).collect();
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let problems: Vec<Problem> = commands(flat);
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+/// One pass over all blocks; whether anything became known.
+fn sweep(flat: &mut Flat) -> Result<bool, Vec<Problem>> {
+    let (mut changed, mut problems) = (false, Vec::new());
+    for n in LATE + 1..flat.nodes.len() {
+        let found: Vec<Problem> = ranges(flat, n);
+        if !found.is_empty() {
+            problems.extend(found);
+            continue;
+        }
+        let inputs: Vec<Option<usize>> = flat.nodes[n].inputs.iter().map(|i| width(flat, i)).collect();
+        let template = flat.nodes[n].template.as_ref().expect("a block, not the world");
+        match template.widths(&inputs) {
+            Ok(outputs) => {
+                let node = &mut flat.nodes[n];
+                for (old, new) in node.out_widths.iter_mut().zip(outputs) {
+                    match (*old, new) {
+                        (None, Some(w)) => (*old, changed) = (Some(w), true),
+                        (Some(a), Some(b)) if a != b => {
+                            let message = format!("`{}` gives {b} components where {a} were inferred", node.path);
+                            let help = "give its parameters the width of the signal".to_owned();
+                            problems.push(Problem { place: node.place.clone(), message, help });
+                        }
+                        _ => {}
+                    }
+                }
+                node.in_widths = inputs;
+            }
+            Err(words) => problems.push(misfit(flat, n, &inputs, &words)),
+        }
+    }
+    if problems.is_empty() { Ok(changed) } else { Err(problems) }
+}
+
+fn width(flat: &Flat, input: &Input) -> Option<usize> {
+    match &input.range {
+        Some(range) => Some(range.len()),
+        None => flat.nodes[input.node].out_widths[input.port],
+    }
+}
+
+/// Components that are chosen of a signal that does not have them.
+fn ranges(flat: &Flat, n: usize) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for input in &flat.nodes[n].inputs {
+        let whole = flat.nodes[input.node].out_widths[input.port];
+        if let (Some(range), Some(whole)) = (&input.range, whole)
+            && range.end > whole
+        {
+            let name = flat.output_name(input.node, input.port);
+            let message = format!("`{name}` has {whole} components: there is no [{}]", range.end - 1);
+            let help = format!("components are counted from 0 to {}", whole - 1);
+            problems.push(Problem { place: input.place.clone(), message, help });
+        }
+    }
+    problems
+}
+
+/// Inputs that do not fit each other: every one with its size and where it comes from.
+fn misfit(flat: &Flat, n: usize, inputs: &[Option<usize>], words: &str) -> Problem {
+    let node = &flat.nodes[n];
+    let ends = node.inputs.iter().zip(inputs).enumerate().filter_map(|(k, (input, width))| {
+        let from = flat.output_name(input.node, input.port);
+        width.map(|w| format!("`{}` gets {w} from `{from}`", node.input_names[k]))
+    });
+    let message = format!("sizes do not fit in `{}`: {words} ({})", node.path, ends.collect::<Vec<_>>().join(", "));
+    let help = "choose components with `[i]` or `[i:j]`, put signals together with `[a, b]`, or change the parameters";
+    Problem { place: node.place.clone(), message, help: help.into() }
+}
+
+/// What goes to the world has the width that the world takes.
+fn commands(flat: &Flat) -> Vec<Problem> {
+    let world = &flat.nodes[LATE];
+    let mut problems = Vec::new();
+    for (k, input) in world.inputs.iter().enumerate() {
+        let (given, taken) = (width(flat, input), world.in_widths[k]);
+        if given != taken {
+            let name = flat.output_name(input.node, input.port);
+            let (given, taken) = (given.unwrap_or(0), taken.unwrap_or(0));
+            let message = format!("`{name}` has {given} components, `{}` takes {taken}", flat.input_name(LATE, k));
+            let help = format!("choose one: `{name}[0]`");
+            problems.push(Problem { place: input.place.clone(), message, help });
+        }
+    }
+    debug_assert!(flat.nodes[EARLY].inputs.is_empty(), "measurements of the state have no inputs");
+    problems
+}

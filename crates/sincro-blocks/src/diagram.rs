@@ -1,0 +1,114 @@
+//! A diagram as it is drawn: named blocks and wires between their ports.
+//!
+//! ```
+//! use sincro_blocks::diagram::Diagram;
+//! use sincro_blocks::library::continuous::Integrator;
+//! use sincro_blocks::library::maths::{Gain, Sum};
+//! use sincro_blocks::library::sources::Constant;
+//! use sincro_blocks::compile::{Interface, compile};
+//!
+//! // x' = 2 (1 − x)
+//! let mut diagram = Diagram::new();
+//! diagram.block("target", Constant::new(1.0));
+//! diagram.block("error", Sum::new("+-"));
+//! diagram.block("rate", Gain::new(2.0));
+//! diagram.block("x", Integrator::new(0.0));
+//! diagram.wire("target", "error.u1").wire("error", "rate").wire("rate", "x").wire("x", "error.u2");
+//! let program = compile(&diagram, &Interface::new(0.001)).unwrap();
+//! assert_eq!(program.order(), ["target", "x", "error", "rate"]);
+//! ```
+
+use crate::endpoint::Endpoint;
+use crate::instance::Template;
+
+/// Blocks and wires; on its own or inside another diagram.
+#[derive(Clone, Debug, Default)]
+pub struct Diagram {
+    /// In the order in which they were added: it decides among blocks that could be evaluated in any order.
+    pub entries: Vec<Entry>,
+    /// Wires.
+    pub wires: Vec<Wire>,
+    /// Names of the ports through which signals come in, if it stands inside another diagram.
+    pub inputs: Vec<String>,
+    /// Names of the ports through which signals go out.
+    pub outputs: Vec<String>,
+}
+
+/// A block with its name.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Letters, digits, `_` and `-`; unique in the diagram.
+    pub name: String,
+    /// The block.
+    pub what: What,
+    /// Sample time `[s]` of the block, or of all blocks in a diagram that have none of their own.
+    pub sample_time: Option<f64>,
+    /// Unit of the output, if it is declared.
+    pub unit: Option<String>,
+}
+
+/// What stands under a name.
+#[derive(Clone, Debug)]
+pub enum What {
+    /// A block of the library.
+    Block(Box<dyn Template>),
+    /// A diagram of its own: the name of its definition, and its content.
+    Diagram(String, Box<Diagram>),
+}
+
+/// A wire: what it carries, and where to.
+#[derive(Clone, Debug)]
+pub struct Wire {
+    /// Where it comes from; several sources are put one after the other into one vector.
+    pub from: Vec<Endpoint>,
+    /// Where it goes.
+    pub to: Endpoint,
+}
+
+impl Diagram {
+    /// An empty one.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a block.
+    pub fn block(&mut self, name: &str, block: impl Template + 'static) -> &mut Self {
+        self.add(name, What::Block(Box::new(block)), None)
+    }
+
+    /// Adds a block with a sample time `[s]`.
+    pub fn sampled(&mut self, name: &str, sample_time: f64, block: impl Template + 'static) -> &mut Self {
+        self.add(name, What::Block(Box::new(block)), Some(sample_time))
+    }
+
+    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it that have
+    /// none of their own.
+    pub fn diagram(&mut self, name: &str, inner: Self, sample_time: Option<f64>) -> &mut Self {
+        self.add(name, What::Diagram(name.to_owned(), Box::new(inner)), sample_time)
+    }
+
+    /// Adds anything.
+    pub fn add(&mut self, name: &str, what: What, sample_time: Option<f64>) -> &mut Self {
+        self.entries.push(Entry { name: name.to_owned(), what, sample_time, unit: None });
+        self
+    }
+
+    /// Adds a wire, such as `"pid"` to `"/motor"`, `"plant.x[0]"` to `"error.u2"`, `"[a, b]"` to `"norm"`.
+    ///
+    /// # Panics
+    ///
+    /// If the texts are not endpoints: this is for diagrams written in Rust.
+    pub fn wire(&mut self, from: &str, to: &str) -> &mut Self {
+        let from = Endpoint::parse_list(from).unwrap_or_else(|e| panic!("`{from}`: {}", e.message));
+        let to = Endpoint::parse(to).unwrap_or_else(|e| panic!("`{to}`: {}", e.message));
+        self.wires.push(Wire { from, to });
+        self
+    }
+
+    /// The entry of a name.
+    #[must_use]
+    pub fn entry(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.name == name)
+    }
+}

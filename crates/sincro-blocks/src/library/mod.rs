@@ -1,0 +1,72 @@
+//! The blocks, one file each, by shelf.
+//!
+//! [`all`] lists them with their descriptions; [`find`] gives the one of a name.
+
+pub mod continuous;
+pub mod discrete;
+pub mod logic;
+pub mod maths;
+pub mod nonlinear;
+pub mod rotations;
+pub mod routing;
+pub mod sinks;
+pub mod sources;
+
+use crate::block::Block;
+use crate::instance::Template;
+use crate::kind::{Described, Kind};
+use crate::reader::Reader;
+
+/// A kind of block and how one is made from parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Item {
+    /// Its description.
+    pub kind: &'static Kind,
+    /// Makes one.
+    pub read: fn(&mut Reader<'_>) -> Box<dyn Template>,
+}
+
+/// The item of a block type.
+pub(crate) const fn item<B: Block + Described>() -> Item {
+    Item { kind: B::KIND, read: |reader| Box::new(B::read(reader)) }
+}
+
+/// All blocks, shelf by shelf.
+pub fn all() -> impl Iterator<Item = &'static Item> {
+    let shelves = [
+        sources::SHELF,
+        maths::SHELF,
+        nonlinear::SHELF,
+        continuous::SHELF,
+        discrete::SHELF,
+        routing::SHELF,
+        logic::SHELF,
+        rotations::SHELF,
+        sinks::SHELF,
+    ];
+    shelves.into_iter().flatten()
+}
+
+/// The block of a name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Item> {
+    all().find(|item| item.kind.name == name)
+}
+
+/// Numbers as they fit into a box of a drawing.
+pub(crate) fn short_list(numbers: &[f64]) -> String {
+    match numbers {
+        [x] => short(*x),
+        _ if numbers.len() <= 3 => format!("[{}]", numbers.iter().map(|x| short(*x)).collect::<Vec<_>>().join(" ")),
+        _ => format!("[{} … {}]", short(numbers[0]), short(numbers[numbers.len() - 1])),
+    }
+}
+
+/// A number in few digits.
+pub(crate) fn short(x: f64) -> String {
+    let plain = format!("{x}");
+    if plain.len() <= 7 {
+        return plain;
+    }
+    if x != 0.0 && (x.abs() < 1e-3 || x.abs() >= 1e5) { format!("{x:.2e}") } else { format!("{x:.4}") }
+}

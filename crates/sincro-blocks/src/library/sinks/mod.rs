@@ -1,0 +1,5 @@
+//! Sinks: what only looks.
+
+use super::Item;
+
+pub(super) const SHELF: &[Item] = &[];

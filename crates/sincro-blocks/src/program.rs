@@ -1,0 +1,267 @@
+//! A compiled diagram: what is evaluated, in which order, where its numbers stand.
+//!
+//! The signals stand in one vector, in the order of evaluation: what a block needs at once is always to the left of what
+//! it gives, so that inputs can be read while outputs are written, without a copy.
+
+use core::ops::Range;
+
+use crate::block::{Memory, Node};
+use crate::compile::{EARLY, Flat, Interface, LATE, Problem};
+use crate::instance::Template;
+
+/// When a block is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rate {
+    /// Once.
+    Constant,
+    /// At every tick and between ticks, wherever the integrator looks.
+    Continuous,
+    /// At every so many ticks; its outputs are held in between.
+    Sampled(u64),
+}
+
+/// A block in its place.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Names of the entries that lead to it, with `/` between them.
+    pub path: String,
+    /// The block.
+    pub template: Box<dyn Template>,
+    /// Its sizes.
+    pub node: Node,
+    /// When it is evaluated.
+    pub rate: Rate,
+    /// Start and length of every input among the signals.
+    pub ports: Vec<(u32, u32)>,
+    /// Its outputs among the signals.
+    pub out: Range<usize>,
+    /// Its continuous states.
+    pub states: Range<usize>,
+    /// Its memory.
+    pub memory: Range<usize>,
+    /// Names of its outputs.
+    pub output_names: Vec<String>,
+    /// Whether continuous states or continuous commands depend on it: it is then evaluated between ticks too.
+    pub is_minor: bool,
+}
+
+/// A measurement that the diagram reads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Measured {
+    /// Number of the terminal in the [`Interface`].
+    pub terminal: usize,
+    /// Where its numbers go among the signals.
+    pub out: Range<usize>,
+    /// Whether blocks that are evaluated between ticks read it.
+    pub is_minor: bool,
+}
+
+/// A command that the diagram gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Commanded {
+    /// Number of the terminal in the [`Interface`].
+    pub terminal: usize,
+    /// Where its numbers stand among the signals.
+    pub signal: Range<usize>,
+    /// Whether it changes between ticks.
+    pub is_continuous: bool,
+}
+
+/// A compiled diagram.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// All blocks in the order of evaluation.
+    pub steps: Vec<Step>,
+    /// How many of them come before the world's late measurements.
+    pub n_early: usize,
+    /// Measurements that depend on the world's state alone.
+    pub early: Vec<Measured>,
+    /// Measurements that depend at once on its commands.
+    pub late: Vec<Measured>,
+    /// Commands.
+    pub commands: Vec<Commanded>,
+    /// Sample times in use, in base steps.
+    pub periods: Vec<u64>,
+    /// Number of signals.
+    pub n_signals: usize,
+    /// Number of continuous states.
+    pub n_states: usize,
+    /// Length of the memory.
+    pub n_memory: usize,
+    /// Base step `[s]`.
+    pub step: f64,
+}
+
+impl Program {
+    /// Lays out what the passes of the compiler found.
+    pub(crate) fn assemble(
+        flat: Flat,
+        order: &[usize],
+        rates: &[Rate],
+        interface: &Interface,
+    ) -> Result<Self, Vec<Problem>> {
+        let minor = between_ticks(&flat, order, rates);
+        // where the outputs of every node begin, port by port
+        let mut begins: Vec<Vec<usize>> = vec![Vec::new(); flat.nodes.len()];
+        let mut n_signals = 0;
+        for &n in order {
+            for width in &flat.nodes[n].out_widths {
+                begins[n].push(n_signals);
+                n_signals += width.expect("widths are inferred");
+            }
+        }
+        let measured = |n: usize| -> Vec<Measured> {
+            let ports = flat.measurements[n].iter().enumerate();
+            ports
+                .map(|(port, &terminal)| {
+                    let width = flat.nodes[n].out_widths[port].unwrap_or(0);
+                    let reads = |m: &usize| flat.nodes[*m].inputs.iter().any(|i| (i.node, i.port) == (n, port));
+                    let is_minor = minor_reads(&flat, &minor, rates, reads);
+                    Measured { terminal, out: begins[n][port]..begins[n][port] + width, is_minor }
+                })
+                .collect()
+        };
+        let (early, late) = (measured(EARLY), measured(LATE));
+        let place = |input: &crate::compile::Input| -> Range<usize> {
+            let start = begins[input.node][input.port];
+            match &input.range {
+                Some(range) => start + range.start..start + range.end,
+                None => start..start + flat.nodes[input.node].out_widths[input.port].unwrap_or(0),
+            }
+        };
+        let commands = flat.nodes[LATE].inputs.iter().zip(&flat.commands).map(|(input, &terminal)| Commanded {
+            terminal,
+            signal: place(input),
+            is_continuous: rates[input.node] == Rate::Continuous && !interface.commands[terminal].is_special,
+        });
+        let commands = commands.collect();
+        let n_early = order.iter().position(|&n| n == LATE).unwrap_or(order.len()) - 1;
+        let ports: Vec<Vec<(u32, u32)>> = flat
+            .nodes
+            .iter()
+            .map(|n| n.inputs.iter().map(place).map(|r| (r.start as u32, r.len() as u32)).collect())
+            .collect();
+        let mut program = Self {
+            steps: Vec::with_capacity(order.len()),
+            n_early,
+            early,
+            late,
+            commands,
+            periods: Vec::new(),
+            n_signals,
+            n_states: 0,
+            n_memory: 0,
+            step: interface.step,
+        };
+        let mut problems = Vec::new();
+        let mut nodes: Vec<Option<crate::compile::FlatNode>> = flat.nodes.into_iter().map(Some).collect();
+        for &n in order.iter().filter(|&&n| n != EARLY && n != LATE) {
+            let flat_node = nodes[n].take().expect("every node is ordered once");
+            let template = flat_node.template.expect("a block, not the world");
+            let widths = |list: &[Option<usize>]| list.iter().map(|w| w.unwrap_or(0)).collect::<Vec<_>>();
+            let every = if let Rate::Sampled(every) = rates[n] { every } else { 1 };
+            let node = Node {
+                inputs: ports[n].iter().map(|p| p.1 as usize).collect(),
+                outputs: widths(&flat_node.out_widths),
+                step: interface.step,
+                every,
+                seed: seed_of(interface.seed, &flat_node.path),
+            };
+            if let Err((message, help)) = template.check(&node) {
+                let message = format!("`{}`: {message}", flat_node.path);
+                problems.push(Problem { place: flat_node.place, message, help });
+            }
+            let Memory { continuous, discrete } = template.memory(&node);
+            let start = begins[n].first().copied().unwrap_or(0);
+            if !program.periods.contains(&every) {
+                program.periods.push(every);
+            }
+            program.steps.push(Step {
+                path: flat_node.path,
+                out: start..start + node.n_out(),
+                node,
+                rate: rates[n],
+                ports: ports[n].clone(),
+                states: program.n_states..program.n_states + continuous,
+                memory: program.n_memory..program.n_memory + discrete,
+                output_names: flat_node.output_names,
+                is_minor: minor[n],
+                template,
+            });
+            program.n_states += continuous;
+            program.n_memory += discrete;
+        }
+        if problems.is_empty() { Ok(program) } else { Err(problems) }
+    }
+
+    /// Paths of the blocks in the order of evaluation.
+    #[must_use]
+    pub fn order(&self) -> Vec<&str> {
+        self.steps.iter().map(|step| step.path.as_str()).collect()
+    }
+
+    /// The outputs of all blocks: name (`block`, or `block.port` where there are several), place among the signals, step.
+    pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, &Step)> {
+        self.steps.iter().flat_map(|step| {
+            let mut start = step.out.start;
+            step.output_names.iter().zip(&step.node.outputs).map(move |(port, width)| {
+                let name = match step.output_names.len() {
+                    1 => step.path.clone(),
+                    _ => format!("{}.{port}", step.path),
+                };
+                let range = start..start + width;
+                start = range.end;
+                (name, range, step)
+            })
+        })
+    }
+
+    /// The first instant after `t` at which a function of time that is evaluated between ticks has a corner; infinite if none.
+    #[must_use]
+    pub fn next_corner(&self, t: f64) -> f64 {
+        let minor = self.steps.iter().filter(|step| step.is_minor);
+        minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_corner(t)))
+    }
+
+    /// Whether anything happens between ticks.
+    #[must_use]
+    pub fn is_continuous(&self) -> bool {
+        self.n_states > 0 || self.commands.iter().any(|c| c.is_continuous)
+    }
+}
+
+/// Whether any node that `reads` is evaluated between ticks, has continuous states, or is the world that takes commands.
+fn minor_reads(flat: &Flat, minor: &[bool], rates: &[Rate], reads: impl Fn(&usize) -> bool) -> bool {
+    (0..flat.nodes.len()).filter(|n| reads(n)).any(|n| n == LATE || minor[n] || has_states(flat, rates, n))
+}
+
+fn has_states(flat: &Flat, rates: &[Rate], n: usize) -> bool {
+    let template = flat.nodes[n].template.as_ref();
+    rates[n] == Rate::Continuous && template.is_some_and(|t| t.pace() == crate::block::Pace::Continuous)
+}
+
+/// Which nodes the integrator needs: continuous ones that continuous states or the world's commands depend on.
+fn between_ticks(flat: &Flat, order: &[usize], rates: &[Rate]) -> Vec<bool> {
+    let mut needed = vec![false; flat.nodes.len()];
+    for n in 0..flat.nodes.len() {
+        if n == LATE || has_states(flat, rates, n) {
+            for input in &flat.nodes[n].inputs {
+                needed[input.node] = true;
+            }
+        }
+    }
+    for &n in order.iter().rev() {
+        if needed[n] && rates[n] == Rate::Continuous && n != LATE {
+            for (k, input) in flat.nodes[n].inputs.iter().enumerate() {
+                needed[input.node] |= flat.feeds_through(n, k);
+            }
+        }
+    }
+    (0..flat.nodes.len()).map(|n| needed[n] && rates[n] == Rate::Continuous && n > LATE).collect()
+}
+
+/// A seed for a block: of the run's seed and the path (FNV-1a).
+fn seed_of(seed: u64, path: &str) -> u64 {
+    path.bytes()
+        .fold(seed ^ 0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}

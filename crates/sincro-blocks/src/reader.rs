@@ -1,0 +1,488 @@
+//! Parameters by name: from neutral values to the fields of a block.
+//!
+//! A [`Reader`] hands out parameters with the type that a block wants and notes everything that is wrong with them, so that
+//! all problems are reported at once.
+
+use std::collections::BTreeMap;
+
+use sincro_math::expression::{Expression, is_name};
+
+use crate::kind::{Kind, Takes};
+
+/// A parameter as it is given: what every file format can say.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// True or false.
+    Flag(bool),
+    /// A text; where a number is wanted, a formula of the diagram's parameters.
+    Text(String),
+    /// A list.
+    List(Vec<Value>),
+    /// Names with values, in the order of the file.
+    Table(Vec<(String, Value)>),
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+
+impl<T: Into<Value>> From<Vec<T>> for Value {
+    fn from(list: Vec<T>) -> Self {
+        Self::List(list.into_iter().map(Into::into).collect())
+    }
+}
+
+/// Something wrong with a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Steps to the value: the parameter's key, then indices and names inside it.
+    pub path: Vec<String>,
+    /// Byte range in the text of the value, if it is a formula that does not parse.
+    pub span: Option<core::ops::Range<usize>>,
+    /// What is wrong.
+    pub message: String,
+    /// What would mend it.
+    pub help: String,
+}
+
+/// Columns of the scene folder's CSV files, given by whoever may read files.
+pub trait Files {
+    /// The numbers of a column.
+    ///
+    /// # Errors
+    ///
+    /// Why there are none, in words.
+    fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String>;
+}
+
+/// No files at all.
+#[derive(Clone, Copy, Debug)]
+pub struct NoFiles;
+
+impl Files for NoFiles {
+    fn column(&self, file: &str, _: &str) -> Result<Vec<f64>, String> {
+        Err(format!("the file `{file}` cannot be read here"))
+    }
+}
+
+/// Reads the parameters of one block.
+pub struct Reader<'a> {
+    kind: &'static Kind,
+    given: &'a BTreeMap<String, Value>,
+    scope: &'a BTreeMap<String, f64>,
+    files: &'a dyn Files,
+    faults: Vec<Fault>,
+}
+
+impl<'a> Reader<'a> {
+    /// For the parameters `given` to a block of `kind`; formulas in them know the names of `scope`.
+    #[must_use]
+    pub fn new(
+        kind: &'static Kind,
+        given: &'a BTreeMap<String, Value>,
+        scope: &'a BTreeMap<String, f64>,
+        files: &'a dyn Files,
+    ) -> Self {
+        let mut reader = Self { kind, given, scope, files, faults: Vec::new() };
+        reader.look_for_unknown();
+        reader
+    }
+
+    fn look_for_unknown(&mut self) {
+        for key in self.given.keys() {
+            if self.kind.parameters.iter().any(|p| p.name == key) {
+                continue;
+            }
+            let known: Vec<&str> = self.kind.parameters.iter().map(|p| p.name).collect();
+            let help = if known.is_empty() { "it has none".into() } else { format!("it has {}", known.join(", ")) };
+            let message = format!("`{}` has no parameter `{key}`", self.kind.name);
+            self.faults.push(Fault { path: vec![key.clone()], span: None, message, help });
+        }
+    }
+
+    /// Everything that was wrong.
+    #[must_use]
+    pub fn finish(self) -> Vec<Fault> {
+        self.faults
+    }
+
+    /// The names that formulas may use.
+    #[must_use]
+    pub fn scope(&self) -> &'a BTreeMap<String, f64> {
+        self.scope
+    }
+
+    /// Whether the parameter is given.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.given.contains_key(key)
+    }
+
+    /// The parameter as it is given.
+    #[must_use]
+    pub fn raw(&self, key: &str) -> Option<&'a Value> {
+        self.given.get(key)
+    }
+
+    /// Notes that a parameter is wrong.
+    pub fn fault(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.fault_at(&[key], None, message, help);
+    }
+
+    /// Notes that something inside a parameter is wrong.
+    pub fn fault_at(
+        &mut self,
+        path: &[&str],
+        span: Option<core::ops::Range<usize>>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let path = path.iter().map(|step| (*step).to_owned()).collect();
+        self.faults.push(Fault { path, span, message: message.into(), help: help.into() });
+    }
+
+    /// The parameter or its default; none, with a fault, if it must be given.
+    fn value(&mut self, key: &str) -> Option<Value> {
+        if let Some(value) = self.given.get(key) {
+            return Some(value.clone());
+        }
+        let parameter = self.kind.parameters.iter().find(|p| p.name == key);
+        let parameter = parameter.unwrap_or_else(|| panic!("`{}` describes no parameter `{key}`", self.kind.name));
+        match parameter.default {
+            Some(text) => Some(default_value(text, parameter.takes)),
+            None => {
+                let message = format!("`{}` needs the parameter `{key}`: {}", self.kind.name, parameter.meaning);
+                self.faults.push(Fault { path: Vec::new(), span: None, message, help: format!("give {key} = …") });
+                None
+            }
+        }
+    }
+
+    /// A finite number (NaN after a fault).
+    pub fn number(&mut self, key: &str) -> f64 {
+        match self.value(key) {
+            Some(value) => self.to_number(&value, &[key]),
+            None => f64::NAN,
+        }
+    }
+
+    /// A number that may be infinite, written as `inf` or `-inf` in a text.
+    pub fn limit(&mut self, key: &str) -> f64 {
+        match self.value(key) {
+            Some(Value::Text(text)) if text == "inf" => f64::INFINITY,
+            Some(Value::Text(text)) if text == "-inf" => f64::NEG_INFINITY,
+            Some(Value::Number(x)) if x.is_infinite() => x,
+            Some(value) => self.to_number(&value, &[key]),
+            None => f64::NAN,
+        }
+    }
+
+    /// A number greater than zero (1 after a fault).
+    pub fn positive(&mut self, key: &str) -> f64 {
+        let x = self.number(key);
+        if x <= 0.0 {
+            self.fault(key, format!("`{key}` is {x}"), "it must be greater than 0");
+        }
+        if x > 0.0 { x } else { 1.0 }
+    }
+
+    /// A whole number from 0 on (0 after a fault).
+    pub fn count(&mut self, key: &str) -> usize {
+        let x = self.number(key);
+        let is_whole = x >= 0.0 && x.fract() == 0.0 && x < 1e9;
+        if !is_whole && !x.is_nan() {
+            self.fault(key, format!("`{key}` is {x}"), "it must be a whole number from 0 on");
+        }
+        if is_whole { x as usize } else { 0 }
+    }
+
+    /// One number, or one for each component; never empty.
+    pub fn numbers(&mut self, key: &str) -> Vec<f64> {
+        match self.value(key) {
+            Some(Value::List(list)) => {
+                if list.is_empty() {
+                    self.fault(key, format!("`{key}` is empty"), "give at least one number");
+                    return vec![f64::NAN];
+                }
+                list.iter().enumerate().map(|(k, x)| self.to_number(x, &[key, &k.to_string()])).collect()
+            }
+            Some(value) => vec![self.to_number(&value, &[key])],
+            None => vec![f64::NAN],
+        }
+    }
+
+    /// As [`Reader::numbers`], each greater than zero.
+    pub fn positives(&mut self, key: &str) -> Vec<f64> {
+        let mut list = self.numbers(key);
+        for k in 0..list.len() {
+            if list[k] <= 0.0 {
+                self.fault(key, format!("`{key}` has {}", list[k]), "every number must be greater than 0");
+                list[k] = 1.0;
+            }
+        }
+        list
+    }
+
+    /// Rows of equal length; a list of numbers is one row, a number is one by one.
+    pub fn matrix(&mut self, key: &str) -> Matrix {
+        let rows: Vec<Vec<f64>> = match self.value(key) {
+            Some(Value::List(list)) if list.iter().any(|row| matches!(row, Value::List(_))) => {
+                let row = |(i, row): (usize, &Value)| match row {
+                    Value::List(row) => row
+                        .iter()
+                        .enumerate()
+                        .map(|(k, x)| self.to_number(x, &[key, &i.to_string(), &k.to_string()]))
+                        .collect(),
+                    x => vec![self.to_number(x, &[key, &i.to_string()])],
+                };
+                list.iter().enumerate().map(row).collect()
+            }
+            Some(Value::List(list)) => {
+                vec![list.iter().enumerate().map(|(k, x)| self.to_number(x, &[key, &k.to_string()])).collect()]
+            }
+            Some(value) => vec![vec![self.to_number(&value, &[key])]],
+            None => vec![vec![f64::NAN]],
+        };
+        let columns = rows.first().map_or(0, Vec::len);
+        if let Some(bad) = rows.iter().position(|row| row.len() != columns) {
+            let message = format!("row 0 of `{key}` has {columns} numbers, row {bad} has {}", rows[bad].len());
+            self.fault(key, message, "all rows of a matrix are of the same length");
+            return Matrix { rows: 1, columns: 1, entries: vec![f64::NAN] };
+        }
+        Matrix { rows: rows.len(), columns, entries: rows.concat() }
+    }
+
+    /// True or false.
+    pub fn flag(&mut self, key: &str) -> bool {
+        match self.value(key) {
+            Some(Value::Flag(flag)) => flag,
+            Some(_) => {
+                self.fault(key, format!("`{key}` is not true or false"), "write true or false");
+                false
+            }
+            None => false,
+        }
+    }
+
+    /// A text.
+    pub fn text(&mut self, key: &str) -> String {
+        match self.value(key) {
+            Some(Value::Text(text)) => text,
+            Some(_) => {
+                self.fault(key, format!("`{key}` is not a text"), "put it in quotes");
+                String::new()
+            }
+            None => String::new(),
+        }
+    }
+
+    /// A list of texts; one text is a list of one.
+    pub fn texts(&mut self, key: &str) -> Vec<String> {
+        match self.value(key) {
+            Some(Value::Text(text)) => vec![text],
+            Some(Value::List(list)) => {
+                let mut texts = Vec::new();
+                for (k, item) in list.iter().enumerate() {
+                    match item {
+                        Value::Text(text) => texts.push(text.clone()),
+                        Value::Number(x) => texts.push(format!("{x:?}")),
+                        _ => self.fault_at(&[key, &k.to_string()], None, "this is not a text", "put it in quotes"),
+                    }
+                }
+                texts
+            }
+            Some(_) => {
+                self.fault(key, format!("`{key}` is not a list of texts"), "write [\"…\", \"…\"]");
+                Vec::new()
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// One of the words that the description lists; its index.
+    pub fn choice(&mut self, key: &str) -> usize {
+        let parameter = self.kind.parameters.iter().find(|p| p.name == key);
+        let Some(Takes::Choice(words)) = parameter.map(|p| p.takes) else {
+            panic!("`{}` describes no choice `{key}`", self.kind.name)
+        };
+        let text = self.text(key);
+        words.iter().position(|word| *word == text).unwrap_or_else(|| {
+            self.fault(key, format!("`{key}` is `{text}`"), format!("it is one of {}", words.join(", ")));
+            0
+        })
+    }
+
+    /// Names with numbers, in their order.
+    pub fn named_numbers(&mut self, key: &str) -> Vec<(String, f64)> {
+        match self.value(key) {
+            Some(Value::Table(table)) => {
+                table.iter().map(|(name, x)| (name.clone(), self.to_number(x, &[key, name]))).collect()
+            }
+            Some(_) => {
+                self.fault(key, format!("`{key}` is not a table"), "write { name = number, … }");
+                Vec::new()
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// Names with formulas, in their order.
+    pub fn named_texts(&mut self, key: &str) -> Vec<(String, String)> {
+        match self.value(key) {
+            Some(Value::Table(table)) => {
+                let mut list = Vec::new();
+                for (name, item) in table {
+                    match item {
+                        Value::Text(text) => list.push((name, text)),
+                        Value::Number(x) => list.push((name, format!("{x:?}"))),
+                        _ => self.fault_at(&[key, &name], None, "this is not a formula", "put it in quotes"),
+                    }
+                }
+                list
+            }
+            Some(_) => {
+                self.fault(key, format!("`{key}` is not a table"), "write { name = \"formula\", … }");
+                Vec::new()
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// A formula of `names`; the diagram's parameters are put in as numbers. `path` leads to its text.
+    pub fn formula(&mut self, path: &[&str], text: &str, names: &[&str]) -> Option<Formula> {
+        let constants: Vec<(&str, f64)> = self
+            .scope
+            .iter()
+            .filter(|(name, _)| !names.contains(&name.as_str()))
+            .map(|(name, x)| (name.as_str(), *x))
+            .collect();
+        let all: Vec<&str> = names.iter().copied().chain(constants.iter().map(|(name, _)| *name)).collect();
+        match Expression::parse(text, &all) {
+            Ok(expression) => {
+                Some(Formula { expression, n_names: names.len(), constants: constants.iter().map(|c| c.1).collect() })
+            }
+            Err(error) => {
+                let known = if names.is_empty() { String::new() } else { format!("it knows {}", all.join(", ")) };
+                self.fault_at(
+                    path,
+                    Some(error.span.clone()),
+                    error.message.clone(),
+                    error.help.clone().unwrap_or(known),
+                );
+                None
+            }
+        }
+    }
+
+    /// A name for use in formulas; a fault if it cannot be one.
+    pub fn check_name(&mut self, key: &str, name: &str) {
+        if !is_name(name) {
+            let help = "names have letters, digits and `_` and begin with a letter";
+            self.fault(key, format!("`{name}` cannot be a name in formulas"), help);
+        }
+    }
+
+    /// Two columns of a CSV file: what a table over time or over an argument is made from.
+    pub fn column(&mut self, key: &str, file: &str, column: &str) -> Vec<f64> {
+        match self.files.column(file, column) {
+            Ok(numbers) => numbers,
+            Err(message) => {
+                self.fault(key, message, "the path is relative to the scene's folder");
+                Vec::new()
+            }
+        }
+    }
+
+    fn to_number(&mut self, value: &Value, path: &[&str]) -> f64 {
+        match value {
+            Value::Number(x) if x.is_finite() => *x,
+            Value::Number(x) => {
+                self.fault_at(path, None, format!("{x} is not a finite number"), "give a finite number");
+                f64::NAN
+            }
+            Value::Text(text) => self.formula(path, text, &[]).map_or(f64::NAN, |formula| {
+                let x = formula.expression.eval(&formula.constants, &mut formula.expression.scratch());
+                if !x.is_finite() {
+                    self.fault_at(path, None, format!("`{text}` is {x}"), "it must be a finite number");
+                }
+                x
+            }),
+            _ => {
+                let help = "write a number, or a formula of the diagram's parameters in quotes";
+                self.fault_at(path, None, "this is not a number", help);
+                f64::NAN
+            }
+        }
+    }
+}
+
+/// A formula of some names, with the diagram's parameters put in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    /// The formula; its first `n_names` names are the caller's, the others have the values of `constants`.
+    pub expression: Expression,
+    /// How many names the caller gives values for.
+    pub n_names: usize,
+    /// Values of the other names.
+    pub constants: Vec<f64>,
+}
+
+/// A matrix, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matrix {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// Entries, row by row.
+    pub entries: Vec<f64>,
+}
+
+impl Matrix {
+    /// From rows of equal length.
+    ///
+    /// # Panics
+    ///
+    /// If they are not.
+    #[must_use]
+    pub fn from_rows(rows: &[&[f64]]) -> Self {
+        let columns = rows.first().map_or(0, |row| row.len());
+        assert!(rows.iter().all(|row| row.len() == columns), "rows of one length");
+        Self { rows: rows.len(), columns, entries: rows.concat() }
+    }
+
+    /// The entry in row `i` and column `k`.
+    #[must_use]
+    #[inline(always)]
+    pub fn at(&self, i: usize, k: usize) -> f64 {
+        self.entries[i * self.columns + k]
+    }
+}
+
+/// A default as it stands in a description.
+fn default_value(text: &str, takes: Takes) -> Value {
+    match takes {
+        Takes::Flag => Value::Flag(text == "true"),
+        Takes::Texts | Takes::Matrix if text == "[]" => Value::List(Vec::new()),
+        Takes::Names => Value::Table(Vec::new()),
+        Takes::Text | Takes::Choice(_) | Takes::File => Value::Text(text.to_owned()),
+        _ if text == "[]" => Value::List(Vec::new()),
+        _ => text.parse().map_or_else(|_| Value::Text(text.to_owned()), Value::Number),
+    }
+}

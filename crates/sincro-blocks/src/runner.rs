@@ -1,0 +1,254 @@
+//! A diagram that runs: state, and the verbs of a step.
+//!
+//! ```text
+//! tick k:   evaluate(k)   outputs of all blocks that are due at t_k, in order; the others hold
+//!           update(k)     memory for the next tick, from the signals at t_k
+//! between:  minor(t)      outputs of the continuous blocks, wherever the integrator looks
+//!           slopes(t)     rates of the continuous states
+//! ```
+//!
+//! Measurements are written before `evaluate` and `minor` ([`Runner::set`]), commands read after them ([`Runner::signals`]). What depends
+//! on the world's accelerations is evaluated apart (`*_late`), when they are known.
+
+use std::sync::Arc;
+
+use crate::block::At;
+use crate::instance::{Instance, Number};
+use crate::program::{Program, Rate, Step};
+
+/// All that changes in a diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<R> {
+    /// Outputs of all blocks; between their samples they are held here.
+    pub signals: Vec<R>,
+    /// Continuous states.
+    pub continuous: Vec<R>,
+    /// Discrete memory.
+    pub memory: Vec<R>,
+}
+
+/// A compiled diagram with its state.
+#[derive(Clone, Debug)]
+pub struct Runner<R: Number> {
+    program: Arc<Program>,
+    /// All that changes.
+    pub state: State<R>,
+    instances: Vec<Box<dyn Instance<R>>>,
+    /// Which of the program's periods are due.
+    due: Vec<bool>,
+    /// For each step: its period among the program's.
+    period: Vec<usize>,
+    new_memory: Vec<R>,
+    /// Steps that are evaluated between ticks, those that have continuous states, those that have anything to update.
+    minor: Vec<usize>,
+    with_states: Vec<usize>,
+    with_memory: Vec<usize>,
+}
+
+impl<R: Number> Runner<R> {
+    /// At the start of a run: initial states, constants evaluated.
+    #[must_use]
+    pub fn new(program: Arc<Program>) -> Self {
+        let zeros = |n: usize| vec![R::zero(); n];
+        let state = State {
+            signals: zeros(program.n_signals),
+            continuous: zeros(program.n_states),
+            memory: zeros(program.n_memory),
+        };
+        let instances = program.steps.iter().map(|step| R::instance(step.template.as_ref())).collect();
+        let period = |step: &Step| program.periods.iter().position(|p| *p == step.node.every).unwrap_or(0);
+        let those = |wanted: &dyn Fn(&Step) -> bool| -> Vec<usize> {
+            (0..program.steps.len()).filter(|&k| wanted(&program.steps[k])).collect()
+        };
+        let mut runner = Self {
+            period: program.steps.iter().map(period).collect(),
+            due: vec![true; program.periods.len()],
+            new_memory: zeros(program.n_memory),
+            minor: those(&|s| s.is_minor),
+            with_states: those(&|s| !s.states.is_empty()),
+            with_memory: those(&|s| !s.memory.is_empty() || !s.states.is_empty()),
+            state,
+            instances,
+            program,
+        };
+        for (step, instance) in runner.program.steps.iter().zip(&runner.instances) {
+            let states = &mut runner.state.continuous[step.states.clone()];
+            instance.start(&step.node, states, &mut runner.state.memory[step.memory.clone()]);
+        }
+        for k in 0..runner.instances.len() {
+            if runner.program.steps[k].rate == Rate::Constant {
+                runner.output(k, 0.0, f64::INFINITY, 0);
+            }
+        }
+        runner
+    }
+
+    /// The compiled diagram.
+    #[must_use]
+    pub fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    /// All signals.
+    #[must_use]
+    #[inline(always)]
+    pub fn signals(&self) -> &[R] {
+        &self.state.signals
+    }
+
+    /// All signals, to write measurements into.
+    #[inline(always)]
+    pub fn signals_mut(&mut self) -> &mut [R] {
+        &mut self.state.signals
+    }
+
+    /// Outputs at a tick, up to those that need the world's accelerations.
+    pub fn evaluate(&mut self, tick: u64, t: f64) {
+        for (due, period) in self.due.iter_mut().zip(&self.program.periods) {
+            *due = *period == 1 || tick % period == 0;
+        }
+        self.evaluate_range(0..self.program.n_early, tick, t);
+    }
+
+    /// The rest of the outputs at a tick.
+    pub fn evaluate_late(&mut self, tick: u64, t: f64) {
+        self.evaluate_range(self.program.n_early..self.instances.len(), tick, t);
+    }
+
+    fn evaluate_range(&mut self, steps: core::ops::Range<usize>, tick: u64, t: f64) {
+        let Self { program, state, instances, due, period, .. } = self;
+        for k in steps {
+            let step = &program.steps[k];
+            if step.rate != Rate::Constant && due[period[k]] {
+                let (before, out) = state.signals.split_at_mut(step.out.start);
+                let at = At {
+                    t,
+                    corner: f64::INFINITY,
+                    tick,
+                    node: &step.node,
+                    states: &state.continuous[step.states.clone()],
+                    memory: &state.memory[step.memory.clone()],
+                    signals: before,
+                    ports: &step.ports,
+                };
+                instances[k].output(&at, &mut out[..step.out.len()]);
+            }
+        }
+    }
+
+    #[inline]
+    fn output(&mut self, k: usize, t: f64, corner: f64, tick: u64) {
+        let step = &self.program.steps[k];
+        let (before, out) = self.state.signals.split_at_mut(step.out.start);
+        let at = At {
+            t,
+            corner,
+            tick,
+            node: &step.node,
+            states: &self.state.continuous[step.states.clone()],
+            memory: &self.state.memory[step.memory.clone()],
+            signals: before,
+            ports: &step.ports,
+        };
+        self.instances[k].output(&at, &mut out[..step.out.len()]);
+    }
+
+    /// Memory for the next tick, from the signals of this one. To be called once for every evaluated tick.
+    pub fn update(&mut self, tick: u64, t: f64) {
+        if self.with_memory.is_empty() {
+            return;
+        }
+        self.new_memory.copy_from_slice(&self.state.memory);
+        for i in 0..self.with_memory.len() {
+            let k = self.with_memory[i];
+            let step = &self.program.steps[k];
+            if step.rate == Rate::Constant || !self.due[self.period[k]] {
+                continue;
+            }
+            let states = &mut self.state.continuous[step.states.clone()];
+            let at = At {
+                t,
+                corner: f64::INFINITY,
+                tick,
+                node: &step.node,
+                // handed over to be set
+                states: &[],
+                memory: &self.state.memory[step.memory.clone()],
+                signals: &self.state.signals,
+                ports: &step.ports,
+            };
+            self.instances[k].update(&at, &mut self.new_memory[step.memory.clone()], states);
+        }
+        core::mem::swap(&mut self.state.memory, &mut self.new_memory);
+    }
+
+    /// Outputs of the continuous blocks at time `t` between ticks with the continuous states in `state.continuous`, up to those that
+    /// need accelerations. `corner`: see [`At::corner`].
+    pub fn minor(&mut self, tick: u64, t: f64, corner: f64) {
+        for i in 0..self.minor.len() {
+            let k = self.minor[i];
+            if k < self.program.n_early {
+                self.output(k, t, corner, tick);
+            }
+        }
+    }
+
+    /// The rest of the outputs between ticks.
+    pub fn minor_late(&mut self, tick: u64, t: f64, corner: f64) {
+        for i in 0..self.minor.len() {
+            let k = self.minor[i];
+            if k >= self.program.n_early {
+                self.output(k, t, corner, tick);
+            }
+        }
+    }
+
+    /// Rates of the continuous states, from the signals as they now are.
+    pub fn slopes(&mut self, tick: u64, t: f64, corner: f64, slope: &mut [R]) {
+        self.with_each_state(tick, t, corner, |instance, at, states| instance.slope(at, &mut slope[states]));
+    }
+
+    /// Decay of the continuous states: see [`crate::block::Block::decay`].
+    pub fn decays(&mut self, tick: u64, t: f64, decay: &mut [R]) {
+        decay.fill(R::zero());
+        self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| instance.decay(at, &mut decay[states]));
+    }
+
+    #[inline(always)]
+    fn with_each_state(
+        &mut self,
+        tick: u64,
+        t: f64,
+        corner: f64,
+        mut visit: impl FnMut(&mut dyn Instance<R>, &At<'_, R>, core::ops::Range<usize>),
+    ) {
+        for &k in &self.with_states {
+            let step = &self.program.steps[k];
+            let at = At {
+                t,
+                corner,
+                tick,
+                node: &step.node,
+                states: &self.state.continuous[step.states.clone()],
+                memory: &self.state.memory[step.memory.clone()],
+                signals: &self.state.signals,
+                ports: &step.ports,
+            };
+            visit(self.instances[k].as_mut(), &at, step.states.clone());
+        }
+    }
+
+    /// The first block whose output is not finite, with the number of the component.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<(&Step, usize)> {
+        // x·0 is 0 for every finite x: one sum tells whether to look closer
+        let sum = self.state.signals.iter().fold(R::zero(), |sum, x| sum + *x * R::zero());
+        if sum.lane(0) == 0.0 {
+            return None;
+        }
+        self.program.steps.iter().find_map(|step| {
+            let bad = self.state.signals[step.out.clone()].iter().position(|x| !x.lane(0).is_finite());
+            bad.map(|k| (step, k))
+        })
+    }
+}

@@ -1,0 +1,87 @@
+//! A diagram on its own, without a world: what tests and small examples need.
+//!
+//! Continuous states are taken from tick to tick by the classical Runge–Kutta method of order 4.
+
+use std::sync::Arc;
+
+use crate::compile::{Interface, Problem, compile};
+use crate::diagram::Diagram;
+use crate::runner::Runner;
+
+/// A diagram that runs alone.
+#[derive(Clone, Debug)]
+pub struct Solo {
+    /// The diagram.
+    pub runner: Runner<f64>,
+    tick: u64,
+    slopes: [Vec<f64>; 4],
+    start: Vec<f64>,
+}
+
+impl Solo {
+    /// Compiles a diagram with base step `step` `[s]` and evaluates its first tick.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the diagram.
+    pub fn new(diagram: &Diagram, step: f64) -> Result<Self, Vec<Problem>> {
+        let program = Arc::new(compile(diagram, &Interface::new(step))?);
+        let zero = vec![0.0; program.n_states];
+        let slopes = [zero.clone(), zero.clone(), zero.clone(), zero.clone()];
+        let mut runner = Runner::new(program);
+        runner.evaluate(0, 0.0);
+        Ok(Self { runner, tick: 0, slopes, start: zero })
+    }
+
+    /// Time `[s]`.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.tick as f64 * self.runner.program().step
+    }
+
+    /// Goes on by one base step.
+    pub fn advance(&mut self) {
+        let (t, h, tick) = (self.t(), self.runner.program().step, self.tick);
+        self.runner.update(tick, t);
+        self.start.copy_from_slice(&self.runner.state.continuous);
+        let corner = self.runner.program().next_corner(t);
+        let corner = if corner <= t + h { t + h } else { f64::INFINITY };
+        for stage in 0..4 {
+            let c = [0.0, 0.5, 0.5, 1.0][stage];
+            for (k, x) in self.runner.state.continuous.iter_mut().enumerate() {
+                *x = self.start[k] + if stage == 0 { 0.0 } else { c * h * self.slopes[stage - 1][k] };
+            }
+            self.runner.minor(tick, t + c * h, corner);
+            self.runner.slopes(tick, t + c * h, corner, &mut self.slopes[stage]);
+        }
+        for (k, x) in self.runner.state.continuous.iter_mut().enumerate() {
+            let s = &self.slopes;
+            *x = self.start[k] + h / 6.0 * (s[0][k] + 2.0 * s[1][k] + 2.0 * s[2][k] + s[3][k]);
+        }
+        self.tick += 1;
+        let now = self.t();
+        self.runner.evaluate(self.tick, now);
+    }
+
+    /// The present output of a block, such as `pid` or `loop/pid` (of several: `block.port`).
+    ///
+    /// # Panics
+    ///
+    /// If there is none of that name.
+    #[must_use]
+    pub fn output(&self, name: &str) -> &[f64] {
+        let found = self.runner.program().outputs().find(|(known, ..)| known == name);
+        let (_, range, _) = found.unwrap_or_else(|| panic!("no output `{name}`"));
+        &self.runner.signals()[range]
+    }
+
+    /// Advances `n` base steps and gives the first component of an output at every tick, the start included.
+    pub fn record(&mut self, name: &str, n: usize) -> Vec<f64> {
+        let mut rows = vec![self.output(name)[0]];
+        for _ in 0..n {
+            self.advance();
+            rows.push(self.output(name)[0]);
+        }
+        rows
+    }
+}

@@ -1,0 +1,21 @@
+//! Names that may have been meant.
+
+/// A name that is nearer than this (Jaro–Winkler, 1 = the same) was probably meant.
+const NEAR: f64 = 0.8;
+
+/// The known name that was probably meant.
+#[must_use]
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let wanted = name.to_lowercase();
+    let scored = known.into_iter().map(|k| (strsim::jaro_winkler(&wanted, &k.to_lowercase()), k));
+    scored.filter(|(score, _)| *score >= NEAR).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)
+}
+
+/// A help: the nearest of `known`, if one is near; else `otherwise`.
+#[must_use]
+pub fn help<'a>(name: &str, known: impl IntoIterator<Item = &'a str>, otherwise: &str) -> String {
+    match nearest(name, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => otherwise.to_owned(),
+    }
+}
