@@ -16,7 +16,10 @@ const ARROWS: [(&str, &[&str]); 5] = [
     ("sincro", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim"]),
 ];
 
-/// What must not stand in the crates that compute: no files, clock, threads, unordered maps.
+/// The crates that compute.
+const THINKING: [&str; 3] = ["sincro-math", "sincro-dynamics", "sincro-blocks"];
+
+/// What must not stand in them: no files, clock, threads, unordered maps.
 const IMPURE: [&str; 6] = ["std::fs", "std::time", "std::thread", "std::net", "HashMap", "HashSet"];
 
 /// Checks everything and prints what is wrong; whether nothing is.
@@ -78,7 +81,7 @@ fn source(root: &Path, path: &Path, text: &str, found: &mut Vec<String>) {
         if line.contains("#[ignore") && is_rust && !name.contains("tidy.rs") {
             found.push(format!("{at} ignores a test"));
         }
-        let thinks = name.starts_with("crates/sincro-math/src") || name.starts_with("crates/sincro-dynamics/src");
+        let thinks = THINKING.iter().any(|crate_name| name.starts_with(&format!("crates/{crate_name}/src")));
         if thinks && !line.trim_start().starts_with("//") {
             for word in IMPURE.iter().filter(|word| line.contains(**word)) {
                 found.push(format!("{at} uses {word} in a crate that only computes"));

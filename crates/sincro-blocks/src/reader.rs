@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
     /// A finite number (NaN after a fault).
     pub fn number(&mut self, key: &str) -> f64 {
         match self.value(key) {
-            Some(value) => self.to_number(&value, &[key]),
+            Some(value) => self.numeric(&value, &[key]),
             None => f64::NAN,
         }
     }
@@ -188,7 +188,7 @@ impl<'a> Reader<'a> {
             Some(Value::Text(text)) if text == "inf" => f64::INFINITY,
             Some(Value::Text(text)) if text == "-inf" => f64::NEG_INFINITY,
             Some(Value::Number(x)) if x.is_infinite() => x,
-            Some(value) => self.to_number(&value, &[key]),
+            Some(value) => self.numeric(&value, &[key]),
             None => f64::NAN,
         }
     }
@@ -220,9 +220,9 @@ impl<'a> Reader<'a> {
                     self.fault(key, format!("`{key}` is empty"), "give at least one number");
                     return vec![f64::NAN];
                 }
-                list.iter().enumerate().map(|(k, x)| self.to_number(x, &[key, &k.to_string()])).collect()
+                list.iter().enumerate().map(|(k, x)| self.numeric(x, &[key, &k.to_string()])).collect()
             }
-            Some(value) => vec![self.to_number(&value, &[key])],
+            Some(value) => vec![self.numeric(&value, &[key])],
             None => vec![f64::NAN],
         }
     }
@@ -247,16 +247,16 @@ impl<'a> Reader<'a> {
                     Value::List(row) => row
                         .iter()
                         .enumerate()
-                        .map(|(k, x)| self.to_number(x, &[key, &i.to_string(), &k.to_string()]))
+                        .map(|(k, x)| self.numeric(x, &[key, &i.to_string(), &k.to_string()]))
                         .collect(),
-                    x => vec![self.to_number(x, &[key, &i.to_string()])],
+                    x => vec![self.numeric(x, &[key, &i.to_string()])],
                 };
                 list.iter().enumerate().map(row).collect()
             }
             Some(Value::List(list)) => {
-                vec![list.iter().enumerate().map(|(k, x)| self.to_number(x, &[key, &k.to_string()])).collect()]
+                vec![list.iter().enumerate().map(|(k, x)| self.numeric(x, &[key, &k.to_string()])).collect()]
             }
-            Some(value) => vec![vec![self.to_number(&value, &[key])]],
+            Some(value) => vec![vec![self.numeric(&value, &[key])]],
             None => vec![vec![f64::NAN]],
         };
         let columns = rows.first().map_or(0, Vec::len);
@@ -332,7 +332,7 @@ impl<'a> Reader<'a> {
     pub fn named_numbers(&mut self, key: &str) -> Vec<(String, f64)> {
         match self.value(key) {
             Some(Value::Table(table)) => {
-                table.iter().map(|(name, x)| (name.clone(), self.to_number(x, &[key, name]))).collect()
+                table.iter().map(|(name, x)| (name.clone(), self.numeric(x, &[key, name]))).collect()
             }
             Some(_) => {
                 self.fault(key, format!("`{key}` is not a table"), "write { name = number, … }");
@@ -409,7 +409,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn to_number(&mut self, value: &Value, path: &[&str]) -> f64 {
+    fn numeric(&mut self, value: &Value, path: &[&str]) -> f64 {
         match value {
             Value::Number(x) if x.is_finite() => *x,
             Value::Number(x) => {

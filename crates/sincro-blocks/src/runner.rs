@@ -105,7 +105,7 @@ impl<R: Number> Runner<R> {
     /// Outputs at a tick, up to those that need the world's accelerations.
     pub fn evaluate(&mut self, tick: u64, t: f64) {
         for (due, period) in self.due.iter_mut().zip(&self.program.periods) {
-            *due = *period == 1 || tick % period == 0;
+            *due = *period == 1 || tick.is_multiple_of(*period);
         }
         self.evaluate_range(0..self.program.n_early, tick, t);
     }
