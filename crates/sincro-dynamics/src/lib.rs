@@ -14,12 +14,14 @@
 //! | springs, dampers, friction, motors | [`force`] |
 //! | a world that advances | [`integrate`], [`world`] |
 //! | how stiff it is | [`stiffness`] |
+//! | what is integrated along, such as a diagram | [`attachment`] |
 //! | many worlds at once | [`batch`] |
 //!
 //! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
 //! clocks, threads or logs in this crate.
 
 pub mod aba;
+pub mod attachment;
 pub mod batch;
 pub mod crba;
 pub mod drive;

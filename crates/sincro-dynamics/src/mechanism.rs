@@ -9,6 +9,7 @@
 use sincro_math::Real;
 
 use crate::aba::{self, Held};
+use crate::attachment::Seen;
 use crate::drive::DriveKind;
 use crate::force::{Instant, damper, friction, joint_torques};
 use crate::integrate::{Implicit, System};
@@ -97,7 +98,7 @@ impl<R: Real> Mechanism<R> {
         y[..n].fill(R::zero());
         y[n..2 * n].copy_from_slice(&x.v);
         if self.tracks_totals {
-            y[2 * n..].copy_from_slice(&x.totals);
+            y[2 * n..2 * n + x.totals.len()].copy_from_slice(&x.totals);
         }
     }
 
@@ -108,7 +109,8 @@ impl<R: Real> Mechanism<R> {
         x.v.copy_from_slice(&y[n..2 * n]);
         x.drives.copy_from_slice(&self.drives);
         if self.tracks_totals {
-            x.totals.copy_from_slice(&y[2 * n..]);
+            let totals = 2 * n..2 * n + x.totals.len();
+            x.totals.copy_from_slice(&y[totals]);
         }
     }
 
@@ -120,6 +122,27 @@ impl<R: Real> Mechanism<R> {
     /// Moves the chart's origin without looking at y.
     pub(crate) fn set_base(&mut self, q: &[R]) {
         self.base.copy_from_slice(q);
+    }
+
+    /// Finds the coordinates of y.
+    #[inline(always)]
+    pub(crate) fn place(&mut self, y: &[R]) {
+        displace(&self.model, &self.base, &y[..self.model.n_v()], &mut self.q);
+    }
+
+    /// As an attachment sees it, at the coordinates last placed and the velocities in y.
+    #[inline(always)]
+    pub(crate) fn seen<'a>(&'a mut self, t: f64, y: &'a [R]) -> Seen<'a, R> {
+        let n = self.model.n_v();
+        Seen { t, model: &self.model, q: &self.q, v: &y[n..2 * n], scratch: &mut self.scratch }
+    }
+
+    pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
+        core::mem::take(&mut self.motor_torque)
+    }
+
+    pub(crate) fn put_motor_torque(&mut self, torque: Vec<R>) {
+        self.motor_torque = torque;
     }
 
     /// Torque of each motor [N·m] or `[N]` in the last evaluation.
@@ -300,8 +323,8 @@ impl<R: Real> System<R> for Mechanism<R> {
     }
 
     #[inline(always)]
-    fn n_controlled(&self) -> usize {
-        2 * self.model.n_v()
+    fn is_controlled(&self, k: usize) -> bool {
+        k < 2 * self.model.n_v()
     }
 
     #[inline(always)]

@@ -29,8 +29,8 @@ pub trait System<R: Real> {
     /// Length of y.
     fn dim(&self) -> usize;
 
-    /// How many leading entries of y take part in error control; the rest are quadratures that nothing depends on.
-    fn n_controlled(&self) -> usize;
+    /// Whether an entry of y takes part in error control; the others are quadratures that nothing depends on.
+    fn is_controlled(&self, k: usize) -> bool;
 
     /// `slope = f(t, y)`.
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]);
@@ -99,7 +99,7 @@ impl Control {
     /// Largest error over the controlled entries as a share of the tolerance; infinite if any is not finite.
     fn share<R: Real, S: System<R>>(&self, system: &S, y: &[R], error: &[R]) -> f64 {
         let mut worst = 0.0_f64;
-        for k in 0..system.n_controlled() {
+        for k in (0..y.len()).filter(|&k| system.is_controlled(k)) {
             let share = error[k].lane(0).abs() / (self.accuracy * system.magnitude(y, k).max(1.0));
             // a NaN must not pass for a small error
             worst = if share.is_nan() { f64::INFINITY } else { worst.max(share) };

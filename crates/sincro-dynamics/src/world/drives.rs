@@ -3,6 +3,7 @@
 //! What a drive is: [`crate::drive`].
 
 use super::{Stop, World};
+use crate::attachment::Attachment;
 use crate::drive::DriveKind;
 use crate::integrate::{Control, System};
 
@@ -22,12 +23,12 @@ impl World {
     }
 
     /// The jump at the start of a tick and the state of the drives after it.
-    pub(super) fn begin(&mut self, t: f64) {
+    pub(super) fn begin<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
         if self.mechanism.drives.is_empty() {
             return;
         }
         self.jump();
-        self.settle(t);
+        self.settle(t, attachment);
     }
 
     /// Unlimited motors take their commanded velocity at once.
@@ -76,7 +77,7 @@ impl World {
     /// Adds the work and the impulses of a strike to the totals: ΔT = Σ λ·(mean of the velocities before and after).
     fn count_impulses(&mut self) {
         let n = self.model().n_v();
-        if self.y.len() == 2 * n {
+        if self.mechanism.dim() == 2 * n {
             return;
         }
         for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
@@ -96,7 +97,7 @@ impl World {
     }
 
     /// Decides for each limited drive whether it holds: those at their velocity hold if their limit allows it.
-    pub(super) fn settle(&mut self, t: f64) {
+    pub(super) fn settle<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
         for i in 0..self.wanted.len() {
             if !self.is_unlimited(i) {
                 let missing = self.missing_velocity(i);
@@ -109,7 +110,7 @@ impl World {
         }
         for _ in 0..=self.wanted.len() {
             self.mechanism.mark_held();
-            self.mechanism.slope(t, &self.y, &mut self.slope);
+            self.find_slope(t, attachment);
             if !self.release_overloaded() {
                 return;
             }
@@ -157,7 +158,7 @@ impl World {
 
     /// Whether a limited drive is past the point where it should have changed: it pulled beyond its velocity, or holds more than
     /// its limit.
-    pub(super) fn is_violated(&mut self, t: f64) -> bool {
+    pub(super) fn is_violated<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) -> bool {
         let crossed = (0..self.wanted.len()).any(|i| {
             let pull = self.mechanism.drives[i];
             !self.is_unlimited(i) && pull != 0.0 && self.missing_velocity(i) * pull < 0.0
@@ -168,20 +169,26 @@ impl World {
         if self.mechanism.drives.iter().all(|pull| *pull != 0.0) {
             return false;
         }
-        self.mechanism.slope(t, &self.y, &mut self.slope);
+        self.find_slope(t, attachment);
         (0..self.wanted.len()).any(|i| self.overload(i).is_some())
     }
 
     /// Finds the first instant in (t, t + h] at which a drive must change, goes there and changes it.
-    pub(super) fn locate(&mut self, t: f64, h: f64, control: Option<Control>) -> Result<f64, (f64, Stop)> {
+    pub(super) fn locate<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        control: Option<Control>,
+        attachment: &mut A,
+    ) -> Result<f64, (f64, Stop)> {
         let (mut good, mut bad) = (0.0, h);
         let resolution = (h * 1e-13).max(4.0 * f64::EPSILON * t.abs());
         while bad - good > resolution {
             let middle = 0.5 * (good + bad);
-            self.replay(t, middle, control)?;
-            if self.is_violated(t + middle) { bad = middle } else { good = middle }
+            self.replay(t, middle, control, attachment)?;
+            if self.is_violated(t + middle, attachment) { bad = middle } else { good = middle }
         }
-        self.replay(t, bad, control)?;
+        self.replay(t, bad, control, attachment)?;
         // a pulling drive that has just passed its velocity is brought back to it, momentum and impulses kept right
         for i in 0..self.wanted.len() {
             let pull = self.mechanism.drives[i];
@@ -190,7 +197,7 @@ impl World {
         if self.jumps.contains(&true) {
             self.strike();
         }
-        self.settle(t + bad);
+        self.settle(t + bad, attachment);
         Ok(t + bad)
     }
 

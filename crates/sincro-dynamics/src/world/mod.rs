@@ -8,6 +8,7 @@
 
 mod drives;
 
+use crate::attachment::{Alone, Attachment, Coupled};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
@@ -16,6 +17,9 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
 use crate::state::State;
+
+/// Times closer than this are the same instant `[s]`.
+const SAME_INSTANT: f64 = 1e-9;
 
 /// Changes of drives in one tick beyond which they are said to chatter.
 const MAX_EVENTS: usize = 10_000;
@@ -81,6 +85,7 @@ pub struct World {
     jumps: Vec<bool>,
     accelerations: Vec<f64>,
     slope: Vec<f64>,
+    decay: Vec<f64>,
     substeps: u32,
     effort: Effort,
 }
@@ -153,9 +158,22 @@ impl World {
         control: Control,
         tracks_totals: bool,
     ) -> Self {
+        Self::with_attachment(model, state, kind, control, tracks_totals, 0)
+    }
+
+    /// As [`World::with_totals`], for an [`Attachment`] with `n_states` states, to be given to [`World::advance_with`].
+    #[must_use]
+    pub fn with_attachment(
+        model: Model<f64>,
+        state: State<f64>,
+        kind: MethodKind,
+        control: Control,
+        tracks_totals: bool,
+        n_states: usize,
+    ) -> Self {
         let n_drives = model.n_drives();
         let mechanism = Mechanism::new(model, tracks_totals);
-        let dim = mechanism.dim();
+        let dim = mechanism.dim() + n_states;
         let method = match kind {
             MethodKind::SemiImplicitEuler => Method::SemiImplicitEuler(SemiImplicitEuler::new(dim)),
             MethodKind::Rk4 => Method::Rk4(Rk4::new(dim)),
@@ -172,6 +190,7 @@ impl World {
             y: vec![0.0; dim],
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
+            decay: vec![0.0; n_states],
             substeps: 1,
             base_before,
             wanted: vec![0.0; n_drives],
@@ -219,9 +238,14 @@ impl World {
 
     /// Decides which drives hold at the start of a run, velocities as they are (nothing jumps before the first command).
     pub fn settle_start(&mut self, t: f64) {
-        self.mechanism.load(&self.state, &mut self.y);
+        self.settle_start_with(t, &mut Alone);
+    }
+
+    /// As [`World::settle_start`], with an attachment.
+    pub fn settle_start_with<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
+        self.load(attachment);
         self.latch();
-        self.settle(t);
+        self.settle(t, attachment);
         self.mechanism.store(&self.y, &mut self.state);
     }
 
@@ -251,16 +275,32 @@ impl World {
     ///
     /// When the method cannot go on; the state is then that of the last instant reached.
     pub fn advance(&mut self, t: f64, h: f64) -> Result<(), (f64, Stop)> {
-        self.mechanism.load(&self.state, &mut self.y);
+        self.advance_with(t, h, &mut Alone)
+    }
+
+    /// As [`World::advance`], together with what is attached; the world was made for as many states
+    /// ([`World::with_attachment`]).
+    ///
+    /// # Errors
+    ///
+    /// As [`World::advance`]; the attachment's states are then those of the last instant reached, too.
+    pub fn advance_with<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        attachment: &mut A,
+    ) -> Result<(), (f64, Stop)> {
+        self.load(attachment);
         self.latch();
         let reached = if let Method::SemiImplicitEuler(_) = self.method {
             let h = h / f64::from(self.substeps);
-            (0..self.substeps).try_for_each(|k| self.euler_step(t + f64::from(k) * h, h))
+            (0..self.substeps).try_for_each(|k| self.euler_step(t + f64::from(k) * h, h, attachment))
         } else {
-            self.begin(t);
-            self.sub_steps(t, h)
+            self.begin(t, attachment);
+            self.sub_steps(t, h, attachment)
         };
         self.mechanism.store(&self.y, &mut self.state);
+        attachment.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
         reached?;
         self.state.tick += 1;
         Ok(())
@@ -271,7 +311,8 @@ impl World {
         let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.mark_held();
-        self.mechanism.slope(t, &self.y, &mut self.slope);
+        let own = self.mechanism.dim();
+        self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
         self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
         self.accelerations.copy_from_slice(&self.slope[n..2 * n]);
         (&self.accelerations, self.mechanism.motor_torque())
@@ -282,15 +323,35 @@ impl World {
         &mut self.mechanism
     }
 
+    /// Lays the chart at the state and writes y, the attachment's states included.
+    fn load<A: Attachment<f64> + ?Sized>(&mut self, attachment: &mut A) {
+        self.mechanism.load(&self.state, &mut self.y);
+        let own = self.mechanism.dim();
+        self.y[own..].copy_from_slice(attachment.states());
+    }
+
+    /// f(t, y) into `self.slope`.
+    fn find_slope<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
+        let mut system = Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
+        system.slope(t, &self.y, &mut self.slope);
+    }
+
     fn velocity(&self, dof: usize) -> f64 {
         self.y[self.model().n_v() + dof]
     }
 
     /// Sub-steps over `span` from `start`, ending at corners of signals and at events of drives.
-    fn sub_steps(&mut self, start: f64, span: f64) -> Result<(), (f64, Stop)> {
+    fn sub_steps<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        start: f64,
+        span: f64,
+        attachment: &mut A,
+    ) -> Result<(), (f64, Stop)> {
         let (mut t, end, mut events) = (start, start + span, 0);
         while t < end {
-            let corner = self.model().next_corner(t).min(end);
+            let jump = attachment.next_corner(t);
+            let corner = self.model().next_corner(t).min(jump).min(end);
+            attachment.set_corner(if jump <= corner + SAME_INSTANT { corner } else { f64::INFINITY });
             // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
             let h_max = if t == start && corner == end { span } else { corner - t };
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
@@ -299,15 +360,15 @@ impl World {
             if limited {
                 self.keep();
             }
-            let h = self.method_step(t, h_max).map_err(|failure| (t, Stop::Integration(failure)))?;
+            let h = self.method_step(t, h_max, attachment).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
-                self.mechanism.load(&self.state, &mut self.y);
+                self.load(attachment);
                 return Err((start, Stop::Integration(Failure::NotFinite { t })));
             }
             self.effort.steps += 1;
             let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
-            if limited && self.is_violated(reached) {
-                t = self.locate(t, h, control)?;
+            if limited && self.is_violated(reached, attachment) {
+                t = self.locate(t, h, control, attachment)?;
                 events += 1;
                 self.effort.events += 1;
                 if events > MAX_EVENTS {
@@ -327,14 +388,20 @@ impl World {
     }
 
     /// One step of the method from `t`, at most `h_max`; y is charted anew. Returns the length made.
-    fn method_step(&mut self, t: f64, h_max: f64) -> Result<f64, Failure> {
-        let (mechanism, y) = (&mut self.mechanism, &mut self.y);
+    fn method_step<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h_max: f64,
+        attachment: &mut A,
+    ) -> Result<f64, Failure> {
+        let system = &mut Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
+        let y = &mut self.y;
         match &mut self.method {
-            Method::SemiImplicitEuler(m) => m.step(mechanism, t, h_max, y),
-            Method::Rk4(m) => m.step(mechanism, t, h_max, y),
-            Method::Implicit(m) => m.step(mechanism, t, h_max, y),
-            Method::DormandPrince(m) => return m.step(mechanism, t, h_max, y),
-            Method::Stiff(m) => return m.adaptive_step(mechanism, t, h_max, y),
+            Method::SemiImplicitEuler(m) => m.step(system, t, h_max, y),
+            Method::Rk4(m) => m.step(system, t, h_max, y),
+            Method::Implicit(m) => m.step(system, t, h_max, y),
+            Method::DormandPrince(m) => return m.step(system, t, h_max, y),
+            Method::Stiff(m) => return m.adaptive_step(system, t, h_max, y),
         }
         Ok(h_max)
     }
@@ -350,14 +417,21 @@ impl World {
     }
 
     /// From the kept sub-step start, exactly `h` further.
-    fn replay(&mut self, t: f64, h: f64, control: Option<Control>) -> Result<(), (f64, Stop)> {
+    fn replay<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        control: Option<Control>,
+        attachment: &mut A,
+    ) -> Result<(), (f64, Stop)> {
         self.restore();
         if let Some(control) = control {
             self.set_control(control);
         }
         let mut done = 0.0;
         while done < h {
-            let step = self.method_step(t + done, h - done).map_err(|f| (t + done, Stop::Integration(f)))?;
+            let step =
+                self.method_step(t + done, h - done, attachment).map_err(|f| (t + done, Stop::Integration(f)))?;
             done = if step >= h - done { h } else { done + step };
         }
         Ok(())
@@ -365,13 +439,18 @@ impl World {
 
     /// Semi-implicit Euler with drives as engines have them: over the whole step a drive either reaches its velocity exactly or
     /// pulls with its limit. Which, is found by trying.
-    fn euler_step(&mut self, t: f64, h: f64) -> Result<(), (f64, Stop)> {
+    fn euler_step<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        attachment: &mut A,
+    ) -> Result<(), (f64, Stop)> {
         self.effort.steps += 1;
         self.keep();
         for _ in 0..2 * self.wanted.len() + 4 {
             self.mark_targets(h);
             self.restore();
-            self.method_step(t, h).map_err(|f| (t, Stop::Integration(f)))?;
+            self.method_step(t, h, attachment).map_err(|f| (t, Stop::Integration(f)))?;
             if self.wanted.is_empty() || !self.correct_drives() {
                 break;
             }
