@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use sincro_dynamics::world::MethodKind;
+use sincro_sim::diagram::Controller;
 use sincro_sim::load;
 use sincro_sim::record::Recorder;
-use sincro_sim::run::world_of;
+use sincro_sim::run::LockStep;
 
 const METHODS: [MethodKind; 5] = [
     MethodKind::SemiImplicitEuler,
@@ -21,21 +22,20 @@ fn a_step_and_a_row_allocate_nothing() {
     for name in ["motor-ramp", "flexible-velocity-step", "alexandros-release", "free-body", "two-dof-open-loop"] {
         let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &[]).unwrap();
         for method in METHODS {
-            let mut world = world_of(&loaded.scene, &loaded.experiment, method, false);
-            let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model).unwrap();
-            let step = loaded.experiment.step;
-            let mut tick = |k: u32, start: bool| {
-                let t = f64::from(k) * step;
-                for (command, signal) in world.state.commands.iter_mut().zip(&loaded.scene.commands) {
-                    *command = signal.value(t);
-                }
-                world.advance(t, step).unwrap();
-                recorder.row(&world.observe(t + step), t + step, start).len()
+            let mut lockstep = LockStep::new(&loaded, method, false);
+            let signals = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+            let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &signals).unwrap();
+            lockstep.start().unwrap();
+            let mut tick = |start: bool| {
+                lockstep.advance().unwrap();
+                let t = lockstep.t();
+                let (seen, signals) = lockstep.observe(t);
+                recorder.row(&seen, signals, t, start).len()
             };
-            tick(0, true);
+            tick(true);
             let count = allocation_counter::measure(|| {
-                (1..30).for_each(|k| {
-                    tick(k, false);
+                (1..30).for_each(|_| {
+                    tick(false);
                 });
             });
             assert_eq!(count.count_total, 0, "{name} {method:?}");

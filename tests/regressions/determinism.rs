@@ -3,26 +3,21 @@
 use std::path::Path;
 
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
-use sincro_dynamics::world::{MethodKind, World};
+use sincro_dynamics::world::MethodKind;
 use sincro_sim::load;
 use sincro_sim::rollout::rollout;
-use sincro_sim::run::{Trace, choose_method, world_of};
+use sincro_sim::run::{LockStep, Trace, choose_method};
 use sincro_sim::snapshot::{Snapshot, SnapshotError};
 
 fn scene(name: &str) -> sincro_sim::Loaded {
     load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &[]).unwrap()
 }
 
-/// Advances with the scene's commands from tick `from` to tick `to`.
-fn advance(loaded: &sincro_sim::Loaded, world: &mut World, trace: &mut Trace, from: u64, to: u64) {
-    let step = loaded.experiment.step;
-    for tick in from..to {
-        let t = tick as f64 * step;
-        for (command, signal) in world.state.commands.iter_mut().zip(&loaded.scene.commands) {
-            *command = signal.value(t);
-        }
-        world.advance(t, step).unwrap();
-        trace.add(&world.state);
+/// Advances by `n` ticks.
+fn advance(lockstep: &mut LockStep, trace: &mut Trace, n: usize) {
+    for _ in 0..n {
+        lockstep.advance().unwrap();
+        lockstep.add_to(trace);
     }
 }
 
@@ -31,34 +26,31 @@ fn a_saved_run_continues_with_the_same_hash() {
     for name in ["flexible-velocity-step", "free-body", "motor-ramp", "alexandros-release"] {
         let loaded = scene(name);
         let (method, _) = choose_method(&loaded.scene, &loaded.experiment);
-        let mut world = world_of(&loaded.scene, &loaded.experiment, method, false);
-        let mut trace = Trace::start(&world.state);
-        advance(&loaded, &mut world, &mut trace, 0, 30);
-        let snapshot = Snapshot { state: world.state.clone(), trace, control: world.control() };
-        let bytes = snapshot.to_bytes(&loaded.scene.model);
-        advance(&loaded, &mut world, &mut trace, 30, 40);
+        let mut lockstep = LockStep::new(&loaded, method, false);
+        lockstep.start().unwrap();
+        let mut trace = lockstep.trace();
+        advance(&mut lockstep, &mut trace, 30);
+        let snapshot = lockstep.snapshot(trace);
+        let bytes = snapshot.to_bytes(&loaded);
+        advance(&mut lockstep, &mut trace, 10);
 
-        let restored = Snapshot::from_bytes(&bytes, &loaded.scene.model).unwrap();
+        let restored = Snapshot::from_bytes(&bytes, &loaded).unwrap();
         assert_eq!(restored, snapshot, "{name}");
-        let mut resumed = world_of(&loaded.scene, &loaded.experiment, method, false);
-        resumed.state = restored.state;
-        if let Some(control) = restored.control {
-            resumed.set_control(control);
-        }
+        let mut resumed = LockStep::new(&loaded, method, false);
+        resumed.restore(&restored);
         let mut continued = restored.trace;
-        advance(&loaded, &mut resumed, &mut continued, 30, 40);
-        assert_eq!((continued, &resumed.state), (trace, &world.state), "{name}");
+        advance(&mut resumed, &mut continued, 10);
+        assert_eq!((continued, resumed.snapshot(trace)), (trace, lockstep.snapshot(trace)), "{name}");
     }
 }
 
 #[test]
 fn a_damaged_or_foreign_snapshot_is_refused() {
     let (loaded, other) = (scene("free-body"), scene("double-pendulum"));
-    let world = world_of(&loaded.scene, &loaded.experiment, MethodKind::Rk4, false);
-    let snapshot = Snapshot { state: world.state.clone(), trace: Trace(1), control: None };
-    let bytes = snapshot.to_bytes(&loaded.scene.model);
-    let read = |bytes: &[u8]| Snapshot::from_bytes(bytes, &loaded.scene.model);
-    assert_eq!(Snapshot::from_bytes(&bytes, &other.scene.model), Err(SnapshotError::OtherModel));
+    let snapshot = LockStep::new(&loaded, MethodKind::Rk4, false).snapshot(Trace(1));
+    let bytes = snapshot.to_bytes(&loaded);
+    let read = |bytes: &[u8]| Snapshot::from_bytes(bytes, &loaded);
+    assert_eq!(Snapshot::from_bytes(&bytes, &other), Err(SnapshotError::OtherModel));
     assert_eq!(read(b"anything at all, long enough"), Err(SnapshotError::NotASnapshot));
     for k in 0..bytes.len() {
         assert!(read(&bytes[..k]).is_err(), "cut at {k}");

@@ -104,10 +104,20 @@ impl<R: Number> Runner<R> {
 
     /// Outputs at a tick, up to those that need the world's accelerations.
     pub fn evaluate(&mut self, tick: u64, t: f64) {
+        self.find_due(tick);
+        self.evaluate_range(0..self.program.n_early, tick, t);
+    }
+
+    /// Goes back to a state after the evaluation of a tick.
+    pub fn resume(&mut self, state: State<R>, tick: u64) {
+        self.state = state;
+        self.find_due(tick);
+    }
+
+    fn find_due(&mut self, tick: u64) {
         for (due, period) in self.due.iter_mut().zip(&self.program.periods) {
             *due = *period == 1 || tick.is_multiple_of(*period);
         }
-        self.evaluate_range(0..self.program.n_early, tick, t);
     }
 
     /// The rest of the outputs at a tick.

@@ -166,9 +166,9 @@ impl<R: Real> StageVisitor for UnitColumn<'_, R> {
 
 /// Roll, pitch, yaw `[rad]` of a rotation R = Rz(yaw)·Ry(pitch)·Rx(roll).
 #[must_use]
-pub fn roll_pitch_yaw(rot: &Mat3<f64>) -> Vec3<f64> {
+pub fn roll_pitch_yaw<R: Real>(rot: &Mat3<R>) -> Vec3<R> {
     let m = &rot.0;
     use sincro_math::elementary::{asin, atan2};
-    let (roll, yaw) = (atan2(m[2][1], m[2][2]).0, atan2(m[1][0], m[0][0]).0);
-    Vec3([roll, asin((-m[2][0]).clamp(-1.0, 1.0)).0, yaw])
+    let pitch = (-m[2][0]).clamp_abs(R::one()).map(asin);
+    Vec3([m[2][1].map2(m[2][2], atan2), pitch, m[1][0].map2(m[0][0], atan2)])
 }

@@ -4,6 +4,7 @@
 //! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
 
 pub mod check;
+pub mod diagram;
 pub mod document;
 pub mod experiment;
 mod folder;

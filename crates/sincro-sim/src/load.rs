@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::diagram::{self, Controller};
 use crate::document::Document;
 use crate::experiment::{self, Experiment};
 use crate::folder::Folder;
@@ -10,7 +11,7 @@ use crate::overrides::{Override, Target, apply_all};
 use crate::problem::{Problem, Problems, SourceText};
 use crate::record::Recorder;
 use crate::scene::{self, Scene};
-use crate::schema::{experiment_schema, scene_schema, validate};
+use crate::schema::{diagram_schema, experiment_schema, scene_schema, validate};
 
 /// The file that makes a folder an experiment.
 const EXPERIMENT: &str = "experiment.toml";
@@ -25,6 +26,8 @@ pub struct Loaded {
     pub experiment: Experiment,
     /// The compiled scene.
     pub scene: Scene,
+    /// The diagram that controls it, if there is one.
+    pub controller: Option<Controller>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
     /// Every file that was read: what a hash of the inputs covers.
@@ -146,10 +149,13 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     });
     let scene = open_scene(&document, folder, overrides, &mut problems);
     let experiment = experiment.flatten();
-    if let (Some(experiment), Some(scene)) = (&experiment, &scene)
-        && let Err(found) = Recorder::new(&experiment.record, &scene.model)
-    {
-        problems.merge(found);
+    let controller = open_diagram(&document, folder, overrides, experiment.as_ref(), scene.as_ref(), &mut problems);
+    let is_whole = document.located("/diagram").is_some() == controller.is_some();
+    if let (Some(experiment), Some(scene), true) = (&experiment, &scene, is_whole) {
+        let signals = controller.as_ref().map(Controller::entries).unwrap_or_default();
+        if let Err(found) = Recorder::new(&experiment.record, &scene.model, &signals) {
+            problems.merge(found);
+        }
     }
     if let Some(experiment) = &experiment {
         problems.merge(too_large(experiment));
@@ -157,7 +163,7 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     match (experiment, scene) {
         (Some(experiment), Some(scene)) if !problems.any_error() => {
             problems.merge(Problems(scene.warnings.clone()));
-            Ok(Loaded { experiment, scene, warnings: problems.0, sources: Vec::new() })
+            Ok(Loaded { experiment, scene, controller, warnings: problems.0, sources: Vec::new() })
         }
         _ => Err(problems.sorted()),
     }
@@ -196,6 +202,45 @@ fn open_scene(
             None
         }
     }
+}
+
+/// The diagram that an experiment names. It is read even if scene or experiment have problems, but connected only to a scene that has
+/// none.
+fn open_diagram(
+    document: &Document,
+    folder: &Folder,
+    overrides: &[Override],
+    experiment: Option<&Experiment>,
+    scene: Option<&Scene>,
+    problems: &mut Problems,
+) -> Option<Controller> {
+    let Some(name) = document.located("/diagram") else {
+        for setting in overrides.iter().filter(|s| s.target() == Target::Diagram) {
+            problems.push(setting.without_diagram());
+        }
+        return None;
+    };
+    let read = folder.read_named(&name).map_err(Problems::from);
+    let document = match read.and_then(|source| Document::parse(&source)) {
+        Ok(document) => prepared(document, Target::Diagram, overrides, problems),
+        Err(found) => {
+            problems.merge(found);
+            return None;
+        }
+    };
+    let found = validate(&document, diagram_schema());
+    if found.any_error() {
+        problems.merge(found);
+        return None;
+    }
+    let (experiment, scene) = (experiment?, scene?);
+    let setting = diagram::Setting {
+        model: &scene.model,
+        step: experiment.step,
+        seed: experiment.seed,
+        parameters: &experiment.parameters,
+    };
+    diagram::open(&document, folder, setting).map_err(|found| problems.merge(found)).ok()
 }
 
 /// The document with the settings that are for it.

@@ -5,6 +5,7 @@
 //! | `/arm/link.inertia.xx` | a key of the scene's object of that path |
 //! | `gravity.2` | a key of the scene file |
 //! | `step`, `parameters.m`, `sweep.range.to` | a key of the experiment file |
+//! | `pid.kp`, `diagram.step.to` | a parameter of the diagram's block of that name (`diagram.` where the name is also a key above) |
 //!
 //! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out is
 //! filled in.
@@ -34,6 +35,7 @@ pub struct Override {
 pub(crate) enum Target {
     Scene,
     Experiment,
+    Diagram,
 }
 
 impl Override {
@@ -80,13 +82,69 @@ impl Override {
     pub(crate) fn target(&self) -> Target {
         let path = &self.path.value;
         let first = path.split(['.', '[']).next().unwrap_or("");
-        let in_scene = scene_schema()["properties"].get(first).is_some();
-        if path.starts_with('/') || in_scene { Target::Scene } else { Target::Experiment }
+        let knows = |schema: &Value| schema["properties"].get(first).is_some();
+        if path.starts_with('/') || knows(scene_schema()) {
+            Target::Scene
+        } else if path.starts_with(OF_DIAGRAM) || (path.contains('.') && !knows(experiment_schema())) {
+            Target::Diagram
+        } else {
+            Target::Experiment
+        }
+    }
+
+    /// The finding about a setting for a diagram that is not there.
+    pub(crate) fn without_diagram(&self) -> Problem {
+        let first = self.path.value.split(['.', '[']).next().unwrap_or("");
+        let known: Vec<&str> = [scene_schema(), experiment_schema()]
+            .into_iter()
+            .flat_map(|schema| property_names(schema.as_object().expect("a schema is a table")))
+            .collect();
+        let problem = self.error(format!("`{}`: a scene or experiment has no `{first}`", self.path.value));
+        problem.with_help(suggest::help(first, &known, "keys"))
+    }
+
+    /// A parameter of a block, or a key of the diagram file.
+    fn apply_to_diagram(&self, document: &mut Document) -> Result<(), Problem> {
+        let path = self.path.value.strip_prefix(OF_DIAGRAM).unwrap_or(&self.path.value);
+        let keys = steps(path);
+        let names: Vec<String> = names_of_blocks(document);
+        let pointer = match names.iter().position(|name| *name == keys[0]) {
+            Some(k) => format!("/block/{k}"),
+            None if matches!(keys[0].as_str(), "parameters" | "sample_time") => String::new(),
+            None => {
+                let known: Vec<&str> = names.iter().map(String::as_str).collect();
+                let problem = self.error(format!("`{}`: the diagram has no block `{}`", self.path.value, keys[0]));
+                return Err(problem.with_help(suggest::help(&keys[0], &known, "blocks")));
+            }
+        };
+        let rest = if pointer.is_empty() { &keys[..] } else { &keys[1..] };
+        if rest.is_empty() {
+            return Err(self.error("the path names a block, none of its parameters"));
+        }
+        let (last, inner) = rest.split_last().expect("not empty");
+        let mut at = pointer;
+        for key in inner {
+            at = format!("{at}/{}", escape(key));
+            if document.get(&at).is_none() {
+                document.put_silently(&at, Value::Object(Map::new()), &self.path.at);
+            }
+        }
+        match document.get(&at) {
+            Some(Value::Object(_)) => {}
+            Some(Value::Array(list)) if last.parse::<usize>().is_ok_and(|k| k < list.len()) => {}
+            Some(Value::Array(list)) => {
+                let message = format!("`{}`: there are {} entries, no entry {last}", self.path.value, list.len());
+                return Err(self.error(message).with_help("entries are counted from 0"));
+            }
+            _ => return Err(self.error(format!("`{}`: there is nothing inside a number", self.path.value))),
+        }
+        self.put(document, &format!("{at}/{}", escape(last)))
     }
 
     /// Writes the value into its document.
     pub(crate) fn apply(&self, document: &mut Document, target: Target) -> Result<(), Problem> {
         let (mut walk, keys) = match target {
+            Target::Diagram => return self.apply_to_diagram(document),
             Target::Experiment => (Walk::from_root(self, experiment_schema()), self.path.value.as_str()),
             Target::Scene if self.path.value.starts_with('/') => self.find_object(document)?,
             Target::Scene => (Walk::from_root(self, scene_schema()), self.path.value.as_str()),
@@ -137,6 +195,14 @@ impl Override {
     fn error(&self, message: impl Into<String>) -> Problem {
         Problem::error(&self.path.at, message)
     }
+}
+
+/// What stands before the name of a block that is also a key of another file.
+const OF_DIAGRAM: &str = "diagram.";
+
+fn names_of_blocks(document: &Document) -> Vec<String> {
+    let blocks = document.get("/block").and_then(Value::as_array).into_iter().flatten();
+    blocks.map(|b| b.get("name").and_then(Value::as_str).unwrap_or("").to_owned()).collect()
 }
 
 /// The keys of a path: `axis[2]` and `axis.2` are the same.

@@ -35,6 +35,35 @@ pub(crate) fn read(folder: &Folder, query: &Query<'_>, problems: &mut Problems) 
     }
 }
 
+/// One column, in the order of the rows.
+///
+/// # Errors
+///
+/// Why there is none, in words, with the place in the file where there is one.
+pub(crate) fn column(folder: &Folder, file: &str, column: &str) -> Result<Vec<f64>, String> {
+    let located = |text: &str| {
+        let source = Arc::new(SourceText { path: "diagram".into(), text: text.to_owned() });
+        Located { value: text.to_owned(), at: Location { source, span: 0..text.len() } }
+    };
+    let words = |problem: Problem| match problem.help {
+        Some(help) => format!("{} ({help})", problem.message),
+        None => problem.message,
+    };
+    let source = folder.read_named(&located(file)).map_err(words)?;
+    let mut reader =
+        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source.text.as_bytes());
+    let header = reader.headers().map_err(|e| format!("`{file}` is not a CSV file: {e}"))?.clone();
+    let names: Vec<&str> = header.iter().collect();
+    let index = column_index(&names, &located(column), &source).map_err(words)?;
+    let mut numbers = Vec::new();
+    let mut row = csv::StringRecord::new();
+    while reader.read_record(&mut row).map_err(|e| format!("`{file}` is not a CSV file: {e}"))? {
+        let cell = Cells { source: &source, row: &row, names: &names };
+        numbers.push(cell.number(index).map_err(|p| format!("{}: {}", cell.at(index), words(p)))?);
+    }
+    Ok(numbers)
+}
+
 fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<(Vec<f64>, Vec<f64>), Problems> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source.text.as_bytes());

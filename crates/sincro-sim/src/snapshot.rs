@@ -1,19 +1,20 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
 //! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error control of the
-//! integrator, the five vectors of [`State`] with their lengths, and a checksum of all that.
+//! integrator, the five vectors of [`State`] with their lengths, the three of the diagram's state (if there is one), and a checksum of
+//! all that.
 
 use std::fmt;
 use std::hash::Hasher;
 
 use sincro_dynamics::integrate::Control;
-use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State;
 use twox_hash::XxHash3_64;
 
-use crate::run::{Trace, model_hash};
+use crate::load::Loaded;
+use crate::run::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro01";
+const MAGIC: &[u8; 8] = b"sincro02";
 
 /// A moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub struct Snapshot {
     pub trace: Trace,
     /// Error control of the integrator, none for fixed steps.
     pub control: Option<Control>,
+    /// State of the diagram, if there is one.
+    pub diagram: Option<sincro_blocks::runner::State<f64>>,
 }
 
 /// Why bytes are not a snapshot of a model.
@@ -52,11 +55,11 @@ impl fmt::Display for SnapshotError {
 impl std::error::Error for SnapshotError {}
 
 impl Snapshot {
-    /// As bytes, for the model that it belongs to.
+    /// As bytes, for the scene that it belongs to.
     #[must_use]
-    pub fn to_bytes(&self, model: &Model<f64>) -> Vec<u8> {
+    pub fn to_bytes(&self, loaded: &Loaded) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
-        bytes.extend(model_hash(model).as_bytes());
+        bytes.extend(plant_hash(loaded).as_bytes());
         bytes.extend(self.state.tick.to_le_bytes());
         bytes.extend(self.trace.0.to_le_bytes());
         let control = self.control.unwrap_or(Control { accuracy: f64::NAN, h: 0.0, last_error: 0.0 });
@@ -64,7 +67,8 @@ impl Snapshot {
             bytes.extend(x.to_le_bytes());
         }
         let s = &self.state;
-        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.totals] {
+        let of_diagram = self.diagram.iter().flat_map(|d| [&d.signals, &d.continuous, &d.memory]);
+        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.totals].into_iter().chain(of_diagram) {
             bytes.extend((vector.len() as u64).to_le_bytes());
             vector.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
         }
@@ -77,8 +81,8 @@ impl Snapshot {
     ///
     /// # Errors
     ///
-    /// If they are no snapshot, damaged, or of another model.
-    pub fn from_bytes(bytes: &[u8], model: &Model<f64>) -> Result<Self, SnapshotError> {
+    /// If they are no snapshot, damaged, or of another scene.
+    pub fn from_bytes(bytes: &[u8], loaded: &Loaded) -> Result<Self, SnapshotError> {
         let (body, sum) = bytes.split_last_chunk::<8>().ok_or(SnapshotError::NotASnapshot)?;
         let mut reader = Reader(body);
         if reader.take(8)? != MAGIC {
@@ -87,7 +91,7 @@ impl Snapshot {
         if checksum(body) != u64::from_le_bytes(*sum) {
             return Err(SnapshotError::Damaged);
         }
-        if reader.take(16)? != model_hash(model).as_bytes() {
+        if reader.take(16)? != plant_hash(loaded).as_bytes() {
             return Err(SnapshotError::OtherModel);
         }
         let tick = reader.integer()?;
@@ -102,7 +106,15 @@ impl Snapshot {
             totals: reader.vector()?,
             tick,
         };
-        Ok(Self { state, trace, control })
+        let diagram = match loaded.controller {
+            None => None,
+            Some(_) => Some(sincro_blocks::runner::State {
+                signals: reader.vector()?,
+                continuous: reader.vector()?,
+                memory: reader.vector()?,
+            }),
+        };
+        Ok(Self { state, trace, control, diagram })
     }
 }
 

@@ -216,14 +216,16 @@ impl<R: Real> Model<R> {
     }
 }
 
-impl Model<f64> {
+impl<R: Real> Model<R> {
     /// Applied torque [N·m] or force `[N]` on a degree of freedom at time `t` `[s]`.
     #[must_use]
-    pub fn applied_torque(&self, dof: usize, t: f64) -> f64 {
-        let signals = self.applied.iter().filter(|a| a.dof == dof).map(|a| a.torque::<f64>(t));
-        self.dofs[dof].torque + signals.sum::<f64>()
+    pub fn applied_torque(&self, dof: usize, t: f64) -> R {
+        let signals = self.applied.iter().filter(|a| a.dof == dof).map(|a| a.torque::<R>(t));
+        self.dofs[dof].torque + signals.fold(R::zero(), |sum, torque| sum + torque)
     }
+}
 
+impl Model<f64> {
     /// The first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if there is none.
     #[must_use]
     pub fn next_corner(&self, t: f64) -> f64 {

@@ -91,26 +91,28 @@ impl<R: Real> Quat<R> {
     }
 }
 
-impl Quat<f64> {
-    /// The quaternion of a rotation matrix, w ≥ 0; exact to rounding for any rotation (Shepperd's choice of pivot).
-    pub fn from_matrix(m: &Mat3<f64>) -> Self {
+impl<R: Real> Quat<R> {
+    /// The quaternion of a rotation matrix, w ≥ 0; exact to rounding for any rotation (Shepperd's choice of pivot). For numbers of
+    /// one lane.
+    pub fn from_matrix(m: &Mat3<R>) -> Self {
+        debug_assert!(R::LANES == 1, "lanes can differ in their pivot");
         let m = &m.0;
         let trace = m[0][0] + m[1][1] + m[2][2];
         let pivots = [trace, m[0][0], m[1][1], m[2][2]];
-        let k = (0..4).fold(0, |best, k| if pivots[k] > pivots[best] { k } else { best });
+        let k = (0..4).fold(0, |best, k| if pivots[k].lane(0) > pivots[best].lane(0) { k } else { best });
         let q = if k == 0 {
-            [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
+            [R::one() + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
         } else {
             let (i, j, l) = (k - 1, k % 3, (k + 1) % 3);
-            let mut q = [0.0; 4];
+            let mut q = [R::zero(); 4];
             q[0] = m[l][j] - m[j][l];
-            q[1 + i] = 1.0 + m[i][i] - m[j][j] - m[l][l];
+            q[1 + i] = R::one() + m[i][i] - m[j][j] - m[l][l];
             q[1 + j] = m[i][j] + m[j][i];
             q[1 + l] = m[i][l] + m[l][i];
             q
         };
         let q = Self::from_slice(&q).normalized();
-        if q.w < 0.0 { Self { w: -q.w, xyz: -q.xyz } } else { q }
+        if q.w.lane(0) < 0.0 { Self { w: -q.w, xyz: -q.xyz } } else { q }
     }
 }
 

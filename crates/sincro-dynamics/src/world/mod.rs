@@ -8,7 +8,7 @@
 
 mod drives;
 
-use crate::attachment::{Alone, Attachment, Coupled};
+use crate::attachment::{Alone, Attachment, Coupled, Seen};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
@@ -316,6 +316,12 @@ impl World {
         self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
         self.accelerations.copy_from_slice(&self.slope[n..2 * n]);
         (&self.accelerations, self.mechanism.motor_torque())
+    }
+
+    /// Lets somebody look at the state as an attachment does.
+    pub fn with_seen<T>(&mut self, t: f64, look: impl FnOnce(Seen<'_, f64>) -> T) -> T {
+        let (state, mechanism) = (&self.state, &mut self.mechanism);
+        look(Seen { t, model: &mechanism.model, q: &state.q, v: &state.v, scratch: &mut mechanism.scratch })
     }
 
     /// The mechanism, for kinematics and energies at the state.

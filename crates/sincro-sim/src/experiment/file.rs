@@ -21,6 +21,9 @@ pub(crate) struct ExperimentFile {
     /// Scene file, its path relative to the folder.
     #[serde(default = "scene_toml")]
     pub scene: String,
+    /// Diagram file of the controller, its path relative to the folder.
+    #[allow(dead_code)] // read from the document, with its position
+    pub diagram: Option<String>,
     /// How long is simulated: a whole number of steps [s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub duration: f64,

@@ -45,6 +45,8 @@ pub enum Probe {
     Energy(EnergyQuantity),
     /// Component 0–2 of the angular, 3–5 of the linear momentum.
     Momentum(usize),
+    /// Signal of the diagram.
+    Signal(usize),
 }
 
 /// What can be read of a frame.
@@ -89,13 +91,13 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Resolves names against a model.
+    /// Resolves names against a model and the signals of a diagram.
     ///
     /// # Errors
     ///
     /// All names that mean nothing, each with the nearest ones that do.
-    pub fn new(names: &[Located<String>], model: &Model<f64>) -> Result<Self, Problems> {
-        let all = catalogue(model);
+    pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Problems> {
+        let all: Vec<Entry> = catalogue(model).into_iter().chain(diagram.iter().cloned()).collect();
         let mut problems = Problems::new();
         let mut entries = Vec::with_capacity(names.len());
         for name in names {
@@ -117,8 +119,8 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), e.unit)))
     }
 
-    /// The row of what is seen at time `t` `[s]`, `t` first. To be called at every recorded instant, in order, the start included.
-    pub fn row(&mut self, seen: &Observation<'_>, t: f64, is_start: bool) -> &[f64] {
+    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's. To be called at every recorded instant, in order, the start included.
+    pub fn row(&mut self, seen: &Observation<'_>, signals: &[f64], t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {
             self.energy_at_start = energy.total();
@@ -131,6 +133,7 @@ impl Recorder {
                 Probe::Energy(quantity) => self.energy(&energy, &seen.state.totals, quantity),
                 Probe::Momentum(k) if k < 3 => momentum.ang[k],
                 Probe::Momentum(k) => momentum.lin[k - 3],
+                Probe::Signal(k) => signals[k],
                 probe => self.read(seen, probe, t),
             };
             self.row.push(value);
@@ -160,7 +163,7 @@ impl Recorder {
             Probe::FrictionTorque(k) => seen.friction_torque(k),
             Probe::AppliedTorque(k) => seen.model().applied_torque(k, t),
             Probe::Frame(quantity, frame, component) => frame_quantity(seen, quantity, frame, component),
-            Probe::Energy(_) | Probe::Momentum(_) => unreachable!("read once a row"),
+            Probe::Energy(_) | Probe::Momentum(_) | Probe::Signal(_) => unreachable!("read once a row"),
         }
     }
 

@@ -108,9 +108,9 @@ fn one_run(
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
     let mut watch = Watch { interrupt, progress: &mut tell };
-    let simulated = simulate(scene, experiment, Manner { csv, refined: false }, &mut watch)?;
+    let simulated = simulate(loaded, Manner { csv, refined: false }, &mut watch)?;
     let columns = match simulated.status {
-        Status::Completed => refine::columns(scene, experiment, &simulated, &mut watch)?,
+        Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
         _ => ColumnReport::of_table(&simulated.table),
     };
     let stopped = simulated.status.stopped_at();
@@ -155,7 +155,7 @@ fn run_sweep(
     let point = |value: f64| -> Result<Simulated, RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain([plan.setting(value)]).collect();
         let at = load(folder, &settings)?;
-        simulate(&at.scene, &at.experiment, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
+        simulate(&at, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
     };
     let next = std::sync::atomic::AtomicUsize::new(0);
     let mut points: Vec<Option<Result<Simulated, RunError>>> = (0..n).map(|_| None).collect();

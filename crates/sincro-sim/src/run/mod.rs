@@ -2,14 +2,16 @@
 //!
 //! One tick k, from t_k to t_{k+1} (DESIGN: measure, ask, hold, advance, publish):
 //!
-//! 1. commands are sampled from their signals at t_k and latched;
-//! 2. the world advances under them;
-//! 3. the new state is hashed, and recorded if a row is due.
+//! 1. commands are latched: those of signals sampled at t_k, those of the diagram as it was evaluated at t_k; its memory is updated;
+//! 2. the world advances under them, continuous blocks with it;
+//! 3. the diagram measures the new state and every block that is due is evaluated;
+//! 4. the new state is hashed, and recorded if a row is due.
 //!
 //! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
 //! why (`stop.rs`).
 
 mod campaign;
+mod lockstep;
 mod refine;
 mod stop;
 mod trace;
@@ -18,13 +20,17 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, Observation, World};
 
 pub use campaign::{Campaign, Done, Progress, run_campaign};
-pub use trace::{Trace, model_hash};
+pub use lockstep::{Halt, LockStep};
+pub use trace::{Trace, model_hash, plant_hash};
 
+use crate::diagram::Controller;
 use crate::experiment::{Experiment, Integrator};
+use crate::load::Loaded;
 use crate::problem::Problems;
 use crate::record::Recorder;
 use crate::results::{EnergyReport, FileError, Status};
@@ -157,14 +163,21 @@ pub fn method_word(kind: MethodKind) -> &'static str {
     }
 }
 
-/// A world ready for its first tick.
+/// The world of a scene, ready for its first tick, without the scene's diagram.
 #[must_use]
 pub fn world_of(scene: &Scene, experiment: &Experiment, kind: MethodKind, refined: bool) -> World {
+    let mut world = world_with_room(scene, experiment, kind, refined, 0);
+    world.settle_start(0.0);
+    world
+}
+
+/// A world with room for `n_states` continuous states of a diagram, its drives not settled yet.
+fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, refined: bool, n_states: usize) -> World {
     let accuracy = if refined { experiment.accuracy / FINER } else { experiment.accuracy };
     let first_step = (experiment.step * 0.1).min(1e-3);
-    let mut world = World::new((*scene.model).clone(), scene.initial.clone(), kind, accuracy, first_step);
+    let (model, control) = ((*scene.model).clone(), Control::new(accuracy, first_step));
+    let mut world = World::with_attachment(model, scene.initial.clone(), kind, control, true, n_states);
     world.set_substeps(if refined { 2 } else { 1 });
-    world.settle_start(0.0);
     world
 }
 
@@ -174,46 +187,50 @@ pub fn world_of(scene: &Scene, experiment: &Experiment, kind: MethodKind, refine
 ///
 /// If a recorded signal does not exist or the CSV file cannot be written. A run that stops is not an error: see
 /// [`Simulated::status`].
-pub fn simulate(
-    scene: &Scene,
-    experiment: &Experiment,
-    manner: Manner<'_>,
-    watch: &mut Watch<'_>,
-) -> Result<Simulated, RunError> {
+pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> Result<Simulated, RunError> {
+    let Loaded { scene, experiment, controller, .. } = loaded;
     let (method, warnings) = choose_method(scene, experiment);
-    let mut recorder = Recorder::new(&experiment.record, &scene.model)?;
+    let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
+    let mut recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
     let rows = experiment.n_steps / experiment.record_every + 1;
     let mut table = Table::new(recorder.columns(), rows as usize);
     let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
     let mut csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
 
     let clock = Instant::now();
-    let mut world = world_of(scene, experiment, method, manner.refined);
-    let mut ledger = Ledger::start(&mut world);
-    let mut trace = Trace::start(&world.state);
-    let mut publish = |world: &mut World, t: f64, is_start: bool| -> Result<(), FileError> {
-        let seen = world.observe(t);
+    let mut lockstep = LockStep::new(loaded, method, manner.refined);
+    let mut ledger = Ledger::start(lockstep.world());
+    let mut trace = lockstep.trace();
+    let mut publish = |lockstep: &mut LockStep, t: f64, is_start: bool| -> Result<(), FileError> {
+        let (seen, signals) = lockstep.observe(t);
         ledger.look(&seen);
-        let row = recorder.row(&seen, t, is_start);
+        let row = recorder.row(&seen, signals, t, is_start);
         table.push_row(row);
         csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
     };
-    publish(&mut world, 0.0, true)?;
-
     let mut status = Status::Completed;
+    let first = lockstep.start();
+    publish(&mut lockstep, 0.0, true)?;
+    if let Err(halt) = first {
+        status = halt.explain(&mut lockstep, experiment, method);
+    }
     for tick in 0..experiment.n_steps {
-        let t = tick as f64 * experiment.step;
-        for (command, signal) in world.state.commands.iter_mut().zip(&scene.commands) {
-            *command = signal.value(t);
-        }
-        if let Err((at, cause)) = world.advance(t, experiment.step) {
-            status = stop::explain(&world, experiment, (tick, at, cause), method);
+        if status != Status::Completed {
             break;
         }
-        trace.add(&world.state);
+        let advanced = lockstep.advance();
+        if let Err(halt @ Halt::World { .. }) = advanced {
+            status = halt.explain(&mut lockstep, experiment, method);
+            break;
+        }
+        lockstep.add_to(&mut trace);
         let now = (tick + 1) as f64 * experiment.step;
-        if (tick + 1) % experiment.record_every == 0 {
-            publish(&mut world, now, false)?;
+        if (tick + 1) % experiment.record_every == 0 || advanced.is_err() {
+            publish(&mut lockstep, now, false)?;
+        }
+        if let Err(halt) = advanced {
+            status = halt.explain(&mut lockstep, experiment, method);
+            break;
         }
         if watch.interrupt.load(Ordering::Relaxed) {
             status = Status::Interrupted { tick: tick + 1, time: now };
@@ -227,7 +244,8 @@ pub fn simulate(
         csv.finish()?;
     }
     let wall_time = clock.elapsed().as_secs_f64();
-    let energy = ledger.close(&world);
+    let world = lockstep.world();
+    let energy = ledger.close(world);
     Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
 }
 

@@ -6,22 +6,17 @@
 use sincro_dynamics::world::MethodKind;
 
 use super::{FINER, Manner, RunError, Simulated, Watch, simulate};
-use crate::experiment::{ErrorBar, Experiment};
+use crate::experiment::ErrorBar;
+use crate::load::Loaded;
 use crate::results::ColumnReport;
-use crate::scene::Scene;
 
 /// The recorded columns with their error bars.
-pub(super) fn columns(
-    scene: &Scene,
-    experiment: &Experiment,
-    run: &Simulated,
-    watch: &mut Watch<'_>,
-) -> Result<Vec<ColumnReport>, RunError> {
+pub(super) fn columns(loaded: &Loaded, run: &Simulated, watch: &mut Watch<'_>) -> Result<Vec<ColumnReport>, RunError> {
     let mut columns = ColumnReport::of_table(&run.table);
-    if experiment.error_bar == ErrorBar::None {
+    if loaded.experiment.error_bar == ErrorBar::None {
         return Ok(columns);
     }
-    let finer = simulate(scene, experiment, Manner { csv: None, refined: true }, watch)?;
+    let finer = simulate(loaded, Manner { csv: None, refined: true }, watch)?;
     let (factor, method) = estimate(run.method);
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {

@@ -4,12 +4,41 @@ use sincro_dynamics::integrate::Failure;
 use sincro_dynamics::stiffness::{RK4_LIMIT, stiffest};
 use sincro_dynamics::world::{MethodKind, Stop, World};
 
+use super::lockstep::{Halt, LockStep};
 use super::method_word;
+use crate::diagram::NotFinite;
 use crate::experiment::Experiment;
 use crate::results::Status;
 
+impl Halt {
+    /// The stop in words; for a world, from the last state that was still finite.
+    pub(super) fn explain(self, lockstep: &mut LockStep, experiment: &Experiment, method: MethodKind) -> Status {
+        match self {
+            Self::World { tick, t, cause } => explain(lockstep.world(), experiment, (tick, t, cause), method),
+            Self::Block { tick, t, culprit } => of_block(tick, t, &culprit),
+        }
+    }
+}
+
+/// A block that gave what is not a number.
+fn of_block(tick: u64, time: f64, culprit: &NotFinite) -> Status {
+    let list = |numbers: &[f64]| numbers.iter().take(6).map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
+    let NotFinite { block, kind, outputs, inputs } = culprit;
+    let inputs_were = if inputs.is_empty() { String::new() } else { format!(" from the inputs {}", list(inputs)) };
+    let reason =
+        format!("block `{block}` ({kind}) gave {} in tick {tick} at t = {time:.6} s{inputs_were}", list(outputs));
+    let help = match *kind {
+        "divide" => "the divisor was zero: keep it away from zero with a `saturation` or `max` before the block",
+        "expression" | "equations" | "function" | "sqrt" | "ln" | "power" => {
+            "look for a division by zero or a root or logarithm of a negative number in it, and limit its inputs"
+        }
+        _ => "look at the blocks before it: something grew without bound, or a division by zero",
+    };
+    Status::Stopped { tick, time, reason, help: help.to_owned() }
+}
+
 /// The stop in words, from the last state that was still finite.
-pub(super) fn explain(
+fn explain(
     world: &World,
     experiment: &Experiment,
     (tick, time, cause): (u64, f64, Stop),

@@ -7,6 +7,8 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State;
 use twox_hash::XxHash3_64;
 
+use crate::load::Loaded;
+
 /// Hash of all states of a run so far, in their order. Each state is hashed together with the hash before it, so that these
 /// eight bytes are all that a snapshot must hold of the past.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +33,19 @@ impl Trace {
         hasher.write(&state.tick.to_le_bytes());
         self.0 = hasher.finish();
     }
+
+    /// Adds states that are integrated together with the world; nothing if there are none. What a controller remembers from tick to
+    /// tick is not hashed: the same motion has the same hash, whoever commands it.
+    pub fn add_continuous(&mut self, states: &[f64]) {
+        if states.is_empty() {
+            return;
+        }
+        let mut hasher = XxHash3_64::with_seed(self.0);
+        for x in states {
+            hasher.write(&x.to_bits().to_le_bytes());
+        }
+        self.0 = hasher.finish();
+    }
 }
 
 impl fmt::Display for Trace {
@@ -45,5 +60,15 @@ pub fn model_hash(model: &Model<f64>) -> String {
     let mut hasher = XxHash3_64::with_seed(0);
     // the debug form has every field with all its digits
     hasher.write(format!("{model:?}").as_bytes());
+    format!("{:016x}", hasher.finish())
+}
+
+/// Hash of a scene's model and diagram: what the numbers of a snapshot belong to.
+#[must_use]
+pub fn plant_hash(loaded: &Loaded) -> String {
+    let Some(controller) = &loaded.controller else { return model_hash(&loaded.scene.model) };
+    let mut hasher = XxHash3_64::with_seed(0);
+    hasher.write(model_hash(&loaded.scene.model).as_bytes());
+    hasher.write(format!("{:?}", controller.diagram).as_bytes());
     format!("{:016x}", hasher.finish())
 }

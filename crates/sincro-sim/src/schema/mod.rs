@@ -1,4 +1,4 @@
-//! The JSON Schemas of both files, generated from the types that read them, and the checker that walks a file against them.
+//! The JSON Schemas of the files, generated from the types that read them, and the checker that walks a file against them.
 //!
 //! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what `sincro check`
 //! says is one thing. A test keeps the files equal to the types.
@@ -14,6 +14,7 @@ use serde_json::{Map, Value};
 
 pub(crate) use validate::validate;
 
+use crate::diagram::DiagramFile;
 use crate::experiment::ExperimentFile;
 use crate::scene::SceneFile;
 
@@ -26,6 +27,12 @@ pub fn scene_schema() -> &'static Value {
 /// JSON Schema of `experiment.toml`.
 pub fn experiment_schema() -> &'static Value {
     static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<ExperimentFile>);
+    &SCHEMA
+}
+
+/// JSON Schema of `diagram.toml`.
+pub fn diagram_schema() -> &'static Value {
+    static SCHEMA: LazyLock<Value> = LazyLock::new(|| crate::diagram::schema::with_blocks(generate::<DiagramFile>()));
     &SCHEMA
 }
 
@@ -132,6 +139,7 @@ mod tests {
     fn committed_schemas_are_those_of_the_types() {
         assert_committed("scene.schema.json", scene_schema());
         assert_committed("experiment.schema.json", experiment_schema());
+        assert_committed("diagram.schema.json", diagram_schema());
     }
 
     #[test]
@@ -145,7 +153,7 @@ mod tests {
                 _ => true,
             }
         }
-        assert!(no_null(scene_schema()) && no_null(experiment_schema()));
+        assert!(no_null(scene_schema()) && no_null(experiment_schema()) && no_null(diagram_schema()));
     }
 
     /// Of every number the schema says what it is measured in, or that it has no unit by its description alone.
@@ -163,5 +171,6 @@ mod tests {
         }
         visit(scene_schema(), "scene");
         visit(experiment_schema(), "experiment");
+        visit(diagram_schema(), "diagram");
     }
 }

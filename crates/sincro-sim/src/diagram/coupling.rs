@@ -1,0 +1,285 @@
+//! A diagram and a world in one step.
+//!
+//! At a tick ([`Control::look`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
+//! are latched from that instant on ([`Control::latch`]), and memory is updated ([`Control::update`]). Between ticks the diagram is an
+//! [`Attachment`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
+
+use std::sync::Arc;
+
+use sincro_blocks::instance::Number;
+use sincro_blocks::program::{Measured, Program};
+use sincro_blocks::runner::{Runner, State};
+use sincro_dynamics::attachment::{Attachment, Response, Seen};
+use sincro_dynamics::kinematics;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::state::State as WorldState;
+use sincro_dynamics::world::World;
+use sincro_math::Real;
+
+use super::ports::{Measurement, is_known_at_ticks_only};
+use super::probe;
+use crate::record::Probe;
+
+/// A measurement in use: where its components are read and where they go.
+#[derive(Clone, Debug)]
+struct Reading {
+    probes: Vec<Probe>,
+    at: usize,
+    is_minor: bool,
+}
+
+/// What a compiled diagram is connected to.
+#[derive(Clone, Debug)]
+pub struct Wiring {
+    program: Arc<Program>,
+    early: Vec<Reading>,
+    late: Vec<Reading>,
+    needs_poses: bool,
+}
+
+impl Wiring {
+    pub(super) fn new(program: Arc<Program>, measurements: &[Measurement]) -> Self {
+        let reading = |m: &Measured| Reading {
+            probes: measurements[m.terminal].probes.clone(),
+            at: m.out.start,
+            is_minor: m.is_minor,
+        };
+        let early: Vec<Reading> = program.early.iter().map(reading).collect();
+        let late = program.late.iter().map(reading).collect();
+        let needs_poses = early.iter().flat_map(|r| &r.probes).any(|p| probe::needs_kinematics(*p));
+        Self { early, late, needs_poses, program }
+    }
+
+    /// The compiled diagram.
+    #[must_use]
+    pub fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+}
+
+/// A diagram that controls a world.
+#[derive(Clone, Debug)]
+pub struct Control<R: Number> {
+    wiring: Arc<Wiring>,
+    /// The diagram with its state.
+    pub runner: Runner<R>,
+    tick: u64,
+    corner: f64,
+    zero: Vec<R>,
+    late_torque: Vec<R>,
+    late_accelerations: Vec<R>,
+    impulse: Vec<f64>,
+    held: Vec<f64>,
+}
+
+/// A block whose output is not a finite number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NotFinite {
+    /// Its path.
+    pub block: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// Its outputs.
+    pub outputs: Vec<f64>,
+    /// Its inputs.
+    pub inputs: Vec<f64>,
+}
+
+impl<R: Number> Control<R> {
+    /// At the start of a run of `model`.
+    #[must_use]
+    pub fn new(wiring: &Arc<Wiring>, model: &Model<f64>) -> Self {
+        let zeros = |n: usize| vec![R::zero(); n];
+        Self {
+            runner: Runner::new(wiring.program.clone()),
+            wiring: wiring.clone(),
+            tick: 0,
+            corner: f64::INFINITY,
+            zero: zeros(model.n_v()),
+            late_torque: zeros(model.motors().len()),
+            late_accelerations: zeros(model.n_v()),
+            impulse: vec![0.0; model.motors().len()],
+            held: vec![0.0; model.motors().len()],
+        }
+    }
+
+    /// What it is connected to.
+    #[must_use]
+    pub fn wiring(&self) -> &Arc<Wiring> {
+        &self.wiring
+    }
+
+    /// Whether anything happens between ticks, so that the world must take it along.
+    #[must_use]
+    pub fn is_continuous(&self) -> bool {
+        self.wiring.program.is_continuous()
+    }
+
+    /// Sets the tick whose samples are held while the integrator looks around.
+    pub fn set_tick(&mut self, tick: u64) {
+        self.tick = tick;
+    }
+
+    fn read_state(&mut self, seen: &mut Seen<'_, R>, is_minor: bool) {
+        if self.wiring.early.is_empty() {
+            return;
+        }
+        if self.wiring.needs_poses {
+            kinematics::motions(seen.model, seen.q, seen.v, &self.zero, seen.scratch);
+        }
+        for reading in self.wiring.early.iter().filter(|r| r.is_minor || !is_minor) {
+            for (k, probe) in reading.probes.iter().enumerate() {
+                if let Some(x) = probe::of_state(seen, *probe) {
+                    self.runner.signals_mut()[reading.at + k] = x;
+                }
+            }
+        }
+    }
+
+    fn read_response(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, is_minor: bool) {
+        kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
+        for reading in self.wiring.late.iter().filter(|r| r.is_minor || !is_minor) {
+            for (k, probe) in reading.probes.iter().enumerate() {
+                if let Some(x) = probe::of_response(seen, response, *probe) {
+                    self.runner.signals_mut()[reading.at + k] = x;
+                }
+            }
+        }
+    }
+
+    fn write_commands(&self, commands: &mut [R], continuous_only: bool) {
+        for command in &self.wiring.program.commands {
+            if command.is_continuous || !continuous_only {
+                commands[command.terminal] = self.runner.signals()[command.signal.start];
+            }
+        }
+    }
+}
+
+impl Control<f64> {
+    /// Measures and evaluates everything that is due at a tick.
+    ///
+    /// # Errors
+    ///
+    /// The first block, in the order of evaluation, whose output is not finite.
+    pub fn look(&mut self, world: &mut World, tick: u64, t: f64) -> Result<(), NotFinite> {
+        self.tick = tick;
+        self.read_tick_sums(world, tick);
+        world.with_seen(t, |mut seen| self.read_state(&mut seen, false));
+        self.runner.evaluate(tick, t);
+        if !self.wiring.late.is_empty() {
+            self.look_late(world, tick, t);
+        }
+        match self.runner.not_finite() {
+            None => Ok(()),
+            Some((step, _)) => Err(NotFinite {
+                block: step.path.clone(),
+                kind: step.template.kind().name,
+                outputs: self.runner.signals()[step.out.clone()].to_vec(),
+                inputs: step
+                    .ports
+                    .iter()
+                    .flat_map(|&(at, len)| &self.runner.signals()[at as usize..(at + len) as usize])
+                    .copied()
+                    .collect(),
+            }),
+        }
+    }
+
+    /// What depends on the accelerations that the new commands cause.
+    fn look_late(&mut self, world: &mut World, tick: u64, t: f64) {
+        self.held.copy_from_slice(&world.state.commands);
+        let mut commands = core::mem::take(&mut world.state.commands);
+        self.write_commands(&mut commands, false);
+        world.state.commands = commands;
+        let (accelerations, torques) = world.rates(t);
+        self.late_accelerations.copy_from_slice(accelerations);
+        self.late_torque.copy_from_slice(torques);
+        let (accelerations, torques) =
+            (core::mem::take(&mut self.late_accelerations), core::mem::take(&mut self.late_torque));
+        let response = Response { accelerations: &accelerations, motor_torque: &torques };
+        world.with_seen(t, |mut seen| self.read_response(&mut seen, response, false));
+        (self.late_accelerations, self.late_torque) = (accelerations, torques);
+        world.state.commands.copy_from_slice(&self.held);
+        self.runner.evaluate_late(tick, t);
+    }
+
+    /// Means and sums over the step that ended.
+    fn read_tick_sums(&mut self, world: &World, tick: u64) {
+        let totals = &world.state.totals;
+        let step = self.wiring.program.step;
+        for reading in &self.wiring.early {
+            for (k, probe) in reading.probes.iter().enumerate().filter(|(_, p)| is_known_at_ticks_only(**p)) {
+                use crate::record::EnergyQuantity as E;
+                let x = match *probe {
+                    Probe::MotorTorqueMean(_) if tick == 0 => 0.0,
+                    Probe::MotorTorqueMean(m) => (totals[2 + m] - self.impulse[m]) / step,
+                    Probe::Energy(E::Work) => totals[0],
+                    Probe::Energy(E::Dissipated) => totals[1],
+                    _ => 0.0,
+                };
+                self.runner.signals_mut()[reading.at + k] = x;
+            }
+        }
+        self.impulse.copy_from_slice(&totals[2..]);
+    }
+
+    /// Latches the commands of the diagram, from this tick on.
+    pub fn latch(&self, commands: &mut [f64]) {
+        self.write_commands(commands, false);
+    }
+
+    /// Memory for the next tick.
+    pub fn update(&mut self, tick: u64, t: f64) {
+        self.runner.update(tick, t);
+    }
+
+    /// The signals of the diagram as they were last evaluated at a tick.
+    #[must_use]
+    pub fn signals(&self) -> &[f64] {
+        self.runner.signals()
+    }
+
+    /// Goes back to a state of the diagram that belongs to a state of the world.
+    pub(crate) fn resume(&mut self, state: State<f64>, world: &WorldState<f64>) {
+        self.runner.resume(state, world.tick);
+        self.tick = world.tick;
+        self.impulse.copy_from_slice(&world.totals[2..]);
+    }
+}
+
+impl<R: Number + Real> Attachment<R> for Control<R> {
+    fn states(&mut self) -> &mut [R] {
+        &mut self.runner.state.continuous
+    }
+
+    fn set_corner(&mut self, corner: f64) {
+        self.corner = corner;
+    }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        self.wiring.program.next_corner(t)
+    }
+
+    fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
+        self.runner.state.continuous.copy_from_slice(z);
+        self.read_state(seen, true);
+        self.runner.minor(self.tick, seen.t, self.corner);
+        self.write_commands(commands, true);
+    }
+
+    fn slope(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
+        if z.is_empty() {
+            return;
+        }
+        if self.wiring.late.iter().any(|r| r.is_minor) {
+            self.read_response(seen, response, true);
+            self.runner.minor_late(self.tick, seen.t, self.corner);
+        }
+        self.runner.slopes(self.tick, seen.t, self.corner, slope);
+    }
+
+    fn decay(&mut self, decay: &mut [R]) {
+        self.runner.decays(self.tick, 0.0, decay);
+    }
+}

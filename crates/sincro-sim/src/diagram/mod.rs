@@ -1,0 +1,152 @@
+//! Block diagrams of a scene folder: the file, its errors, and the diagram in one step with the world.
+//!
+//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `coupling.rs`
+//! runs both together; `robot/` has the blocks that use the model.
+
+mod coupling;
+mod file;
+mod ports;
+mod probe;
+mod read;
+pub mod robot;
+pub(crate) mod schema;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sincro_blocks::compile::{Interface, Place, Spot, compile};
+use sincro_blocks::diagram::{Diagram, What};
+use sincro_dynamics::model::Model;
+
+pub use coupling::{Control, NotFinite, Wiring};
+pub(crate) use file::DiagramFile;
+use read::{DiagramReader, Origin};
+
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Location, Problem, Problems};
+use crate::record::{Entry, Probe};
+
+/// A diagram of a scene, ready to run.
+#[derive(Clone, Debug)]
+pub struct Controller {
+    /// As it is drawn.
+    pub diagram: Diagram,
+    /// Compiled and connected to the model.
+    pub wiring: Arc<Wiring>,
+}
+
+/// What a diagram is read for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setting<'a> {
+    pub model: &'a Arc<Model<f64>>,
+    /// Base step `[s]`.
+    pub step: f64,
+    pub seed: u64,
+    /// The experiment's parameters: formulas know them.
+    pub parameters: &'a BTreeMap<String, f64>,
+}
+
+/// Reads and compiles a document that fits the schema.
+pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<Controller, Problems> {
+    let file: DiagramFile = serde_json::from_value(document.root.clone())
+        .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
+    let robot = robot::Context { model: setting.model.clone() };
+    let mut reader = DiagramReader { document, folder, file: &file, robot: &robot, problems: Problems::new() };
+    let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
+    if reader.problems.any_error() {
+        return Err(reader.problems.sorted());
+    }
+    if let Some(sample_time) = sample_time {
+        for entry in &mut diagram.entries {
+            entry.sample_time.get_or_insert(sample_time);
+        }
+    }
+    let measurements = ports::measurements(setting.model);
+    let interface = Interface {
+        step: setting.step,
+        seed: setting.seed,
+        measurements: measurements.iter().map(|m| m.terminal.clone()).collect(),
+        commands: ports::commands(setting.model),
+    };
+    match compile(&diagram, &interface) {
+        Ok(program) => {
+            let wiring = Arc::new(Wiring::new(Arc::new(program), &measurements));
+            Ok(Controller { diagram, wiring })
+        }
+        Err(found) => {
+            let mut problems = Problems::new();
+            for problem in found {
+                let at = locate(document, &origin, &diagram, &problem.place);
+                let located = Problem::error(&at, problem.message).with_help(problem.help);
+                if !problems.0.contains(&located) {
+                    problems.push(located);
+                }
+            }
+            Err(problems.sorted())
+        }
+    }
+}
+
+impl Controller {
+    /// The diagram's signals as they are recorded: `block`, `block.port`, components of vectors as `block[0]`.
+    #[must_use]
+    pub fn entries(&self) -> Vec<Entry> {
+        entries(&self.wiring)
+    }
+}
+
+/// See [`Controller::entries`].
+fn entries(wiring: &Wiring) -> Vec<Entry> {
+    let mut list = Vec::new();
+    for (name, range, _) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {
+        let unit = "";
+        match range.len() {
+            1 => list.push(Entry { name, unit, probe: Probe::Signal(range.start) }),
+            _ => list.extend(range.clone().map(|k| Entry {
+                name: format!("{name}[{}]", k - range.start),
+                unit,
+                probe: Probe::Signal(k),
+            })),
+        }
+    }
+    list
+}
+
+/// Where in the file a problem of the compiler is.
+fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place) -> Location {
+    let (mut origin, mut diagram) = (origin, diagram);
+    for name in &place.diagram {
+        let Some(inner) = origin.inner.get(name) else { break };
+        origin = inner;
+        if let Some(What::Diagram(_, content)) = diagram.entry(name).map(|e| &e.what) {
+            diagram = content;
+        }
+    }
+    let pointer = &origin.pointer;
+    let block = |name: &str| {
+        let k = diagram.entries.iter().rposition(|e| e.name == *name)?;
+        Some(format!("{pointer}/block/{k}"))
+    };
+    match &place.what {
+        Spot::Entry(name) => block(name).map_or_else(|| document.at(pointer), |p| document.title_at(&p)),
+        Spot::SampleTime(name) => {
+            let of_block = block(name).map(|p| format!("{p}/sample_time"));
+            let own = of_block.filter(|p| document.get(p).is_some());
+            let around = [format!("{pointer}/sample_time"), "/sample_time".to_owned()];
+            let found = own.or_else(|| around.into_iter().find(|p| document.get(p).is_some()));
+            found.map_or_else(
+                || block(name).map_or(document.at(pointer), |p| document.title_at(&p)),
+                |p| document.at(&p),
+            )
+        }
+        Spot::From(k) | Spot::To(k) => match origin.wires.get(*k) {
+            Some((text, from, to)) => {
+                let span = if matches!(place.what, Spot::From(_)) { from } else { to };
+                read::within(&document.at(&format!("{pointer}/wires/{text}")), span)
+            }
+            None => document.at(&format!("{pointer}/wires")),
+        },
+        Spot::Port(_) => document.at(&format!("{pointer}/outputs")),
+    }
+}

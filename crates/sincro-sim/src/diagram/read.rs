@@ -1,0 +1,335 @@
+//! From the diagram file to a [`Diagram`]: parameters to blocks, texts to wires, definitions to inner diagrams.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value as Json;
+use sincro_blocks::diagram::{Diagram, What, Wire};
+use sincro_blocks::endpoint::Endpoint;
+use sincro_blocks::instance::Template;
+use sincro_blocks::library;
+use sincro_blocks::reader::{Fault, Files, NoFiles, Reader, Value};
+
+use super::file::{BlockFile, DefinitionFile, DiagramFile};
+use super::robot;
+use crate::document::{Document, Odd, escape};
+use crate::folder::Folder;
+use crate::problem::{Location, Problem, Problems};
+use crate::series;
+use crate::suggest;
+
+/// Names of numbers that formulas know.
+pub(super) type Scope = BTreeMap<String, f64>;
+
+/// Deepest nesting of diagrams.
+const MAX_DEPTH: usize = 32;
+
+/// Where a diagram, its blocks and its wires stand in the file.
+#[derive(Clone, Debug)]
+pub(super) struct Origin {
+    /// JSON pointer to the table that has `block` and `wires`.
+    pub pointer: String,
+    /// For each wire of the [`Diagram`]: number of its text, and bytes of its source and target in it.
+    pub wires: Vec<(usize, core::ops::Range<usize>, core::ops::Range<usize>)>,
+    /// For each entry: where the diagram in it stands, if it is one.
+    pub inner: BTreeMap<String, Origin>,
+}
+
+/// Reads diagrams, noting what is wrong.
+pub(super) struct DiagramReader<'a> {
+    pub document: &'a Document,
+    pub folder: &'a Folder,
+    pub file: &'a DiagramFile,
+    pub robot: &'a robot::Context,
+    pub problems: Problems,
+}
+
+impl DiagramReader<'_> {
+    /// The whole file.
+    pub fn diagram(&mut self, outer: &Scope) -> (Diagram, Origin, Option<f64>) {
+        self.check_definitions();
+        let mut scope = outer.clone();
+        let given = self.file_parameters();
+        self.fill_scope(&mut scope, &given);
+        let sample_time = self.number("/sample_time", &scope);
+        let (diagram, origin) = self.content("", &self.file.block, &self.file.wires, &scope, 0);
+        (diagram, origin, sample_time)
+    }
+
+    /// Keys of the file's parameters in the order in which they stand there: each may use those before.
+    fn file_parameters(&self) -> Vec<(String, String)> {
+        let table = self.document.get("/parameters").and_then(Json::as_object);
+        let mut list: Vec<(String, String)> =
+            table.into_iter().flatten().map(|(k, _)| (k.clone(), format!("/parameters/{}", escape(k)))).collect();
+        list.sort_by_key(|(_, pointer)| self.document.at(pointer).span.start);
+        list
+    }
+
+    fn fill_scope(&mut self, scope: &mut Scope, parameters: &[(String, String)]) {
+        for (name, pointer) in parameters {
+            if !sincro_math::expression::is_name(name) || name == "t" || name == "pi" {
+                let message = format!("`{name}` cannot be the name of a parameter");
+                let help = "letters, digits and `_`, beginning with a letter; `t` and `pi` have a meaning of their own";
+                self.problems.push(Problem::error(&self.document.key_at(pointer), message).with_help(help));
+            }
+            if let Some(x) = self.number(pointer, scope) {
+                scope.insert(name.clone(), x);
+            }
+        }
+    }
+
+    /// The number or formula at a pointer, none if nothing is there.
+    fn number(&mut self, pointer: &str, scope: &Scope) -> Option<f64> {
+        let json = self.document.get(pointer)?;
+        let given = BTreeMap::from([("gain".to_owned(), self.value(json, pointer))]);
+        // any block with one number will do: the reader turns formulas into numbers and says what is wrong with them
+        let kind = library::find("gain").expect("the library has a gain").kind;
+        let mut reader = Reader::new(kind, &given, scope, &NoFiles);
+        let x = reader.number("gain");
+        for fault in reader.finish() {
+            self.fault_at(pointer, Fault { path: Vec::new(), ..fault }, None);
+        }
+        x.is_finite().then_some(x)
+    }
+
+    fn check_definitions(&mut self) {
+        for (k, definition) in self.file.diagram.iter().enumerate() {
+            let at = self.document.at(&format!("/diagram/{k}/name"));
+            let is_block = library::find(&definition.name).is_some() || robot::find(&definition.name).is_some();
+            let is_second = self.file.diagram[..k].iter().any(|d| d.name == definition.name);
+            if is_block || is_second {
+                let what = if is_block { "a block of the library" } else { "another diagram of this file" };
+                let problem = Problem::error(&at, format!("`{}` is {what}", definition.name));
+                self.problems.push(problem.with_help("give the diagram another name"));
+            }
+        }
+    }
+
+    /// The blocks and wires of one table.
+    fn content(
+        &mut self,
+        pointer: &str,
+        blocks: &[BlockFile],
+        wires: &[String],
+        scope: &Scope,
+        depth: usize,
+    ) -> (Diagram, Origin) {
+        let mut diagram = Diagram::new();
+        let mut origin = Origin { pointer: pointer.to_owned(), wires: Vec::new(), inner: BTreeMap::new() };
+        for (k, block) in blocks.iter().enumerate() {
+            let at = format!("{pointer}/block/{k}");
+            let sample_time = self.number(&format!("{at}/sample_time"), scope);
+            let Some((what, inner)) = self.what(block, &at, scope, depth) else { continue };
+            let (what, sample_time) = match what {
+                // a definition's own sample time stands unless the block gives another
+                (what, own) => (what, sample_time.or(own)),
+            };
+            diagram.add(&block.name, what, sample_time);
+            if let Some(entry) = diagram.entries.last_mut() {
+                entry.unit.clone_from(&block.unit);
+            }
+            if let Some(inner) = inner {
+                origin.inner.insert(block.name.clone(), inner);
+            }
+        }
+        for (k, text) in wires.iter().enumerate() {
+            self.wire(&format!("{pointer}/wires/{k}"), k, text, &mut diagram, &mut origin);
+        }
+        (diagram, origin)
+    }
+
+    /// What a block is: of the library, about the robot, or a diagram of this file.
+    #[allow(clippy::type_complexity)]
+    fn what(
+        &mut self,
+        block: &BlockFile,
+        at: &str,
+        scope: &Scope,
+        depth: usize,
+    ) -> Option<((What, Option<f64>), Option<Origin>)> {
+        if let Some(k) = self.file.diagram.iter().position(|d| d.name == block.kind) {
+            let (inner, origin, sample_time) = self.instance(k, block, at, scope, depth)?;
+            let what = What::Diagram(block.kind.clone(), Box::new(inner));
+            return Some(((what, sample_time), Some(origin)));
+        }
+        let template = self.library_block(block, at, scope)?;
+        Some(((What::Block(template), None), None))
+    }
+
+    fn library_block(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<Box<dyn Template>> {
+        let given: BTreeMap<String, Value> = block
+            .parameters
+            .iter()
+            .map(|(key, json)| (key.clone(), self.value(json, &format!("{at}/{}", escape(key)))))
+            .collect();
+        let files = FolderFiles(self.folder);
+        let (template, faults) = if let Some(item) = library::find(&block.kind) {
+            let mut reader = Reader::new(item.kind, &given, scope, &files);
+            ((item.read)(&mut reader), reader.finish())
+        } else if let Some(item) = robot::find(&block.kind) {
+            let mut reader = Reader::new(item.kind, &given, scope, &files);
+            ((item.read)(&mut reader, self.robot), reader.finish())
+        } else {
+            self.unknown_kind(block, at);
+            return None;
+        };
+        for fault in faults {
+            self.fault_at(at, fault, Some(&block.name));
+        }
+        Some(template)
+    }
+
+    fn unknown_kind(&mut self, block: &BlockFile, at: &str) {
+        let kinds = library::all().map(|item| item.kind.name).chain(robot::all().map(|item| item.kind.name));
+        let known: Vec<&str> = kinds.chain(self.file.diagram.iter().map(|d| d.name.as_str())).collect();
+        let help = match suggest::nearest(&block.kind, known.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "`sincro blocks` lists every block with its parameters".into(),
+        };
+        let message = format!("there is no block type `{}` (block `{}`)", block.kind, block.name);
+        self.problems.push(Problem::error(&self.document.at(&format!("{at}/type")), message).with_help(help));
+    }
+
+    /// A diagram of this file with the parameters of a block.
+    fn instance(
+        &mut self,
+        k: usize,
+        block: &BlockFile,
+        at: &str,
+        outer: &Scope,
+        depth: usize,
+    ) -> Option<(Diagram, Origin, Option<f64>)> {
+        let definition: &DefinitionFile = &self.file.diagram[k];
+        let pointer = format!("/diagram/{k}");
+        if depth >= MAX_DEPTH {
+            let message = format!("`{}` contains itself", definition.name);
+            let at = self.document.title_at(&pointer);
+            self.problems.push(Problem::error(&at, message).with_help("break the circle of definitions"));
+            return None;
+        }
+        let mut scope = Scope::new();
+        for name in definition.parameters.keys() {
+            let (from, known) = match block.parameters.contains_key(name) {
+                true => (format!("{at}/{}", escape(name)), outer),
+                false => (format!("{pointer}/parameters/{}", escape(name)), &Scope::new()),
+            };
+            let value = self.number(&from, known);
+            scope.insert(name.clone(), value.unwrap_or(f64::NAN));
+        }
+        for key in block.parameters.keys().filter(|key| !definition.parameters.contains_key(*key)) {
+            let known: Vec<&str> = definition.parameters.keys().map(String::as_str).collect();
+            let message = format!("the diagram `{}` has no parameter `{key}`", definition.name);
+            let at = self.document.key_at(&format!("{at}/{}", escape(key)));
+            self.problems.push(Problem::error(&at, message).with_help(suggest::help(key, &known, "parameters")));
+        }
+        let sample_time = self.number(&format!("{pointer}/sample_time"), &scope);
+        let (diagram, origin) = self.content(&pointer, &definition.block, &definition.wires, &scope, depth + 1);
+        let ports = Diagram { inputs: definition.inputs.clone(), outputs: definition.outputs.clone(), ..diagram };
+        Some((ports, origin, sample_time))
+    }
+
+    /// A text such as `a -> b.u1 -> c`: a wire for every arrow.
+    fn wire(&mut self, pointer: &str, k: usize, text: &str, diagram: &mut Diagram, origin: &mut Origin) {
+        let parts: Vec<(usize, &str)> = {
+            let mut start = 0;
+            let split = text.split("->").map(|part| {
+                let at = start;
+                start += part.len() + 2;
+                (at, part)
+            });
+            split.collect()
+        };
+        if parts.len() < 2 {
+            let problem = Problem::error(&self.document.at(pointer), format!("`{text}` is no wire"));
+            self.problems.push(problem.with_help("write \"FROM -> TO\", such as \"error -> pid -> /motor1\""));
+            return;
+        }
+        for pair in parts.windows(2) {
+            let ((from_at, from), (to_at, to)) = (pair[0], pair[1]);
+            let (source, target) = (Endpoint::parse_list(from), Endpoint::parse(to));
+            for (at, error) in [(from_at, source.as_ref().err()), (to_at, target.as_ref().err())] {
+                if let Some(error) = error {
+                    let span = at + error.span.start..at + error.span.end;
+                    let place = within(&self.document.at(pointer), &span);
+                    let help =
+                        "ends of wires are `block`, `block.port`, `block.port[0]`, or `/joint.position` of the world";
+                    self.problems.push(Problem::error(&place, error.message.clone()).with_help(help));
+                }
+            }
+            if let (Ok(from_ends), Ok(to_end)) = (source, target) {
+                let trimmed = |at: usize, part: &str| {
+                    let begin = at + part.len() - part.trim_start().len();
+                    begin..begin + part.trim().len()
+                };
+                origin.wires.push((k, trimmed(from_at, from), trimmed(to_at, to)));
+                diagram.wires.push(Wire { from: from_ends, to: to_end });
+            }
+        }
+    }
+
+    /// A JSON value as a parameter.
+    fn value(&self, json: &Json, pointer: &str) -> Value {
+        match json {
+            Json::Null => match self.document.odd(pointer) {
+                Some(Odd::Infinite { positive: true }) => Value::Number(f64::INFINITY),
+                Some(Odd::Infinite { positive: false }) => Value::Number(f64::NEG_INFINITY),
+                _ => Value::Number(f64::NAN),
+            },
+            Json::Bool(flag) => Value::Flag(*flag),
+            Json::Number(x) => Value::Number(x.as_f64().unwrap_or(f64::NAN)),
+            Json::String(text) => Value::Text(text.clone()),
+            Json::Array(list) => {
+                Value::List(list.iter().enumerate().map(|(k, x)| self.value(x, &format!("{pointer}/{k}"))).collect())
+            }
+            Json::Object(table) => {
+                let inner = |key: &str| format!("{pointer}/{}", escape(key));
+                let mut list: Vec<(String, Value)> =
+                    table.iter().map(|(key, x)| (key.clone(), self.value(x, &inner(key)))).collect();
+                list.sort_by_key(|(key, _)| self.document.at(&inner(key)).span.start);
+                Value::Table(list)
+            }
+        }
+    }
+
+    fn fault_at(&mut self, pointer: &str, fault: Fault, block: Option<&str>) {
+        let inner = fault.path.iter().fold(pointer.to_owned(), |p, step| format!("{p}/{}", escape(step)));
+        let is_unknown = fault.message.contains("has no parameter");
+        let at = match (fault.path.is_empty(), is_unknown) {
+            (true, _) => self.document.title_at(&inner),
+            (_, true) => self.document.key_at(&inner),
+            _ => self.document.at(&inner),
+        };
+        let at = fault.span.as_ref().map_or_else(|| at.clone(), |span| within(&at, span));
+        let message = match block {
+            Some(name) => format!("block `{name}`: {}", fault.message),
+            None => fault.message,
+        };
+        let problem = Problem::error(&at, message);
+        let problem = if fault.help.is_empty() { problem } else { problem.with_help(fault.help) };
+        if !self.problems.0.contains(&problem) {
+            self.problems.push(problem);
+        }
+    }
+}
+
+/// Bytes inside a string of the file; the whole string if it is not written plainly.
+pub(super) fn within(string: &Location, span: &core::ops::Range<usize>) -> Location {
+    let text = string.text();
+    let is_plain = text.len() >= 2 && !text.contains('\\') && !text.starts_with("\"\"\"") && !text.starts_with("'''");
+    if !is_plain || !text.starts_with(['"', '\'']) {
+        return string.clone();
+    }
+    let start = string.span.start + 1;
+    let end = string.span.end - 1;
+    // an empty stretch points at the character where something is missing
+    let (from, to) = (start + span.start, start + span.end.max(span.start + 1));
+    Location { source: string.source.clone(), span: from.min(end)..to.min(end.max(from.min(end))) }
+}
+
+/// CSV files of the scene's folder.
+struct FolderFiles<'a>(&'a Folder);
+
+impl Files for FolderFiles<'_> {
+    fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String> {
+        series::column(self.0, file, column)
+    }
+}

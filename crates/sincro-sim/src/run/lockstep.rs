@@ -1,0 +1,170 @@
+//! A scene and its diagram, tick by tick: what a run, a server and a test all drive.
+
+use sincro_dynamics::signal::Signal;
+use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
+
+use super::trace::Trace;
+use super::world_with_room;
+use crate::diagram::{Control, NotFinite};
+use crate::load::Loaded;
+use crate::snapshot::Snapshot;
+
+/// A world with its controller.
+#[derive(Clone, Debug)]
+pub struct LockStep {
+    world: World,
+    control: Option<Control<f64>>,
+    commands: Vec<Signal>,
+    step: f64,
+    tick: u64,
+}
+
+/// Why it could not go on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Halt {
+    /// The world could not be advanced from this tick.
+    World {
+        /// The tick.
+        tick: u64,
+        /// Where `[s]`.
+        t: f64,
+        /// Why.
+        cause: Stop,
+    },
+    /// A block gave what is not a finite number.
+    Block {
+        /// The tick at which it did.
+        tick: u64,
+        /// Where `[s]`.
+        t: f64,
+        /// The block.
+        culprit: NotFinite,
+    },
+}
+
+impl LockStep {
+    /// Before the first tick.
+    #[must_use]
+    pub fn new(loaded: &Loaded, method: MethodKind, refined: bool) -> Self {
+        let Loaded { scene, experiment, controller, .. } = loaded;
+        let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
+        let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
+        let world = world_with_room(scene, experiment, method, refined, n_states);
+        let mut new = Self { world, control, commands: scene.commands.clone(), step: experiment.step, tick: 0 };
+        match &mut new.control {
+            Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
+            _ => new.world.settle_start(0.0),
+        }
+        new
+    }
+
+    /// The world.
+    pub fn world(&mut self) -> &mut World {
+        &mut self.world
+    }
+
+    /// The diagram, if there is one.
+    #[must_use]
+    pub fn control(&self) -> Option<&Control<f64>> {
+        self.control.as_ref()
+    }
+
+    /// Base steps done.
+    #[must_use]
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// Time `[s]`.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.tick as f64 * self.step
+    }
+
+    /// Evaluates the diagram for the first time.
+    ///
+    /// # Errors
+    ///
+    /// If a block gives what is not a finite number.
+    pub fn start(&mut self) -> Result<(), Halt> {
+        self.look()
+    }
+
+    /// One base step: hold, advance, measure, ask.
+    ///
+    /// # Errors
+    ///
+    /// If the world cannot go on (the state is then that of the last instant reached), or if a block gives what is not a finite
+    /// number (the world has then made the step).
+    pub fn advance(&mut self) -> Result<(), Halt> {
+        let (tick, t) = (self.tick, self.t());
+        for (command, signal) in self.world.state.commands.iter_mut().zip(&self.commands) {
+            *command = signal.value(t);
+        }
+        let advanced = match &mut self.control {
+            None => self.world.advance(t, self.step),
+            Some(control) => {
+                control.latch(&mut self.world.state.commands);
+                control.update(tick, t);
+                if control.is_continuous() {
+                    self.world.advance_with(t, self.step, control)
+                } else {
+                    self.world.advance(t, self.step)
+                }
+            }
+        };
+        advanced.map_err(|(t, cause)| Halt::World { tick, t, cause })?;
+        self.tick += 1;
+        self.look()
+    }
+
+    fn look(&mut self) -> Result<(), Halt> {
+        let (tick, t) = (self.tick, self.t());
+        let Some(control) = &mut self.control else { return Ok(()) };
+        control.look(&mut self.world, tick, t).map_err(|culprit| Halt::Block { tick, t, culprit })
+    }
+
+    /// Everything that can be looked at: the world, and the diagram's signals.
+    pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
+        let signals = self.control.as_ref().map_or(&[][..], Control::signals);
+        (self.world.observe(t), signals)
+    }
+
+    /// Hash of the present state.
+    #[must_use]
+    pub fn trace(&self) -> Trace {
+        let mut trace = Trace::start(&self.world.state);
+        trace.add_continuous(self.continuous());
+        trace
+    }
+
+    /// Adds the present state to a hash.
+    pub fn add_to(&self, trace: &mut Trace) {
+        trace.add(&self.world.state);
+        trace.add_continuous(self.continuous());
+    }
+
+    /// Everything needed to go on from here bit for bit, with the hash of the run so far.
+    #[must_use]
+    pub fn snapshot(&self, trace: Trace) -> Snapshot {
+        let diagram = self.control.as_ref().map(|c| c.runner.state.clone());
+        Snapshot { state: self.world.state.clone(), trace, control: self.world.control(), diagram }
+    }
+
+    /// Goes back to a snapshot of the same scene and diagram.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.world.state = snapshot.state.clone();
+        if let Some(control) = snapshot.control {
+            self.world.set_control(control);
+        }
+        self.tick = snapshot.state.tick;
+        if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
+            control.resume(state.clone(), &snapshot.state);
+        }
+    }
+
+    /// Continuous states of the diagram: part of what is integrated.
+    fn continuous(&self) -> &[f64] {
+        self.control.as_ref().map_or(&[], |c| &c.runner.state.continuous)
+    }
+}
