@@ -1,6 +1,7 @@
 //! Continuous: states that are integrated together with the world.
 
 mod derivative;
+mod equations;
 mod integrator;
 mod linear_system;
 mod low_pass;
@@ -12,6 +13,7 @@ mod transfer_function;
 mod transport_delay;
 
 pub use derivative::Derivative;
+pub use equations::Equations;
 pub use integrator::Integrator;
 pub use linear_system::LinearSystem;
 pub use low_pass::LowPass;
@@ -32,4 +34,5 @@ pub(super) const SHELF: &[Item] = &[
     item::<Derivative>(),
     item::<Pid>(),
     item::<TransportDelay>(),
+    item::<Equations>(),
 ];
