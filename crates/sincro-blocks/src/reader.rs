@@ -185,11 +185,23 @@ impl<'a> Reader<'a> {
     /// A number that may be infinite, written as `inf` or `-inf` in a text.
     pub fn limit(&mut self, key: &str) -> f64 {
         match self.value(key) {
-            Some(Value::Text(text)) if text == "inf" => f64::INFINITY,
-            Some(Value::Text(text)) if text == "-inf" => f64::NEG_INFINITY,
-            Some(Value::Number(x)) if x.is_infinite() => x,
-            Some(value) => self.numeric(&value, &[key]),
+            Some(value) => self.numeric_or_infinite(&value, &[key]),
             None => f64::NAN,
+        }
+    }
+
+    /// One number, or one for each component, each as in [`Reader::limit`]; never empty.
+    pub fn limits(&mut self, key: &str) -> Vec<f64> {
+        match self.value(key) {
+            Some(Value::List(list)) if !list.is_empty() => {
+                list.iter().enumerate().map(|(k, x)| self.numeric_or_infinite(x, &[key, &k.to_string()])).collect()
+            }
+            Some(Value::List(_)) => {
+                self.fault(key, format!("`{key}` is empty"), "give at least one number");
+                vec![f64::NAN]
+            }
+            Some(value) => vec![self.numeric_or_infinite(&value, &[key])],
+            None => vec![f64::NAN],
         }
     }
 
@@ -406,6 +418,15 @@ impl<'a> Reader<'a> {
                 self.fault(key, message, "the path is relative to the scene's folder");
                 Vec::new()
             }
+        }
+    }
+
+    fn numeric_or_infinite(&mut self, value: &Value, path: &[&str]) -> f64 {
+        match value {
+            Value::Text(text) if text == "inf" => f64::INFINITY,
+            Value::Text(text) if text == "-inf" => f64::NEG_INFINITY,
+            Value::Number(x) if x.is_infinite() => *x,
+            value => self.numeric(value, path),
         }
     }
 

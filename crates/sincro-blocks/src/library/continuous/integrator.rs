@@ -53,6 +53,8 @@ impl Described for Integrator {
         };
         if new.lower > new.upper {
             p.fault("lower", format!("`lower` {} is above `upper` {}", new.lower, new.upper), "exchange them");
+        } else if let Some(x) = new.initial.iter().find(|x| **x < new.lower || **x > new.upper) {
+            p.fault("initial", format!("`initial` {x} is beyond the limits"), "start between `lower` and `upper`");
         }
         new
     }
@@ -66,8 +68,7 @@ impl Block for Integrator {
     }
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        let own = self.initial.len();
-        Ok(vec![if own > 1 { elementwise(&inputs[..1], &[("initial", own)])? } else { inputs[0] }])
+        Ok(vec![elementwise(&inputs[..1], &[("initial", self.initial.len())])?])
     }
 
     fn pace(&self) -> Pace {
@@ -107,6 +108,10 @@ impl Block for Integrator {
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), _: &mut [R], states: &mut [R]) {
         if self.reset && at.scalar(1).lane(0) > 0.0 {
             self.start(at.node, states, &mut []);
+        }
+        // the last step may have gone a little beyond a limit
+        for x in states {
+            *x = x.max(R::splat(self.lower)).min(R::splat(self.upper));
         }
     }
 

@@ -1,0 +1,307 @@
+//! What the continuous and the discrete PID controller have in common: parameters, ports, and the sum of the three terms.
+//!
+//! ```text
+//! v = kp·(b·r − m) + I + D + feedforward,   output = lower ≤ v ≤ upper
+//! ```
+//!
+//! with the setpoint r, the measurement m, the integral term I of ki·(r − m) and the filtered derivative D of kd·(c·r − m). With one
+//! input, the error e = r − m stands for all three brackets. Source of the form with setpoint weights and back-calculation:
+//! K. J. Åström, T. Hägglund, *Advanced PID Control*, ISA 2006, chapter 3.
+
+use sincro_math::Real;
+
+use crate::block::{At, Ports, elementwise, of};
+use crate::kind::{Parameter, Takes};
+use crate::reader::Reader;
+
+/// Parameters of a PID controller: each one number for all components, or one for each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PidLaw {
+    /// Proportional gain.
+    pub kp: Vec<f64>,
+    /// Integral gain `[1/s]` times the unit of `kp`.
+    pub ki: Vec<f64>,
+    /// Derivative gain `[s]` times the unit of `kp`.
+    pub kd: Vec<f64>,
+    /// Of the lag in the derivative term `[s]`.
+    pub filter_time_constant: Vec<f64>,
+    /// Least value before the output lag.
+    pub lower: Vec<f64>,
+    /// Greatest value before the output lag.
+    pub upper: Vec<f64>,
+    /// What keeps the integral term from running away at a limit.
+    pub anti_windup: AntiWindup,
+    /// How fast back-calculation takes the integral term back `[s]`; 0 stands for `kp/ki`.
+    pub tracking_time_constant: Vec<f64>,
+    /// Of a first-order lag behind the limits `[s]`; 0 for none.
+    pub output_time_constant: f64,
+    /// Whether there are inputs `setpoint` and `measurement` instead of the error.
+    pub separate: bool,
+    /// Weight of the setpoint in the proportional term, with separate inputs.
+    pub setpoint_weight: Vec<f64>,
+    /// Weight of the setpoint in the derivative term, with separate inputs.
+    pub derivative_setpoint_weight: Vec<f64>,
+    /// Whether there is an input `feedforward`, which is added.
+    pub feedforward: bool,
+    /// Integral term at the start; the output lag starts there too.
+    pub initial: Vec<f64>,
+    /// What the derivative's filter has settled on before the start.
+    pub initial_input: Vec<f64>,
+}
+
+/// What keeps the integral term from running away while the output is limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AntiWindup {
+    /// What the limit cuts off is fed back into the integral term.
+    BackCalculation,
+    /// The integral term does not go on in the direction in which the output is limited.
+    Clamping,
+    /// Nothing.
+    None,
+}
+
+/// Number of parameters.
+pub(in crate::library) const N_PARAMETERS: usize = 15;
+
+/// Descriptions of the parameters.
+pub(in crate::library) const PARAMETERS: [Parameter; N_PARAMETERS] = [
+    Parameter::optional("kp", Takes::Numbers, "proportional gain", "0"),
+    Parameter::optional("ki", Takes::Numbers, "integral gain [unit of kp / s]", "0"),
+    Parameter::optional("kd", Takes::Numbers, "derivative gain [unit of kp · s]", "0"),
+    Parameter::optional("filter_time_constant", Takes::Numbers, "of the lag in the derivative term [s], 1/N", "0.01"),
+    Parameter::optional("lower", Takes::Numbers, "least output", "-inf"),
+    Parameter::optional("upper", Takes::Numbers, "greatest output", "inf"),
+    Parameter::optional(
+        "anti_windup",
+        Takes::Choice(&["back-calculation", "clamping", "none"]),
+        "what keeps the integral term from running away at a limit",
+        "back-calculation",
+    ),
+    Parameter::optional(
+        "tracking_time_constant",
+        Takes::Numbers,
+        "how fast back-calculation takes the integral term back [s]; 0 for kp/ki",
+        "0",
+    ),
+    Parameter::optional(
+        "output_time_constant",
+        Takes::Number,
+        "of a first-order lag on the output [s]; 0 for none",
+        "0",
+    ),
+    Parameter::optional(
+        "separate",
+        Takes::Flag,
+        "whether the inputs are `setpoint` and `measurement` instead of the error `u`",
+        "false",
+    ),
+    Parameter::optional(
+        "setpoint_weight",
+        Takes::Numbers,
+        "weight b of the setpoint in the proportional term, with separate inputs",
+        "1",
+    ),
+    Parameter::optional(
+        "derivative_setpoint_weight",
+        Takes::Numbers,
+        "weight c of the setpoint in the derivative term, with separate inputs",
+        "0",
+    ),
+    Parameter::optional("feedforward", Takes::Flag, "whether there is an input `feedforward`, which is added", "false"),
+    Parameter::optional("initial", Takes::Numbers, "integral term at the start", "0"),
+    Parameter::optional(
+        "initial_input",
+        Takes::Numbers,
+        "value that the derivative's filter has settled on before the start",
+        "0",
+    ),
+];
+
+/// What the terms are made from, for one component.
+pub(in crate::library) struct Errors<R> {
+    /// Of the proportional term: b·r − m.
+    pub weighted: R,
+    /// Of the integral term: r − m.
+    pub plain: R,
+    /// Of the derivative term: c·r − m.
+    pub differentiated: R,
+}
+
+impl PidLaw {
+    /// Gains alone: no limits, the error as its only input.
+    #[must_use]
+    pub fn new(kp: f64, ki: f64, kd: f64) -> Self {
+        Self {
+            kp: vec![kp],
+            ki: vec![ki],
+            kd: vec![kd],
+            filter_time_constant: vec![0.01],
+            lower: vec![f64::NEG_INFINITY],
+            upper: vec![f64::INFINITY],
+            anti_windup: AntiWindup::BackCalculation,
+            tracking_time_constant: vec![0.0],
+            output_time_constant: 0.0,
+            separate: false,
+            setpoint_weight: vec![1.0],
+            derivative_setpoint_weight: vec![0.0],
+            feedforward: false,
+            initial: vec![0.0],
+            initial_input: vec![0.0],
+        }
+    }
+
+    /// From the parameters. `least_filter`: whether the derivative's filter may have no lag at all.
+    pub(in crate::library) fn read(p: &mut Reader<'_>, needs_filter: bool) -> Self {
+        let new = Self {
+            kp: p.numbers("kp"),
+            ki: p.numbers("ki"),
+            kd: p.numbers("kd"),
+            filter_time_constant: p.numbers("filter_time_constant"),
+            lower: p.limits("lower"),
+            upper: p.limits("upper"),
+            anti_windup: match p.choice("anti_windup") {
+                0 => AntiWindup::BackCalculation,
+                1 => AntiWindup::Clamping,
+                _ => AntiWindup::None,
+            },
+            tracking_time_constant: p.numbers("tracking_time_constant"),
+            output_time_constant: p.number("output_time_constant"),
+            separate: p.flag("separate"),
+            setpoint_weight: p.numbers("setpoint_weight"),
+            derivative_setpoint_weight: p.numbers("derivative_setpoint_weight"),
+            feedforward: p.flag("feedforward"),
+            initial: p.numbers("initial"),
+            initial_input: p.numbers("initial_input"),
+        };
+        new.report(p, needs_filter);
+        new
+    }
+
+    fn report(&self, p: &mut Reader<'_>, needs_filter: bool) {
+        let times = [
+            ("filter_time_constant", &self.filter_time_constant[..]),
+            ("tracking_time_constant", &self.tracking_time_constant[..]),
+            ("output_time_constant", core::slice::from_ref(&self.output_time_constant)),
+        ];
+        for (key, times) in times {
+            if let Some(bad) = times.iter().find(|t| **t < 0.0) {
+                p.fault(key, format!("`{key}` is {bad}"), "a time cannot be less than 0");
+            }
+        }
+        if needs_filter && self.has_derivative() && self.filter_time_constant.contains(&0.0) {
+            let help = "a derivative needs a lag: give a tenth of the shortest time that matters, or less";
+            p.fault("filter_time_constant", "`filter_time_constant` is 0", help);
+        }
+        for i in 0..self.lower.len().max(self.upper.len()) {
+            let at = |list: &[f64]| list.get(if list.len() == 1 { 0 } else { i }).copied();
+            if let (Some(lower), Some(upper)) = (at(&self.lower), at(&self.upper))
+                && lower > upper
+            {
+                p.fault("lower", format!("`lower` {lower} is above `upper` {upper}"), "exchange them");
+            }
+        }
+        let is_limited = self.lower.iter().chain(&self.upper).any(|x| x.is_finite());
+        let tracks = is_limited && self.anti_windup == AntiWindup::BackCalculation;
+        let lists = [&self.kp, &self.ki, &self.tracking_time_constant];
+        let n = lists.iter().map(|list| list.len()).max().unwrap_or(1);
+        let fits = lists.iter().all(|list| list.len() == 1 || list.len() == n);
+        if tracks && fits && (0..n).any(|i| of(&self.ki, i) != 0.0 && self.tracking(i) == 0.0) {
+            let message = "back-calculation needs `tracking_time_constant`: it is kp/ki by default, and kp is 0";
+            p.fault("tracking_time_constant", message, "give it [s], or set anti_windup = \"clamping\"");
+        }
+    }
+
+    /// Of component `i` `[s]`.
+    pub(in crate::library) fn tracking(&self, i: usize) -> f64 {
+        let given = of(&self.tracking_time_constant, i);
+        if given > 0.0 { given } else { (of(&self.kp, i) / of(&self.ki, i)).abs() }
+    }
+
+    pub(in crate::library) fn has_derivative(&self) -> bool {
+        self.kd.iter().any(|k| *k != 0.0)
+    }
+
+    pub(in crate::library) fn has_lag(&self) -> bool {
+        self.output_time_constant > 0.0
+    }
+
+    pub(in crate::library) fn ports(&self) -> Ports {
+        let mut ports = Ports::new(if self.separate { &["setpoint", "measurement"] } else { &["u"] }, &["y"]);
+        if self.feedforward {
+            ports.inputs.push("feedforward".into());
+        }
+        ports
+    }
+
+    pub(in crate::library) fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let parameters = [
+            ("kp", self.kp.len()),
+            ("ki", self.ki.len()),
+            ("kd", self.kd.len()),
+            ("filter_time_constant", self.filter_time_constant.len()),
+            ("lower", self.lower.len()),
+            ("upper", self.upper.len()),
+            ("tracking_time_constant", self.tracking_time_constant.len()),
+            ("setpoint_weight", self.setpoint_weight.len()),
+            ("derivative_setpoint_weight", self.derivative_setpoint_weight.len()),
+            ("initial", self.initial.len()),
+            ("initial_input", self.initial_input.len()),
+        ];
+        Ok(vec![elementwise(inputs, &parameters)?])
+    }
+
+    /// Component `i` of the errors.
+    #[inline(always)]
+    pub(in crate::library) fn errors<R: Real>(&self, at: &At<'_, R>, i: usize) -> Errors<R> {
+        let r = at.component(0, i);
+        if !self.separate {
+            return Errors { weighted: r, plain: r, differentiated: r };
+        }
+        let m = at.component(1, i);
+        Errors {
+            weighted: R::splat(of(&self.setpoint_weight, i)) * r - m,
+            plain: r - m,
+            differentiated: R::splat(of(&self.derivative_setpoint_weight, i)) * r - m,
+        }
+    }
+
+    /// Component `i` of the feedforward.
+    #[inline(always)]
+    pub(in crate::library) fn added<R: Real>(&self, at: &At<'_, R>, i: usize) -> R {
+        if self.feedforward { at.component(1 + usize::from(self.separate), i) } else { R::zero() }
+    }
+
+    /// Between the limits.
+    #[inline(always)]
+    pub(in crate::library) fn limited<R: Real>(&self, v: R, i: usize) -> R {
+        v.max(R::splat(of(&self.lower, i))).min(R::splat(of(&self.upper, i)))
+    }
+
+    /// Rate of the integral term: `ki·e`, but for what `anti_windup` takes away where `v` is beyond a limit. `tracking`: time
+    /// constant of back-calculation `[s]`.
+    #[inline(always)]
+    pub(in crate::library) fn integral_rate<R: Real>(&self, error: R, v: R, tracking: f64, i: usize) -> R {
+        let ki = of(&self.ki, i);
+        if ki == 0.0 {
+            return R::zero();
+        }
+        let rate = R::splat(ki) * error;
+        match self.anti_windup {
+            AntiWindup::None => rate,
+            AntiWindup::BackCalculation if tracking > 0.0 => rate + (self.limited(v, i) - v) / R::splat(tracking),
+            AntiWindup::BackCalculation => rate,
+            AntiWindup::Clamping => {
+                let zero = R::zero();
+                let below = R::splat(of(&self.upper, i)).if_less(v, rate.min(zero), rate);
+                v.if_less(R::splat(of(&self.lower, i)), below.max(zero), below)
+            }
+        }
+    }
+
+    /// Such as `PI` or `PID`.
+    pub(in crate::library) fn label(&self) -> String {
+        let has = |gain: &[f64]| gain.iter().any(|k| *k != 0.0);
+        let terms = [('P', &self.kp), ('I', &self.ki), ('D', &self.kd)];
+        terms.into_iter().filter(|(_, gain)| has(gain)).map(|(letter, _)| letter).collect()
+    }
+}

@@ -1,0 +1,89 @@
+//! `x' = a x + b u`, `y = c x + d u`.
+
+use sincro_math::Real;
+
+use super::LinearSystem;
+use crate::block::{At, Block, Memory, Node, Pace, Ports};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+
+/// A linear system given by its four matrices. It feeds through only where `d` is not zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateSpace {
+    /// Matrices and initial states; `a` in `[1/s]`.
+    pub system: LinearSystem,
+}
+
+impl StateSpace {
+    /// From its matrices.
+    #[must_use]
+    pub fn new(system: LinearSystem) -> Self {
+        Self { system }
+    }
+}
+
+impl Described for StateSpace {
+    const KIND: &'static Kind = &Kind {
+        name: "state-space",
+        group: Group::Continuous,
+        summary: "A linear system given by its four matrices.",
+        equation: "x' = a x + b u, y = c x + d u, x(0) = initial",
+        parameters: &[
+            Parameter::required("a", Takes::Matrix, "system matrix, n × n [1/s]"),
+            Parameter::required("b", Takes::Matrix, "input matrix, n × inputs"),
+            Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
+            Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        Self { system: LinearSystem::read(p) }
+    }
+}
+
+impl Block for StateSpace {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        self.system.width(inputs[0])
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Continuous
+    }
+
+    fn feeds_through(&self, _: usize) -> bool {
+        self.system.feeds_through()
+    }
+
+    fn memory(&self, _: &Node) -> Memory {
+        Memory { continuous: self.system.n_states(), discrete: 0 }
+    }
+
+    fn start<R: Real>(&self, _: &Node, states: &mut [R], _: &mut [R]) {
+        self.system.start(states);
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        self.system.output(at, at.states, y);
+    }
+
+    fn slope<R: Real>(&self, at: &At<'_, R>, (): &mut (), slope: &mut [R]) {
+        self.system.next(at, at.states, slope);
+    }
+
+    fn decay<R: Real>(&self, _: &At<'_, R>, decay: &mut [R]) {
+        for (i, decay) in decay.iter_mut().enumerate() {
+            *decay = R::splat(-self.system.a.at(i, i));
+        }
+    }
+
+    fn label(&self) -> String {
+        "x' = Ax + Bu".into()
+    }
+}

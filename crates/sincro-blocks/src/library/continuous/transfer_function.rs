@@ -1,0 +1,137 @@
+//! `y = numerator(s)/denominator(s)·u`.
+//!
+//! In controllable canonical form (MATLAB's `tf2ss`), with the denominator's leading coefficient divided out:
+//!
+//! ```text
+//! x₁' = u − a₁ x₁ − … − aₙ xₙ,   xₖ₊₁' = xₖ,   y = Σ (bₖ − b₀ aₖ) xₖ + b₀ u
+//! ```
+
+use sincro_math::Real;
+
+use super::Rational;
+use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+
+/// A linear system given by the polynomials of its transfer function. A vector is taken component by component.
+///
+/// It feeds through only if numerator and denominator are of the same degree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransferFunction {
+    /// Numerator over denominator, powers of s `[1/s]`.
+    pub rational: Rational,
+    /// Output at the start: the states rest as after a long time at the input that gives it. One for all components or one for
+    /// each.
+    pub initial_output: Vec<f64>,
+}
+
+impl TransferFunction {
+    /// From coefficients, highest power first; initially at zero.
+    ///
+    /// # Panics
+    ///
+    /// If it is improper or the denominator is zero.
+    #[must_use]
+    pub fn new(numerator: &[f64], denominator: &[f64]) -> Self {
+        let rational = Rational::new(numerator, denominator).unwrap_or_else(|words| panic!("{words}"));
+        Self { rational, initial_output: vec![0.0] }
+    }
+}
+
+impl Described for TransferFunction {
+    const KIND: &'static Kind = &Kind {
+        name: "transfer-function",
+        group: Group::Continuous,
+        summary: "A linear system given by the polynomials of its transfer function.",
+        equation: "y = numerator(s)/denominator(s)·u",
+        parameters: &[
+            Parameter::required("numerator", Takes::Numbers, "coefficients, highest power of s first"),
+            Parameter::required("denominator", Takes::Numbers, "coefficients, highest power of s first"),
+            Parameter::optional("initial_output", Takes::Numbers, "y at the start, at rest", "0"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let help = "divide by another pole s·τ + 1 with a small τ, or use `derivative`";
+        let new = Self { rational: Rational::read(p, help), initial_output: p.numbers("initial_output") };
+        let n = new.rational.order();
+        if new.initial_output.iter().any(|y| *y != 0.0) && (n == 0 || new.rational.b(n) == 0.0) {
+            let message =
+                "it cannot rest at an `initial_output` other than 0: its gain at rest is 0, or it has no state";
+            p.fault("initial_output", message, "leave it out");
+        }
+        new
+    }
+}
+
+impl Block for TransferFunction {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(vec![elementwise(inputs, &[("initial_output", self.initial_output.len())])?])
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Continuous
+    }
+
+    fn feeds_through(&self, _: usize) -> bool {
+        self.rational.b(0) != 0.0
+    }
+
+    fn memory(&self, node: &Node) -> Memory {
+        Memory { continuous: node.n_out() * self.rational.order(), discrete: 0 }
+    }
+
+    fn start<R: Real>(&self, _: &Node, states: &mut [R], _: &mut [R]) {
+        let n = self.rational.order();
+        if n == 0 || self.rational.b(n) == 0.0 {
+            return;
+        }
+        for (i, x) in states.chunks_exact_mut(n).enumerate() {
+            // at rest all but the last are zero, and y = bₙ xₙ
+            x[n - 1] = R::splat(of(&self.initial_output, i) / self.rational.b(n));
+        }
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        let (g, n) = (&self.rational, self.rational.order());
+        for (i, y) in y.iter_mut().enumerate() {
+            let mut sum = R::zero();
+            for (k, x) in at.states[i * n..(i + 1) * n].iter().enumerate() {
+                sum += R::splat(g.b(k + 1) - g.b(0) * g.a(k + 1)) * *x;
+            }
+            *y = if g.b(0) == 0.0 { sum } else { sum + R::splat(g.b(0)) * at.component(0, i) };
+        }
+    }
+
+    fn slope<R: Real>(&self, at: &At<'_, R>, (): &mut (), slope: &mut [R]) {
+        let n = self.rational.order();
+        if n == 0 {
+            return;
+        }
+        for (i, (slope, x)) in slope.chunks_exact_mut(n).zip(at.states.chunks_exact(n)).enumerate() {
+            let mut first = at.component(0, i);
+            for k in 0..n {
+                first -= R::splat(self.rational.a(k + 1)) * x[k];
+            }
+            slope[0] = first;
+            slope[1..].copy_from_slice(&x[..n - 1]);
+        }
+    }
+
+    fn decay<R: Real>(&self, _: &At<'_, R>, decay: &mut [R]) {
+        let n = self.rational.order();
+        if n > 0 {
+            decay.chunks_exact_mut(n).for_each(|decay| decay[0] = R::splat(self.rational.a(1)));
+        }
+    }
+
+    fn label(&self) -> String {
+        self.rational.text('s')
+    }
+}

@@ -1,0 +1,134 @@
+//! `y(t) = u(t − delay)`.
+//!
+//! The input is remembered at every tick, in a ring: tick k stands in slot k mod n. In between it is interpolated linearly. With D
+//! steps of delay the output needs the ticks from ⌊k − D⌋ on, k being the last one: n = ⌈D⌉ + 1.
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::library::short;
+use crate::reader::Reader;
+use crate::unit::Unit;
+
+/// The input of some time ago, such as of a belt, a pipe or a network. At least one base step long.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransportDelay {
+    /// How long ago `[s]`.
+    pub delay: f64,
+    /// Output before the first input has arrived, one for all components or one for each.
+    pub initial: Vec<f64>,
+}
+
+impl TransportDelay {
+    /// With zero before the first input; `delay` in `[s]`.
+    #[must_use]
+    pub fn new(delay: f64) -> Self {
+        Self { delay, initial: vec![0.0] }
+    }
+
+    /// Delay in base steps; what is but rounding away from a whole number is whole.
+    fn steps(&self, node: &Node) -> f64 {
+        let steps = self.delay / node.step;
+        if (steps - steps.round()).abs() <= SAME_TICK * steps.max(1.0) { steps.round() } else { steps }
+    }
+}
+
+/// Parts of a step that are taken for rounding.
+const SAME_TICK: f64 = 1e-9;
+
+impl Described for TransportDelay {
+    const KIND: &'static Kind = &Kind {
+        name: "transport-delay",
+        group: Group::Continuous,
+        summary: "The input of some time ago, interpolated between ticks.",
+        equation: "y(t) = u(t − delay), y = initial for t < delay",
+        parameters: &[
+            Parameter::required("delay", Takes::Positive, "how long ago [s], at least one base step"),
+            Parameter::optional("initial", Takes::Numbers, "y before the first input has arrived", "0"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        Self { delay: p.positive("delay"), initial: p.numbers("initial") }
+    }
+}
+
+impl Block for TransportDelay {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(vec![elementwise(inputs, &[("initial", self.initial.len())])?])
+    }
+
+    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
+        Ok(inputs.to_vec())
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Continuous
+    }
+
+    fn feeds_through(&self, _: usize) -> bool {
+        false
+    }
+
+    fn memory(&self, node: &Node) -> Memory {
+        Memory { continuous: 0, discrete: node.n_out() * (self.steps(node).ceil() as usize + 1) }
+    }
+
+    fn check(&self, node: &Node) -> Result<(), (String, String)> {
+        let steps = self.steps(node);
+        if steps < 1.0 {
+            let message = format!("a delay of {} s is shorter than the base step of {} s", self.delay, node.step);
+            return Err((message, format!("delay by {} s or more, or take a smaller `step`", node.step)));
+        }
+        if steps > MOST_STEPS {
+            let message = format!("a delay of {} s is {steps:.0} base steps of {} s", self.delay, node.step);
+            return Err((message, format!("at most {MOST_STEPS} steps are remembered: take a larger `step`")));
+        }
+        Ok(())
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        let (width, step) = (y.len(), at.node.step);
+        let n = at.memory.len() / width;
+        // ticks since the start of what arrives now, from the last tick on: no digits are lost late in a run
+        let after = (at.t - at.tick as f64 * step) / step - self.steps(at.node);
+        let back = (-after).ceil();
+        let (back, part) = if (-after - (back - 1.0)) <= SAME_TICK { (back - 1.0, 0.0) } else { (back, after + back) };
+        let part = if part <= SAME_TICK { 0.0 } else { part };
+        let Some(tick) = at.tick.checked_sub(back as u64) else {
+            for (i, y) in y.iter_mut().enumerate() {
+                *y = R::splat(of(&self.initial, i));
+            }
+            return;
+        };
+        let slot = |tick: u64| (tick % n as u64) as usize * width;
+        let (this, next) = (slot(tick), slot(tick + 1));
+        for (i, y) in y.iter_mut().enumerate() {
+            let u = at.memory[this + i];
+            // on a tick the next one may not be known yet
+            *y = if part == 0.0 { u } else { u + R::splat(part) * (at.memory[next + i] - u) };
+        }
+    }
+
+    fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
+        let width = at.node.n_out();
+        let slot = (at.tick % (memory.len() / width) as u64) as usize * width;
+        for i in 0..width {
+            memory[slot + i] = at.component(0, i);
+        }
+    }
+
+    fn label(&self) -> String {
+        format!("{} s", short(self.delay))
+    }
+}
+
+/// What fits into memory without a thought: a hundred seconds at ten microseconds.
+const MOST_STEPS: f64 = 1e7;

@@ -1,0 +1,83 @@
+//! `x[k+1] = a x[k] + b u[k]`, `y[k] = c x[k] + d u[k]`.
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Memory, Node, Pace, Ports};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::library::continuous::LinearSystem;
+use crate::reader::Reader;
+
+/// A linear recursion given by its four matrices. It feeds through only where `d` is not zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscreteStateSpace {
+    /// Matrices and initial states.
+    pub system: LinearSystem,
+}
+
+impl DiscreteStateSpace {
+    /// From its matrices.
+    #[must_use]
+    pub fn new(system: LinearSystem) -> Self {
+        Self { system }
+    }
+}
+
+impl Described for DiscreteStateSpace {
+    const KIND: &'static Kind = &Kind {
+        name: "discrete-state-space",
+        group: Group::Discrete,
+        summary: "A linear recursion given by its four matrices.",
+        equation: "x[k+1] = a x[k] + b u[k], y[k] = c x[k] + d u[k], x[0] = initial",
+        parameters: &[
+            Parameter::required("a", Takes::Matrix, "system matrix, n × n"),
+            Parameter::required("b", Takes::Matrix, "input matrix, n × inputs"),
+            Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
+            Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        Self { system: LinearSystem::read(p) }
+    }
+}
+
+impl Block for DiscreteStateSpace {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        self.system.width(inputs[0])
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Sampled
+    }
+
+    fn feeds_through(&self, _: usize) -> bool {
+        self.system.feeds_through()
+    }
+
+    fn memory(&self, _: &Node) -> Memory {
+        Memory { continuous: 0, discrete: self.system.n_states() }
+    }
+
+    fn start<R: Real>(&self, _: &Node, _: &mut [R], memory: &mut [R]) {
+        self.system.start(memory);
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        self.system.output(at, at.memory, y);
+    }
+
+    fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
+        self.system.next(at, at.memory, memory);
+    }
+
+    fn label(&self) -> String {
+        "x⁺ = Ax + Bu".into()
+    }
+}

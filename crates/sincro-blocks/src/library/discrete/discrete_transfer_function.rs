@@ -1,0 +1,118 @@
+//! `y = numerator(z)/denominator(z)·u`.
+//!
+//! In direct form II transposed, with the denominator's leading coefficient divided out and memory w₁ … wₙ:
+//!
+//! ```text
+//! y[k] = b₀ u[k] + w₁,   wⱼ ← bⱼ u[k] − aⱼ y[k] + wⱼ₊₁,   wₙ₊₁ = 0
+//! ```
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::library::continuous::Rational;
+use crate::reader::Reader;
+
+/// A linear recursion given by the polynomials of its transfer function. A vector is taken component by component.
+///
+/// It feeds through only if numerator and denominator are of the same degree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscreteTransferFunction {
+    /// Numerator over denominator, powers of z.
+    pub rational: Rational,
+}
+
+impl DiscreteTransferFunction {
+    /// From coefficients, highest power of z first.
+    ///
+    /// # Panics
+    ///
+    /// If it is improper or the denominator is zero.
+    #[must_use]
+    pub fn new(numerator: &[f64], denominator: &[f64]) -> Self {
+        Self { rational: Rational::new(numerator, denominator).unwrap_or_else(|words| panic!("{words}")) }
+    }
+}
+
+/// Whether the present input is needed for the present output.
+pub(super) fn feeds_through(g: &Rational) -> bool {
+    g.b(0) != 0.0
+}
+
+/// The present outputs, the memory of each component lying side by side.
+pub(super) fn output<R: Real>(g: &Rational, at: &At<'_, R>, y: &mut [R]) {
+    let n = g.order();
+    for (i, y) in y.iter_mut().enumerate() {
+        let kept = if n == 0 { R::zero() } else { at.memory[i * n] };
+        *y = if feeds_through(g) { R::splat(g.b(0)) * at.component(0, i) + kept } else { kept };
+    }
+}
+
+/// The memory for the next sample.
+pub(super) fn update<R: Real>(g: &Rational, at: &At<'_, R>, memory: &mut [R]) {
+    let n = g.order();
+    if n == 0 {
+        return;
+    }
+    for (i, (new, old)) in memory.chunks_exact_mut(n).zip(at.memory.chunks_exact(n)).enumerate() {
+        let u = at.component(0, i);
+        let y = if feeds_through(g) { R::splat(g.b(0)) * u + old[0] } else { old[0] };
+        for j in 0..n {
+            let own = R::splat(g.b(j + 1)) * u - R::splat(g.a(j + 1)) * y;
+            new[j] = if j + 1 < n { own + old[j + 1] } else { own };
+        }
+    }
+}
+
+impl Described for DiscreteTransferFunction {
+    const KIND: &'static Kind = &Kind {
+        name: "discrete-transfer-function",
+        group: Group::Discrete,
+        summary: "A linear recursion given by the polynomials in z of its transfer function.",
+        equation: "y = numerator(z)/denominator(z)·u",
+        parameters: &[
+            Parameter::required("numerator", Takes::Numbers, "coefficients, highest power of z first"),
+            Parameter::required("denominator", Takes::Numbers, "coefficients, highest power of z first"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        Self { rational: Rational::read(p, "it would need samples of the future: multiply the denominator by z") }
+    }
+}
+
+impl Block for DiscreteTransferFunction {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(vec![elementwise(inputs, &[])?])
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Sampled
+    }
+
+    fn feeds_through(&self, _: usize) -> bool {
+        feeds_through(&self.rational)
+    }
+
+    fn memory(&self, node: &Node) -> Memory {
+        Memory { continuous: 0, discrete: node.n_out() * self.rational.order() }
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        output(&self.rational, at, y);
+    }
+
+    fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
+        update(&self.rational, at, memory);
+    }
+
+    fn label(&self) -> String {
+        self.rational.text('z')
+    }
+}
