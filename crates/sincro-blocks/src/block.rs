@@ -134,8 +134,10 @@ impl Ports {
 pub enum Pace {
     /// Once, at the start.
     Constant,
-    /// As often as its inputs change; at its sample time if it is given one.
+    /// As often as its inputs change; at its sample time if it is given one. Without inputs: as [`Pace::Timed`].
     Any,
+    /// Depends on time whatever its inputs: continuous, or at its sample time if it is given one.
+    Timed,
     /// Has continuous states: cannot have a sample time.
     Continuous,
     /// At ticks only: at its sample time, or every tick.

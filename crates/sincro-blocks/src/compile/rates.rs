@@ -29,7 +29,7 @@ fn rate(flat: &Flat, n: usize, rates: &[Rate], step: f64) -> Result<Rate, Proble
     match (template.pace(), given) {
         (Pace::Constant, _) => Ok(Rate::Constant),
         (Pace::Continuous, Some((_, inherited))) => Err(continuous_with_sample_time(node, inherited)),
-        (Pace::Continuous, None) => Ok(Rate::Continuous),
+        (Pace::Continuous | Pace::Timed, None) => Ok(Rate::Continuous),
         (_, Some((every, _))) => Ok(Rate::Sampled(every?)),
         (Pace::Sampled, None) => Ok(Rate::Sampled(1)),
         (Pace::Any, None) => Ok(inherited(flat, n, rates)),
