@@ -66,6 +66,31 @@ impl Table {
         }
     }
 
+    /// This table with the columns of other runs beside its own, as `name:column`, where they have all its times.
+    #[must_use]
+    pub fn beside(&self, others: &[(&str, &Self)]) -> Self {
+        let mut joined = self.clone();
+        for (name, other) in others {
+            let Some(rows) = self.rows_in(other) else { continue };
+            joined.columns.extend(other.columns.iter().skip(1).map(|column| Column {
+                name: format!("{name}:{}", column.name),
+                unit: column.unit.clone(),
+                values: rows.iter().map(|&k| column.values[k]).collect(),
+            }));
+        }
+        joined
+    }
+
+    /// For each row, the row of another table at the same time (within 1e-9 s); none if one is missing.
+    fn rows_in(&self, other: &Self) -> Option<Vec<usize>> {
+        let times = other.times();
+        let find = |t: &f64| {
+            let k = times.partition_point(|x| *x < t - 1e-9);
+            times.get(k).is_some_and(|x| (x - t).abs() <= 1e-9).then_some(k)
+        };
+        self.times().iter().map(find).collect()
+    }
+
     /// Number of rows.
     #[must_use]
     pub fn n_rows(&self) -> usize {

@@ -15,6 +15,7 @@ use crate::results::{
 };
 use crate::scene::{ObjectKind, Scene};
 use crate::sweep::Sweep;
+use crate::table::Table;
 
 /// One run of a campaign with its judgement.
 #[derive(Clone, Debug)]
@@ -62,7 +63,7 @@ pub fn run_campaign(
     progress: Progress<'_>,
 ) -> Result<Campaign, RunError> {
     let csv = out_dir.map(|dir| dir.join("signals.csv"));
-    let main = one_run(loaded, None, csv.as_deref(), (interrupt, "run", &mut *progress))?;
+    let main = one_run(loaded, None, &[], csv.as_deref(), (interrupt, "run", &mut *progress))?;
     let interrupted = |done: &Done| matches!(done.simulated.status, Status::Interrupted { .. });
 
     let mut variants = Vec::new();
@@ -78,7 +79,11 @@ pub fn run_campaign(
         }
         let csv = dir.map(|dir| dir.join("signals.csv"));
         let words = format!("variant {}", variant.name);
-        let done = one_run(&other, Some(&variant.name), csv.as_deref(), (interrupt, &words, &mut *progress))?;
+        let before: Vec<(&str, &Table)> = std::iter::once(("main", &main.simulated.table))
+            .chain(variants.iter().map(|(v, done): &(Variant, Done)| (v.name.as_str(), &done.simulated.table)))
+            .collect();
+        let observer = (interrupt, words.as_str(), &mut *progress);
+        let done = one_run(&other, Some(&variant.name), &before, csv.as_deref(), observer)?;
         variants.push((variant.clone(), done));
     }
     let sweep = match &loaded.experiment.sweep {
@@ -97,10 +102,11 @@ pub fn run_campaign(
 
 type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
 
-/// One run with error bars and checks; for a variant the checks that the file gives it.
+/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs `before` it.
 fn one_run(
     loaded: &Loaded,
     variant: Option<&str>,
+    before: &[(&str, &Table)],
     csv: Option<&Path>,
     observer: Observer<'_, '_>,
 ) -> Result<Done, RunError> {
@@ -117,9 +123,10 @@ fn one_run(
     let outcomes = match variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) {
         None => evaluate(&experiment.checks, &simulated.table, stopped),
         Some(variant) => {
-            let mut outcomes = evaluate(&variant.checks, &simulated.table, stopped);
+            let table = simulated.table.beside(before);
+            let mut outcomes = evaluate(&variant.checks, &table, stopped);
             if variant.inherit_checks {
-                outcomes.extend(evaluate(&experiment.checks, &simulated.table, stopped));
+                outcomes.extend(evaluate(&experiment.checks, &table, stopped));
             }
             outcomes
         }
