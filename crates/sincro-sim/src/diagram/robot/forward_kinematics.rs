@@ -1,0 +1,94 @@
+//! Position and orientation of a frame, with `v` its velocity too.
+
+use std::sync::Arc;
+
+use sincro_blocks::block::{At, Block, Ports};
+use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
+use sincro_blocks::reader::Reader;
+use sincro_dynamics::kinematics;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::spatial::Quat;
+use sincro_math::Real;
+
+use super::{Context, Item, Robot, attached, check_widths, frame};
+
+/// Where a body or frame is in the world: position `[m]`, quaternion (w, x, y, z), and with velocities also angular velocity [rad/s] and
+/// velocity [m/s] in world axes.
+#[derive(Clone, Debug)]
+pub struct ForwardKinematics {
+    model: Arc<Model<f64>>,
+    frame: usize,
+    velocity: bool,
+}
+
+pub(super) const ITEM: Item = Item {
+    kind: ForwardKinematics::KIND,
+    read: |reader, context| {
+        let velocity = reader.flag("velocity");
+        Box::new(ForwardKinematics::new(context, frame(reader, context), velocity))
+    },
+};
+
+impl ForwardKinematics {
+    /// Of the frame with this number in the model's names; `velocity`: with an input `v` and outputs for velocities.
+    #[must_use]
+    pub fn new(context: &Context, frame: usize, velocity: bool) -> Self {
+        Self { model: context.model.clone(), frame, velocity }
+    }
+}
+
+impl Described for ForwardKinematics {
+    const KIND: &'static Kind = &Kind {
+        name: "forward-kinematics",
+        group: Group::Robot,
+        summary: "Where a body or frame is in the world, and how fast it moves if asked for.",
+        equation: "position = p(q), quaternion = (w, x, y, z) of R(q); velocity = ṗ, angular_velocity = ω, world axes",
+        parameters: &[
+            Parameter::required("frame", Takes::Text, "path of the body or frame"),
+            Parameter::optional("velocity", Takes::Flag, "whether there is an input `v` and outputs for velocities", "false"),
+        ],
+    };
+
+    fn read(_: &mut Reader<'_>) -> Self {
+        unreachable!("made with the model, by its item")
+    }
+}
+
+impl Block for ForwardKinematics {
+    type Work<R: Real> = Robot<R>;
+
+    fn ports(&self) -> Ports {
+        match self.velocity {
+            true => Ports::new(&["q", "v"], &["position", "quaternion", "velocity", "angular_velocity"]),
+            false => Ports::new(&["q"], &["position", "quaternion"]),
+        }
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        check_widths(inputs, &[("q", self.model.n_q()), ("v", self.model.n_v())])?;
+        Ok([3, 4, 3, 3][..if self.velocity { 4 } else { 2 }].iter().copied().map(Some).collect())
+    }
+
+    fn work<R: Real>(&self) -> Robot<R> {
+        Robot::new(&self.model)
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, robot: &mut Robot<R>, y: &mut [R]) {
+        let (model, scratch, zero) = robot.parts();
+        let v = if self.velocity { at.input(1) } else { zero };
+        kinematics::motions(model, at.input(0), v, zero, scratch);
+        let frame = attached(model, self.frame);
+        let pose = kinematics::frame_pose(scratch, &frame);
+        y[..3].copy_from_slice(&pose.pos.0);
+        Quat::from_matrix(&pose.rot).write(&mut y[3..7]);
+        if self.velocity {
+            let twist = kinematics::frame_velocity(scratch, &frame);
+            y[7..10].copy_from_slice(&twist.lin.0);
+            y[10..13].copy_from_slice(&twist.ang.0);
+        }
+    }
+
+    fn label(&self) -> String {
+        "p(q)".into()
+    }
+}

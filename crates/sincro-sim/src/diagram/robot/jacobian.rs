@@ -1,0 +1,102 @@
+//! `y = J(q)`, row by row: `[ω; ṗ] = J(q)·v`.
+
+use std::sync::Arc;
+
+use sincro_blocks::block::{At, Block, Ports};
+use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
+use sincro_blocks::reader::Reader;
+use sincro_dynamics::kinematics;
+use sincro_dynamics::model::Model;
+use sincro_math::Real;
+
+use super::{Context, Item, Robot, attached, check_widths, frame};
+
+/// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s], world axes.
+#[derive(Clone, Debug)]
+pub struct Jacobian {
+    model: Arc<Model<f64>>,
+    frame: usize,
+    rows: Rows,
+}
+
+/// Which rows of the Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rows {
+    /// Angular velocity, then velocity of the origin.
+    All,
+    /// Angular velocity.
+    Angular,
+    /// Velocity of the origin.
+    Linear,
+}
+
+impl Rows {
+    fn range(self) -> core::ops::Range<usize> {
+        match self {
+            Self::All => 0..6,
+            Self::Angular => 0..3,
+            Self::Linear => 3..6,
+        }
+    }
+}
+
+pub(super) const ITEM: Item = Item {
+    kind: Jacobian::KIND,
+    read: |reader, context| {
+        let rows = [Rows::All, Rows::Angular, Rows::Linear][reader.choice("rows")];
+        Box::new(Jacobian::new(context, frame(reader, context), rows))
+    },
+};
+
+impl Jacobian {
+    /// Of the frame with this number in the model's names.
+    #[must_use]
+    pub fn new(context: &Context, frame: usize, rows: Rows) -> Self {
+        Self { model: context.model.clone(), frame, rows }
+    }
+}
+
+impl Described for Jacobian {
+    const KIND: &'static Kind = &Kind {
+        name: "jacobian",
+        group: Group::Robot,
+        summary: "The Jacobian of a body or frame: from joint velocities to its velocity in the world, row by row.",
+        equation: "[ω; ṗ] = J(q)·v, world axes, y = rows of J",
+        parameters: &[
+            Parameter::required("frame", Takes::Text, "path of the body or frame"),
+            Parameter::optional("rows", Takes::Choice(&["all", "angular", "linear"]), "which rows", "all"),
+        ],
+    };
+
+    fn read(_: &mut Reader<'_>) -> Self {
+        unreachable!("made with the model, by its item")
+    }
+}
+
+impl Block for Jacobian {
+    type Work<R: Real> = (Robot<R>, Vec<R>);
+
+    fn ports(&self) -> Ports {
+        Ports::new(&["q"], &["y"])
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        check_widths(inputs, &[("q", self.model.n_q())])?;
+        Ok(vec![Some(self.rows.range().len() * self.model.n_v())])
+    }
+
+    fn work<R: Real>(&self) -> (Robot<R>, Vec<R>) {
+        (Robot::new(&self.model), vec![R::zero(); 6 * self.model.n_v()])
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (robot, whole): &mut (Robot<R>, Vec<R>), y: &mut [R]) {
+        let (model, scratch, _) = robot.parts();
+        kinematics::jacobian(model, at.input(0), &attached(model, self.frame), scratch, whole);
+        let rows = self.rows.range();
+        y.copy_from_slice(&whole[rows.start * model.n_v()..rows.end * model.n_v()]);
+    }
+
+    fn label(&self) -> String {
+        "J(q)".into()
+    }
+}

@@ -1,0 +1,72 @@
+//! `y = M(q), row by row`.
+
+use std::sync::Arc;
+
+use sincro_blocks::block::{At, Block, Ports};
+use sincro_blocks::kind::{Described, Group, Kind};
+use sincro_blocks::reader::Reader;
+use sincro_dynamics::crba::mass_matrix;
+use sincro_dynamics::model::Model;
+use sincro_math::Real;
+
+use super::{Context, Item, Robot, check_widths};
+
+/// The joint-space mass matrix [kg·m²], armature on its diagonal, row by row.
+#[derive(Clone, Debug)]
+pub struct MassMatrix {
+    model: Arc<Model<f64>>,
+}
+
+pub(super) const ITEM: Item = Item {
+    kind: MassMatrix::KIND,
+    read: |_, context| Box::new(MassMatrix::new(context)),
+};
+
+impl MassMatrix {
+    /// Of the scene's model.
+    #[must_use]
+    pub fn new(context: &Context) -> Self {
+        Self { model: context.model.clone() }
+    }
+}
+
+impl Described for MassMatrix {
+    const KIND: &'static Kind = &Kind {
+        name: "mass-matrix",
+        group: Group::Robot,
+        summary: "The joint-space mass matrix, row by row.",
+        equation: "y = M(q), n_v × n_v, row by row",
+        parameters: &[],
+    };
+
+    fn read(_: &mut Reader<'_>) -> Self {
+        unreachable!("made with the model, by its item")
+    }
+}
+
+impl Block for MassMatrix {
+    type Work<R: Real> = Robot<R>;
+
+    fn ports(&self) -> Ports {
+        Ports::new(&["q"], &["y"])
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let (n_q, n_v) = (self.model.n_q(), self.model.n_v());
+        check_widths(inputs, &[("q", n_q)])?;
+        Ok(vec![Some(n_v * n_v)])
+    }
+
+    fn work<R: Real>(&self) -> Robot<R> {
+        Robot::new(&self.model)
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, robot: &mut Robot<R>, y: &mut [R]) {
+        let (model, scratch, _) = robot.parts();
+        mass_matrix(model, at.input(0), scratch, y);
+    }
+
+    fn label(&self) -> String {
+        "M(q)".into()
+    }
+}
