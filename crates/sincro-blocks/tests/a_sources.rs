@@ -1,14 +1,17 @@
 //! Sources against their closed forms.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::instance::Template;
+use sincro_blocks::kind::Described;
 use sincro_blocks::library::continuous::Integrator;
 use sincro_blocks::library::sources::{
     Chirp, Clock, Constant, Distribution, Noise, Pulse, Ramp, Sawtooth, Sine, Step, Table,
 };
+use sincro_blocks::reader::{Files, Reader, Value};
 use sincro_blocks::runner::Runner;
 use sincro_blocks::solo::Solo;
 use sincro_math::elementary::sin_cos;
@@ -175,6 +178,71 @@ fn uniform_noise_fills_its_interval() {
     // width²/12 = 1/3; four standard deviations of the estimates
     assert!((mean - 3.0).abs() < 4.0 * (1.0 / 3.0 / n as f64).sqrt(), "{mean}");
     assert!((variance - 1.0 / 3.0).abs() < 4.0 * ((1.0 / 5.0 - 1.0 / 9.0) / n as f64).sqrt(), "{variance}");
+}
+
+/// A file `data.csv` with the columns `t`, `x`, `y`.
+struct Data;
+
+impl Files for Data {
+    fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String> {
+        match (file, column) {
+            ("data.csv", "t") => Ok(vec![0.0, 0.1, 0.3]),
+            ("data.csv", "x") => Ok(vec![1.0, 2.0, 4.0]),
+            ("data.csv", "y") => Ok(vec![0.0, -1.0, -1.0]),
+            _ => Err(format!("`{file}` has no column `{column}`")),
+        }
+    }
+}
+
+/// A source from parameters, and what is wrong with them.
+fn read<S: Described>(given: &[(&str, Value)]) -> (S, Vec<String>) {
+    let given: BTreeMap<String, Value> = given.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
+    let scope = BTreeMap::new();
+    let mut reader = Reader::new(S::KIND, &given, &scope, &Data);
+    let source = S::read(&mut reader);
+    (source, reader.finish().into_iter().map(|fault| fault.message).collect())
+}
+
+#[test]
+fn a_table_is_read_from_lists_rows_or_columns() {
+    let rows = vec![vec![1.0, 0.0], vec![2.0, -1.0], vec![4.0, -1.0]];
+    let (lists, faults) = read::<Table>(&[("times", vec![0.0, 0.1, 0.3].into()), ("values", rows.into())]);
+    assert_eq!(faults, [""; 0]);
+    let (columns, faults) = read::<Table>(&[("file", "data.csv".into()), ("columns", vec!["x", "y"].into())]);
+    assert_eq!(faults, [""; 0]);
+    assert_eq!(lists, columns);
+    let (plain, _) = read::<Table>(&[("times", vec![0.0, 1.0].into()), ("values", vec![5.0, 6.0].into())]);
+    assert_eq!(plain, Table::new(&[0.0, 1.0], &[5.0, 6.0]));
+}
+
+#[test]
+fn a_table_that_makes_no_sense_is_refused() {
+    let first = |given: &[(&str, Value)]| read::<Table>(given).1.join("; ");
+    let pair = |a: f64, b: f64| -> Value { vec![a, b].into() };
+    assert_eq!(first(&[]), "`table` has neither `times` nor `file`");
+    let found = first(&[("times", pair(1.0, 1.0)), ("values", pair(0.0, 0.0))]);
+    assert_eq!(found, "the time 1 s comes after 1 s");
+    let found = first(&[("times", pair(0.0, 1.0)), ("values", pair(0.0, 0.0)), ("repeat", 0.5.into())]);
+    assert_eq!(found, "`repeat` is 0.5 s, the table is 1 s long");
+    let three: Value = vec![1.0, 2.0, 3.0].into();
+    assert_eq!(first(&[("times", pair(0.0, 1.0)), ("values", three)]), "`values` has 1 rows for 2 times");
+    assert!(first(&[("file", "data.csv".into()), ("columns", "z".into())]).contains("`data.csv` has no column `z`"));
+}
+
+#[test]
+fn a_sine_has_exactly_one_frequency() {
+    let (sine, faults) = read::<Sine>(&[("frequency_hz", 2.0.into())]);
+    assert_eq!((sine.angular_frequency, faults.len()), (vec![2.0 * TAU], 0));
+    assert_eq!(read::<Sine>(&[]).1, ["`sine` has no frequency"]);
+    let both = [("frequency_hz", 2.0.into()), ("angular_frequency", 2.0.into())];
+    assert_eq!(read::<Sine>(&both).1, ["`sine` has two frequencies"]);
+}
+
+#[test]
+fn noise_has_the_parameters_of_its_distribution() {
+    let given = [("distribution", "uniform".into()), ("std", 1.0.into())];
+    assert_eq!(read::<Noise>(&given).1, ["uniform noise has no `std`"]);
+    assert_eq!(read::<Noise>(&[("std", (-1.0).into())]).1, ["a standard deviation is negative"]);
 }
 
 #[test]
