@@ -7,7 +7,7 @@
 //!           slopes(t)     rates of the continuous states
 //! ```
 //!
-//! Measurements are written before `evaluate` and `minor` ([`Runner::set`]), commands read after them ([`Runner::signals`]). What depends
+//! Measurements are written before `evaluate` and `minor` ([`Runner::signals_mut`]), commands read after them ([`Runner::signals`]). What depends
 //! on the world's accelerations is evaluated apart (`*_late`), when they are known.
 
 use std::sync::Arc;

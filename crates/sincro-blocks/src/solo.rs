@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use crate::block::SAME_INSTANT;
 use crate::compile::{Interface, Problem, compile};
 use crate::diagram::Diagram;
 use crate::runner::Runner;
@@ -45,7 +46,7 @@ impl Solo {
         self.runner.update(tick, t);
         self.start.copy_from_slice(&self.runner.state.continuous);
         let corner = self.runner.program().next_corner(t);
-        let corner = if corner <= t + h { t + h } else { f64::INFINITY };
+        let corner = if corner <= t + h + SAME_INSTANT { t + h } else { f64::INFINITY };
         for stage in 0..4 {
             let c = [0.0, 0.5, 0.5, 1.0][stage];
             for (k, x) in self.runner.state.continuous.iter_mut().enumerate() {

@@ -47,6 +47,12 @@ impl Table {
 
     /// Times and values as lists.
     fn lists(p: &mut Reader<'_>) -> (Vec<f64>, Matrix) {
+        refuse(
+            p,
+            &["time_column", "columns"],
+            "without `file`",
+            "give the `file` that has it, instead of `times` and `values`",
+        );
         let (times, mut values) = (p.numbers("times"), p.matrix("values"));
         // a plain list is one component over time
         if values.rows == 1 && values.columns == times.len() {
@@ -61,11 +67,7 @@ impl Table {
 
     /// Times and values from a CSV file.
     fn columns(p: &mut Reader<'_>) -> (Vec<f64>, Matrix) {
-        for key in ["times", "values"] {
-            if p.has(key) {
-                p.fault(key, format!("`{key}` is given beside `file`"), "give either lists or a file");
-            }
-        }
+        refuse(p, &["times", "values"], "beside `file`", "give either lists or a file");
         let (file, time, names) = (p.text("file"), p.text("time_column"), p.texts("columns"));
         if names.is_empty() {
             p.fault("columns", "no column is named", "give columns = [\"…\"]: one for every component");
@@ -95,6 +97,15 @@ impl Table {
         if self.repeat < length {
             let message = format!("`repeat` is {} s, the table is {length} s long", self.repeat);
             p.fault("repeat", message, "it must be at least as long as the table");
+        }
+    }
+}
+
+/// Faults for parameters that would be passed over.
+fn refuse(p: &mut Reader<'_>, keys: &[&str], wherever: &str, help: &str) {
+    for key in keys {
+        if p.has(key) {
+            p.fault(key, format!("`{key}` is given {wherever}"), help);
         }
     }
 }

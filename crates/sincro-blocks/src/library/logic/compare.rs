@@ -1,0 +1,138 @@
+//! `y = u1 < u2` or another comparison: 1 if it holds, else 0.
+
+use sincro_math::Real;
+
+use super::truth::test;
+use crate::block::{At, Block, Ports, elementwise, of};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::library::short_list;
+use crate::reader::Reader;
+use crate::unit::{Unit, common};
+
+/// Compares two inputs, or one with a constant, component by component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compare {
+    /// How.
+    pub operator: Comparison,
+    /// What the input is compared with, one for all components or one for each; none if there is a second input.
+    pub constant: Option<Vec<f64>>,
+}
+
+/// A comparison of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+}
+
+use Comparison::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+
+/// By sign.
+const OPERATORS: [(&str, Comparison); 6] =
+    [("<", Less), ("<=", LessEqual), (">", Greater), (">=", GreaterEqual), ("==", Equal), ("!=", NotEqual)];
+
+impl Comparison {
+    /// 1 where it holds, else 0; NaN where one of the two is.
+    #[must_use]
+    #[inline(always)]
+    pub fn of<R: Real>(self, a: R, b: R) -> R {
+        match self {
+            Less => test(a, b, |a, b| a < b),
+            LessEqual => test(a, b, |a, b| a <= b),
+            Greater => test(a, b, |a, b| a > b),
+            GreaterEqual => test(a, b, |a, b| a >= b),
+            Equal => test(a, b, |a, b| a == b),
+            NotEqual => test(a, b, |a, b| a != b),
+        }
+    }
+
+    /// As in a drawing.
+    #[must_use]
+    pub fn sign(self) -> &'static str {
+        match self {
+            Less => "<",
+            LessEqual => "≤",
+            Greater => ">",
+            GreaterEqual => "≥",
+            Equal => "=",
+            NotEqual => "≠",
+        }
+    }
+}
+
+impl Compare {
+    /// Two inputs.
+    #[must_use]
+    pub fn new(operator: Comparison) -> Self {
+        Self { operator, constant: None }
+    }
+
+    /// An input with a number.
+    #[must_use]
+    pub fn with(operator: Comparison, constant: f64) -> Self {
+        Self { operator, constant: Some(vec![constant]) }
+    }
+}
+
+impl Described for Compare {
+    const KIND: &'static Kind = &Kind {
+        name: "compare",
+        group: Group::Logic,
+        summary: "Compares two inputs, or one with a constant, component by component.",
+        equation: "y = 1 if u1 operator u2, else 0; with a constant y = 1 if u operator constant, else 0",
+        parameters: &[
+            Parameter::required("operator", Takes::Choice(&["<", "<=", ">", ">=", "==", "!="]), "the comparison"),
+            Parameter::optional(
+                "constant",
+                Takes::Numbers,
+                "what the input is compared with; if it is left out, there is a second input in its place",
+                "none",
+            ),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let operator = OPERATORS[p.choice("operator")].1;
+        Self { operator, constant: p.has("constant").then(|| p.numbers("constant")) }
+    }
+}
+
+impl Block for Compare {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::numbered(if self.constant.is_some() { 1 } else { 2 })
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let own = self.constant.as_ref().map_or(1, Vec::len);
+        Ok(vec![elementwise(inputs, &[("constant", own)])?])
+    }
+
+    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
+        common(inputs)?;
+        Ok(vec![None])
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            let with = match &self.constant {
+                Some(constant) => R::splat(of(constant, i)),
+                None => at.component(1, i),
+            };
+            *y = self.operator.of(at.component(0, i), with);
+        }
+    }
+
+    fn label(&self) -> String {
+        match &self.constant {
+            Some(constant) => format!("u {} {}", self.operator.sign(), short_list(constant)),
+            None => self.operator.sign().into(),
+        }
+    }
+}

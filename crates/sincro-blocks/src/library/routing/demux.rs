@@ -1,0 +1,65 @@
+//! `y1 = u[0 … n₁−1]`, `y2` = the next `n₂` …
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Ports};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+use crate::unit::Unit;
+
+/// Cuts a vector into pieces. A wire from `a[0:2]` takes one piece without a block.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Demux {
+    /// Number of components of every output.
+    pub sizes: Vec<usize>,
+}
+
+impl Demux {
+    /// Into pieces of these sizes.
+    #[must_use]
+    pub fn new(sizes: &[usize]) -> Self {
+        Self { sizes: sizes.to_vec() }
+    }
+}
+
+impl Described for Demux {
+    const KIND: &'static Kind = &Kind {
+        name: "demux",
+        group: Group::Routing,
+        summary: "Cuts a vector into pieces.",
+        equation: "[y1, y2, …] = u",
+        parameters: &[Parameter::required("sizes", Takes::Numbers, "number of components of y1, y2 …")],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let sizes = p.numbers("sizes");
+        if let Some(bad) = sizes.iter().find(|x| x.fract() != 0.0 || !(1.0..1e6).contains(*x)) {
+            p.fault("sizes", format!("`sizes` has {bad}"), "sizes are whole numbers from 1 on");
+        }
+        Self { sizes: sizes.iter().map(|x| *x as usize).collect() }
+    }
+}
+
+impl Block for Demux {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports { inputs: vec!["u".into()], outputs: (1..=self.sizes.len()).map(|k| format!("y{k}")).collect() }
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let sum: usize = self.sizes.iter().sum();
+        match inputs[0] {
+            Some(width) if width != sum => Err(format!("the sizes add up to {sum}, the input has {width} components")),
+            _ => Ok(self.sizes.iter().map(|size| Some(*size)).collect()),
+        }
+    }
+
+    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
+        Ok(vec![inputs[0].clone(); self.sizes.len()])
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        y.copy_from_slice(at.input(0));
+    }
+}

@@ -1,0 +1,84 @@
+//! Names signals that are to be recorded and plotted together.
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Ports};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+
+/// A plot of its inputs over time. It computes nothing: whoever runs the diagram records what its wires come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Scope {
+    /// Heading of the plot; empty for the name of the block.
+    pub title: String,
+    /// Names of the inputs.
+    pub inputs: Vec<String>,
+}
+
+impl Scope {
+    /// With so many inputs, `u` or `u1`, `u2` …, at least 1.
+    #[must_use]
+    pub fn new(inputs: usize) -> Self {
+        Self { title: String::new(), inputs: Ports::numbered(inputs).inputs }
+    }
+}
+
+impl Described for Scope {
+    const KIND: &'static Kind = &Kind {
+        name: "scope",
+        group: Group::Sinks,
+        summary: "A plot of its inputs over time.",
+        equation: "u1, u2, … are recorded and plotted",
+        parameters: &[
+            Parameter::optional("title", Takes::Text, "heading of the plot; if empty, the name of the block", ""),
+            Parameter::optional("inputs", Takes::Count, "number of inputs", "1"),
+            Parameter::optional("names", Takes::Texts, "names of the inputs, instead of their number", "[]"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let title = p.text("title");
+        if !p.has("names") {
+            return Self { title, ..Self::new(crate::library::maths::n_inputs(p)) };
+        }
+        if p.has("inputs") {
+            p.fault("inputs", "`inputs` is given beside `names`", "there are as many inputs as names: leave it out");
+        }
+        let inputs = p.texts("names");
+        if inputs.is_empty() {
+            p.fault("names", "`names` is empty", "give a name for every input");
+        }
+        let is_port = |name: &str| {
+            name.starts_with(|c: char| c.is_ascii_alphabetic())
+                && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        };
+        for (k, name) in inputs.iter().enumerate() {
+            if !is_port(name) {
+                let help = "names of inputs have letters, digits and `_` and begin with a letter";
+                p.fault("names", format!("`{name}` cannot be the name of an input"), help);
+            }
+            if inputs[..k].contains(name) {
+                p.fault("names", format!("`{name}` is there twice"), "every input has its own name");
+            }
+        }
+        Self { title, inputs }
+    }
+}
+
+impl Block for Scope {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports { inputs: self.inputs.clone(), outputs: Vec::new() }
+    }
+
+    fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(Vec::new())
+    }
+
+    fn output<R: Real>(&self, _: &At<'_, R>, (): &mut (), _: &mut [R]) {}
+
+    fn label(&self) -> String {
+        self.title.clone()
+    }
+}
