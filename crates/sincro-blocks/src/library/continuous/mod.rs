@@ -20,6 +20,7 @@ pub use low_pass::LowPass;
 pub use pid::Pid;
 pub use pid_law::{AntiWindup, PidLaw};
 pub use rational::Rational;
+pub(in crate::library) use rational::superscripts;
 pub use state_space::StateSpace;
 pub use transfer_function::TransferFunction;
 pub use transport_delay::TransportDelay;

@@ -150,7 +150,7 @@ impl PidLaw {
         }
     }
 
-    /// From the parameters. `least_filter`: whether the derivative's filter may have no lag at all.
+    /// From the parameters. `needs_filter`: whether the derivative cannot do without a lag.
     pub(in crate::library) fn read(p: &mut Reader<'_>, needs_filter: bool) -> Self {
         let new = Self {
             kp: p.numbers("kp"),
@@ -192,14 +192,7 @@ impl PidLaw {
             let help = "a derivative needs a lag: give a tenth of the shortest time that matters, or less";
             p.fault("filter_time_constant", "`filter_time_constant` is 0", help);
         }
-        for i in 0..self.lower.len().max(self.upper.len()) {
-            let at = |list: &[f64]| list.get(if list.len() == 1 { 0 } else { i }).copied();
-            if let (Some(lower), Some(upper)) = (at(&self.lower), at(&self.upper))
-                && lower > upper
-            {
-                p.fault("lower", format!("`lower` {lower} is above `upper` {upper}"), "exchange them");
-            }
-        }
+        crate::library::nonlinear::check_limits(p, &self.lower, &self.upper);
         let is_limited = self.lower.iter().chain(&self.upper).any(|x| x.is_finite());
         let tracks = is_limited && self.anti_windup == AntiWindup::BackCalculation;
         let lists = [&self.kp, &self.ki, &self.tracking_time_constant];

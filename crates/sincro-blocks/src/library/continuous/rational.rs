@@ -130,10 +130,15 @@ pub(in crate::library) fn polynomial(coefficients: &[f64], variable: char) -> St
             text.push(variable);
         }
         if power > 1 {
-            text.extend(power.to_string().chars().map(superscript));
+            text += &superscripts(power);
         }
     }
     if text.is_empty() { "0".into() } else { text }
+}
+
+/// A whole number as an exponent.
+pub(in crate::library) fn superscripts(number: usize) -> String {
+    number.to_string().chars().map(superscript).collect()
 }
 
 fn superscript(digit: char) -> char {

@@ -1,0 +1,109 @@
+//! `y[k] = u[k−samples]`.
+//!
+//! The input of sample k stands in slot k mod `samples` of a ring.
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+use crate::unit::Unit;
+
+/// The input of some samples before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Delay {
+    /// How many; at least 1.
+    pub samples: usize,
+    /// Output until the first input has arrived, one for all components or one for each.
+    pub initial: Vec<f64>,
+}
+
+impl Delay {
+    /// With zero until the first input has arrived.
+    ///
+    /// # Panics
+    ///
+    /// If `samples` is 0.
+    #[must_use]
+    pub fn new(samples: usize) -> Self {
+        assert!(samples > 0, "a delay of at least one sample");
+        Self { samples, initial: vec![0.0] }
+    }
+
+    fn slot<R>(&self, at: &At<'_, R>) -> usize {
+        (at.tick / at.node.every % self.samples as u64) as usize * at.node.n_out()
+    }
+}
+
+impl Described for Delay {
+    const KIND: &'static Kind = &Kind {
+        name: "delay",
+        group: Group::Discrete,
+        summary: "The input of some samples before.",
+        equation: "y[k] = u[k−samples], y[k] = initial for k < samples",
+        parameters: &[
+            Parameter::required("samples", Takes::Count, "how many samples before, 1 or more"),
+            Parameter::optional("initial", Takes::Numbers, "y until the first input has arrived", "0"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let samples = p.count("samples");
+        if samples == 0 && p.has("samples") {
+            p.fault("samples", "`samples` is 0, or no whole number", "it must be 1 or more");
+        }
+        Self { samples: samples.max(1), initial: p.numbers("initial") }
+    }
+}
+
+impl Block for Delay {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(vec![elementwise(inputs, &[("initial", self.initial.len())])?])
+    }
+
+    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
+        Ok(inputs.to_vec())
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Sampled
+    }
+
+    fn feeds_through(&self, _: usize) -> bool {
+        false
+    }
+
+    fn memory(&self, node: &Node) -> Memory {
+        Memory { continuous: 0, discrete: self.samples * node.n_out() }
+    }
+
+    fn start<R: Real>(&self, node: &Node, _: &mut [R], memory: &mut [R]) {
+        for slot in memory.chunks_exact_mut(node.n_out()) {
+            for (i, x) in slot.iter_mut().enumerate() {
+                *x = R::splat(of(&self.initial, i));
+            }
+        }
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        let slot = self.slot(at);
+        y.copy_from_slice(&at.memory[slot..slot + y.len()]);
+    }
+
+    fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
+        let slot = self.slot(at);
+        for i in 0..at.node.n_out() {
+            memory[slot + i] = at.component(0, i);
+        }
+    }
+
+    fn label(&self) -> String {
+        super::power_of_delay(self.samples)
+    }
+}

@@ -1,0 +1,138 @@
+//! `y = values(u)`, interpolated between breakpoints.
+
+use sincro_math::Real;
+
+use super::table::{EXTRAPOLATION, Extrapolation, check_breakpoints, interval};
+use crate::block::{At, Block, Ports, elementwise};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+
+/// A function given by points, written down or from two columns of a CSV file. A vector is taken component by component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LookupTable {
+    /// Arguments of the points, rising.
+    pub breakpoints: Vec<f64>,
+    /// Values at the points.
+    pub values: Vec<f64>,
+    /// Between the points.
+    pub interpolation: Interpolation,
+    /// Beyond the ends; matters for linear interpolation only.
+    pub extrapolation: Extrapolation,
+}
+
+/// What is taken between the points of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The line between both.
+    Linear,
+    /// The value of the nearer one; in the middle, of the upper one.
+    Nearest,
+    /// The value of the lower one.
+    Previous,
+}
+
+impl LookupTable {
+    /// With lines between the points, held beyond the ends.
+    ///
+    /// # Panics
+    ///
+    /// If the breakpoints do not rise, or are not as many as the values, or none.
+    #[must_use]
+    pub fn new(breakpoints: &[f64], values: &[f64]) -> Self {
+        assert!(!values.is_empty() && breakpoints.len() == values.len(), "a value for every breakpoint");
+        assert!(breakpoints.windows(2).all(|pair| pair[0] < pair[1]), "rising breakpoints");
+        Self {
+            breakpoints: breakpoints.to_vec(),
+            values: values.to_vec(),
+            interpolation: Interpolation::Linear,
+            extrapolation: Extrapolation::Hold,
+        }
+    }
+
+    /// Value and slope.
+    fn at(&self, u: f64) -> (f64, f64) {
+        let (k, part, rate) = interval(&self.breakpoints, u, self.extrapolation);
+        let low = self.values[k];
+        let high = self.values[(k + 1).min(self.values.len() - 1)];
+        match self.interpolation {
+            _ if part.is_nan() => (part, part),
+            // the ends of an interval to the bit
+            Interpolation::Linear if part == 1.0 => (high, (high - low) * rate),
+            Interpolation::Linear => (low + (high - low) * part, (high - low) * rate),
+            Interpolation::Nearest => (if part < 0.5 { low } else { high }, 0.0),
+            Interpolation::Previous => (if part < 1.0 { low } else { high }, 0.0),
+        }
+    }
+}
+
+impl Described for LookupTable {
+    const KIND: &'static Kind = &Kind {
+        name: "lookup-table",
+        group: Group::Nonlinear,
+        summary: "A function given by points, written down or from a CSV file.",
+        equation: "y = values(u), interpolated between breakpoints",
+        parameters: &[
+            Parameter::optional("breakpoints", Takes::Numbers, "arguments of the points, rising", "[]"),
+            Parameter::optional("values", Takes::Numbers, "values at the points", "[]"),
+            Parameter::optional("file", Takes::File, "CSV file instead of `breakpoints` and `values`", ""),
+            Parameter::optional("breakpoints_column", Takes::Text, "column of the file with the arguments", "x"),
+            Parameter::optional("values_column", Takes::Text, "column of the file with the values", "y"),
+            Parameter::optional(
+                "interpolation",
+                Takes::Choice(&["linear", "nearest", "previous"]),
+                "what is taken between the points",
+                "linear",
+            ),
+            EXTRAPOLATION,
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let interpolation = match p.choice("interpolation") {
+            0 => Interpolation::Linear,
+            1 => Interpolation::Nearest,
+            _ => Interpolation::Previous,
+        };
+        let extrapolation = Extrapolation::read(p);
+        let (breakpoints, values) = points(p);
+        if breakpoints.len() != values.len() {
+            let message = format!("there are {} breakpoints and {} values", breakpoints.len(), values.len());
+            p.fault("values", message, "give a value for every breakpoint");
+        } else if !breakpoints.is_empty() && check_breakpoints(p, "breakpoints", &breakpoints) {
+            return Self { breakpoints, values, interpolation, extrapolation };
+        }
+        Self::new(&[0.0], &[0.0])
+    }
+}
+
+/// Breakpoints and values, from the parameters or from a file; empty after a fault.
+fn points(p: &mut Reader<'_>) -> (Vec<f64>, Vec<f64>) {
+    let is_written = p.has("breakpoints") || p.has("values");
+    if !p.has("file") {
+        return (p.numbers("breakpoints"), p.numbers("values"));
+    }
+    if is_written {
+        p.fault("file", "both a file and points are given", "leave `file`, or `breakpoints` and `values` out");
+    }
+    let (file, of_breakpoints, of_values) = (p.text("file"), p.text("breakpoints_column"), p.text("values_column"));
+    let breakpoints = p.column("file", &file, &of_breakpoints);
+    (breakpoints, p.column("file", &file, &of_values))
+}
+
+impl Block for LookupTable {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(vec![elementwise(inputs, &[])?])
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            *y = at.component(0, i).map(|u| self.at(u));
+        }
+    }
+}
