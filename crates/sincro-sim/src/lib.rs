@@ -7,6 +7,7 @@ pub mod check;
 pub mod document;
 pub mod experiment;
 mod folder;
+pub mod linear;
 mod load;
 pub mod overrides;
 pub mod problem;
