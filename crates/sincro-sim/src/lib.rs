@@ -8,6 +8,7 @@ pub mod diagram;
 pub mod document;
 pub mod experiment;
 mod folder;
+pub mod linear;
 mod load;
 pub mod overrides;
 pub mod problem;

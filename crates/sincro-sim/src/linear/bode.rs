@@ -1,0 +1,303 @@
+//! Frequency response: magnitude, phase that does not jump, margins. Cost: one complex decomposition a frequency.
+//!
+//! `G(jω) = C (jω I − A)⁻¹ B + D`. The phase is known from `G` up to whole turns; the turns come from the poles and zeros, each of
+//! which adds its own angle of at most a quarter turn (key `ogata2010`, 7-2): an undamped pair turns the phase by
+//! −180° and not by +180°, however coarse the grid is.
+
+use std::f64::consts::{PI, TAU};
+
+use sincro_math::elementary::{atan, atan2, exp, ln, log10, sin_cos};
+
+use super::modes::eigenvalues;
+use super::{Complex, DMatrix, DVector, Problem, StateSpace, modulus};
+
+/// Frequencies a decade.
+const PER_DECADE: usize = 60;
+/// More decades than this are not shown; the slow end is cut.
+const MOST_DECADES: f64 = 12.0;
+/// A pole below this share of A is taken as zero: rounding scatters multiple ones that far.
+const NOTHING: f64 = 1e-8;
+/// Halvings of a bracket around a crossover.
+const HALVINGS: usize = 60;
+
+/// The frequency response of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bode {
+    /// Angular frequencies, ascending `[rad/s]`.
+    pub omega: Vec<f64>,
+    /// `20 log₁₀ |G|` `[dB]`.
+    pub magnitude_db: Vec<f64>,
+    /// `arg G` without jumps of whole turns `[°]`.
+    pub phase_deg: Vec<f64>,
+    /// Where the phase is −180° (mod 360°): by how much `|G|` may grow there `[dB]` until the loop closed by −1 swings.
+    pub gain_margins: Vec<Margin>,
+    /// Where `|G| = 1`: by how much the phase may fall there `[°]` until the loop closed by −1 swings.
+    pub phase_margins: Vec<Margin>,
+}
+
+/// A crossover and the distance from instability there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin {
+    /// Where `[rad/s]`.
+    pub omega: f64,
+    /// How much `[dB]` or `[°]`.
+    pub value: f64,
+}
+
+impl Bode {
+    /// The gain margin nearest to zero.
+    #[must_use]
+    pub fn gain_margin(&self) -> Option<Margin> {
+        tightest(&self.gain_margins)
+    }
+
+    /// The phase margin nearest to zero.
+    #[must_use]
+    pub fn phase_margin(&self) -> Option<Margin> {
+        tightest(&self.phase_margins)
+    }
+}
+
+fn tightest(margins: &[Margin]) -> Option<Margin> {
+    margins.iter().copied().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs()))
+}
+
+impl StateSpace {
+    /// `G(jω)` of one channel at each frequency `[rad/s]`; not a number exactly at a pole.
+    #[must_use]
+    pub fn frequency_response(&self, input: usize, output: usize, omegas: &[f64]) -> Vec<Complex<f64>> {
+        let channel = Channel::new(self, input, output);
+        omegas.iter().map(|&omega| channel.at(omega)).collect()
+    }
+
+    /// The frequency response of one channel over `range` (least and greatest `[rad/s]`); `None`: a decade beyond the poles and zeros.
+    ///
+    /// # Errors
+    ///
+    /// [`Problem::NoPath`]: the output does not depend on the input.
+    pub fn bode(&self, input: usize, output: usize, range: Option<(f64, f64)>) -> Result<Bode, Problem> {
+        let zeros = self.zeros(input, output)?;
+        let poles = eigenvalues(&self.a);
+        let corners = Corners::new(self, &poles, &zeros);
+        let omega = corners.grid(range.unwrap_or_else(|| corners.range()));
+        let channel = Channel::new(self, input, output);
+        let values: Vec<Complex<f64>> = omega.iter().map(|&w| channel.at(w)).collect();
+        let phase = match self.sample_time {
+            None => corners.phases(&omega, &values),
+            Some(_) => unwrapped(&values),
+        };
+        let magnitude_db = values.iter().map(|g| decibel(modulus(*g))).collect();
+        Ok(Bode {
+            gain_margins: gain_margins(&channel, &omega, &values),
+            phase_margins: phase_margins(&channel, &omega, &values),
+            magnitude_db,
+            phase_deg: phase.into_iter().map(f64::to_degrees).collect(),
+            omega,
+        })
+    }
+}
+
+/// One input, one output, ready to be evaluated.
+struct Channel<'a> {
+    system: &'a StateSpace,
+    b: DVector<Complex<f64>>,
+    c: DVector<Complex<f64>>,
+    d: f64,
+}
+
+impl<'a> Channel<'a> {
+    fn new(system: &'a StateSpace, input: usize, output: usize) -> Self {
+        let complex = |x: f64| Complex::new(x, 0.0);
+        Self {
+            system,
+            b: system.b.column(input).map(complex),
+            c: system.c.row(output).transpose().map(complex),
+            d: system.d[(output, input)],
+        }
+    }
+
+    fn at(&self, omega: f64) -> Complex<f64> {
+        let s = match self.system.sample_time {
+            None => Complex::new(0.0, omega),
+            Some(tick) => {
+                let (sine, cosine) = sin_cos(omega * tick);
+                Complex::new(cosine, sine)
+            }
+        };
+        let a = &self.system.a;
+        let pencil = DMatrix::from_fn(a.nrows(), a.nrows(), |row, column| {
+            let own = if row == column { s } else { Complex::new(0.0, 0.0) };
+            own - a[(row, column)]
+        });
+        match pencil.lu().solve(&self.b) {
+            Some(x) => self.c.dot(&x) + self.d,
+            None => Complex::new(f64::NAN, f64::NAN),
+        }
+    }
+}
+
+/// Poles and zeros as rates, with the real parts that are rounding taken away.
+struct Corners {
+    poles: Vec<Complex<f64>>,
+    zeros: Vec<Complex<f64>>,
+    /// Half the sampling frequency `[rad/s]`.
+    nyquist: Option<f64>,
+}
+
+impl Corners {
+    fn new(system: &StateSpace, poles: &[Complex<f64>], zeros: &[Complex<f64>]) -> Self {
+        let size = system.a.norm();
+        let rate = |&z: &Complex<f64>| match system.sample_time {
+            None if modulus(z) <= NOTHING * size => Complex::new(0.0, 0.0),
+            None if z.re.abs() <= NOTHING * size => Complex::new(0.0, z.im),
+            None => z,
+            Some(tick) => Complex::new(ln(modulus(z)).0 / tick, atan2(z.im, z.re).0 / tick),
+        };
+        Self {
+            poles: poles.iter().map(rate).collect(),
+            zeros: zeros.iter().map(rate).collect(),
+            nyquist: system.sample_time.map(|tick| PI / tick),
+        }
+    }
+
+    fn all(&self) -> impl Iterator<Item = Complex<f64>> {
+        self.poles.iter().chain(&self.zeros).copied()
+    }
+
+    /// Whole decades that reach one beyond the corners.
+    fn range(&self) -> (f64, f64) {
+        let sizes = || self.all().map(modulus).filter(|size| *size > 1e-12 && size.is_finite());
+        let (slow, fast) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
+        let (slow, fast) = if fast > 0.0 { (slow, fast) } else { (1.0, 1.0) };
+        let last = (log10(fast).0 - 1e-9).ceil() + 1.0;
+        let first = ((log10(slow).0 + 1e-9).floor() - 1.0).max(last - MOST_DECADES);
+        (power_of_ten(first), self.nyquist.unwrap_or_else(|| power_of_ten(last)))
+    }
+
+    /// Even in the logarithm, with more points about each resonance.
+    fn grid(&self, (first, last): (f64, f64)) -> Vec<f64> {
+        let decades = log10(last / first).0;
+        let n = ((decades * PER_DECADE as f64).ceil() as usize).max(2);
+        let ratio = ln(last / first).0;
+        let mut omega: Vec<f64> = (0..=n).map(|k| first * exp(ratio * k as f64 / n as f64).0).collect();
+        omega[n] = last;
+        for corner in self.all().filter(|corner| corner.im > 0.0 && corner.re.abs() < 0.3 * corner.im) {
+            let width = corner.re.abs().max(1e-4 * corner.im);
+            for share in [0.12, 0.25, 0.5, 1.0, 2.0, 4.0] {
+                omega.extend([corner.im - share * width, corner.im + share * width]);
+            }
+            // exactly at an undamped one there is no value
+            if corner.re != 0.0 {
+                omega.push(corner.im);
+            }
+        }
+        omega.retain(|w| *w >= first && *w <= last);
+        omega.sort_by(f64::total_cmp);
+        omega.dedup();
+        omega
+    }
+
+    /// The phase, with the turns that the corners say.
+    fn phases(&self, omega: &[f64], values: &[Complex<f64>]) -> Vec<f64> {
+        let turns: Vec<f64> = omega.iter().map(|&w| self.angle(w)).collect();
+        let offset = self.sign_angle(&turns, values);
+        let near = |(turn, g): (&f64, &Complex<f64>)| {
+            let phase = atan2(g.im, g.re).0;
+            phase + TAU * ((turn + offset - phase) / TAU).round()
+        };
+        turns.iter().zip(values).map(near).collect()
+    }
+
+    /// Sum of the angles of all factors: `1 − s/z` and `1 / (1 − s/p)`, or `s` and `1/s`.
+    fn angle(&self, omega: f64) -> f64 {
+        let of = |corner: &Complex<f64>| {
+            let angle = match corner.re.abs() {
+                0.0 if omega >= corner.im => 0.5 * PI,
+                0.0 => -0.5 * PI,
+                distance => atan((omega - corner.im) / distance).0,
+            };
+            if corner.re > 0.0 { -angle } else { angle }
+        };
+        self.zeros.iter().map(of).sum::<f64>() - self.poles.iter().map(of).sum::<f64>()
+    }
+
+    /// 0 or −180°: what is left of the phase once all factors are taken away, by majority over the grid.
+    fn sign_angle(&self, turns: &[f64], values: &[Complex<f64>]) -> f64 {
+        let agreement = |(turn, g): (&f64, &Complex<f64>)| {
+            let (sine, cosine) = sin_cos(*turn);
+            let size = modulus(*g);
+            if size > 0.0 && size.is_finite() { (g.re * cosine + g.im * sine) / size } else { 0.0 }
+        };
+        if turns.iter().zip(values).map(agreement).sum::<f64>() >= 0.0 { 0.0 } else { -PI }
+    }
+}
+
+/// The phase with each step the shortest way.
+fn unwrapped(values: &[Complex<f64>]) -> Vec<f64> {
+    let mut phases: Vec<f64> = Vec::with_capacity(values.len());
+    for g in values {
+        let phase = atan2(g.im, g.re).0;
+        // a real negative start counts as a lag
+        let near = phases.last().copied().unwrap_or(-0.25 * PI);
+        phases.push(phase + TAU * ((near - phase) / TAU).round());
+    }
+    phases
+}
+
+/// `20 log₁₀`.
+fn decibel(magnitude: f64) -> f64 {
+    if magnitude == 0.0 { f64::NEG_INFINITY } else { 20.0 * log10(magnitude).0 }
+}
+
+fn power_of_ten(power: f64) -> f64 {
+    format!("1e{power}").parse().unwrap_or(1.0)
+}
+
+fn gain_margins(channel: &Channel, omega: &[f64], values: &[Complex<f64>]) -> Vec<Margin> {
+    // the negative real axis is crossed; what stays on it up to rounding does not cross
+    let is_left = |g: &Complex<f64>| g.re < 0.0 && g.im.abs() > 1e-9 * g.re.abs();
+    let found = crossings(channel, omega, values, |g| g.im, |a, b| is_left(a) && is_left(b));
+    found.into_iter().map(|w| Margin { omega: w, value: -decibel(modulus(channel.at(w))) }).collect()
+}
+
+fn phase_margins(channel: &Channel, omega: &[f64], values: &[Complex<f64>]) -> Vec<Margin> {
+    let found = crossings(channel, omega, values, |g| modulus(*g) - 1.0, |_, _| true);
+    let margin = |w: f64| {
+        let g = channel.at(w);
+        // the angle from −1 to G, which lies in (−180°, 180°]
+        Margin { omega: w, value: atan2(-g.im, -g.re).0.to_degrees() }
+    };
+    found.into_iter().map(margin).collect()
+}
+
+/// Frequencies at which `of(G)` changes its sign, between neighbours that `may` cross.
+fn crossings(
+    channel: &Channel,
+    omega: &[f64],
+    values: &[Complex<f64>],
+    of: impl Fn(&Complex<f64>) -> f64,
+    may: impl Fn(&Complex<f64>, &Complex<f64>) -> bool,
+) -> Vec<f64> {
+    let mut found = Vec::new();
+    for k in 1..omega.len() {
+        let (before, after) = (of(&values[k - 1]), of(&values[k]));
+        let changes = (before < 0.0) != (after < 0.0) && before.is_finite() && after.is_finite();
+        if !changes || !may(&values[k - 1], &values[k]) {
+            continue;
+        }
+        let (mut low, mut high) = (omega[k - 1], omega[k]);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if (of(&channel.at(middle)) < 0.0) == (before < 0.0) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        // at a pole the sign changes through infinity
+        if may(&channel.at(low), &channel.at(high)) || modulus(channel.at(low)) < 1e6 {
+            found.push(0.5 * (low + high));
+        }
+    }
+    found
+}

@@ -1,0 +1,141 @@
+//! Poles: eigenvalues of A and what they mean. Cost: 10 n³ or so.
+//!
+//! A is balanced by powers of two and brought to real Schur form (key `golub2013`, 7.4 and 7.5). The library's iteration has no
+//! exceptional shifts and stalls on some matrices (a cyclic permutation); then the eigenvalues `ν` of `(A − μ I)⁻¹` are taken
+//! instead, `λ = μ + 1/ν`.
+
+use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
+use sincro_math::elementary::{atan2, ln};
+
+use super::{Complex, DMatrix, StateSpace, modulus};
+
+/// Sweeps of the eigenvalue iteration; twenty or so are needed per eigenvalue at most.
+const MOST_SWEEPS: usize = 3000;
+/// A multiple eigenvalue is known only to the root of the rounding error; real parts below this share of A are taken as zero.
+const ZERO: f64 = 3e-8;
+
+/// A pole and what it means for the motion `e^{λ t}`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// The eigenvalue `[1/s]`; of a sampled system the eigenvalue of one tick.
+    pub pole: Complex<f64>,
+    /// Damping ratio `ζ = −Re λ / |λ|`; negative if it grows, 1 for a pole at zero.
+    pub damping_ratio: f64,
+    /// `ω_n = |λ|` `[rad/s]`.
+    pub natural_frequency: f64,
+    /// Time to decay to 1/e `[s]`: `−1 / Re λ`. Negative if it grows, infinite if it does neither.
+    pub time_constant: f64,
+}
+
+/// What becomes of a small disturbance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// It decays.
+    Stable,
+    /// It stays: poles on the imaginary axis, or so near to it that rounding decides.
+    Marginal,
+    /// It grows.
+    Unstable,
+}
+
+impl Mode {
+    /// The meaning of an eigenvalue; `size` is the magnitude of A, against which a real part may be nothing.
+    fn new(pole: Complex<f64>, sample_time: Option<f64>, size: f64) -> Self {
+        let rate = match sample_time {
+            None => pole,
+            Some(tick) => Complex::new(ln(modulus(pole)).0 / tick, atan2(pole.im, pole.re).0 / tick),
+        };
+        let natural_frequency = modulus(rate);
+        let is_zero = rate.re.abs() <= 1e-14 * size;
+        Self {
+            pole,
+            damping_ratio: if natural_frequency == 0.0 { 1.0 } else { -rate.re / natural_frequency + 0.0 },
+            natural_frequency,
+            time_constant: if is_zero { f64::INFINITY } else { -1.0 / rate.re },
+        }
+    }
+}
+
+impl StateSpace {
+    /// The poles, slowest first; of a pair the one with positive imaginary part first.
+    #[must_use]
+    pub fn poles(&self) -> Vec<Mode> {
+        let size = self.a.norm();
+        let mut modes: Vec<Mode> =
+            eigenvalues(&self.a).into_iter().map(|pole| Mode::new(pole, self.sample_time, size)).collect();
+        modes.sort_by(|a, b| {
+            let by_speed = rough(a.natural_frequency).total_cmp(&rough(b.natural_frequency));
+            by_speed.then(a.pole.re.total_cmp(&b.pole.re)).then(b.pole.im.total_cmp(&a.pole.im))
+        });
+        modes
+    }
+
+    /// Whether a small disturbance decays.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        let excess = |mode: &Mode| match self.sample_time {
+            None => mode.pole.re / self.a.norm().max(f64::MIN_POSITIVE),
+            Some(_) => modulus(mode.pole) - 1.0,
+        };
+        let worst = self.poles().iter().map(excess).fold(f64::NEG_INFINITY, f64::max);
+        // only poles that may be multiple zeros get the wide bracket; a slow but sure decay is stable
+        match worst {
+            w if w < -1e-13 => Stability::Stable,
+            w if w <= ZERO => Stability::Marginal,
+            _ => Stability::Unstable,
+        }
+    }
+
+    /// Whether every small disturbance decays.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.stability() == Stability::Stable
+    }
+}
+
+/// Eigenvalues of a real square matrix, ordered by modulus, then real part, then imaginary part from above.
+///
+/// # Panics
+///
+/// If the matrix is not square.
+#[must_use]
+pub fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    assert!(matrix.is_square(), "eigenvalues of a square matrix");
+    if matrix.is_empty() {
+        return Vec::new();
+    }
+    if matrix.iter().any(|x| !x.is_finite()) {
+        return vec![Complex::new(f64::NAN, f64::NAN); matrix.nrows()];
+    }
+    let mut balanced = matrix.clone();
+    let _ = balance_parlett_reinsch(&mut balanced);
+    let mut found = by_schur(&balanced).or_else(|| by_inverse(&balanced)).unwrap_or_else(|| {
+        // both iterations stalled, which no matrix is known to do; say so rather than guess
+        vec![Complex::new(f64::NAN, f64::NAN); matrix.nrows()]
+    });
+    found.sort_by(|a, b| {
+        let by_size = rough(modulus(*a)).total_cmp(&rough(modulus(*b)));
+        by_size.then(a.re.total_cmp(&b.re)).then(b.im.total_cmp(&a.im))
+    });
+    found
+}
+
+/// Seven digits: moduli that differ only by rounding, such as those of ±a, do not decide the order.
+fn rough(modulus: f64) -> f32 {
+    modulus as f32
+}
+
+fn by_schur(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let schur = Schur::try_new(matrix.clone(), f64::EPSILON, MOST_SWEEPS)?;
+    // `+ 0.0` makes negative zeros positive
+    Some(schur.complex_eigenvalues().iter().map(|z| Complex::new(z.re + 0.0, z.im + 0.0)).collect())
+}
+
+fn by_inverse(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let n = matrix.nrows();
+    // any real number off the spectrum; it lies beyond the Frobenius norm, hence beyond every eigenvalue
+    let shift = 1.37 * matrix.norm();
+    let inverse = (matrix - DMatrix::identity(n, n) * shift).try_inverse()?;
+    let found = by_schur(&inverse)?;
+    Some(found.into_iter().map(|nu| Complex::new(shift, 0.0) + nu.inv()).collect())
+}

@@ -1,0 +1,107 @@
+//! Why something about a linear system could not be computed, in words.
+
+use std::fmt;
+
+use super::DMatrix;
+
+/// What is wrong with matrices, or with what is asked of them.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Problem {
+    /// A matrix has the wrong size.
+    Size {
+        /// Its name.
+        what: &'static str,
+        /// Rows and columns it should have.
+        expected: (usize, usize),
+        /// Rows and columns it has.
+        found: (usize, usize),
+    },
+    /// A matrix has an entry that is not finite.
+    NotFinite {
+        /// Its name.
+        what: &'static str,
+        /// Row and column, counted from 0.
+        at: (usize, usize),
+    },
+    /// A weight is not symmetric.
+    NotSymmetric {
+        /// Its name.
+        what: &'static str,
+    },
+    /// R is not positive definite.
+    NotPositiveDefinite {
+        /// Its name.
+        what: &'static str,
+    },
+    /// Q has a negative eigenvalue.
+    NotPositiveSemidefinite {
+        /// Its name.
+        what: &'static str,
+        /// The eigenvalue.
+        eigenvalue: f64,
+    },
+    /// No input reaches a mode that does not decay by itself.
+    NotStabilisable {
+        /// Real and imaginary part of its eigenvalue.
+        mode: (f64, f64),
+    },
+    /// The Riccati equation has no stabilising solution, because a mode that does not decay does not cost anything.
+    NotDetectable,
+    /// The output does not depend on the input.
+    NoPath {
+        /// Name of the input.
+        input: String,
+        /// Name of the output.
+        output: String,
+    },
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { what, expected, found } => {
+                write!(f, "`{what}` is {}×{}, expected {}×{}", found.0, found.1, expected.0, expected.1)
+            }
+            Self::NotFinite { what, at } => {
+                write!(f, "`{what}` is not finite in row {}, column {}", at.0 + 1, at.1 + 1)
+            }
+            Self::NotSymmetric { what } => write!(f, "`{what}` is not symmetric"),
+            Self::NotPositiveDefinite { what } => {
+                write!(f, "`{what}` is not positive definite: every combination of inputs must cost something")
+            }
+            Self::NotPositiveSemidefinite { what, eigenvalue } => {
+                write!(f, "`{what}` has the negative eigenvalue {eigenvalue:.3e}: no state may earn something")
+            }
+            Self::NotStabilisable { mode: (re, im) } => {
+                let imaginary = if *im == 0.0 { String::new() } else { format!(" ± {:.6}j", im.abs()) };
+                write!(f, "not stabilisable: no input reaches the mode at {re:.6}{imaginary}, which does not decay")
+            }
+            Self::NotDetectable => {
+                f.write_str("no stabilising solution: a mode that does not decay does not cost anything in `Q`")
+            }
+            Self::NoPath { input, output } => write!(f, "`{output}` does not depend on `{input}`"),
+        }
+    }
+}
+
+impl std::error::Error for Problem {}
+
+/// Refuses a matrix of another size.
+pub(super) fn expect_size(what: &'static str, matrix: &DMatrix<f64>, expected: (usize, usize)) -> Result<(), Problem> {
+    let found = matrix.shape();
+    if found == expected { Ok(()) } else { Err(Problem::Size { what, expected, found }) }
+}
+
+/// Refuses a matrix with an entry that is not finite.
+pub(super) fn expect_finite(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Problem> {
+    match matrix.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(k) => Err(Problem::NotFinite { what, at: (k % matrix.nrows(), k / matrix.nrows()) }),
+    }
+}
+
+/// Refuses a matrix that is not symmetric up to rounding.
+pub(super) fn expect_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Problem> {
+    let skew = (matrix - matrix.transpose()).amax();
+    if skew <= 1e-12 * matrix.amax() { Ok(()) } else { Err(Problem::NotSymmetric { what }) }
+}

@@ -1,0 +1,79 @@
+//! Which states the inputs reach and the outputs see. Cost: n³.
+//!
+//! The reachable subspace is spanned by `B, AB, A²B, …`. The columns are made orthogonal as they come, each new one from the
+//! last orthogonal one (block Arnoldi, key `golub2013`, 10.5): powers of A never appear, so stiff systems
+//! do not drown in rounding as they do in the singular values of the controllability matrix.
+
+use super::{DMatrix, DVector, StateSpace};
+
+/// What is left of a vector of norm 1 after taking away its parts along others, if it is nothing but rounding.
+const NOTHING: f64 = 1e-11;
+
+/// How much of the state space is reached or seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reach {
+    /// Dimension of the subspace.
+    pub rank: usize,
+    /// Number of states; the system is controllable (or observable) if `rank` is the same.
+    pub n_states: usize,
+    /// States that lie wholly outside the subspace, by index.
+    pub outside: Vec<usize>,
+}
+
+impl Reach {
+    /// Whether it is the whole space.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.rank == self.n_states
+    }
+}
+
+impl StateSpace {
+    /// What the inputs reach.
+    #[must_use]
+    pub fn controllability(&self) -> Reach {
+        reach(&self.a, &self.b)
+    }
+
+    /// What the outputs see.
+    #[must_use]
+    pub fn observability(&self) -> Reach {
+        reach(&self.a.transpose(), &self.c.transpose())
+    }
+}
+
+fn reach(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Reach {
+    let n_states = a.nrows();
+    let rate = a.norm();
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for column in b.column_iter() {
+        let size = column.norm();
+        if size > 0.0 {
+            push_new_direction(&mut basis, column / size);
+        }
+    }
+    let mut next = 0;
+    while next < basis.len() && rate > 0.0 {
+        let driven = a * &basis[next] / rate;
+        push_new_direction(&mut basis, driven);
+        next += 1;
+    }
+    let share = |state: usize| basis.iter().map(|q| q[state] * q[state]).sum::<f64>();
+    let outside = (0..n_states).filter(|&state| share(state) <= NOTHING).collect();
+    Reach { rank: basis.len(), n_states, outside }
+}
+
+/// Adds what of a vector is new.
+fn push_new_direction(basis: &mut Vec<DVector<f64>>, mut vector: DVector<f64>) {
+    // twice is enough: the second time takes away what rounding left of the first
+    for _ in 0..2 {
+        for q in basis.iter() {
+            let along = q.dot(&vector);
+            vector -= q * along;
+        }
+    }
+    let size = vector.norm();
+    if size > NOTHING && basis.len() < vector.len() {
+        basis.push(vector / size);
+    }
+}
