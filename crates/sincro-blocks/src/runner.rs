@@ -213,6 +213,22 @@ impl<R: Number> Runner<R> {
         }
     }
 
+    /// Outputs of all continuous blocks at time `t`, whether or not the integrator needs them; those that need accelerations if `late`,
+    /// else the others. `perturbed`: a signal and what is added to it as soon as it is known.
+    pub fn evaluate_continuous(&mut self, tick: u64, t: f64, late: bool, perturbed: Option<(usize, R)>) {
+        let steps = if late { self.program.n_early..self.instances.len() } else { 0..self.program.n_early };
+        for k in steps {
+            if self.program.steps[k].rate == Rate::Continuous {
+                self.output(k, t, f64::INFINITY, tick);
+                if let Some((signal, change)) = perturbed
+                    && self.program.steps[k].out.contains(&signal)
+                {
+                    self.state.signals[signal] += change;
+                }
+            }
+        }
+    }
+
     /// Rates of the continuous states, from the signals as they now are.
     pub fn slopes(&mut self, tick: u64, t: f64, corner: f64, slope: &mut [R]) {
         self.with_each_state(tick, t, corner, |instance, at, states| instance.slope(at, &mut slope[states]));

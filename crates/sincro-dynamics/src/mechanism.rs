@@ -164,7 +164,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Marks the degrees of freedom whose drives hold, with zero acceleration; says whether there are any.
     #[inline(always)]
-    pub(crate) fn mark_held(&mut self) {
+    pub fn mark_held(&mut self) {
         let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
         if self.drives.is_empty() {
             return;
@@ -175,6 +175,12 @@ impl<R: Real> Mechanism<R> {
             let holds = pull.abs().if_less(half, one, zero);
             self.held_mask[drive.dof] = self.held_mask[drive.dof].max(holds);
         }
+    }
+
+    /// Whether a degree of freedom is held, as last marked.
+    #[must_use]
+    pub fn is_held(&self, dof: usize) -> bool {
+        self.held_mask[dof].lane(0) > 0.5
     }
 
     /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].

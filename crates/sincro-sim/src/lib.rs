@@ -9,6 +9,7 @@ pub mod document;
 pub mod experiment;
 mod folder;
 pub mod linear;
+pub mod linearize;
 mod load;
 pub mod overrides;
 pub mod problem;

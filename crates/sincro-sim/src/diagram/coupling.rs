@@ -156,6 +156,50 @@ impl<R: Number> Control<R> {
     }
 }
 
+/// What linearisation needs: everything continuous is evaluated, whether or not the integrator needs it.
+impl<R: Number> Control<R> {
+    /// The same diagram in the same state on other numbers, without derivatives.
+    pub(crate) fn like(other: &Control<f64>, model: &Model<f64>) -> Self {
+        let mut new = Self::new(&other.wiring, model);
+        let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
+        let state = &other.runner.state;
+        let state =
+            State { signals: cast(&state.signals), continuous: cast(&state.continuous), memory: cast(&state.memory) };
+        new.runner.resume(state, other.tick);
+        new.tick = other.tick;
+        new
+    }
+
+    /// As [`Attachment::drive`]; `perturbed` is a signal and its change.
+    pub(crate) fn drive_whole(
+        &mut self,
+        seen: &mut Seen<'_, R>,
+        z: &[R],
+        commands: &mut [R],
+        perturbed: Option<(usize, R)>,
+    ) {
+        self.runner.state.continuous.copy_from_slice(z);
+        self.read_state(seen, false);
+        self.runner.evaluate_continuous(self.tick, seen.t, false, perturbed);
+        self.write_commands(commands, true);
+    }
+
+    /// As [`Attachment::slope`].
+    pub(crate) fn slope_whole(
+        &mut self,
+        seen: &mut Seen<'_, R>,
+        response: Response<'_, R>,
+        slope: &mut [R],
+        perturbed: Option<(usize, R)>,
+    ) {
+        if !self.wiring.late.is_empty() {
+            self.read_response(seen, response, false);
+            self.runner.evaluate_continuous(self.tick, seen.t, true, perturbed);
+        }
+        self.runner.slopes(self.tick, seen.t, f64::INFINITY, slope);
+    }
+}
+
 impl Control<f64> {
     /// Measures and evaluates everything that is due at a tick.
     ///

@@ -6,7 +6,7 @@
 mod coupling;
 mod file;
 mod ports;
-mod probe;
+pub(crate) mod probe;
 mod read;
 pub mod robot;
 pub(crate) mod schema;

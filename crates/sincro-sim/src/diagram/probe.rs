@@ -15,7 +15,7 @@ pub(super) fn needs_kinematics(probe: Probe) -> bool {
 }
 
 /// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks only.
-pub(super) fn of_state<R: Real>(seen: &Seen<'_, R>, probe: Probe) -> Option<R> {
+pub(crate) fn of_state<R: Real>(seen: &Seen<'_, R>, probe: Probe) -> Option<R> {
     let model = seen.model;
     Some(match probe {
         Probe::Coordinate(i) => seen.q[i],
@@ -37,7 +37,7 @@ pub(super) fn of_state<R: Real>(seen: &Seen<'_, R>, probe: Probe) -> Option<R> {
 }
 
 /// A measurement that depends on the commands; after kinematics with the accelerations.
-pub(super) fn of_response<R: Real>(seen: &Seen<'_, R>, response: Response<'_, R>, probe: Probe) -> Option<R> {
+pub(crate) fn of_response<R: Real>(seen: &Seen<'_, R>, response: Response<'_, R>, probe: Probe) -> Option<R> {
     Some(match probe {
         Probe::Acceleration(k) => response.accelerations[k],
         Probe::MotorTorqueNow(m) => response.motor_torque[m],

@@ -1,6 +1,7 @@
 //! A scene and its diagram, tick by tick: what a run, a server and a test all drive.
 
 use sincro_dynamics::signal::Signal;
+use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
 use super::trace::Trace;
@@ -63,6 +64,27 @@ impl LockStep {
         &mut self.world
     }
 
+    /// State of the world.
+    #[must_use]
+    pub fn state(&self) -> &State<f64> {
+        &self.world.state
+    }
+
+    /// Brings everything to rest where it is.
+    pub fn stop(&mut self) {
+        self.world.state.v.fill(0.0);
+    }
+
+    /// Puts the world into another state, and the diagram's continuous states with it (none to leave them).
+    pub fn place(&mut self, state: State<f64>, continuous: &[f64]) {
+        self.world.state = state;
+        if let Some(control) = &mut self.control
+            && !continuous.is_empty()
+        {
+            control.runner.state.continuous.copy_from_slice(continuous);
+        }
+    }
+
     /// The diagram, if there is one.
     #[must_use]
     pub fn control(&self) -> Option<&Control<f64>> {
@@ -98,13 +120,10 @@ impl LockStep {
     /// number (the world has then made the step).
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
-        for (command, signal) in self.world.state.commands.iter_mut().zip(&self.commands) {
-            *command = signal.value(t);
-        }
+        self.latch();
         let advanced = match &mut self.control {
             None => self.world.advance(t, self.step),
             Some(control) => {
-                control.latch(&mut self.world.state.commands);
                 control.update(tick, t);
                 if control.is_continuous() {
                     self.world.advance_with(t, self.step, control)
@@ -116,6 +135,17 @@ impl LockStep {
         advanced.map_err(|(t, cause)| Halt::World { tick, t, cause })?;
         self.tick += 1;
         self.look()
+    }
+
+    /// Latches the commands of the present tick without advancing: the world under the inputs that it will have next.
+    pub fn latch(&mut self) {
+        let t = self.t();
+        for (command, signal) in self.world.state.commands.iter_mut().zip(&self.commands) {
+            *command = signal.value(t);
+        }
+        if let Some(control) = &self.control {
+            control.latch(&mut self.world.state.commands);
+        }
     }
 
     fn look(&mut self) -> Result<(), Halt> {
