@@ -8,6 +8,7 @@ use core::ops::Range;
 use crate::block::{Memory, Node};
 use crate::compile::{EARLY, Flat, Interface, LATE, Problem};
 use crate::instance::Template;
+use crate::unit::Unit;
 
 /// When a block is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub struct Step {
     pub memory: Range<usize>,
     /// Names of its outputs.
     pub output_names: Vec<String>,
+    /// Their units, as far as they are known.
+    pub units: Vec<Option<Unit>>,
     /// Whether continuous states or continuous commands depend on it: it is then evaluated between ticks too.
     pub is_minor: bool,
 }
@@ -185,6 +188,7 @@ impl Program {
                 states: program.n_states..program.n_states + continuous,
                 memory: program.n_memory..program.n_memory + discrete,
                 output_names: flat_node.output_names,
+                units: flat_node.out_units,
                 is_minor: minor[n],
                 template,
             });
@@ -200,18 +204,19 @@ impl Program {
         self.steps.iter().map(|step| step.path.as_str()).collect()
     }
 
-    /// The outputs of all blocks: name (`block`, or `block.port` where there are several), place among the signals, step.
-    pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, &Step)> {
+    /// The outputs of all blocks: name (`block`, or `block.port` where there are several), place among the signals, unit.
+    pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, Option<&Unit>)> {
         self.steps.iter().flat_map(|step| {
             let mut start = step.out.start;
-            step.output_names.iter().zip(&step.node.outputs).map(move |(port, width)| {
+            let ports = step.output_names.iter().zip(&step.node.outputs).zip(&step.units);
+            ports.map(move |((port, width), unit)| {
                 let name = match step.output_names.len() {
                     1 => step.path.clone(),
                     _ => format!("{}.{port}", step.path),
                 };
                 let range = start..start + width;
                 start = range.end;
-                (name, range, step)
+                (name, range, unit.as_ref())
             })
         })
     }

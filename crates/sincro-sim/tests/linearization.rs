@@ -118,11 +118,8 @@ fn derivatives_agree_with_central_differences() {
 
 #[test]
 fn a_closed_loop_has_the_states_of_its_controller() {
-    let set = [
-        ("diagram", "\"pid.toml\""),
-        ("/shoulder.motor.mode", "torque"),
-        ("/shoulder/elbow.motor.mode", "torque"),
-    ];
+    let set =
+        [("diagram", "\"pid.toml\""), ("/shoulder.motor.mode", "torque"), ("/shoulder/elbow.motor.mode", "torque")];
     let loaded = scene("two-dof-position", &set);
     let request =
         Request { inputs: vec![name("speed[0]")], outputs: vec![name("/shoulder.velocity")], is_closed: true };

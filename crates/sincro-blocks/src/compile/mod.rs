@@ -102,7 +102,7 @@ pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, Vec<
     widths::infer(&mut flat)?;
     let order = order::order(&flat)?;
     let rates = rates::infer(&flat, &order, interface.step)?;
-    units::check(&flat, &order)?;
+    units::infer(&mut flat, &order)?;
     Program::assemble(flat, &order, &rates, interface)
 }
 
@@ -136,8 +136,9 @@ pub(crate) struct FlatNode {
     pub output_names: Vec<String>,
     pub in_widths: Vec<Option<usize>>,
     pub out_widths: Vec<Option<usize>>,
-    /// Units of the world's ports; empty for blocks.
+    /// Units of the world's commands; empty for blocks.
     pub in_units: Vec<Option<Unit>>,
+    /// Units of the world's measurements, then of all outputs.
     pub out_units: Vec<Option<Unit>>,
 }
 

@@ -3,7 +3,8 @@
 use super::{EARLY, Flat, LATE, Problem};
 use crate::unit::Unit;
 
-pub(super) fn check(flat: &Flat, order: &[usize]) -> Result<(), Vec<Problem>> {
+/// Units of all outputs, as far as they are known, noted in the nodes.
+pub(super) fn infer(flat: &mut Flat, order: &[usize]) -> Result<(), Vec<Problem>> {
     let mut units: Vec<Vec<Option<Unit>>> = flat.nodes.iter().map(|n| vec![None; n.output_names.len()]).collect();
     units[EARLY].clone_from(&flat.nodes[EARLY].out_units);
     units[LATE].clone_from(&flat.nodes[LATE].out_units);
@@ -11,6 +12,9 @@ pub(super) fn check(flat: &Flat, order: &[usize]) -> Result<(), Vec<Problem>> {
     let _ = pass(flat, order, &mut units);
     let mut problems = pass(flat, order, &mut units);
     problems.extend(commands(flat, &units));
+    for (node, units) in flat.nodes.iter_mut().zip(units) {
+        node.out_units = units;
+    }
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 

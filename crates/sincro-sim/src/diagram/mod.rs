@@ -99,13 +99,13 @@ impl Controller {
 /// See [`Controller::entries`].
 fn entries(wiring: &Wiring) -> Vec<Entry> {
     let mut list = Vec::new();
-    for (name, range, _) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {
-        let unit = "";
+    for (name, range, unit) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {
+        let unit: std::borrow::Cow<'static, str> = unit.map_or("".into(), |u| u.to_string().into());
         match range.len() {
             1 => list.push(Entry { name, unit, probe: Probe::Signal(range.start) }),
             _ => list.extend(range.clone().map(|k| Entry {
                 name: format!("{name}[{}]", k - range.start),
-                unit,
+                unit: unit.clone(),
                 probe: Probe::Signal(k),
             })),
         }

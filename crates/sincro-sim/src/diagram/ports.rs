@@ -25,7 +25,7 @@ pub(crate) fn measurements(model: &Model<f64>) -> Vec<Measurement> {
         whole("q", (0..model.n_q()).map(Probe::Coordinate).collect()),
         whole("v", (0..model.n_v()).map(Probe::Rate).collect()),
     ];
-    list.extend(entries.iter().map(|entry| measurement(entry.name.clone(), entry.unit, vec![entry.probe])));
+    list.extend(entries.iter().map(|entry| measurement(entry.name.clone(), &entry.unit, vec![entry.probe])));
     list.extend(vectors(&entries));
     list
 }
@@ -50,7 +50,7 @@ fn vectors(entries: &[Entry]) -> Vec<Measurement> {
         if run > 1 {
             let stem = entries[k].name.rsplit_once('.').map_or("", |(stem, _)| stem);
             let probes = entries[k..k + run].iter().map(|e| e.probe).collect();
-            found.push(measurement(stem.to_owned(), entries[k].unit, probes));
+            found.push(measurement(stem.to_owned(), &entries[k].unit, probes));
         }
         k += run.max(1);
     }
@@ -87,12 +87,13 @@ pub(crate) fn commands(model: &Model<f64>) -> Vec<Terminal> {
     motors
         .map(|(m, motor)| {
             let name = with_motor(m).map_or_else(String::new, |j| j.name.clone());
-            let unit = catalogue(model).into_iter().find(|e| e.probe == Probe::Command(m)).map_or("", |e| e.unit);
+            let unit =
+                catalogue(model).into_iter().find(|e| e.probe == Probe::Command(m)).map_or("".into(), |e| e.unit);
             // an ideal motor jumps to what it is told: between ticks it cannot follow
             let is_special = motor.is_drive();
             let names =
                 if motor.mode == MotorMode::Free { Vec::new() } else { vec![name.clone(), format!("{name}.command")] };
-            Terminal { names, width: 1, unit: Unit::parse(unit).ok().filter(|_| !unit.is_empty()), is_special }
+            Terminal { names, width: 1, unit: Unit::parse(&unit).ok().filter(|_| !unit.is_empty()), is_special }
         })
         .collect()
 }

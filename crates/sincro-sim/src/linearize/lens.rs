@@ -277,9 +277,9 @@ fn describe(loaded: &Loaded, at: &LockStep, state: &State<f64>, z: &[f64]) -> (V
     for (k, dof) in model.dofs().iter().enumerate() {
         let coordinate = dof.coordinate().filter(|_| model.has_scalar_coordinate(k));
         match (coordinate.and_then(|q| named(Probe::Coordinate(q))), named(Probe::Rate(k))) {
-            (Some(entry), _) => axes.push(axis(&entry.name, entry.unit)),
+            (Some(entry), _) => axes.push(axis(&entry.name, &*entry.unit)),
             (None, rate) => {
-                let (name, unit) = rate.map_or((String::new(), ""), |e| (e.name.clone(), e.unit));
+                let (name, unit) = rate.map_or((String::new(), ""), |e| (e.name.clone(), &*e.unit));
                 let name = name.replace("angular_velocity", "rotation").replace("velocity", "displacement");
                 axes.push(axis(name, unit.trim_end_matches("/s")));
             }
@@ -288,7 +288,7 @@ fn describe(loaded: &Loaded, at: &LockStep, state: &State<f64>, z: &[f64]) -> (V
     }
     for k in 0..model.n_v() {
         let rate = named(Probe::Rate(k));
-        axes.push(rate.map_or_else(|| axis(format!("v[{k}]"), ""), |e| axis(&e.name, e.unit)));
+        axes.push(rate.map_or_else(|| axis(format!("v[{k}]"), ""), |e| axis(&e.name, &*e.unit)));
         values.push(state.v[k]);
     }
     if let Some(control) = at.control() {

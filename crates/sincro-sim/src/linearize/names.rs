@@ -84,7 +84,8 @@ fn default_inputs(loaded: &Loaded, at: &LockStep, all: &[Entry], is_closed: bool
     let is_driven = |m: usize| is_closed && drives(at, m);
     let free = (0..motors.len()).filter(|&m| !motors[m].is_drive() && !is_driven(m));
     let entry = |m: usize| all.iter().find(|e| e.probe == Probe::Command(m) && !e.unit.is_empty());
-    free.filter_map(|m| entry(m).map(|e| Input { axis: axis(&e.name, e.unit), what: InputKind::Command(m) })).collect()
+    free.filter_map(|m| entry(m).map(|e| Input { axis: axis(&e.name, &*e.unit), what: InputKind::Command(m) }))
+        .collect()
 }
 
 /// Whether the diagram gives the command of a motor.
@@ -112,10 +113,10 @@ fn input(
             "name the signal of the diagram that something is to be added to, or leave --closed-loop out",
         ),
         Some((entry, Probe::Command(m))) => {
-            Ok(Input { axis: axis(&entry.name, entry.unit), what: InputKind::Command(m) })
+            Ok(Input { axis: axis(&entry.name, &*entry.unit), what: InputKind::Command(m) })
         }
         Some((entry, Probe::Signal(k))) => {
-            Ok(Input { axis: axis(&entry.name, entry.unit), what: InputKind::Signal(k) })
+            Ok(Input { axis: axis(&entry.name, &*entry.unit), what: InputKind::Signal(k) })
         }
         Some(_) => error(
             format!("`{}` is a measurement, not an input", name.value),
@@ -150,7 +151,7 @@ fn output(all: &[Entry], name: &Located<String>) -> Result<Output, Problem> {
 }
 
 fn output_of(entry: &Entry) -> Output {
-    Output { axis: axis(&entry.name, entry.unit), probe: entry.probe }
+    Output { axis: axis(&entry.name, &*entry.unit), probe: entry.probe }
 }
 
 /// Blocks with a sample time are constants of the linear system: said where there are any that matter.

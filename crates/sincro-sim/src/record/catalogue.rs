@@ -1,5 +1,7 @@
 //! Every signal that a model offers, with its unit.
 
+use std::borrow::Cow;
+
 use sincro_dynamics::force::MotorMode;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
@@ -12,7 +14,7 @@ pub struct Entry {
     /// As it is written in `record`.
     pub name: String,
     /// SI unit.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// Where it is read.
     pub probe: Probe,
 }
@@ -24,7 +26,7 @@ struct List(Vec<Entry>);
 
 impl List {
     fn add(&mut self, name: String, unit: &'static str, probe: Probe) {
-        self.0.push(Entry { name, unit, probe });
+        self.0.push(Entry { name, unit: unit.into(), probe });
     }
 
     fn vector(&mut self, stem: &str, names: &[&str], unit: &'static str, probe: impl Fn(usize) -> Probe) {

@@ -116,7 +116,7 @@ impl Recorder {
 
     /// Names and units of the columns, `t` first.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &str)> {
-        [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), e.unit)))
+        [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), &*e.unit)))
     }
 
     /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's. To be called at every recorded instant, in order, the start included.

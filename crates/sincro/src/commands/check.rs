@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use sincro_blocks::program::Rate;
+use sincro_sim::diagram::Controller;
 use sincro_sim::overrides::Override;
 use sincro_sim::record::catalogue;
 use sincro_sim::run::{choose_method, method_word, model_hash};
@@ -39,7 +41,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     print(&loaded);
     if arguments.signals {
         say!("signals");
-        for entry in catalogue(&loaded.scene.model) {
+        let of_diagram = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+        for entry in catalogue(&loaded.scene.model).into_iter().chain(of_diagram) {
             say!("  {:<48} {}", entry.name, entry.unit);
         }
     }
@@ -56,6 +59,9 @@ fn print(loaded: &Loaded) {
     say!("model");
     say!("  {}, {} moving links, {} kg", degrees(model.n_v()), model.links().len(), short(model.total_mass()));
     say!("  hash {}", model_hash(model));
+    if let Some(controller) = &loaded.controller {
+        print_diagram(controller, experiment.step);
+    }
     let (method, warnings) = choose_method(scene, experiment);
     say!("run");
     say!(
@@ -78,6 +84,37 @@ fn print(loaded: &Loaded) {
     );
     for warning in warnings {
         say!("warning: {warning}");
+    }
+}
+
+/// The blocks in the order of evaluation: when each is evaluated, how many states it has.
+fn print_diagram(controller: &Controller, step: f64) {
+    let program = controller.wiring.program();
+    let count = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+    say!(
+        "diagram: {}, {}, {} in memory",
+        count(program.steps.len(), "block", "blocks"),
+        count(program.n_states, "continuous state", "continuous states"),
+        count(program.n_memory, "number", "numbers")
+    );
+    say!("  order of evaluation");
+    let width = program.steps.iter().map(|s| s.path.chars().count()).max().unwrap_or(0).min(40);
+    let kinds = program.steps.iter().map(|s| s.template.kind().name.len()).max().unwrap_or(0);
+    for (k, block) in program.steps.iter().enumerate() {
+        if k == program.n_early && !program.late.is_empty() {
+            say!("       world: accelerations under these commands");
+        }
+        let rate = match block.rate {
+            Rate::Constant => "constant".to_owned(),
+            Rate::Continuous => "continuous".to_owned(),
+            Rate::Sampled(every) => format!("every {} s", short(every as f64 * step)),
+        };
+        let states = match block.states.len() {
+            0 => String::new(),
+            n => format!(", {}", count(n, "state", "states")),
+        };
+        let kind = block.template.kind().name;
+        say!("  {:>3}  {:<width$}  {kind:<kinds$}  {rate}{states}", k + 1, block.path);
     }
 }
 
