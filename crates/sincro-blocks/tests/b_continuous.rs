@@ -399,3 +399,32 @@ fn what_is_wrong_with_equations_is_told_with_its_place() {
     let twice = [("inputs", Value::from(vec!["x"])), ("equations", vec!["x' = 1"].into())];
     assert!(faults("equations", &twice).contains("`x` has two meanings"));
 }
+
+#[test]
+fn equations_know_the_parameters_of_the_diagram_and_the_time() {
+    use sincro_blocks::kind::Described;
+    use sincro_blocks::reader::{NoFiles, Reader};
+    let read = |parameters: &[(&str, Value)]| {
+        let given = parameters.iter().map(|(key, x)| ((*key).to_owned(), x.clone())).collect();
+        let scope = [("k".to_owned(), 2.0), ("m".to_owned(), 100.0)].into();
+        let mut reader = Reader::new(Equations::KIND, &given, &scope, &NoFiles);
+        let plant = Equations::read(&mut reader);
+        (plant, reader.finish())
+    };
+    // the block's own `m` hides the diagram's
+    let own = table(&[("m", 3.0.into())]);
+    let given = [
+        ("equations", Value::from(vec!["x' = k*t + n"])),
+        ("parameters", own),
+        ("where", table(&[("n", "2*m".into())])),
+    ];
+    let (plant, faults) = read(&given);
+    assert!(faults.is_empty(), "{faults:?}");
+    let mut d = Diagram::new();
+    d.block("plant", plant);
+    let x = Solo::new(&d, STEP).unwrap().record("plant", 500);
+    // t² + 6t at 0.5 s
+    assert!(close(x[500], 3.25), "{}", x[500]);
+    let clash = [("equations", Value::from(vec!["x' = k"])), ("where", table(&[("k", "1".into())]))];
+    assert!(read(&clash).1[0].message.contains("`k` has two meanings"));
+}

@@ -2,8 +2,11 @@
 
 mod b_common;
 
-use b_common::{Random, answer, block, list, rows};
+use b_common::{Random, Samples, add, answer, block, driven, faults, list, rows};
+use sincro_blocks::diagram::{Diagram, What};
+use sincro_blocks::instance::Template;
 use sincro_blocks::reader::Value;
+use sincro_blocks::solo::Solo;
 
 const STEP: f64 = 0.01;
 
@@ -108,5 +111,130 @@ fn an_output_lag_is_a_backward_euler_step() {
     for y in y {
         expected = (0.03 * expected + STEP * 2.0) / 0.04;
         assert!((y - expected).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_delay_gives_back_every_sample_to_the_bit() {
+    let u = Random(15).list(30);
+    let y = answer(&u, STEP, block("delay", &[("samples", 4.0.into()), ("initial", 9.0.into())]));
+    assert!((0..30).all(|k| y[k] == if k < 4 { 9.0 } else { u[k - 4] }));
+    let one = block("delay", &[("samples", 1.0.into())]);
+    assert_eq!(answer(&u, STEP, one), answer(&u, STEP, block("unit-delay", &[])));
+    assert!(faults("delay", &[("samples", 0.0.into())]).contains("it must be 1 or more"));
+    assert_eq!(block("delay", &[("samples", 12.0.into())]).label(), "z⁻¹²");
+}
+
+/// A ramp of one a tick, through a block with a sample time of three ticks.
+fn every_third(block: Box<dyn Template>) -> Vec<f64> {
+    let mut d = Diagram::new();
+    d.block("u", Samples { values: (0..20).map(f64::from).collect() });
+    d.add("y", What::Block(block), Some(3.0 * STEP));
+    d.wire("u", "y");
+    Solo::new(&d, STEP).unwrap().record("y", 10)
+}
+
+#[test]
+fn holds_and_transitions_between_sample_times_are_at_once_or_a_sample_late() {
+    let held = [0.0, 0.0, 0.0, 3.0, 3.0, 3.0, 6.0, 6.0, 6.0, 9.0, 9.0];
+    let late = [-1.0, -1.0, -1.0, 0.0, 0.0, 0.0, 3.0, 3.0, 3.0, 6.0, 6.0];
+    assert_eq!(every_third(block("zero-order-hold", &[])), held);
+    assert_eq!(every_third(block("rate-transition", &[])), held);
+    let delayed = block("rate-transition", &[("delayed", true.into()), ("initial", (-1.0).into())]);
+    assert!(!delayed.feeds_through(0));
+    assert_eq!(every_third(delayed), late);
+    let two = block("delay", &[("samples", 2.0.into())]);
+    assert_eq!(every_third(two), [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 3.0]);
+}
+
+#[test]
+fn discrete_integrators_are_their_rules_and_keep_their_limits() {
+    // Ts = 1/8 and gain 8: plain sums
+    let of = |method: &str, extra: &[(&str, Value)]| {
+        let mut parameters = vec![("method", Value::from(method)), ("gain", 8.0.into())];
+        parameters.extend_from_slice(extra);
+        answer(&[1.0, 2.0, 4.0, 8.0, -16.0, 0.0], 0.125, block("discrete-integrator", &parameters))
+    };
+    assert_eq!(of("forward-euler", &[]), [0.0, 1.0, 3.0, 7.0, 15.0, -1.0]);
+    assert_eq!(of("backward-euler", &[]), [1.0, 3.0, 7.0, 15.0, -1.0, -1.0]);
+    assert_eq!(of("trapezoidal", &[]), [0.5, 2.0, 5.0, 11.0, 7.0, -1.0]);
+    let limited = [("upper", Value::from(6.0)), ("initial", 0.5.into())];
+    assert_eq!(of("forward-euler", &limited), [0.5, 1.5, 3.5, 6.0, 6.0, -10.0]);
+    assert_eq!(of("backward-euler", &limited), [1.5, 3.5, 6.0, 6.0, -10.0, -10.0]);
+}
+
+#[test]
+fn a_discrete_integrator_starts_again_after_a_reset() {
+    let mut d = Diagram::new();
+    d.block("u", Samples { values: vec![1.0] }).block("reset", Samples { values: vec![0.0, 0.0, 1.0, 0.0] });
+    let parameters = [("gain", Value::from(8.0)), ("initial", 10.0.into()), ("reset", true.into())];
+    add(&mut d, "y", block("discrete-integrator", &parameters));
+    d.wire("u", "y.u").wire("reset", "y.reset");
+    assert_eq!(Solo::new(&d, 0.125).unwrap().record("y", 5), [10.0, 11.0, 12.0, 10.0, 11.0, 12.0]);
+}
+
+#[test]
+fn a_discrete_derivative_undoes_the_integral() {
+    let u = [3.0, 5.0, 4.0];
+    let parameters = [("initial_input", Value::from(1.0))];
+    assert_eq!(answer(&u, 0.125, block("discrete-derivative", &parameters)), [16.0, 16.0, -8.0]);
+}
+
+#[test]
+fn a_filter_without_recursion_answers_an_impulse_with_its_weights() {
+    let fir = block("fir-filter", &[("coefficients", list(&[0.5, 0.25, -1.0]))]);
+    assert_eq!(answer(&[1.0, 0.0, 0.0, 0.0], STEP, fir), [0.5, 0.25, -1.0, 0.0]);
+    let late = block("fir-filter", &[("coefficients", list(&[0.0, 2.0]))]);
+    assert!(!late.feeds_through(0));
+    assert_eq!(answer(&[1.0, 3.0, 0.0], STEP, late), [0.0, 2.0, 6.0]);
+}
+
+#[test]
+fn a_recursive_filter_is_matlabs_filter_and_its_sections_their_product() {
+    // y[k] = (0.5 u[k] + u[k−1] + 0.5 y[k−1] − 0.25 y[k−2])/1
+    let u = Random(16).list(40);
+    let filter = block("iir-filter", &[("b", list(&[1.0, 2.0])), ("a", list(&[2.0, -1.0, 0.5]))]);
+    let y = answer(&u, STEP, filter);
+    for k in 2..40 {
+        let expected = 0.5 * u[k] + u[k - 1] + 0.5 * y[k - 1] - 0.25 * y[k - 2];
+        assert!((y[k] - expected).abs() < 1e-14);
+    }
+    // (1 + z⁻¹)/(1 − 0.5 z⁻¹) · (2 − z⁻²)/(1 + 0.25 z⁻²)
+    let sections = rows(&[&[1.0, 1.0, 0.0, 1.0, -0.5, 0.0], &[2.0, 0.0, -1.0, 1.0, 0.0, 0.25]]);
+    let cascade = answer(&u, STEP, block("iir-filter", &[("sections", sections)]));
+    let b = list(&[2.0, 2.0, -1.0, -1.0]);
+    let a = list(&[1.0, -0.5, 0.25, -0.125]);
+    let whole = answer(&u, STEP, block("iir-filter", &[("b", b), ("a", a)]));
+    assert!(cascade.iter().zip(&whole).all(|(a, b)| (a - b).abs() < 1e-13));
+    assert!(faults("iir-filter", &[("a", list(&[0.0, 1.0]))]).contains("first coefficient of `a` is 0"));
+    assert!(faults("iir-filter", &[("sections", list(&[1.0, 2.0]))]).contains("has 2 numbers"));
+}
+
+#[test]
+fn vectors_keep_their_components_apart() {
+    let kinds: [(&str, Vec<(&str, Value)>); 4] = [
+        (
+            "discrete-transfer-function",
+            vec![("numerator", list(&[1.0, 2.0])), ("denominator", list(&[1.0, 0.5, 0.25]))],
+        ),
+        ("fir-filter", vec![("coefficients", list(&[1.0, 2.0, 3.0]))]),
+        ("iir-filter", vec![("b", list(&[1.0, 2.0])), ("a", list(&[1.0, 0.5]))]),
+        (
+            "discrete-pid",
+            vec![("kp", 1.0.into()), ("ki", 2.0.into()), ("kd", 3.0.into()), ("output_time_constant", 0.1.into())],
+        ),
+    ];
+    for (kind, parameters) in kinds {
+        let mut d = driven(&[1.0, -2.0, 0.0], block(kind, &parameters));
+        d.block("alone", Samples { values: vec![-2.0] });
+        add(&mut d, "second", block(kind, &parameters));
+        d.wire("alone", "second");
+        let mut solo = Solo::new(&d, STEP).unwrap();
+        for _ in 0..10 {
+            let y = solo.output("y");
+            // a factor of −2 is exact
+            assert!(y[1] == solo.output("second")[0] && y[1] == -2.0 * y[0] && y[2] == 0.0, "{kind}");
+            solo.advance();
+        }
     }
 }

@@ -30,7 +30,7 @@ impl Described for StateSpace {
         equation: "x' = a x + b u, y = c x + d u, x(0) = initial",
         parameters: &[
             Parameter::required("a", Takes::Matrix, "system matrix, n × n [1/s]"),
-            Parameter::required("b", Takes::Matrix, "input matrix, n × inputs"),
+            Parameter::required("b", Takes::Matrix, "input matrix, n × inputs; of one input, a list will do"),
             Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
             Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
             Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),

@@ -108,13 +108,13 @@ impl Described for LookupTable {
 /// Breakpoints and values, from the parameters or from a file; empty after a fault.
 fn points(p: &mut Reader<'_>) -> (Vec<f64>, Vec<f64>) {
     let is_written = p.has("breakpoints") || p.has("values");
+    let (file, of_breakpoints, of_values) = (p.text("file"), p.text("breakpoints_column"), p.text("values_column"));
     if !p.has("file") {
         return (p.numbers("breakpoints"), p.numbers("values"));
     }
     if is_written {
         p.fault("file", "both a file and points are given", "leave `file`, or `breakpoints` and `values` out");
     }
-    let (file, of_breakpoints, of_values) = (p.text("file"), p.text("breakpoints_column"), p.text("values_column"));
     let breakpoints = p.column("file", &file, &of_breakpoints);
     (breakpoints, p.column("file", &file, &of_values))
 }

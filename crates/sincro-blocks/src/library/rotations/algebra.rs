@@ -1,0 +1,197 @@
+//! Quaternions (w, x, y, z), rotation matrices row by row, and Euler angles, over any [`Real`].
+//!
+//! All rotate vectors: the matrix R_wb, and the quaternion q_wb, take components in B to components in W.
+
+use sincro_math::{Real, elementary};
+
+use crate::kind::{Parameter, Takes};
+use crate::reader::Reader;
+
+/// w, x, y, z.
+pub(super) type Quaternion<R> = [R; 4];
+/// Row by row.
+pub(super) type Matrix3<R> = [R; 9];
+/// In the order in which the convention names them.
+pub(super) type Angles<R> = [R; 3];
+
+/// What three Euler angles `[rad]` mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Convention {
+    /// Roll, pitch, yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll), as of aircraft and vehicles.
+    #[default]
+    Zyx,
+    /// α, β, γ: R = Rx(α)·Ry(β)·Rz(γ), as in V-REP and CoppeliaSim.
+    Xyz,
+}
+
+pub(super) const CONVENTION: Parameter = Parameter::optional(
+    "convention",
+    Takes::Choice(&["zyx", "xyz"]),
+    "zyx: roll, pitch, yaw with R = Rz(yaw)·Ry(pitch)·Rx(roll); xyz: α, β, γ with R = Rx(α)·Ry(β)·Rz(γ), as in V-REP",
+    "zyx",
+);
+
+impl Convention {
+    pub(super) fn read(p: &mut Reader<'_>) -> Self {
+        if p.choice("convention") == 0 { Self::Zyx } else { Self::Xyz }
+    }
+
+    /// As it stands in a drawing.
+    pub(super) fn text(self) -> &'static str {
+        match self {
+            Self::Zyx => "zyx",
+            Self::Xyz => "xyz",
+        }
+    }
+}
+
+/// Below this cosine of the middle angle the outer two turn about one axis: the leftmost in the product (yaw; α) is then taken as zero.
+const LOCKED: f64 = 1e-12;
+
+/// p ⊗ q: first q, then p.
+#[inline(always)]
+pub(super) fn product<R: Real>(p: Quaternion<R>, q: Quaternion<R>) -> Quaternion<R> {
+    [
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
+        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
+    ]
+}
+
+/// The rotation back.
+#[inline(always)]
+pub(super) fn conjugate<R: Real>(q: Quaternion<R>) -> Quaternion<R> {
+    [q[0], -q[1], -q[2], -q[3]]
+}
+
+/// The rotation matrix of `q/|q|`.
+#[inline(always)]
+pub(super) fn quaternion_to_matrix<R: Real>(q: Quaternion<R>) -> Matrix3<R> {
+    let [w, x, y, z] = q;
+    let s = R::splat(2.0) / (w * w + x * x + y * y + z * z);
+    let one = R::one();
+    [
+        one - s * (y * y + z * z),
+        s * (x * y - w * z),
+        s * (x * z + w * y),
+        s * (x * y + w * z),
+        one - s * (x * x + z * z),
+        s * (y * z - w * x),
+        s * (x * z - w * y),
+        s * (y * z + w * x),
+        one - s * (x * x + y * y),
+    ]
+}
+
+/// The quaternion with w ≥ 0; the component of largest size is found first, so that nothing small is divided by (Shepperd's method).
+#[inline(always)]
+pub(super) fn matrix_to_quaternion<R: Real>(m: Matrix3<R>) -> Quaternion<R> {
+    let one = R::one();
+    // 4w², 4x², 4y², 4z²
+    let squares =
+        [one + m[0] + m[4] + m[8], one + m[0] - m[4] - m[8], one - m[0] + m[4] - m[8], one - m[0] - m[4] + m[8]];
+    let largest = (1..4).fold(0, |best, k| if squares[k].lane(0) > squares[best].lane(0) { k } else { best });
+    let size = squares[largest].sqrt();
+    let (own, f) = (R::splat(0.5) * size, R::splat(0.5) / size);
+    let (wx, wy, wz) = (f * (m[7] - m[5]), f * (m[2] - m[6]), f * (m[3] - m[1]));
+    let (xy, xz, yz) = (f * (m[3] + m[1]), f * (m[2] + m[6]), f * (m[7] + m[5]));
+    let q = match largest {
+        0 => [own, wx, wy, wz],
+        1 => [wx, own, xy, xz],
+        2 => [wy, xy, own, yz],
+        _ => [wz, xz, yz, own],
+    };
+    let zero = R::zero();
+    q.map(|x| q[0].if_less(zero, -x, x))
+}
+
+/// The quaternion of Euler angles.
+#[inline(always)]
+pub(super) fn euler_to_quaternion<R: Real>(angles: Angles<R>, convention: Convention) -> Quaternion<R> {
+    let (zero, half) = (R::zero(), R::splat(0.5));
+    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(|angle| (half * angle).sin_cos());
+    let (x, y, z) = ([cx, sx, zero, zero], [cy, zero, sy, zero], [cz, zero, zero, sz]);
+    match convention {
+        Convention::Zyx => product(z, product(y, x)),
+        Convention::Xyz => product(x, product(y, z)),
+    }
+}
+
+/// The rotation matrix of Euler angles.
+#[inline(always)]
+pub(super) fn euler_to_matrix<R: Real>(angles: Angles<R>, convention: Convention) -> Matrix3<R> {
+    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    match convention {
+        Convention::Zyx => [
+            cz * cy,
+            cz * sy * sx - sz * cx,
+            cz * sy * cx + sz * sx,
+            sz * cy,
+            sz * sy * sx + cz * cx,
+            sz * sy * cx - cz * sx,
+            -sy,
+            cy * sx,
+            cy * cx,
+        ],
+        Convention::Xyz => [
+            cy * cz,
+            -cy * sz,
+            sy,
+            sx * sy * cz + cx * sz,
+            cx * cz - sx * sy * sz,
+            -sx * cy,
+            sx * sz - cx * sy * cz,
+            cx * sy * sz + sx * cz,
+            cx * cy,
+        ],
+    }
+}
+
+/// Euler angles of a rotation matrix: the middle one in [−π/2, π/2], the others in [−π, π].
+///
+/// The leftmost rotation is found first and taken away, the rightmost read from what is left: so both fit together however near the
+/// middle angle is to ±π/2.
+#[inline(always)]
+pub(super) fn matrix_to_euler<R: Real>(m: Matrix3<R>, convention: Convention) -> Angles<R> {
+    let angle = |y: R, x: R| y.map2(x, elementary::atan2);
+    let leftmost = |y: R, x: R, cos: R| if cos.lane(0) < LOCKED { R::zero() } else { angle(y, x) };
+    match convention {
+        Convention::Zyx => {
+            let cos = m[0].map2(m[3], elementary::hypot);
+            let yaw = leftmost(m[3], m[0], cos);
+            let (s, c) = yaw.sin_cos();
+            [angle(s * m[2] - c * m[5], c * m[4] - s * m[1]), angle(-m[6], cos), yaw]
+        }
+        Convention::Xyz => {
+            let cos = m[5].map2(m[8], elementary::hypot);
+            let first = leftmost(-m[5], m[8], cos);
+            let (s, c) = first.sin_cos();
+            [first, angle(m[2], cos), angle(c * m[3] + s * m[6], c * m[4] + s * m[7])]
+        }
+    }
+}
+
+/// R·v, or Rᵀ·v.
+#[inline(always)]
+pub(super) fn rotate<R: Real>(m: Matrix3<R>, v: [R; 3], inverse: bool) -> [R; 3] {
+    let entry = |i: usize, k: usize| if inverse { m[3 * k + i] } else { m[3 * i + k] };
+    core::array::from_fn(|i| entry(i, 0) * v[0] + entry(i, 1) * v[1] + entry(i, 2) * v[2])
+}
+
+/// Rates of the Euler angles of a body that turns with the angular velocity `w` in its own axes; not finite where the middle angle is
+/// ±π/2.
+#[inline(always)]
+pub(super) fn euler_rates<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> Angles<R> {
+    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    match convention {
+        Convention::Zyx => {
+            let yaw = (w[1] * sx + w[2] * cx) / cy;
+            [w[0] + yaw * sy, w[1] * cx - w[2] * sx, yaw]
+        }
+        Convention::Xyz => {
+            let first = (w[0] * cz - w[1] * sz) / cy;
+            [first, w[0] * sz + w[1] * cz, w[2] - first * sy]
+        }
+    }
+}
