@@ -62,33 +62,59 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
             entry.sample_time.get_or_insert(sample_time);
         }
     }
-    let measurements = ports::measurements(setting.model);
-    let interface = Interface {
-        step: setting.step,
-        seed: setting.seed,
-        measurements: measurements.iter().map(|m| m.terminal.clone()).collect(),
-        commands: ports::commands(setting.model),
-    };
-    match compile(&diagram, &interface) {
-        Ok(program) => {
-            let wiring = Arc::new(Wiring::new(Arc::new(program), &measurements));
-            Ok(Controller { diagram, wiring })
-        }
-        Err(found) => {
-            let mut problems = Problems::new();
-            for problem in found {
-                let at = locate(document, &origin, &diagram, &problem.place);
-                let located = Problem::error(&at, problem.message).with_help(problem.help);
-                if !problems.0.contains(&located) {
-                    problems.push(located);
-                }
+    Controller::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
+        let mut problems = Problems::new();
+        for problem in found {
+            let at = locate(document, &origin, &diagram, &problem.place);
+            let located = Problem::error(&at, problem.message).with_help(problem.help);
+            if !problems.0.contains(&located) {
+                problems.push(located);
             }
-            Err(problems.sorted())
         }
-    }
+        problems.sorted()
+    })
 }
 
 impl Controller {
+    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything random.
+    ///
+    /// ```
+    /// use sincro_blocks::diagram::Diagram;
+    /// use sincro_blocks::library::maths::Gain;
+    /// use sincro_sim::diagram::Controller;
+    ///
+    /// let scene = r#"
+    /// joint = [{ name = "hinge", kind = "revolute", axis = [0, 1, 0], motor = { mode = "torque" } }]
+    /// body = [{ name = "arm", parent = "/hinge", mass = 1, center_of_mass = [0, 0, -0.5], inertia = { xx = 0.1, yy = 0.1, zz = 0.01 } }]
+    /// "#;
+    /// let scene = sincro_sim::scene::from_text(scene).unwrap();
+    /// let mut diagram = Diagram::new();
+    /// diagram.block("spring", Gain::new(-20.0)).wire("/hinge.position", "spring").wire("spring", "/hinge");
+    /// let controller = Controller::new(diagram, &scene.model, 0.001, 0).unwrap();
+    /// assert_eq!(controller.entries()[0].name, "spring");
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the diagram.
+    pub fn new(
+        diagram: Diagram,
+        model: &Arc<Model<f64>>,
+        step: f64,
+        seed: u64,
+    ) -> Result<Self, Vec<sincro_blocks::compile::Problem>> {
+        let measurements = ports::measurements(model);
+        let interface = Interface {
+            step,
+            seed,
+            measurements: measurements.iter().map(|m| m.terminal.clone()).collect(),
+            commands: ports::commands(model),
+        };
+        let program = Arc::new(compile(&diagram, &interface)?);
+        let wiring = Arc::new(Wiring::new(program, &measurements));
+        Ok(Self { diagram, wiring })
+    }
+
     /// The diagram's signals as they are recorded: `block`, `block.port`, components of vectors as `block[0]`.
     #[must_use]
     pub fn entries(&self) -> Vec<Entry> {

@@ -31,6 +31,8 @@ pub(crate) enum FigureKind {
     Batch,
     /// Time of 200 links over that of 100
     Growth,
+    /// What a block diagram adds to a step
+    Diagram,
     /// Bytes of one world
     Memory,
     /// Errors at default settings
@@ -230,6 +232,12 @@ impl<'a> Session<'a> {
             let (gain, note) = thread_gain(&robot.scene, self.options.seconds_per_figure);
             self.push(row("batch threads", gain, "×", &note));
         }
+        if self.wants(FigureKind::Diagram) && robot.name == "arm2" {
+            for (figure, with, without) in super::diagrams::figures() {
+                let (added, note) = added(with, without, self.options.seconds_per_figure);
+                self.push(row(figure, added, "ns", &note));
+            }
+        }
         if self.wants(FigureKind::Memory) {
             let bytes = subjects::memory(&robot.scene, subjects::default_method(&robot.scene));
             self.push(row("memory", bytes as f64 * 1e-3, "kB", &format!("{default}; the model left out")));
@@ -265,6 +273,19 @@ impl<'a> Session<'a> {
         let (figure, value) = ("growth chain200/chain100", median(ratios));
         self.push(Row { model: "chain200", figure, value, unit: "×", timing: None, note, rivals: Vec::new() });
     }
+}
+
+/// What something adds to a step: the median of the differences of neighbours, measured in turn.
+fn added(with: Subject, without: Subject, seconds: f64) -> (f64, String) {
+    let (mut with, mut without) = (Meter::new(with), Meter::new(without));
+    let share = seconds / ROUNDS as f64;
+    let (mut differences, mut whole) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        let (long, short) = (with.round(share), without.round(share));
+        differences.push(long.cpu - short.cpu);
+        whole.push(long.cpu);
+    }
+    (median(differences), format!("of {:.0} ns, semi-implicit step", median(whole)))
 }
 
 /// Ours, peer, ours, peer … ours: the ratio is the median of the ratios of neighbours.

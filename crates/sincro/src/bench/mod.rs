@@ -7,6 +7,7 @@
 mod accuracy;
 mod bars;
 mod clock;
+mod diagrams;
 mod figures;
 mod models;
 mod peer;
