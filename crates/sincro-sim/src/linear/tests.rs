@@ -100,7 +100,8 @@ fn a_sampled_pole_has_the_rates_of_its_continuous_one() {
 
 #[test]
 fn zeros_are_those_of_the_numerator() {
-    let cases: [(&[f64], f64, &[(f64, f64)]); 6] = [
+    type Case<'a> = (&'a [f64], f64, &'a [(f64, f64)]);
+    let cases: [Case; 6] = [
         // none
         (&[1.0], 0.0, &[]),
         // at zero: s
@@ -168,7 +169,7 @@ fn frequency_response_is_the_closed_form() {
 #[test]
 fn phase_takes_the_turns_of_its_factors() {
     let ends = |system: StateSpace| {
-        let bode = system.bode(0, 0, None).unwrap();
+        let bode = system.bode(0, 0).unwrap();
         let jumps = bode.phase_deg.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 181.0);
         assert!(jumps, "{:?}", bode.phase_deg);
         (bode.phase_deg[0].round(), bode.phase_deg.last().unwrap().round())
@@ -190,7 +191,7 @@ fn phase_takes_the_turns_of_its_factors() {
 #[test]
 fn margins_of_a_third_order_loop_are_the_closed_form() {
     // k / (s (s + 1) (s + 5)): −180° at ω = √5, where |G| = k/30 (a classic, key `ogata2010`, chapter 7)
-    let bode = transfer(&[10.0], &[0.0, 5.0, 6.0], 0.0).bode(0, 0, None).unwrap();
+    let bode = transfer(&[10.0], &[0.0, 5.0, 6.0], 0.0).bode(0, 0).unwrap();
     let gain = bode.gain_margin().unwrap();
     assert!((gain.omega - 5.0_f64.sqrt()).abs() < 1e-9 && (gain.value - 9.542_425_094_393_25).abs() < 1e-9);
     // |G| = 1: ω²(ω² + 1)(ω² + 25) = 100, and 90° − atan ω − atan ω/5 there
@@ -203,7 +204,7 @@ fn margins_of_a_third_order_loop_are_the_closed_form() {
 
 #[test]
 fn a_double_integrator_has_no_phase_margin() {
-    let bode = transfer(&[1.0], &[0.0, 0.0], 0.0).bode(0, 0, None).unwrap();
+    let bode = transfer(&[1.0], &[0.0, 0.0], 0.0).bode(0, 0).unwrap();
     let phase = bode.phase_margin().unwrap();
     assert!((phase.omega - 1.0).abs() < 1e-12 && phase.value.abs() < 1e-12);
     assert!(bode.gain_margins.is_empty());
