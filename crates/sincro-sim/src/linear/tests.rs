@@ -150,6 +150,11 @@ fn a_hidden_mode_is_pole_and_zero_and_no_path_is_said() {
 fn static_gain_is_the_transfer_function_at_zero() {
     assert!((transfer(&[6.0, 1.0], &[3.0, 2.0], 0.5).gain(0, 0).unwrap() - 2.5).abs() < 1e-14);
     assert_eq!(transfer(&[6.0], &[0.0, 2.0], 0.0).gain(0, 0), None);
+    // the velocity of a pushed mass with friction settles, though its position does not
+    let pushed = system(2, &[0.0, 1.0, 0.0, -2.0], &[0.0, 1.0], &[0.0, 1.0], 0.0);
+    assert!((pushed.gain(0, 0).unwrap() - 0.5).abs() < 1e-15);
+    assert!(pushed.step_response(0, 0, None).final_value.is_some());
+    assert_eq!(pushed.minimal(0, 0).n_states(), 1);
     let mut sampled = system(1, &[0.75], &[1.0], &[1.0], 0.0);
     sampled.sample_time = Some(0.1);
     assert!((sampled.gain(0, 0).unwrap() - 4.0).abs() < 1e-14);

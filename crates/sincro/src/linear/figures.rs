@@ -15,7 +15,10 @@ const MAP_SHARE: f64 = 1.5;
 /// If the map is so much wider than high, or the other way round, its axes have scales of their own.
 const MOST_ASPECT: f64 = 6.0;
 
-/// File name and figure: the maps first, then channel by channel.
+/// Rays whose ends are nearer than this share of the map are left out.
+const CROWDED: f64 = 0.07;
+
+/// File name and figure, channel by channel.
 pub(super) fn all(analysis: &Analysis) -> Vec<(String, Figure)> {
     let mut figures = Vec::new();
     for (k, channel) in analysis.shown().iter().enumerate() {
@@ -64,11 +67,7 @@ fn add_margins(magnitude: &mut Panel, phase: &mut Panel, channel: &Channel) {
         phase.guides.push(guide(full(margin.omega), String::new(), Weight::Dotted));
         // the −180° that the margin is counted from, which a turn or two may have moved
         let foot = at - margin.value;
-        phase.guides.push(guide(
-            vec![(0.0_f64.max(bode.omega[0]), foot), (f64::INFINITY, foot)],
-            String::new(),
-            Weight::Axis,
-        ));
+        phase.guides.push(guide(vec![(f64::NEG_INFINITY, foot), (f64::INFINITY, foot)], String::new(), Weight::Axis));
         phase.guides.push(guide(span, format!("phase margin {phase_words}"), Weight::Strong));
     }
 }
@@ -84,7 +83,8 @@ fn phase_at(bode: &Bode, omega: f64) -> f64 {
 pub(super) fn map(analysis: &Analysis, channel: Option<&Channel>) -> Figure {
     let poles: Vec<Complex<f64>> = analysis.poles.iter().map(|mode| mode.pole).collect();
     let zeros: &[Complex<f64>] = channel.map_or(&[], |channel| &channel.zeros);
-    let (width, height) = map_range(poles.iter().chain(zeros).copied());
+    let circle = analysis.system.sample_time.map(|_| [Complex::new(-1.0, 1.0), Complex::new(1.0, -1.0)]);
+    let (width, height) = map_range(poles.iter().chain(zeros).copied().chain(circle.into_iter().flatten()));
     let unit = if analysis.system.sample_time.is_some() { "" } else { "1/s" };
     let mut panel = Panel::new(Axis { range: Some(height), ..Axis::new("imaginary part", unit) });
     panel.share = MAP_SHARE;
@@ -92,6 +92,8 @@ pub(super) fn map(analysis: &Analysis, channel: Option<&Channel>) -> Figure {
     panel.guides.push(line(vec![(0.0, f64::NEG_INFINITY), (0.0, f64::INFINITY)], Weight::Axis));
     if analysis.system.sample_time.is_none() {
         panel.guides.extend(damping_lines(width.0, height.1));
+    } else {
+        panel.guides.push(unit_circle());
     }
     let cloud = |name: &str, signal, stroke, values: &[Complex<f64>]| {
         let (x, y) = values.iter().map(|z| (z.re, z.im)).unzip();
@@ -132,16 +134,23 @@ fn map_range(points: impl Iterator<Item = Complex<f64>>) -> ((f64, f64), (f64, f
     ((left - 0.6 * spare, right + 0.4 * spare), (-up, up))
 }
 
-/// Rays of equal damping, up to the edge of the map, with ζ at their ends.
+/// Rays of equal damping out of the map, with ζ at their ends; where they would crowd, only some.
 fn damping_lines(left: f64, high: f64) -> Vec<Guide> {
     let mut lines = Vec::new();
+    let mut last = (f64::INFINITY, f64::INFINITY);
     for zeta in DAMPING_RATIOS {
         let slope = (1.0 - zeta * zeta).sqrt() / zeta;
-        let reach = if -left * slope > high { (-high / slope, high) } else { (left, -left * slope) };
+        // where the ray leaves the map, in shares of its width and height
+        let steepness = -left * slope / high;
+        let end = if steepness > 1.0 { (1.0 / steepness, 1.0) } else { (1.0, steepness) };
+        if (end.0 - last.0).abs() < CROWDED && (end.1 - last.1).abs() < CROWDED {
+            continue;
+        }
+        last = end;
         for side in [1.0, -1.0] {
             let label = if side > 0.0 { format!("ζ {zeta}") } else { String::new() };
             lines.push(Guide {
-                points: vec![(0.0, 0.0), (reach.0, side * reach.1)],
+                points: vec![(0.0, 0.0), (2.0 * end.0 * left, 2.0 * end.1 * side * high)],
                 name: String::new(),
                 label,
                 weight: Weight::Faint,
@@ -149,6 +158,16 @@ fn damping_lines(left: f64, high: f64) -> Vec<Guide> {
         }
     }
     lines
+}
+
+/// The border of stability of a sampled system.
+fn unit_circle() -> Guide {
+    let corner = |k: i32| {
+        let (sine, cosine) = sincro_math::elementary::sin_cos(std::f64::consts::TAU * f64::from(k) / 120.0);
+        (cosine, sine)
+    };
+    let points = (0..=120).map(corner).collect();
+    Guide { points, name: "unit circle".to_owned(), label: String::new(), weight: Weight::Faint }
 }
 
 /// The answer to a unit step, and where it settles.

@@ -4,14 +4,11 @@
 //! [`MOST_CHANNELS`] channels; the files hold all of them.
 
 mod figures;
-mod files;
+pub(crate) mod files;
 mod page;
-mod text;
+pub(crate) mod text;
 
 use sincro_sim::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
-
-pub(crate) use files::write;
-pub(crate) use text::{StateTable, text};
 
 /// Channels that are shown in full.
 pub(crate) const MOST_CHANNELS: usize = 6;
@@ -91,18 +88,25 @@ impl<'a> Analysis<'a> {
         format!("from {} to {}", input.name, output.name)
     }
 
-    /// Unit of the gain of a channel: `rad/(N·m)`.
+    /// Unit of the gain of a channel: `rad/(N·m)`, `rad/(s·V)`.
     pub(crate) fn gain_unit(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input].unit, &self.system.outputs[channel.output].unit);
         match (output.as_str(), input.as_str()) {
             (output, "") => output.to_owned(),
             (output, input) if output == input => String::new(),
-            (output, input) => {
-                let input = if input.contains(['·', '/']) { format!("({input})") } else { input.to_owned() };
-                format!("{}/{input}", if output.is_empty() { "1" } else { output })
-            }
+            ("", input) => quotient("1", input),
+            (output, input) if input.contains('/') => format!("({output})/({input})"),
+            (output, input) => match output.split_once('/') {
+                Some((top, bottom)) => quotient(top, &format!("{}·{input}", bottom.trim_matches(['(', ')']))),
+                None => quotient(output, input),
+            },
         }
     }
+}
+
+/// A unit by another, in brackets where it needs them.
+fn quotient(top: &str, bottom: &str) -> String {
+    if bottom.contains(['·', '/']) { format!("{top}/({bottom})") } else { format!("{top}/{bottom}") }
 }
 
 impl Channel {

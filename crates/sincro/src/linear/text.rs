@@ -36,11 +36,11 @@ impl StateTable {
     /// The four matrices with their titles: the dynamics, the outputs.
     pub(crate) fn matrices(analysis: &Analysis) -> Vec<(&'static str, Self)> {
         let s = analysis.system;
-        let (rate, states, outputs) = if s.sample_time.is_some() { ("next ", "x", "y") } else { ("d/dt ", "x", "y") };
-        let dynamics = format!("{rate}x");
+        let (states, outputs) = ("x", "y");
+        let dynamics = if s.sample_time.is_some() { "next x" } else { "d/dt x" };
         [
-            ("A", Self::matrix(&s.a, (states, &s.states), "x", &dynamics)),
-            ("B", Self::matrix(&s.b, (states, &s.states), "u", &dynamics)),
+            ("A", Self::matrix(&s.a, (states, &s.states), "x", dynamics)),
+            ("B", Self::matrix(&s.b, (states, &s.states), "u", dynamics)),
             ("C", Self::matrix(&s.c, (outputs, &s.outputs), "x", "y")),
             ("D", Self::matrix(&s.d, (outputs, &s.outputs), "u", "y")),
         ]
@@ -54,7 +54,7 @@ impl StateTable {
         let head = ["pole [1/s]", "damping ζ", "ω_n [rad/s]", "time constant [s]"].map(str::to_owned).to_vec();
         let is_first = |mode: &&Mode| mode.pole.im >= 0.0;
         let row = |mode: &Mode| {
-            let value = |x: f64| significant(x, DIGITS);
+            let value = |x: f64| short(x, DIGITS);
             vec![
                 complex(mode.pole),
                 value(mode.damping_ratio),
@@ -70,7 +70,7 @@ impl StateTable {
         let head = ["channel", "static gain", "gain margin", "phase margin", "zeros [1/s]"].map(str::to_owned).to_vec();
         let row = |channel: &Channel| {
             let gain = channel.gain.map_or("∞".to_owned(), |gain| {
-                format!("{} {}", significant(gain, DIGITS), analysis.gain_unit(channel)).trim_end().to_owned()
+                format!("{} {}", short(gain, DIGITS), analysis.gain_unit(channel)).trim_end().to_owned()
             });
             let (gain_margin, phase_margin) = margins(channel);
             vec![analysis.name(channel), gain, gain_margin, phase_margin, zeros(&channel.zeros)]
@@ -184,10 +184,10 @@ pub(super) fn margins(channel: &Channel) -> (String, String) {
 /// `−1.5 ± 4.77j`: a pair, or a real number.
 pub(super) fn complex(z: Complex<f64>) -> String {
     if z.im == 0.0 {
-        return significant(z.re, DIGITS);
+        return short(z.re, DIGITS);
     }
-    let real = if z.re == 0.0 { String::new() } else { format!("{} ", significant(z.re, DIGITS)) };
-    format!("{real}± {}j", significant(z.im.abs(), DIGITS))
+    let real = if z.re == 0.0 { String::new() } else { format!("{} ", short(z.re, DIGITS)) };
+    format!("{real}± {}j", short(z.im.abs(), DIGITS))
 }
 
 /// Zeros, a pair once.

@@ -131,17 +131,22 @@ impl Frame<'_> {
         let edge = |scale: &Scale, value: f64| match value {
             f64::INFINITY => Some(1.0),
             f64::NEG_INFINITY => Some(0.0),
-            _ => scale.fraction(value).map(|at| at.clamp(-9.0, 9.0)),
+            _ => scale.fraction(value),
         };
-        let place = |&(x, y): &(f64, f64)| Some((self.across(edge(self.x, x)?), self.up(edge(self.y, y)?)));
-        let Some(corners) = guide.points.iter().map(place).collect::<Option<Vec<Point>>>() else { return };
+        let place = |&(x, y): &(f64, f64)| Some((edge(self.x, x)?, edge(self.y, y)?));
+        let Some(places) = guide.points.iter().map(place).collect::<Option<Vec<Point>>>() else { return };
+        let mut corners = places.clone();
+        for k in 1..corners.len() {
+            corners[k] = within_frame(places[k - 1], places[k]);
+        }
+        let corners: Vec<Point> = corners.into_iter().map(|(x, y)| (self.across(x), self.up(y))).collect();
         let (class, attributes) = guide_style(guide.weight);
         canvas.path(class, attributes, &polyline(&corners));
         if let (Some(&(x, y)), false) = (corners.last(), guide.label.is_empty() || fonts.is_thumbnail) {
             let half = 0.5 * width(&guide.label, fonts.tick);
             let x = x.clamp(self.left + half + 3.0, self.right - half - 3.0);
             let y = y.clamp(self.top + fonts.tick + 2.0, self.bottom - 5.0);
-            canvas.text((x, y), "middle", fonts.tick, "sp-quiet", &guide.label);
+            canvas.text((x, y), "middle", fonts.tick, "sp-halo", &guide.label);
         }
     }
 
@@ -249,13 +254,25 @@ fn stroke_attributes(look: Look) -> String {
     format!(r#"stroke-width="{}"{dash}"#, coordinate(look.weight))
 }
 
+/// The end of a line, or where it leaves the frame, in fractions of the frame; what starts outside is left as it is.
+fn within_frame(from: Point, to: Point) -> Point {
+    let share = |from: f64, to: f64| match to {
+        _ if !(0.0..=1.0).contains(&from) => 1.0,
+        to if to > 1.0 => (1.0 - from) / (to - from),
+        to if to < 0.0 => from / (from - to),
+        _ => 1.0,
+    };
+    let share = share(from.0, to.0).min(share(from.1, to.1));
+    (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+}
+
 /// Class and attributes of an auxiliary line.
 fn guide_style(weight: Weight) -> (&'static str, &'static str) {
     match weight {
         Weight::Faint => ("sp-guide", r#"stroke-dasharray="5 4""#),
         Weight::Axis => ("sp-axis", r#"stroke-width="0.8""#),
         Weight::Dotted => ("sp-limit", ""),
-        Weight::Strong => ("sp-guide", r#"stroke-width="2.4""#),
+        Weight::Strong => ("sp-guide sp-ref", r#"stroke-width="3""#),
     }
 }
 
