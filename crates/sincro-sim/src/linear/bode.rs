@@ -127,6 +127,9 @@ impl<'a> Channel<'a> {
             }
         };
         let a = &self.system.a;
+        if a.is_empty() {
+            return Complex::new(self.d, 0.0);
+        }
         let pencil = DMatrix::from_fn(a.nrows(), a.nrows(), |row, column| {
             let own = if row == column { s } else { Complex::new(0.0, 0.0) };
             own - a[(row, column)]

@@ -297,6 +297,23 @@ fn a_long_stiff_chain_is_reached() {
 }
 
 #[test]
+fn a_gain_without_states_is_a_system_too() {
+    let empty = StateSpace::from_matrices(
+        DMatrix::zeros(0, 0),
+        DMatrix::zeros(0, 1),
+        DMatrix::zeros(1, 0),
+        matrix(1, 1, &[-10.0]),
+    );
+    let empty = empty.unwrap();
+    assert_eq!((empty.poles().len(), empty.gain(0, 0), empty.is_stable()), (0, Some(-10.0), true));
+    let bode = empty.bode(0, 0).unwrap();
+    assert!(bode.magnitude_db.iter().all(|db| (db - 20.0).abs() < 1e-13));
+    assert!(bode.phase_deg.iter().all(|phase| (phase + 180.0).abs() < 1e-13));
+    assert!(empty.step_response(0, 0, None).values.iter().all(|y| *y == -10.0));
+    assert_eq!(lqr(&empty.a, &empty.b, &empty.a, &DMatrix::identity(1, 1)), Err(Problem::Empty));
+}
+
+#[test]
 fn regulators_have_their_closed_forms() {
     let one = DMatrix::identity(1, 1);
     // ẋ = a x + u, ∫ x² + u²: k = a + √(a² + 1)
