@@ -45,6 +45,28 @@ fn flexible() -> StateSpace {
     system
 }
 
+/// A lag behind two ticks of delay, sampled at 20 Hz.
+fn sampled() -> StateSpace {
+    let a = DMatrix::from_row_slice(3, 3, &[0.9, 0.1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 1.0]);
+    let c = DMatrix::from_row_slice(1, 3, &[1.0, 0.0, 0.0]);
+    let system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
+    StateSpace { sample_time: Some(0.05), ..system }
+}
+
+#[test]
+fn a_sampled_system_is_mapped_on_the_unit_circle() {
+    let system = sampled();
+    let analysis = Analysis::of("Sampled", &system);
+    assert!(text(&analysis).contains("sampled every 0.05 s") && text(&analysis).contains("next x"));
+    let figure = figures::map(&analysis, Some(&analysis.channels[0]));
+    assert!(svg(&figure, Size::wide(&figure)).contains("unit circle"));
+    // up to half the sampling frequency, where the lag has turned by −180° and two ticks by −360°
+    let bode = &analysis.channels[0].bode;
+    assert!((bode.omega.last().unwrap() - std::f64::consts::PI / 0.05).abs() < 1e-9);
+    assert!((bode.phase_deg.last().unwrap() + 540.0).abs() < 1.0, "{:?}", bode.phase_deg.last());
+}
+
 #[test]
 fn the_text_names_what_matters() {
     let system = servo();
@@ -123,7 +145,7 @@ fn the_folder_holds_every_file() {
     let out = std::env::temp_dir().join(format!("sincro-linear-{}", std::process::id()));
     // a folder to look at, if one is named
     let out = std::env::var_os("SINCRO_LOOK").map_or(out, std::path::PathBuf::from);
-    for (name, system) in [("servo", servo()), ("flexible", flexible())] {
+    for (name, system) in [("servo", servo()), ("flexible", flexible()), ("sampled", sampled())] {
         let folder = out.join(name);
         std::fs::create_dir_all(&folder).unwrap();
         let analysis = Analysis::of(name, &system);
