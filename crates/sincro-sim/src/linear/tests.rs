@@ -96,6 +96,10 @@ fn a_sampled_pole_has_the_rates_of_its_continuous_one() {
     let mut sampled = system(1, &[exp(-0.03).0], &[1.0], &[1.0], 0.0);
     sampled.sample_time = Some(0.01);
     assert!((sampled.poles()[0].time_constant - 1.0 / 3.0).abs() < 1e-13);
+    // dead beat: over after one tick
+    sampled.a[0] = 0.0;
+    let mode = sampled.poles()[0];
+    assert_eq!((mode.damping_ratio, mode.time_constant), (1.0, 0.0));
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub(super) fn html(analysis: &Analysis) -> String {
     let reach = list(&text::reach_lines(analysis));
     let body = [
         banner,
-        section("Poles", &(table(&StateTable::poles(&analysis.poles)) + &reach)),
+        section("Poles", &(table(&StateTable::poles(analysis)) + &reach)),
         channels(analysis),
         section("Channels", &overview(analysis)),
         section("Matrices", &matrices(analysis)),

@@ -50,8 +50,9 @@ impl StateTable {
     }
 
     /// The poles, a pair a row.
-    pub(crate) fn poles(poles: &[Mode]) -> Self {
-        let head = ["pole [1/s]", "damping ζ", "ω_n [rad/s]", "time constant [s]"].map(str::to_owned).to_vec();
+    pub(crate) fn poles(analysis: &Analysis) -> Self {
+        let pole = format!("pole{}", rate_unit(analysis));
+        let head = [pole.as_str(), "damping ζ", "ω_n [rad/s]", "time constant [s]"].map(str::to_owned).to_vec();
         let is_first = |mode: &&Mode| mode.pole.im >= 0.0;
         let row = |mode: &Mode| {
             let value = |x: f64| short(x, DIGITS);
@@ -62,12 +63,13 @@ impl StateTable {
                 value(mode.time_constant),
             ]
         };
-        Self { head, rows: poles.iter().filter(is_first).map(row).collect() }
+        Self { head, rows: analysis.poles.iter().filter(is_first).map(row).collect() }
     }
 
     /// The channels: gain, zeros, margins.
     pub(crate) fn channels(analysis: &Analysis) -> Self {
-        let head = ["channel", "static gain", "gain margin", "phase margin", "zeros [1/s]"].map(str::to_owned).to_vec();
+        let zero = format!("zeros{}", rate_unit(analysis));
+        let head = ["channel", "static gain", "gain margin", "phase margin", &zero].map(str::to_owned).to_vec();
         let row = |channel: &Channel| {
             let gain = channel.gain.map_or("∞".to_owned(), |gain| {
                 format!("{} {}", short(gain, DIGITS), analysis.gain_unit(channel)).trim_end().to_owned()
@@ -113,7 +115,7 @@ pub(crate) fn text(analysis: &Analysis) -> String {
     for (title, table) in StateTable::matrices(analysis) {
         out += &format!("\n{title}\n{}", table.aligned("  "));
     }
-    out += &format!("\npoles: {}\n{}", stability(analysis), StateTable::poles(&analysis.poles).aligned("  "));
+    out += &format!("\npoles: {}\n{}", stability(analysis), StateTable::poles(analysis).aligned("  "));
     for line in reach_lines(analysis) {
         out += &format!("  {line}\n");
     }
@@ -124,6 +126,11 @@ pub(crate) fn text(analysis: &Analysis) -> String {
         out += &format!("  {silent}\n");
     }
     out
+}
+
+/// Unit of poles and zeros; those of a sampled system are factors of one tick.
+fn rate_unit(analysis: &Analysis) -> &'static str {
+    if analysis.system.sample_time.is_some() { " a tick" } else { " [1/s]" }
 }
 
 /// Sizes and operating point.
