@@ -6,6 +6,8 @@
 mod bench;
 mod commands;
 mod diagnostics;
+#[cfg_attr(not(test), expect(dead_code, reason = "the command that linearises a scene calls it"))]
+mod linear;
 mod plot;
 mod present;
 mod report;

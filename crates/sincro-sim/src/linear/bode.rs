@@ -70,30 +70,32 @@ impl StateSpace {
         omegas.iter().map(|&omega| channel.at(omega)).collect()
     }
 
-    /// The frequency response of one channel over `range` (least and greatest `[rad/s]`); `None`: a decade beyond the poles and zeros.
+    /// The frequency response of one channel, from a decade below its poles and zeros to a decade above.
     ///
     /// # Errors
     ///
     /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn bode(&self, input: usize, output: usize, range: Option<(f64, f64)>) -> Result<Bode, Problem> {
-        let zeros = self.zeros(input, output)?;
-        let poles = eigenvalues(&self.a);
-        let corners = Corners::new(self, &poles, &zeros);
-        let omega = corners.grid(range.unwrap_or_else(|| corners.range()));
-        let channel = Channel::new(self, input, output);
-        let values: Vec<Complex<f64>> = omega.iter().map(|&w| channel.at(w)).collect();
-        let phase = match self.sample_time {
-            None => corners.phases(&omega, &values),
-            Some(_) => unwrapped(&values),
-        };
-        let magnitude_db = values.iter().map(|g| decibel(modulus(*g))).collect();
-        Ok(Bode {
-            gain_margins: gain_margins(&channel, &omega, &values),
-            phase_margins: phase_margins(&channel, &omega, &values),
-            magnitude_db,
-            phase_deg: phase.into_iter().map(f64::to_degrees).collect(),
-            omega,
-        })
+    pub fn bode(&self, input: usize, output: usize) -> Result<Bode, Problem> {
+        let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
+        Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))
+    }
+
+    /// The frequency response of one channel at these frequencies, ascending `[rad/s]`. Crossovers are looked for between neighbours.
+    ///
+    /// # Errors
+    ///
+    /// [`Problem::NoPath`]: the output does not depend on the input.
+    pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, Problem> {
+        let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
+        Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec()))
+    }
+
+    /// Frequencies that show every pole and the zeros of every channel `[rad/s]`: even in the logarithm, more about resonances.
+    #[must_use]
+    pub fn frequencies(&self) -> Vec<f64> {
+        let channels = (0..self.n_inputs()).flat_map(|i| (0..self.n_outputs()).map(move |o| (i, o)));
+        let zeros: Vec<Complex<f64>> = channels.filter_map(|(i, o)| self.zeros(i, o).ok()).flatten().collect();
+        Corners::new(self, &eigenvalues(&self.a), &zeros).grid()
     }
 }
 
@@ -125,6 +127,9 @@ impl<'a> Channel<'a> {
             }
         };
         let a = &self.system.a;
+        if a.is_empty() {
+            return Complex::new(self.d, 0.0);
+        }
         let pencil = DMatrix::from_fn(a.nrows(), a.nrows(), |row, column| {
             let own = if row == column { s } else { Complex::new(0.0, 0.0) };
             own - a[(row, column)]
@@ -174,8 +179,21 @@ impl Corners {
         (power_of_ten(first), self.nyquist.unwrap_or_else(|| power_of_ten(last)))
     }
 
+    fn bode(&self, channel: &Channel, omega: Vec<f64>) -> Bode {
+        let values: Vec<Complex<f64>> = omega.iter().map(|&w| channel.at(w)).collect();
+        let phase = if self.nyquist.is_some() { unwrapped(&values) } else { self.phases(&omega, &values) };
+        Bode {
+            magnitude_db: values.iter().map(|g| decibel(modulus(*g))).collect(),
+            phase_deg: phase.into_iter().map(f64::to_degrees).collect(),
+            gain_margins: gain_margins(channel, &omega, &values),
+            phase_margins: phase_margins(channel, &omega, &values),
+            omega,
+        }
+    }
+
     /// Even in the logarithm, with more points about each resonance.
-    fn grid(&self, (first, last): (f64, f64)) -> Vec<f64> {
+    fn grid(&self) -> Vec<f64> {
+        let (first, last) = self.range();
         let decades = log10(last / first).0;
         let n = ((decades * PER_DECADE as f64).ceil() as usize).max(2);
         let ratio = ln(last / first).0;

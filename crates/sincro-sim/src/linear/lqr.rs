@@ -1,9 +1,8 @@
 //! Linear-quadratic regulators: the feedback `u = −K x` of least cost. Cost: some twenty inversions of `2n×2n` and `n×n` matrices.
 //!
 //! Continuous, `∫ xᵀQx + uᵀRu dt`: `P` from `AᵀP + PA − P B R⁻¹ Bᵀ P + Q = 0` by the sign of the Hamiltonian matrix
-//! (key `roberts1980`), then one step of Newton's method for the Riccati equation, which is a Lyapunov equation (key
-//! `kleinman1968`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`), then one step of the recursion itself, which
-//! contracts. `K = R⁻¹BᵀP` and `K = (R + BᵀPB)⁻¹ BᵀPA`.
+//! (key `roberts1980`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`). Then a few steps of Newton's method: the next
+//! `P` is what the feedback of the last one costs (key `kleinman1968`, key `hewer1971`). `K = R⁻¹BᵀP` and `K = (R + BᵀPB)⁻¹ BᵀPA`.
 
 use super::lyapunov::{lyapunov, sign, symmetric};
 use super::modes::eigenvalues;
@@ -14,6 +13,8 @@ use super::{Complex, DMatrix, Problem, modulus};
 const NOTHING: f64 = 1e-12;
 /// A mode whose `[A − λI, B]` has a singular value below this share of its greatest is not reached.
 const UNREACHED: f64 = 1e-11;
+/// Steps of Newton's method at the end; it doubles the digits, so the second already meets rounding.
+const MOST_REFINEMENTS: usize = 4;
 /// Doublings: 2⁶⁰ ticks are for ever.
 const MOST_DOUBLINGS: usize = 60;
 
@@ -51,17 +52,17 @@ pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64
     let r_inverse = inverse_of_weight(r)?;
     let gain = |p: &DMatrix<f64>| &r_inverse * b.transpose() * p;
     let p = by_sign(a, &symmetric(&(b * &r_inverse * b.transpose())), q).ok_or(Problem::NotDetectable)?;
-    // Kleinman's step: the cost of the feedback that P gives
-    let k = gain(&p);
-    let closed = a - b * &k;
-    let p = lyapunov(&closed, &symmetric(&(q + k.transpose() * r * &k))).ok_or(Problem::NotDetectable)?;
-    let k = gain(&p);
-    let poles = eigenvalues(&(a - b * &k));
-    if poles.iter().any(|pole| pole.re >= 0.0) {
-        return Err(Problem::NotDetectable);
-    }
-    let terms = [a.transpose() * &p, &p * a, -(k.transpose() * r * &k), q.clone()];
-    Ok(Regulator { residual: imbalance(&terms), k, p, poles })
+    refined(p, |p| {
+        let k = gain(p);
+        let closed = a - b * &k;
+        let poles = eigenvalues(&closed);
+        let is_stable = poles.iter().all(|pole| pole.re < 0.0);
+        let terms = [a.transpose() * p, p * a, -(k.transpose() * r * &k), q.clone()];
+        let regulator = Regulator { residual: imbalance(&terms), p: p.clone(), poles, k };
+        // the cost of this feedback is the next P
+        let next = || lyapunov(&closed, &symmetric(&(q + regulator.k.transpose() * r * &regulator.k)));
+        is_stable.then(|| (next(), regulator.clone()))
+    })
 }
 
 /// The regulator of `x⁺ = A x + B u` that makes `Σ xᵀQx + uᵀRu` least.
@@ -78,15 +79,55 @@ pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f6
         weight.cholesky().map(|factor| factor.solve(&(b.transpose() * p * a)))
     };
     let p = by_doubling(a, &g, q).ok_or(Problem::NotDetectable)?;
-    let k = gain(&p).ok_or(Problem::NotDetectable)?;
-    let p = symmetric(&(q + a.transpose() * &p * (a - b * &k)));
-    let k = gain(&p).ok_or(Problem::NotDetectable)?;
-    let poles = eigenvalues(&(a - b * &k));
-    if poles.iter().any(|pole| modulus(*pole) >= 1.0) {
-        return Err(Problem::NotDetectable);
+    refined(p, |p| {
+        let k = gain(p)?;
+        let closed = a - b * &k;
+        let poles = eigenvalues(&closed);
+        let is_stable = poles.iter().all(|pole| modulus(*pole) < 1.0);
+        let terms = [a.transpose() * p * &closed, -p, q.clone()];
+        let regulator = Regulator { residual: imbalance(&terms), p: p.clone(), poles, k };
+        let cost = symmetric(&(q + regulator.k.transpose() * r * &regulator.k));
+        is_stable.then(|| (cost_to_come_back(&closed, &cost), regulator.clone()))
+    })
+}
+
+/// Newton's method from a `P` that nearly solves the equation: as long as the residual falls, a few steps at most. `step` gives the
+/// next `P` and what the present one makes; nothing if it does not stabilise.
+fn refined(
+    p: DMatrix<f64>,
+    step: impl Fn(&DMatrix<f64>) -> Option<(Option<DMatrix<f64>>, Regulator)>,
+) -> Result<Regulator, Problem> {
+    let (mut next, mut best) = step(&p).ok_or(Problem::NotDetectable)?;
+    for _ in 0..MOST_REFINEMENTS {
+        let Some((after, regulator)) = next.and_then(|p| step(&p)) else { break };
+        let falls = regulator.residual < 0.5 * best.residual;
+        if regulator.residual <= best.residual {
+            best = regulator;
+        }
+        if !falls {
+            break;
+        }
+        next = after;
     }
-    let terms = [a.transpose() * &p * (a - b * &k), -&p, q.clone()];
-    Ok(Regulator { residual: imbalance(&terms), k, p, poles })
+    Ok(best)
+}
+
+/// `Σ (Aᵏ)ᵀ Q Aᵏ` for an A that decays, by doubling.
+fn cost_to_come_back(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let (mut a, mut x) = (a.clone(), q.clone());
+    for _ in 0..MOST_DOUBLINGS {
+        let added = a.transpose() * &x * &a;
+        let settled = added.norm() <= 1e-17 * x.norm();
+        x = symmetric(&(x + added));
+        a = &a * &a;
+        if !x.iter().all(|entry| entry.is_finite()) {
+            return None;
+        }
+        if settled {
+            return Some(x);
+        }
+    }
+    None
 }
 
 fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<(), Problem> {
@@ -95,6 +136,9 @@ fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>)
     for (what, matrix, size) in all {
         expect_size(what, matrix, size)?;
         expect_finite(what, matrix)?;
+    }
+    if n == 0 || m == 0 {
+        return Err(Problem::Empty);
     }
     expect_symmetric("Q", q)?;
     expect_symmetric("R", r)?;

@@ -49,9 +49,13 @@ impl Mode {
         let is_zero = rate.re.abs() <= 1e-14 * size;
         Self {
             pole,
-            damping_ratio: if natural_frequency == 0.0 { 1.0 } else { -rate.re / natural_frequency + 0.0 },
+            // an integrator does not swing, nor does a sampled pole at zero, which is over after its tick
+            damping_ratio: match natural_frequency {
+                0.0 | f64::INFINITY => 1.0,
+                _ => -rate.re / natural_frequency + 0.0,
+            },
             natural_frequency,
-            time_constant: if is_zero { f64::INFINITY } else { -1.0 / rate.re },
+            time_constant: if is_zero { f64::INFINITY } else { -1.0 / rate.re + 0.0 },
         }
     }
 }

@@ -16,6 +16,8 @@ pub enum Problem {
         /// Rows and columns it has.
         found: (usize, usize),
     },
+    /// There is no state or no input.
+    Empty,
     /// A matrix has an entry that is not finite.
     NotFinite {
         /// Its name.
@@ -45,7 +47,7 @@ pub enum Problem {
         /// Real and imaginary part of its eigenvalue.
         mode: (f64, f64),
     },
-    /// The Riccati equation has no stabilising solution, because a mode that does not decay does not cost anything.
+    /// No stabilising solution of the Riccati equation was found: a mode that does not decay costs nothing, or rounding wins.
     NotDetectable,
     /// The output does not depend on the input.
     NoPath {
@@ -62,6 +64,7 @@ impl fmt::Display for Problem {
             Self::Size { what, expected, found } => {
                 write!(f, "`{what}` is {}×{}, expected {}×{}", found.0, found.1, expected.0, expected.1)
             }
+            Self::Empty => f.write_str("there is nothing to regulate: no state or no input"),
             Self::NotFinite { what, at } => {
                 write!(f, "`{what}` is not finite in row {}, column {}", at.0 + 1, at.1 + 1)
             }
@@ -77,7 +80,9 @@ impl fmt::Display for Problem {
                 write!(f, "not stabilisable: no input reaches the mode at {re:.6}{imaginary}, which does not decay")
             }
             Self::NotDetectable => {
-                f.write_str("no stabilising solution: a mode that does not decay does not cost anything in `Q`")
+                f.write_str(
+                "no stabilising solution found: a mode that does not decay costs nothing in `Q`, or the matrices are too badly scaled",
+            )
             }
             Self::NoPath { input, output } => write!(f, "`{output}` does not depend on `{input}`"),
         }

@@ -95,7 +95,7 @@ impl StateSpace {
             response.values.push(self.c.row(output).transpose().dot(&x) + self.d[(output, input)]);
             x = &phi * x + &gamma;
         }
-        response.final_value = if self.is_stable() { self.gain(input, output) } else { None };
+        response.final_value = if self.minimal(input, output).is_stable() { self.gain(input, output) } else { None };
         response.facts = response.final_value.and_then(|end| facts(&response, end));
         response
     }

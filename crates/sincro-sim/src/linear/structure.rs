@@ -4,7 +4,7 @@
 //! last orthogonal one (block Arnoldi, key `golub2013`, 10.5): powers of A never appear, so stiff systems
 //! do not drown in rounding as they do in the singular values of the controllability matrix.
 
-use super::{DMatrix, DVector, StateSpace};
+use super::{Axis, DMatrix, DVector, StateSpace};
 
 /// What is left of a vector of norm 1 after taking away its parts along others, if it is nothing but rounding.
 const NOTHING: f64 = 1e-11;
@@ -40,10 +40,49 @@ impl StateSpace {
     pub fn observability(&self) -> Reach {
         reach(&self.a.transpose(), &self.c.transpose())
     }
+
+    /// One channel without the modes that its input does not reach or its output does not see: the same transfer function by the
+    /// fewest states, which have no names.
+    #[must_use]
+    pub fn minimal(&self, input: usize, output: usize) -> Self {
+        let (b, c) = (self.b.columns(input, 1).into_owned(), self.c.rows(output, 1).into_owned());
+        let (a, b, c) = within(&span(&self.a, &b), &self.a, &b, &c);
+        let (a, b, c) = within(&span(&a.transpose(), &c.transpose()), &a, &b, &c);
+        Self {
+            states: (1..=a.nrows()).map(|k| Axis::new(format!("x{k}"), "")).collect(),
+            inputs: vec![self.inputs[input].clone()],
+            outputs: vec![self.outputs[output].clone()],
+            d: DMatrix::from_element(1, 1, self.d[(output, input)]),
+            t: self.t,
+            sample_time: self.sample_time,
+            a,
+            b,
+            c,
+        }
+    }
+}
+
+/// The system in coordinates along an orthonormal basis.
+fn within(
+    basis: &[DVector<f64>],
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+    c: &DMatrix<f64>,
+) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
+    let q = DMatrix::from_fn(a.nrows(), basis.len(), |row, column| basis[column][row]);
+    (q.transpose() * a * &q, q.transpose() * b, c * q)
 }
 
 fn reach(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Reach {
     let n_states = a.nrows();
+    let basis = span(a, b);
+    let share = |state: usize| basis.iter().map(|q| q[state] * q[state]).sum::<f64>();
+    let outside = (0..n_states).filter(|&state| share(state) <= NOTHING).collect();
+    Reach { rank: basis.len(), n_states, outside }
+}
+
+/// An orthonormal basis of what B reaches through A.
+fn span(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Vec<DVector<f64>> {
     let rate = a.norm();
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for column in b.column_iter() {
@@ -58,9 +97,7 @@ fn reach(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Reach {
         push_new_direction(&mut basis, driven);
         next += 1;
     }
-    let share = |state: usize| basis.iter().map(|q| q[state] * q[state]).sum::<f64>();
-    let outside = (0..n_states).filter(|&state| share(state) <= NOTHING).collect();
-    Reach { rank: basis.len(), n_states, outside }
+    basis
 }
 
 /// Adds what of a vector is new.

@@ -96,11 +96,16 @@ fn a_sampled_pole_has_the_rates_of_its_continuous_one() {
     let mut sampled = system(1, &[exp(-0.03).0], &[1.0], &[1.0], 0.0);
     sampled.sample_time = Some(0.01);
     assert!((sampled.poles()[0].time_constant - 1.0 / 3.0).abs() < 1e-13);
+    // dead beat: over after one tick
+    sampled.a[0] = 0.0;
+    let mode = sampled.poles()[0];
+    assert_eq!((mode.damping_ratio, mode.time_constant), (1.0, 0.0));
 }
 
 #[test]
 fn zeros_are_those_of_the_numerator() {
-    let cases: [(&[f64], f64, &[(f64, f64)]); 6] = [
+    type Case<'a> = (&'a [f64], f64, &'a [(f64, f64)]);
+    let cases: [Case; 6] = [
         // none
         (&[1.0], 0.0, &[]),
         // at zero: s
@@ -149,6 +154,11 @@ fn a_hidden_mode_is_pole_and_zero_and_no_path_is_said() {
 fn static_gain_is_the_transfer_function_at_zero() {
     assert!((transfer(&[6.0, 1.0], &[3.0, 2.0], 0.5).gain(0, 0).unwrap() - 2.5).abs() < 1e-14);
     assert_eq!(transfer(&[6.0], &[0.0, 2.0], 0.0).gain(0, 0), None);
+    // the velocity of a pushed mass with friction settles, though its position does not
+    let pushed = system(2, &[0.0, 1.0, 0.0, -2.0], &[0.0, 1.0], &[0.0, 1.0], 0.0);
+    assert!((pushed.gain(0, 0).unwrap() - 0.5).abs() < 1e-15);
+    assert!(pushed.step_response(0, 0, None).final_value.is_some());
+    assert_eq!(pushed.minimal(0, 0).n_states(), 1);
     let mut sampled = system(1, &[0.75], &[1.0], &[1.0], 0.0);
     sampled.sample_time = Some(0.1);
     assert!((sampled.gain(0, 0).unwrap() - 4.0).abs() < 1e-14);
@@ -168,7 +178,7 @@ fn frequency_response_is_the_closed_form() {
 #[test]
 fn phase_takes_the_turns_of_its_factors() {
     let ends = |system: StateSpace| {
-        let bode = system.bode(0, 0, None).unwrap();
+        let bode = system.bode(0, 0).unwrap();
         let jumps = bode.phase_deg.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 181.0);
         assert!(jumps, "{:?}", bode.phase_deg);
         (bode.phase_deg[0].round(), bode.phase_deg.last().unwrap().round())
@@ -190,7 +200,7 @@ fn phase_takes_the_turns_of_its_factors() {
 #[test]
 fn margins_of_a_third_order_loop_are_the_closed_form() {
     // k / (s (s + 1) (s + 5)): −180° at ω = √5, where |G| = k/30 (a classic, key `ogata2010`, chapter 7)
-    let bode = transfer(&[10.0], &[0.0, 5.0, 6.0], 0.0).bode(0, 0, None).unwrap();
+    let bode = transfer(&[10.0], &[0.0, 5.0, 6.0], 0.0).bode(0, 0).unwrap();
     let gain = bode.gain_margin().unwrap();
     assert!((gain.omega - 5.0_f64.sqrt()).abs() < 1e-9 && (gain.value - 9.542_425_094_393_25).abs() < 1e-9);
     // |G| = 1: ω²(ω² + 1)(ω² + 25) = 100, and 90° − atan ω − atan ω/5 there
@@ -203,7 +213,7 @@ fn margins_of_a_third_order_loop_are_the_closed_form() {
 
 #[test]
 fn a_double_integrator_has_no_phase_margin() {
-    let bode = transfer(&[1.0], &[0.0, 0.0], 0.0).bode(0, 0, None).unwrap();
+    let bode = transfer(&[1.0], &[0.0, 0.0], 0.0).bode(0, 0).unwrap();
     let phase = bode.phase_margin().unwrap();
     assert!((phase.omega - 1.0).abs() < 1e-12 && phase.value.abs() < 1e-12);
     assert!(bode.gain_margins.is_empty());
@@ -288,6 +298,23 @@ fn a_long_stiff_chain_is_reached() {
     c[n - 1] = 1.0;
     let chain = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
     assert!(chain.controllability().is_full() && chain.observability().is_full());
+}
+
+#[test]
+fn a_gain_without_states_is_a_system_too() {
+    let empty = StateSpace::from_matrices(
+        DMatrix::zeros(0, 0),
+        DMatrix::zeros(0, 1),
+        DMatrix::zeros(1, 0),
+        matrix(1, 1, &[-10.0]),
+    );
+    let empty = empty.unwrap();
+    assert_eq!((empty.poles().len(), empty.gain(0, 0), empty.is_stable()), (0, Some(-10.0), true));
+    let bode = empty.bode(0, 0).unwrap();
+    assert!(bode.magnitude_db.iter().all(|db| (db - 20.0).abs() < 1e-13));
+    assert!(bode.phase_deg.iter().all(|phase| (phase + 180.0).abs() < 1e-13));
+    assert!(empty.step_response(0, 0, None).values.iter().all(|y| *y == -10.0));
+    assert_eq!(lqr(&empty.a, &empty.b, &empty.a, &DMatrix::identity(1, 1)), Err(Problem::Empty));
 }
 
 #[test]

@@ -9,6 +9,8 @@ use super::number::{exponent, fixed, log10, pow10, superscript};
 
 /// Magnitudes outside `1/LARGEST … LARGEST` are not drawn, so that differences and quotients of ticks stay finite.
 pub(super) const LARGEST: f64 = 1e280;
+/// An axis of angles that spans less than this is divided in decimals `[°]`.
+const DECIMAL_DEGREES: f64 = 25.0;
 /// Numbers with more digits than this get an offset.
 const MAX_DIGITS: i32 = 6;
 
@@ -41,7 +43,21 @@ pub(super) struct Tick {
 
 impl Scale {
     /// Divides an axis so that it covers `range` and has at most about `max_ticks` labels. `None`: there are no data.
-    pub(super) fn new(range: Option<(f64, f64)>, log: bool, max_ticks: usize) -> Self {
+    pub(super) fn of(axis: &Axis, range: Option<(f64, f64)>, max_ticks: usize) -> Self {
+        let range = match (axis.range, range) {
+            (Some((a, b)), Some((low, high))) => Some((a.min(low), b.max(high))),
+            (range, data) => range.or(data),
+        };
+        match range {
+            Some((low, high)) if axis.degrees && high - low > DECIMAL_DEGREES && high - low < 1e6 => {
+                Self::in_degrees((low, high), max_ticks.max(2))
+            }
+            _ => Self::new(range, axis.log, max_ticks),
+        }
+    }
+
+    /// As [`Scale::of`], for an axis that is divided in decimals.
+    fn new(range: Option<(f64, f64)>, log: bool, max_ticks: usize) -> Self {
         let max_ticks = max_ticks.max(2);
         if log {
             Self::logarithmic(range.unwrap_or((1.0, 10.0)), max_ticks as i32)
@@ -92,6 +108,26 @@ impl Scale {
             minor: multiples(grid.minor, first, last).map(fraction).collect(),
             power,
             offset: grid.offset_text(origin),
+        }
+    }
+
+    /// Labels at 15°, 30°, 45°, 90° or multiples of 180°; the axis ends at fine grid lines, of which each step has three.
+    fn in_degrees((low, high): (f64, f64), max_ticks: usize) -> Self {
+        let whole_turns = (1..).map(|k| 180.0 * f64::from(k));
+        let mut steps = [15.0, 30.0, 45.0, 90.0].into_iter().chain(whole_turns);
+        let step = steps.find(|step| (high - low) / step <= max_ticks as f64).unwrap_or(360.0);
+        let fine = step / 3.0;
+        let (first, last) = ((low / fine + 1e-3).floor() * fine, (high / fine - 1e-3).ceil() * fine);
+        let fraction = |value: f64| (value - first) / (last - first);
+        let major = multiples(step, first, last).map(|value| Tick { at: fraction(value), label: fixed(value, 0) });
+        Self {
+            low: first,
+            high: last,
+            log: false,
+            major: major.collect(),
+            minor: multiples(fine, first, last).map(fraction).collect(),
+            power: 0,
+            offset: String::new(),
         }
     }
 
@@ -253,6 +289,17 @@ mod tests {
         assert_eq!(labels(&scale), ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]);
         assert_eq!(scale.minor.len(), 31);
         assert_eq!(scale.fraction(1.5), Some(0.5));
+    }
+
+    #[test]
+    fn angles_are_divided_as_one_reads_them() {
+        let axis = Axis { degrees: true, ..Axis::new("phase", "°") };
+        assert_eq!(
+            labels(&Scale::of(&axis, Some((-268.0, -91.0)), 8)),
+            ["−270", "−240", "−210", "−180", "−150", "−120", "−90"]
+        );
+        assert_eq!(labels(&Scale::of(&axis, Some((-178.0, -2.0)), 5)), ["−180", "−135", "−90", "−45", "0"]);
+        assert_eq!(labels(&Scale::of(&axis, Some((-1.0, 1.0)), 4)).len(), 5);
     }
 
     #[test]

@@ -90,6 +90,8 @@ pub(super) enum Sample {
     Band(usize),
     /// The line of a limit.
     Limit,
+    /// That auxiliary line.
+    Guide(usize),
 }
 
 impl<'a> Layout<'a> {
@@ -129,7 +131,7 @@ fn stack<'a>(shown: &[&'a Panel], top: f64, bottom: f64, width: f64, fonts: Font
         let header_baseline = cursor + gap + fonts.label;
         let area_top = cursor + height;
         let area_bottom = area_top + (free * panel.usable_share() / shares).max(MIN_AREA);
-        let y = Scale::new(y_range(panel), panel.y.log, ((area_bottom - area_top) / 34.0) as usize);
+        let y = Scale::of(&panel.y, y_range(panel), ((area_bottom - area_top) / 34.0) as usize);
         panels.push(PanelLayout { panel, header, header_baseline, top: area_top, bottom: area_bottom, y });
         cursor = area_bottom;
     }
@@ -154,6 +156,7 @@ fn header(panel: &Panel, available: f64, fonts: Fonts) -> Vec<Entry> {
     pieces.push((Sample::Title, panel.title.clone()));
     pieces.extend(panel.series.iter().enumerate().map(|(i, series)| (Sample::Series(i), series.name.clone())));
     pieces.extend(panel.bands.iter().enumerate().map(|(i, band)| (Sample::Band(i), band.name.clone())));
+    pieces.extend(panel.guides.iter().enumerate().map(|(i, guide)| (Sample::Guide(i), guide.name.clone())));
     pieces.extend(limit_pieces(panel));
     pieces.retain(|(_, text)| !text.trim().is_empty());
     let (mut x, mut row) = (0.0, 0);
@@ -240,7 +243,7 @@ fn x_scale(figure: &Figure, length: f64, fonts: Fonts) -> Scale {
     let data = range(curves.chain(bands).copied(), figure.x.log);
     let mut max_ticks = ((length / 70.0) as usize).max(2);
     loop {
-        let scale = Scale::new(data, figure.x.log, max_ticks);
+        let scale = Scale::of(&figure.x, data, max_ticks);
         let widest = scale.major.iter().map(|tick| width(&tick.label, fonts.tick)).fold(0.0, f64::max);
         let closest = scale.major.windows(2).map(|pair| pair[1].at - pair[0].at).fold(1.0, f64::min);
         if widest + 12.0 <= closest * length || max_ticks <= 2 {

@@ -41,6 +41,10 @@ pub(crate) struct Axis {
     pub(crate) unit: String,
     /// True: logarithmic. Values that are not positive cannot be drawn there; they are counted under the figure.
     pub(crate) log: bool,
+    /// True: an angle in degrees, divided at 15°, 45°, 90° and so on rather than at tens.
+    pub(crate) degrees: bool,
+    /// What the axis shows at least; `None`: the data alone decide.
+    pub(crate) range: Option<(f64, f64)>,
 }
 
 /// One plot area with its y axis.
@@ -58,6 +62,8 @@ pub(crate) struct Panel {
     pub(crate) bands: Vec<Band>,
     /// Horizontal lines, such as tolerances.
     pub(crate) limits: Vec<Limit>,
+    /// Auxiliary lines, behind the curves.
+    pub(crate) guides: Vec<Guide>,
 }
 
 /// A curve or a cloud of points.
@@ -98,6 +104,10 @@ pub(crate) enum Stroke {
     Steps,
     /// Not at all: a marker at each point.
     Points,
+    /// Not at all: a cross at each point, as for poles.
+    Crosses,
+    /// Not at all: a ring at each point, as for zeros.
+    Rings,
 }
 
 /// A shaded region between two curves, such as an error bar around a signal.
@@ -125,6 +135,33 @@ pub(crate) struct Limit {
     pub(crate) value: f64,
 }
 
+/// An auxiliary line: a margin of a Bode diagram, a line of equal damping. It does not widen the axes; an infinite coordinate
+/// stands for the edge of the plot.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Guide {
+    /// Its corners.
+    pub(crate) points: Vec<(f64, f64)>,
+    /// Its name in the legend; may be empty.
+    pub(crate) name: String,
+    /// Stands at its last corner; may be empty.
+    pub(crate) label: String,
+    /// How much it strikes the eye.
+    pub(crate) weight: Weight,
+}
+
+/// How much a line strikes the eye.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Weight {
+    /// As the grid.
+    Faint,
+    /// As the axes.
+    Axis,
+    /// Dotted, as a limit.
+    Dotted,
+    /// Thick, to be read.
+    Strong,
+}
+
 /// Width and height of a picture in CSS pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Size {
@@ -137,7 +174,7 @@ pub(crate) struct Size {
 impl Axis {
     /// A linear axis.
     pub(crate) fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self { label: label.into(), unit: unit.into(), log: false }
+        Self { label: label.into(), unit: unit.into(), ..Self::default() }
     }
 
     /// The axis of time in seconds.
@@ -149,12 +186,27 @@ impl Axis {
 impl Panel {
     /// An empty panel of share 1 without a title.
     pub(crate) fn new(y: Axis) -> Self {
-        Self { title: String::new(), y, share: 1.0, series: Vec::new(), bands: Vec::new(), limits: Vec::new() }
+        Self {
+            title: String::new(),
+            y,
+            share: 1.0,
+            series: Vec::new(),
+            bands: Vec::new(),
+            limits: Vec::new(),
+            guides: Vec::new(),
+        }
     }
 
     /// The low panel beneath a signal, for `simulated − reference` in that signal's unit.
     pub(crate) fn error(unit: impl Into<String>) -> Self {
         Self { title: "simulated − reference".into(), share: 0.42, ..Self::new(Axis::new("error", unit)) }
+    }
+}
+
+impl Stroke {
+    /// Whether the points stand alone.
+    fn is_loose(self) -> bool {
+        !matches!(self, Self::Line | Self::Steps)
     }
 }
 

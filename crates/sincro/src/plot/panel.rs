@@ -3,11 +3,11 @@
 use super::axis::Scale;
 use super::decimate::{Point, decimate};
 use super::draw::{Canvas, Context};
-use super::layout::{Entry, Layout, PanelLayout, SAMPLE, Sample, data_range, is_near};
+use super::layout::{Entry, Fonts, Layout, PanelLayout, SAMPLE, Sample, data_range, is_near};
 use super::number::coordinate;
 use super::style::{self, Look};
 use super::text::{fit, width};
-use super::{Band, Role, Series, Stroke};
+use super::{Band, Guide, Role, Series, Stroke, Weight};
 
 /// How far curves may reach over the plot area, so that lines and markers on the edge are whole `[px]`.
 const SPILL: f64 = 5.0;
@@ -26,6 +26,9 @@ pub(super) fn draw(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, conte
     let inner = frame.shifted(SPILL - frame.left, SPILL - frame.top);
     for band in &at.panel.bands {
         inner.draw_band(canvas, band);
+    }
+    for guide in &at.panel.guides {
+        inner.draw_guide(canvas, guide, layout.fonts);
     }
     let data = data_range(at.panel);
     for limit in at.panel.limits.iter().filter(|limit| is_near(limit.value, data)) {
@@ -123,6 +126,30 @@ impl Frame<'_> {
         }
     }
 
+    /// The line, and its label inside the plot beside its last corner.
+    fn draw_guide(&self, canvas: &mut Canvas, guide: &Guide, fonts: Fonts) {
+        let edge = |scale: &Scale, value: f64| match value {
+            f64::INFINITY => Some(1.0),
+            f64::NEG_INFINITY => Some(0.0),
+            _ => scale.fraction(value),
+        };
+        let place = |&(x, y): &(f64, f64)| Some((edge(self.x, x)?, edge(self.y, y)?));
+        let Some(places) = guide.points.iter().map(place).collect::<Option<Vec<Point>>>() else { return };
+        let mut corners = places.clone();
+        for k in 1..corners.len() {
+            corners[k] = within_frame(places[k - 1], places[k]);
+        }
+        let corners: Vec<Point> = corners.into_iter().map(|(x, y)| (self.across(x), self.up(y))).collect();
+        let (class, attributes) = guide_style(guide.weight);
+        canvas.path(class, attributes, &polyline(&corners));
+        if let (Some(&(x, y)), false) = (corners.last(), guide.label.is_empty() || fonts.is_thumbnail) {
+            let half = 0.5 * width(&guide.label, fonts.tick);
+            let x = x.clamp(self.left + half + 3.0, self.right - half - 3.0);
+            let y = y.clamp(self.top + fonts.tick + 2.0, self.bottom - 5.0);
+            canvas.text((x, y), "middle", fonts.tick, "sp-halo", &guide.label);
+        }
+    }
+
     fn draw_band(&self, canvas: &mut Canvas, band: &Band) {
         let edge = |values: &[f64]| -> Vec<Option<Point>> {
             band.x.iter().zip(values).map(|(&x, &y)| self.place(x, y)).collect()
@@ -142,9 +169,8 @@ impl Frame<'_> {
 
     fn draw_series(&self, canvas: &mut Canvas, series: &Series, look: Look, context: Context) {
         let pieces = self.pieces(series);
-        if series.stroke == Stroke::Points {
-            let points: Vec<Point> = pieces.concat();
-            draw_markers(canvas, look, &decimate(&points, self.columns()));
+        if series.stroke.is_loose() {
+            draw_loose(canvas, series.stroke, look, &decimate(&pieces.concat(), self.columns()));
             return;
         }
         let thinned: Vec<Vec<Point>> = pieces.iter().map(|piece| decimate(piece, self.columns())).collect();
@@ -165,7 +191,7 @@ impl Frame<'_> {
         let pieces = runs.map(|run| run.iter().copied().flatten().collect());
         match series.stroke {
             Stroke::Steps => pieces.map(|piece: Vec<Point>| staircase(&piece)).collect(),
-            Stroke::Line | Stroke::Points => pieces.collect(),
+            _ => pieces.collect(),
         }
     }
 
@@ -228,6 +254,39 @@ fn stroke_attributes(look: Look) -> String {
     format!(r#"stroke-width="{}"{dash}"#, coordinate(look.weight))
 }
 
+/// The end of a line, or where it leaves the frame, in fractions of the frame; what starts outside is left as it is.
+fn within_frame(from: Point, to: Point) -> Point {
+    let share = |from: f64, to: f64| match to {
+        _ if !(0.0..=1.0).contains(&from) => 1.0,
+        to if to > 1.0 => (1.0 - from) / (to - from),
+        to if to < 0.0 => from / (from - to),
+        _ => 1.0,
+    };
+    let share = share(from.0, to.0).min(share(from.1, to.1));
+    (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+}
+
+/// Class and attributes of an auxiliary line.
+fn guide_style(weight: Weight) -> (&'static str, &'static str) {
+    match weight {
+        Weight::Faint => ("sp-guide", r#"stroke-dasharray="5 4""#),
+        Weight::Axis => ("sp-axis", r#"stroke-width="0.8""#),
+        Weight::Dotted => ("sp-limit", ""),
+        Weight::Strong => ("sp-guide sp-ref", r#"stroke-width="3""#),
+    }
+}
+
+/// Markers of a series that is not joined.
+fn draw_loose(canvas: &mut Canvas, stroke: Stroke, look: Look, points: &[Point]) {
+    let shape = match stroke {
+        Stroke::Crosses => "m-5 -5l10 10m0 -10l-10 10",
+        Stroke::Rings => "m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z",
+        _ => return draw_markers(canvas, look, points),
+    };
+    let data: String = points.iter().map(|&(x, y)| format!("M{} {}{shape}", coordinate(x), coordinate(y))).collect();
+    canvas.path(&format!("sp-line {}", look.class), r#"stroke-width="2""#, &data);
+}
+
 fn draw_markers(canvas: &mut Canvas, look: Look, points: &[Point]) {
     let shape = style::marker(look.marker);
     let data: String = points.iter().map(|&(x, y)| format!("M{} {}{shape}", coordinate(x), coordinate(y))).collect();
@@ -246,6 +305,10 @@ fn draw_entry(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, entry: &En
     match entry.sample {
         Sample::Title | Sample::Remark => lead = 0.0,
         Sample::Limit => canvas.path("sp-limit", "", &line),
+        Sample::Guide(index) => {
+            let (class, attributes) = guide_style(at.panel.guides[index].weight);
+            canvas.path(class, attributes, &line);
+        }
         Sample::Band(index) => {
             let class = style::color(at.panel.bands[index].signal);
             let shade = format!("M{} {}h{SAMPLE}v10h-{SAMPLE}z", coordinate(x), coordinate(middle - 5.0));
@@ -254,11 +317,11 @@ fn draw_entry(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, entry: &En
         Sample::Series(index) => {
             let series = &at.panel.series[index];
             let look = style::look(series, context.n_signals);
-            if series.stroke != Stroke::Points {
+            if !series.stroke.is_loose() {
                 canvas.path(&format!("sp-line {}", look.class), &stroke_attributes(look), &line);
             }
-            if series.stroke == Stroke::Points || series.role == Role::Reference || context.marks_runs {
-                draw_markers(canvas, look, &[(x + 0.5 * SAMPLE, middle)]);
+            if series.stroke.is_loose() || series.role == Role::Reference || context.marks_runs {
+                draw_loose(canvas, series.stroke, look, &[(x + 0.5 * SAMPLE, middle)]);
             }
         }
     }

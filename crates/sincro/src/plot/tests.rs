@@ -155,6 +155,23 @@ fn a_long_legend_makes_the_picture_higher() {
 }
 
 #[test]
+fn an_auxiliary_line_ends_at_the_frame_and_widens_nothing() {
+    let mut figure = of_values(vec![0.0, 1.0, 2.0]);
+    let plain = drawn(&figure);
+    let points = vec![(0.0, 0.0), (1e6, 1e6)];
+    figure.panels[0].guides.push(Guide { points, name: String::new(), label: "ζ".into(), weight: Weight::Faint });
+    let guided = drawn(&figure);
+    let ticks = |text: &str| text.matches("text-anchor=\"end\"").count();
+    assert_eq!(ticks(&plain), ticks(&guided));
+    // the only line of five pixels on, four off
+    let line =
+        guided.lines().find(|line| line.contains("5 4")).and_then(|line| line.split("d=\"").nth(1)).unwrap_or("");
+    let numbers = line.split(|c: char| !c.is_ascii_digit() && c != '.').filter_map(|n| n.parse::<f64>().ok());
+    assert!(numbers.fold(0.0, f64::max) < 880.0, "{line}");
+    assert_balanced(&guided);
+}
+
+#[test]
 fn no_coordinate_is_negative_zero() {
     let text = drawn(&oscillation(500));
     assert!(!text.contains("-0 ") && !text.contains("-0\"") && !text.contains("−0 ") && !text.contains(">−0<"));

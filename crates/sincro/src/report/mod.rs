@@ -8,8 +8,8 @@
 
 mod checks;
 mod index;
-mod page;
-mod shell;
+pub(crate) mod page;
+pub(crate) mod shell;
 
 use crate::plot::Figure;
 

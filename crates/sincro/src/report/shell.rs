@@ -5,7 +5,7 @@ use crate::plot::number::short;
 use crate::plot::{self, escape, escape_raised};
 
 /// The whole document around a body.
-pub(super) fn document(title: &str, class: &str, body: &str) -> String {
+pub(crate) fn document(title: &str, class: &str, body: &str) -> String {
     let title = escape(title);
     let (plot_css, page_css) = (plot::PAGE_CSS, include_str!("style.css"));
     format!(
@@ -108,7 +108,7 @@ pub(super) fn check_badge(verdict: CheckVerdict) -> String {
 }
 
 /// A section with a heading; nothing if its content is empty.
-pub(super) fn section(heading: &str, content: &str) -> String {
+pub(crate) fn section(heading: &str, content: &str) -> String {
     if content.is_empty() {
         return String::new();
     }
@@ -116,13 +116,13 @@ pub(super) fn section(heading: &str, content: &str) -> String {
 }
 
 /// A table cell; `label` names the column where the table is folded on a phone, `content` is HTML.
-pub(super) fn cell(label: &str, class: &str, content: &str) -> String {
+pub(crate) fn cell(label: &str, class: &str, content: &str) -> String {
     let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
     format!("<td{class} data-label=\"{label}\">{content}</td>")
 }
 
 /// A table: column headings with their classes, and rows of cells.
-pub(super) fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> String {
+pub(crate) fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> String {
     if rows.is_empty() {
         return String::new();
     }
@@ -133,7 +133,7 @@ pub(super) fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> S
 }
 
 /// Names and values in two columns.
-pub(super) fn settings(settings: &[(String, String)]) -> String {
+pub(crate) fn settings(settings: &[(String, String)]) -> String {
     if settings.is_empty() {
         return String::new();
     }
@@ -143,7 +143,7 @@ pub(super) fn settings(settings: &[(String, String)]) -> String {
 }
 
 /// A list of sentences.
-pub(super) fn list(items: &[String]) -> String {
+pub(crate) fn list(items: &[String]) -> String {
     if items.is_empty() {
         return String::new();
     }
@@ -152,7 +152,7 @@ pub(super) fn list(items: &[String]) -> String {
 }
 
 /// A paragraph; nothing if the text is empty.
-pub(super) fn paragraph(class: &str, text: &str) -> String {
+pub(crate) fn paragraph(class: &str, text: &str) -> String {
     if text.trim().is_empty() { String::new() } else { format!("<p class=\"{class}\">{}</p>\n", prose(text)) }
 }
 
