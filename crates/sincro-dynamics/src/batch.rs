@@ -82,14 +82,14 @@ fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
 
 /// One world by itself.
 pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
-    let (n_q, n_motors) = (world.model.n_q(), world.model.motors.len());
+    let (n_q, n_commands) = (world.model.n_q(), world.model.n_commands());
     let control = Control::new(1.0, settings.h);
     let mut alone = World::with_totals(world.model.clone(), world.state.clone(), settings.method, control, false);
     let first = alone.state.tick;
     record(&mut world.record, &alone.state.q[..n_q], &alone.state.v, settings.record_every > 0);
     for k in 0..settings.n_steps {
         if !world.commands.is_empty() {
-            alone.state.commands.copy_from_slice(&world.commands[k as usize * n_motors..][..n_motors]);
+            alone.state.commands.copy_from_slice(&world.commands[k as usize * n_commands..][..n_commands]);
         }
         if let Err((_, stop)) = alone.advance((first + u64::from(k)) as f64 * settings.h, settings.h) {
             world.stop = Some(stop);

@@ -24,7 +24,7 @@ use crate::state::{State, displace};
 #[derive(Clone, Debug)]
 pub struct Mechanism<R> {
     pub(crate) model: Model<R>,
-    /// Latched motor commands.
+    /// Latched commands: of motors, then of external forces.
     pub commands: Vec<R>,
     /// What each drive does: 0 holds, ±1 pulls with its limit.
     pub drives: Vec<R>,
@@ -48,7 +48,7 @@ impl<R: Real> Mechanism<R> {
     pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
         let zero = vec![R::zero(); model.n_v()];
         Self {
-            commands: vec![R::zero(); model.motors.len()],
+            commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
             tracks_totals,
             base: vec![R::zero(); model.n_q()],
@@ -211,7 +211,7 @@ impl<R: Real> Mechanism<R> {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
         }
         for wrench in &self.model.wrenches {
-            self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot);
+            self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
         }
     }
 

@@ -12,7 +12,7 @@ use crate::spatial::{Quat, Vec3};
 /// |---|---|---|
 /// | `q` | joint coordinates `[rad]`, `[m]`, quaternions (w, x, y, z) | `n_q` |
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
-/// | `commands` | latched motor commands | motors |
+/// | `commands` | latched commands: of motors, then six of each external force that takes them | motors + 6 × inputs |
 /// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
 /// | `tick` | base steps done | |
@@ -22,7 +22,7 @@ pub struct State<R> {
     pub q: Vec<R>,
     /// Velocities.
     pub v: Vec<R>,
-    /// Latched motor commands, in the units of each motor's mode.
+    /// Latched commands: of motors, in the units of each one's mode; of forces `[N]`, [N·m].
     pub commands: Vec<R>,
     /// State of each set-valued drive.
     pub drives: Vec<R>,
@@ -47,7 +47,7 @@ impl<R: Real> State<R> {
         Self {
             q,
             v: vec![R::zero(); model.n_v()],
-            commands: vec![R::zero(); model.motors().len()],
+            commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
             totals: vec![R::zero(); 2 + model.motors().len()],
             tick: 0,

@@ -35,14 +35,20 @@ pub struct AppliedWrench<R> {
     pub force: [Vec<Signal>; 3],
     /// Torque components [N·m], one signal a lane each.
     pub torque: [Vec<Signal>; 3],
+    /// Where its six commands begin (force `[N]`, then torque [N·m]), if it takes any.
+    pub input: Option<usize>,
 }
 
 impl<R: Real> AppliedWrench<R> {
     /// The wrench at time `t` `[s]` about the link's origin, link axes; `r_wl` takes link to world axes.
     #[inline(always)]
-    pub fn wrench(&self, t: f64, r_wl: &crate::spatial::Mat3<R>) -> Force<R> {
+    pub fn wrench(&self, t: f64, r_wl: &crate::spatial::Mat3<R>, commands: &[R]) -> Force<R> {
         let mut lin = Vec3([value(&self.force[0], t), value(&self.force[1], t), value(&self.force[2], t)]);
         let mut ang = Vec3([value(&self.torque[0], t), value(&self.torque[1], t), value(&self.torque[2], t)]);
+        if let Some(i) = self.input {
+            lin += Vec3([commands[i], commands[i + 1], commands[i + 2]]);
+            ang += Vec3([commands[i + 3], commands[i + 4], commands[i + 5]]);
+        }
         if self.in_body {
             lin = self.pose.rot.mul_vec(lin);
             ang = self.pose.rot.mul_vec(ang);

@@ -67,6 +67,8 @@ pub struct ForceSpec {
     pub torque: [Signal; 3],
     /// Whether the components turn with the body; else they are along the world's axes.
     pub in_body: bool,
+    /// Whether six commands (force, then torque) are added to it.
+    pub is_input: bool,
 }
 
 pub(crate) enum NodeKind {

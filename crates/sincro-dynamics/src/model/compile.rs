@@ -55,6 +55,11 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
         compiler.node(id);
     }
     let Compiler { mut model, names, .. } = compiler;
+    // commands of motors come first
+    let n_motors = model.motors.len();
+    for input in model.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
+        *input = n_motors + 6 * *input;
+    }
     model.names = Arc::new(names);
     mark_children(&mut model.links);
     model.drives = crate::drive::drives_of(&model);
@@ -94,7 +99,12 @@ impl Compiler<'_> {
                         in_body: spec.in_body,
                         force: spec.force.clone().map(|s| vec![s]),
                         torque: spec.torque.clone().map(|s| vec![s]),
+                        // motors come first; how many there are is known at the end
+                        input: spec.is_input.then_some(self.names.inputs.len()),
                     });
+                    if spec.is_input {
+                        self.names.inputs.push(node.name.clone());
+                    }
                 }
                 here
             }

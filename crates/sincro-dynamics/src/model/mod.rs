@@ -171,6 +171,12 @@ impl<R: Real> Model<R> {
         &self.motors
     }
 
+    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them.
+    #[must_use]
+    pub fn n_commands(&self) -> usize {
+        self.motors.len() + 6 * self.names.inputs.len()
+    }
+
     /// Velocity motors and joints with Coulomb friction.
     #[must_use]
     pub fn drives(&self) -> &[Drive] {

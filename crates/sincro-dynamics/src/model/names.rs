@@ -47,6 +47,8 @@ pub struct Names {
     pub joints: Vec<JointInfo>,
     /// Bodies and frames in the order they were added.
     pub frames: Vec<FrameInfo>,
+    /// External forces that take commands, in the order of those.
+    pub inputs: Vec<String>,
     /// For each degree of freedom, the joint it belongs to.
     pub dof_joint: Vec<usize>,
 }

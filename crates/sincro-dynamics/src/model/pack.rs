@@ -81,6 +81,7 @@ impl<R: Real> Model<R> {
         let wrenches = (0..first.wrenches.len()).map(|i| AppliedWrench {
             link: first.wrenches[i].link,
             in_body: first.wrenches[i].in_body,
+            input: first.wrenches[i].input,
             pose: Pose { rot: mat3(&|m| m.wrenches[i].pose.rot), pos: vec3(&|m| m.wrenches[i].pose.pos) },
             force: core::array::from_fn(|c| lanes(&|m| m.wrenches[i].force[c][0].clone())),
             torque: core::array::from_fn(|c| lanes(&|m| m.wrenches[i].torque[c][0].clone())),
@@ -105,7 +106,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     };
     let motors = |m: &Model<f64>| -> Vec<_> { m.motors.iter().map(|x| (x.dof, x.mode)).collect() };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
-    let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body)).collect() };
+    let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction > 0.0).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),

@@ -83,6 +83,8 @@ pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
 /// Everything that can be commanded, in the order of the world's commands.
 pub(crate) fn commands(model: &Model<f64>) -> Vec<Terminal> {
     let with_motor = |m: usize| model.names().joints.iter().find(|j| j.motor == Some(m));
+    let of_forces =
+        catalogue(model).into_iter().filter(|e| matches!(e.probe, Probe::Command(c) if c >= model.motors().len()));
     let motors = model.motors().iter().enumerate();
     motors
         .map(|(m, motor)| {
@@ -95,6 +97,12 @@ pub(crate) fn commands(model: &Model<f64>) -> Vec<Terminal> {
                 if motor.mode == MotorMode::Free { Vec::new() } else { vec![name.clone(), format!("{name}.command")] };
             Terminal { names, width: 1, unit: Unit::parse(&unit).ok().filter(|_| !unit.is_empty()), is_special }
         })
+        .chain(of_forces.map(|entry| Terminal {
+            unit: Unit::parse(&entry.unit).ok(),
+            names: vec![entry.name],
+            width: 1,
+            is_special: false,
+        }))
         .collect()
 }
 

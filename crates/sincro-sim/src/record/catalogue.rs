@@ -46,6 +46,11 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     for (i, frame) in model.names().frames.iter().enumerate() {
         frame_signals(&mut list, &frame.name, i, frame.body.is_some());
     }
+    for (k, name) in model.names().inputs.iter().enumerate() {
+        let first = model.motors().len() + 6 * k;
+        list.vector(&format!("{name}.force"), &XYZ, "N", |c| Probe::Command(first + c));
+        list.vector(&format!("{name}.torque"), &XYZ, "N·m", |c| Probe::Command(first + 3 + c));
+    }
     world_signals(&mut list);
     list.0
 }

@@ -330,6 +330,9 @@ pub(crate) struct ForceFile {
     /// Whose axes the components are along.
     #[serde(default)]
     pub in_frame: InFrameFile,
+    /// Whether a diagram may add to it, through the ports `PATH.force.x` … `PATH.torque.z` of the world.
+    #[serde(default)]
+    pub input: bool,
 }
 
 /// Whose axes components are along.

@@ -124,6 +124,7 @@ fn force(file: &ForceFile, pointer: &str, signals: &mut SignalReader<'_>) -> For
         force: three(&file.force, "force"),
         torque: three(&file.torque, "torque"),
         in_body: file.in_frame == InFrameFile::Body,
+        is_input: file.input,
     }
 }
 
