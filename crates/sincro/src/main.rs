@@ -6,6 +6,7 @@
 mod bench;
 mod commands;
 mod diagnostics;
+mod draw;
 mod plot;
 mod present;
 mod report;
