@@ -6,7 +6,7 @@
 mod bench;
 mod commands;
 mod diagnostics;
-#[cfg_attr(not(test), expect(dead_code, reason = "the command that linearises a scene calls it"))]
+mod draw;
 mod linear;
 mod plot;
 mod present;
@@ -30,6 +30,12 @@ enum Command {
     Run(commands::run::Arguments),
     /// Look a scene over without running it: objects, degrees of freedom, warnings, signals on offer
     Check(commands::check::Arguments),
+    /// Draw the block diagram of a scene as SVG
+    Draw(commands::draw::Arguments),
+    /// Linearise a scene: matrices, poles, zeros, Bode and step plots
+    Linearize(commands::linearize::Arguments),
+    /// Find where a scene stays as it is
+    Trim(commands::trim::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
     Reproduce(commands::reproduce::Arguments),
     /// Measure speed, memory and accuracy on this machine, beside peers if asked
@@ -64,6 +70,9 @@ fn main() -> ExitCode {
     let exit = match Cli::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Draw(arguments) => commands::draw::run(&arguments),
+        Command::Linearize(arguments) => commands::linearize::run(&arguments),
+        Command::Trim(arguments) => commands::trim::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match bench::run(&options) {
             Ok(()) => Exit::Holds,

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 use sincro_blocks::program::Rate;
 use sincro_sim::diagram::Controller;
-use sincro_sim::overrides::Override;
 use sincro_sim::record::catalogue;
 use sincro_sim::run::{choose_method, method_word, model_hash};
 use sincro_sim::scene::{Object, ObjectKind, Scene};
 use sincro_sim::{Loaded, load};
 
 use super::console::{degrees, short};
+use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
 /// What `check` takes.
@@ -29,12 +29,7 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let parsed: Result<Vec<Override>, _> = arguments.set.iter().map(|text| Override::parse(text)).collect();
-    let overrides = match parsed {
-        Ok(overrides) => overrides,
-        Err(problem) => return diagnostics::refuse_problems(&sincro_sim::problem::Problems(vec![problem])),
-    };
-    let loaded = match load(&arguments.scene, &overrides) {
+    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
         Ok(loaded) => loaded,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };

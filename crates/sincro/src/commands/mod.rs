@@ -10,5 +10,8 @@ macro_rules! say {
 
 pub(crate) mod check;
 pub(crate) mod console;
+pub(crate) mod draw;
+pub(crate) mod linearize;
 pub(crate) mod reproduce;
 pub(crate) mod run;
+pub(crate) mod trim;

@@ -71,15 +71,21 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     verdict(&campaign)
 }
 
-/// Everything set on the command line, in the order of reading.
-fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Problems> {
+/// What stands after every `--set`.
+pub(crate) fn parse_settings(texts: &[String]) -> Result<Vec<Override>, Problems> {
     let (mut problems, mut overrides) = (Problems::new(), Vec::new());
-    for text in &arguments.set {
+    for text in texts {
         match Override::parse(text) {
             Ok(setting) => overrides.push(setting),
             Err(problem) => problems.push(problem),
         }
     }
+    if problems.any_error() { Err(problems) } else { Ok(overrides) }
+}
+
+/// Everything set on the command line, in the order of reading.
+fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Problems> {
+    let mut overrides = parse_settings(&arguments.set)?;
     let number = |x: Option<f64>| x.map(|x| format!("{x:?}"));
     let flags = [
         ("duration", number(arguments.until)),
@@ -91,7 +97,7 @@ fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Problems> {
     for (path, value) in flags {
         overrides.extend(value.map(|value| Override::new(path, &value)));
     }
-    if problems.any_error() { Err(problems) } else { Ok(overrides) }
+    Ok(overrides)
 }
 
 /// Name of a scene: that of its folder.

@@ -84,7 +84,7 @@ struct At {
 }
 
 /// The text of `linearization.json`.
-pub(super) fn json(analysis: &Analysis) -> String {
+pub(crate) fn json(analysis: &Analysis) -> String {
     let s = analysis.system;
     let poles = analysis.poles.iter().map(|mode| Pole {
         pole: pair(&mode.pole),

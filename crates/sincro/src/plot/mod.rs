@@ -18,8 +18,8 @@ mod panel;
 mod style;
 mod text;
 
-pub(crate) use style::PAGE_CSS;
-pub(crate) use text::{escape, escape_raised};
+pub(crate) use style::{PAGE_CSS, with_light_colors};
+pub(crate) use text::{escape, escape_raised, rich, width as text_width};
 
 /// A picture: a title and panels over one shared x axis.
 #[derive(Clone, Debug, Default, PartialEq)]

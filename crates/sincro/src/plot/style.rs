@@ -20,8 +20,12 @@ pub(crate) const PAGE_CSS: &str = include_str!("page.css");
 
 /// The styles of a standalone file: the same classes, with the light colours written in place of their variables.
 pub(super) fn standalone_css() -> String {
-    let (variables, rules) = PAGE_CSS.split_once("/* classes */").unwrap_or(("", PAGE_CSS));
-    let light = variables.split('}').next().unwrap_or("");
+    with_light_colors(PAGE_CSS.split_once("/* classes */").map_or(PAGE_CSS, |(_, rules)| rules))
+}
+
+/// Rules with the light colours in place of the variables of [`PAGE_CSS`].
+pub(crate) fn with_light_colors(rules: &str) -> String {
+    let light = PAGE_CSS.split('}').next().unwrap_or("");
     let colors = light.split(';').filter_map(|line| line[line.find("--")?..].split_once(':'));
     colors.fold(rules.trim().to_owned(), |css, (name, color)| css.replace(&format!("var({name})"), color.trim()))
 }

@@ -26,7 +26,7 @@ pub(crate) fn escape_raised(text: &str) -> String {
 }
 
 /// Content of an SVG `<text>`: escaped, superscripts raised by hand.
-pub(super) fn rich(text: &str, font_size: f64) -> String {
+pub(crate) fn rich(text: &str, font_size: f64) -> String {
     let rise = super::number::coordinate(0.36 * font_size);
     // A zero-width space carries the way back down, so that the shift ends also where nothing follows.
     raised(text, |run| {
@@ -50,7 +50,7 @@ fn raised(text: &str, raise: impl Fn(&str) -> String) -> String {
 }
 
 /// Estimated width of text in a common sans-serif font `[px]`; errs on the wide side, since the reader's font is unknown.
-pub(super) fn width(text: &str, font_size: f64) -> f64 {
+pub(crate) fn width(text: &str, font_size: f64) -> f64 {
     let ems: f64 = text.chars().map(char_width).sum();
     ems * font_size
 }

@@ -1,0 +1,151 @@
+//! `sincro linearize`: A, B, C, D of a scene, and what follows from them.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use sincro_sim::linear::{DMatrix, lqr};
+use sincro_sim::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
+use sincro_sim::problem::{Located, Location, Problem, Problems, SourceText};
+use sincro_sim::{Loaded, load};
+
+use super::run::parse_settings;
+use crate::linear::{Analysis, files, text};
+use crate::{Exit, diagnostics};
+
+/// What `linearize` takes.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of the scene, or its experiment.toml
+    scene: PathBuf,
+    /// Set a number first, as in `run`; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Time of the operating point [s]: the run goes there first
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    at: f64,
+    /// Find an equilibrium near that point first, commands as they are (`sincro trim` can do more)
+    #[arg(long)]
+    equilibrium: bool,
+    /// An input: a motor (`/joint`), a force's component, or with --closed-loop a signal of the diagram; all free commands unless given
+    #[arg(long = "input", value_name = "NAME")]
+    inputs: Vec<String>,
+    /// An output: any recorded signal that depends on the state; all coordinates unless given
+    #[arg(long = "output", value_name = "NAME")]
+    outputs: Vec<String>,
+    /// With the continuous blocks of the diagram in the loop; else the commands are held
+    #[arg(long)]
+    closed_loop: bool,
+    /// Weights of the states: design a linear-quadratic regulator with them and --lqr-r
+    #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', requires = "lqr_r", allow_negative_numbers = true)]
+    lqr_q: Vec<f64>,
+    /// Weights of the inputs
+    #[arg(long, value_name = "R1,…", value_delimiter = ',', requires = "lqr_q", allow_negative_numbers = true)]
+    lqr_r: Vec<f64>,
+    /// Folder for linearization.json, bode.csv, step.csv, figures and report.html; nothing is written unless given
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print linearization.json on standard output instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Exit {
+    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
+        Ok(loaded) => loaded,
+        Err(problems) => return diagnostics::refuse_problems(&problems),
+    };
+    let found = match compute(arguments, &loaded) {
+        Ok(found) => found,
+        Err(problems) => return diagnostics::refuse_problems(&problems),
+    };
+    let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
+    if let Some(out) = &arguments.out
+        && let Err(error) = files::write(&analysis, out)
+    {
+        return diagnostics::refuse_file(&error);
+    }
+    if arguments.json {
+        say!("{}", files::json(&analysis));
+    } else {
+        print(&analysis, &found, arguments.out.as_deref());
+    }
+    match regulator(arguments, &found) {
+        Ok(words) => {
+            if !arguments.json && !words.is_empty() {
+                say!("{words}");
+            }
+            Exit::Holds
+        }
+        Err(problem) => diagnostics::refuse_problems(&problem.into()),
+    }
+}
+
+fn compute(arguments: &Arguments, loaded: &Loaded) -> Result<Linearization, Problems> {
+    let mut at = operating_point(loaded, arguments.at)?;
+    if arguments.equilibrium {
+        at = trim(loaded, &at, &TrimRequest { is_closed: arguments.closed_loop, ..TrimRequest::default() })?.at;
+    }
+    let request = Request {
+        inputs: arguments.inputs.iter().map(|name| located("--input", name)).collect(),
+        outputs: arguments.outputs.iter().map(|name| located("--output", name)).collect(),
+        is_closed: arguments.closed_loop,
+    };
+    linearize(loaded, &at, &request)
+}
+
+/// A text of the command line, for messages that point at it.
+pub(super) fn located(flag: &str, text: &str) -> Located<String> {
+    let source = std::sync::Arc::new(SourceText { path: flag.into(), text: text.to_owned() });
+    Located { value: text.to_owned(), at: Location { source, span: 0..text.len() } }
+}
+
+fn print(analysis: &Analysis, found: &Linearization, out: Option<&Path>) {
+    say!("{}", text::text(analysis).trim_end());
+    say!("\noperating point at {} s", found.system.t);
+    let all = [("x", &found.system.states, &found.state), ("u", &found.system.inputs, &found.input)];
+    for (letter, axes, values) in all {
+        for (k, (axis, value)) in axes.iter().zip(values).enumerate() {
+            say!("  {letter}{} {} = {value:.6} {}", k + 1, axis.name, axis.unit);
+        }
+    }
+    match found.drift() {
+        drift if drift < 1e-8 => say!("  an equilibrium: no rate is above {drift:.1e}"),
+        drift => say!(
+            "  no equilibrium: rates up to {drift:.4}. The matrices hold along the motion; --equilibrium finds a rest"
+        ),
+    }
+    for note in &found.notes {
+        say!("note: {note}");
+    }
+    if let Some(out) = out {
+        say!("report {}", out.join("report.html").display());
+    }
+}
+
+/// The gains of a regulator for the weights that are given; empty if none are.
+fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Problem> {
+    if arguments.lqr_q.is_empty() {
+        return Ok(String::new());
+    }
+    let diagonal = |weights: &[f64]| DMatrix::from_diagonal(&sincro_sim::linear::DVector::from_column_slice(weights));
+    let system = &found.system;
+    for (flag, given, wanted) in
+        [("--lqr-q", arguments.lqr_q.len(), system.n_states()), ("--lqr-r", arguments.lqr_r.len(), system.n_inputs())]
+    {
+        if given != wanted {
+            let problem = Problem::nowhere(format!("{flag} has {given} weights for {wanted}"));
+            return Err(problem.with_help("give one for each state (--lqr-q) and each input (--lqr-r)"));
+        }
+    }
+    let design = lqr(&system.a, &system.b, &diagonal(&arguments.lqr_q), &diagonal(&arguments.lqr_r))
+        .map_err(|e| Problem::nowhere(format!("there is no regulator: {e}")))?;
+    let mut words = String::from("\nlinear-quadratic regulator u = −K·x");
+    for (i, input) in system.inputs.iter().enumerate() {
+        let row: Vec<String> = design.k.row(i).iter().map(|x| format!("{x:?}")).collect();
+        words += &format!("\n  {}: [{}]", input.name, row.join(", "));
+    }
+    let poles: Vec<String> = design.poles.iter().map(|m| format!("{:.4}{:+.4}i", m.re, m.im)).collect();
+    words += &format!("\n  poles of the closed loop: {}", poles.join(", "));
+    Ok(words)
+}

@@ -1,0 +1,111 @@
+//! `sincro trim`: where a scene stays as it is.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::{Map, Value, json};
+use sincro_sim::linear::Axis;
+use sincro_sim::linearize::{Trim, TrimRequest, operating_point, trim};
+use sincro_sim::load;
+use sincro_sim::problem::{Located, Problem, Problems};
+
+use super::linearize::located;
+use super::run::parse_settings;
+use crate::present::write_text;
+use crate::{Exit, diagnostics};
+
+/// What `trim` takes.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of the scene, or its experiment.toml
+    scene: PathBuf,
+    /// Set a number first, as in `run`; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Where the search begins: the state of the run at this time [s], brought to rest
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    from: f64,
+    /// A command that may be changed: a motor (`/joint`) or a force's component; the others are as the scene gives them
+    #[arg(long = "free", value_name = "NAME")]
+    free: Vec<String>,
+    /// A signal and the value that it must have, such as /shoulder.position=0.5
+    #[arg(long = "want", value_name = "SIGNAL=VALUE")]
+    want: Vec<String>,
+    /// With the continuous blocks of the diagram in the loop
+    #[arg(long)]
+    closed_loop: bool,
+    /// File to write as JSON
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print JSON instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Exit {
+    match compute(arguments) {
+        Ok(found) => show(arguments, &found),
+        Err(problems) => diagnostics::refuse_problems(&problems),
+    }
+}
+
+fn compute(arguments: &Arguments) -> Result<Trim, Problems> {
+    let loaded = load(&arguments.scene, &parse_settings(&arguments.set)?)?;
+    let wanted: Result<Vec<_>, Problem> = arguments.want.iter().map(|text| wanted(text)).collect();
+    let request = TrimRequest {
+        free: arguments.free.iter().map(|name| located("--free", name)).collect(),
+        wanted: wanted?,
+        is_closed: arguments.closed_loop,
+    };
+    let at = operating_point(&loaded, arguments.from)?;
+    Ok(trim(&loaded, &at, &request)?.trim)
+}
+
+fn wanted(text: &str) -> Result<(Located<String>, f64), Problem> {
+    let whole = located("--want", text);
+    let (name, value) = text.split_once('=').unwrap_or((text, ""));
+    match value.trim().parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok((Located { value: name.trim().to_owned(), at: whole.at }, x)),
+        _ => Err(Problem::error(&whole.at, format!("`{text}` is no signal with a value"))
+            .with_help("write SIGNAL=NUMBER, such as /shoulder.position=0.5")),
+    }
+}
+
+fn show(arguments: &Arguments, found: &Trim) -> Exit {
+    let text = format!("{:#}", as_json(found));
+    if let Some(out) = &arguments.out
+        && let Err(error) = write_text(out, &format!("{text}\n"))
+    {
+        return diagnostics::refuse_file(&error);
+    }
+    if arguments.json {
+        say!("{text}");
+        return Exit::Holds;
+    }
+    say!("equilibrium after {} steps; rates below {:.1e}", found.iterations, found.residual.max(f64::MIN_POSITIVE));
+    for (title, list) in [("state", &found.states), ("commands", &found.inputs), ("wanted", &found.outputs)] {
+        if !list.is_empty() {
+            say!("{title}");
+        }
+        let width = list.iter().map(|(axis, _)| axis.name.chars().count()).max().unwrap_or(0);
+        for (axis, value) in list {
+            say!("  {:<width$}  {value:>16.9} {}", axis.name, axis.unit);
+        }
+    }
+    Exit::Holds
+}
+
+fn as_json(found: &Trim) -> Value {
+    let table = |list: &[(Axis, f64)]| -> Value {
+        let entries = list.iter().map(|(axis, x)| (axis.name.clone(), json!({"value": x, "unit": axis.unit})));
+        Value::Object(entries.collect::<Map<_, _>>())
+    };
+    json!({
+        "states": table(&found.states),
+        "commands": table(&found.inputs),
+        "wanted": table(&found.outputs),
+        "largest_rate": found.residual,
+        "iterations": found.iterations,
+    })
+}
