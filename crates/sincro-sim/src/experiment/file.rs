@@ -273,6 +273,19 @@ pub(crate) struct PlotFile {
     pub signals: Vec<String>,
     /// Drawn over the first signal; default what the checks compare it with.
     pub reference: Option<ReferenceFile>,
+    /// What the panel below shows: the difference from what is expected, or that of the variants from the main run; default the first,
+    /// where something is expected.
+    pub difference: Option<DifferenceFile>,
+}
+
+/// Difference from what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum DifferenceFile {
+    /// Of the main run from what is expected.
+    Reference,
+    /// Of the variants from the main run.
+    Variants,
 }
 
 fn scene_toml() -> String {

@@ -146,4 +146,6 @@ pub struct Plot {
     pub signals: Vec<Located<String>>,
     /// Drawn over the first signal; if none is given, what the checks compare that signal with.
     pub reference: Option<Reference>,
+    /// Whether the panel below shows how the variants differ from the main run; none: as it fits.
+    pub compares_variants: Option<bool>,
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sincro_math::expression::is_name;
 
 use super::checks::{CheckReader, Keys};
-use super::file::{ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, RangeFile, SweepFile};
+use super::file::{DifferenceFile, ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, RangeFile, SweepFile};
 use super::grid::Grid;
 use super::{ErrorBar, Experiment, Integrator, Plot, Sweep, Variant};
 use crate::document::{Document, escape};
@@ -228,7 +228,7 @@ impl Resolver<'_> {
 
     fn plots(&mut self, parameters: &Arc<[(String, f64)]>, grid: Grid) -> Vec<Plot> {
         let mut plots = Vec::new();
-        for (k, PlotFile { title, signals, reference }) in self.file.plot.iter().enumerate() {
+        for (k, PlotFile { title, signals, reference, difference }) in self.file.plot.iter().enumerate() {
             let pointer = format!("/plot/{k}");
             let located = |(i, name): (usize, &String)| Located {
                 value: name.clone(),
@@ -237,7 +237,8 @@ impl Resolver<'_> {
             let signals = signals.iter().enumerate().map(located).collect();
             let mut reader = self.reader(parameters, Keys::Run(grid));
             let reference = reference.as_ref().and_then(|file| reader.reference(file, &format!("{pointer}/reference")));
-            plots.push(Plot { title: title.clone(), signals, reference });
+            let compares_variants = difference.map(|d| d == DifferenceFile::Variants);
+            plots.push(Plot { title: title.clone(), signals, reference, compares_variants });
         }
         plots
     }

@@ -7,6 +7,7 @@ use sincro_dynamics::joint::JointKind;
 
 use super::{Manner, RunError, Simulated, Watch, method_word, model_hash, refine, simulate};
 use crate::check::{Outcome, evaluate, evaluate_sweep};
+use crate::diagram::Controller;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use crate::load::{Loaded, load};
 use crate::overrides::Override;
@@ -30,6 +31,8 @@ pub struct Done {
     pub settings: Settings,
     /// Hash of its model.
     pub model_hash: String,
+    /// Its diagram, if it has one.
+    pub controller: Option<Controller>,
 }
 
 /// Everything that came out.
@@ -133,7 +136,8 @@ fn one_run(
     };
     let settings = settings(experiment, &simulated);
     let model_hash = model_hash(&scene.model);
-    Ok(Done { simulated, columns, outcomes, settings, model_hash })
+    let controller = loaded.controller.clone();
+    Ok(Done { simulated, columns, outcomes, settings, model_hash, controller })
 }
 
 fn settings(experiment: &Experiment, run: &Simulated) -> Settings {

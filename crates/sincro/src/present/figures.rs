@@ -23,7 +23,7 @@ pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
     if plots.is_empty() {
         figures.extend(groups(&campaign.main.simulated.table).iter().map(|names| {
             let title = group_title(names);
-            figure(&title, names, None, campaign)
+            figure(&title, names, None, None, campaign)
         }));
     } else {
         figures.extend(plots.iter().map(|plot| asked_for(plot, campaign)));
@@ -34,7 +34,7 @@ pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
 fn asked_for(plot: &Plot, campaign: &Campaign) -> Figure {
     let names: Vec<&str> = plot.signals.iter().map(|s| s.value.as_str()).collect();
     let reference = plot.reference.as_ref().map(|r| Expected { times: r.keys.to_vec(), values: r.values.to_vec() });
-    figure(&plot.title, &names, reference, campaign)
+    figure(&plot.title, &names, reference, plot.compares_variants, campaign)
 }
 
 /// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together.
@@ -69,7 +69,13 @@ fn group_title(names: &[&str]) -> String {
 }
 
 /// A figure of recorded signals; `reference` is drawn with the first one instead of what the checks say.
-fn figure(title: &str, names: &[&str], reference: Option<Expected>, campaign: &Campaign) -> Figure {
+fn figure(
+    title: &str,
+    names: &[&str],
+    reference: Option<Expected>,
+    compares_variants: Option<bool>,
+    campaign: &Campaign,
+) -> Figure {
     let table = &campaign.main.simulated.table;
     let columns: Vec<&Column> = names.iter().filter_map(|name| table.column(name)).collect();
     let unit = columns.first().map_or("", |c| c.unit.as_str());
@@ -92,8 +98,37 @@ fn figure(title: &str, names: &[&str], reference: Option<Expected>, campaign: &C
             }
         }
     }
-    let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };
+    let below = match compares_variants {
+        Some(true) => comparison(&columns, unit, campaign),
+        Some(false) => error,
+        None if error.series.is_empty() => comparison(&columns, unit, campaign),
+        None => error,
+    };
+    let panels = if below.series.is_empty() { vec![panel] } else { vec![panel, below] };
     Figure { title: title.to_owned(), x: Axis::time(), panels }
+}
+
+/// How the variants differ from the main run, where they have rows at the same times.
+fn comparison(columns: &[&Column], unit: &str, campaign: &Campaign) -> Panel {
+    let mut panel = Panel { title: "variant − main run".into(), ..Panel::error(unit) };
+    panel.y.label = "difference".into();
+    let times = campaign.main.simulated.table.times();
+    for (k, column) in columns.iter().enumerate() {
+        for (v, (_, done)) in campaign.variants.iter().enumerate() {
+            let other = &done.simulated.table;
+            let Some(same) = other.column(&column.name) else { continue };
+            let (mut x, mut y) = (Vec::new(), Vec::new());
+            for (t, value) in other.times().iter().zip(&same.values) {
+                let at = times.partition_point(|row| *row < t - SAME_INSTANT);
+                if times.get(at).is_some_and(|row| (row - t).abs() <= SAME_INSTANT) {
+                    x.push(*t);
+                    y.push(value - column.values[at]);
+                }
+            }
+            panel.series.push(Series { signal: k, ..Series::new("", Role::Variant(v), x, y) });
+        }
+    }
+    panel
 }
 
 fn curve(column: &Column, name: &str, role: Role, signal: usize, times: &[f64]) -> Series {

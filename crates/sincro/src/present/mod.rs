@@ -83,12 +83,30 @@ fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(
         stop: stop(&report.status),
         warnings: warnings(campaign),
         figures,
+        diagrams: diagrams(loaded, campaign),
         checks: checks(campaign),
         signals: signals.collect(),
         energy,
         settings: settings(campaign),
         notes: notes(campaign),
     }
+}
+
+/// The diagrams of the run and of those variants that have another one.
+fn diagrams(loaded: &Loaded, campaign: &Campaign) -> Vec<(String, String)> {
+    let variants = campaign.variants.iter().map(|(v, done)| (format!("variant `{}`", v.name), done));
+    let mut shown: Vec<String> = Vec::new();
+    let mut drawings = Vec::new();
+    for (title, done) in std::iter::once(("main run".to_owned(), &campaign.main)).chain(variants) {
+        let Some(controller) = &done.controller else { continue };
+        let drawing = crate::commands::draw::drawing(controller, "", &campaign.report.scene, true);
+        if !shown.contains(&drawing) {
+            shown.push(drawing.clone());
+            drawings.push((title, drawing));
+        }
+    }
+    debug_assert!(loaded.controller.is_none() || !drawings.is_empty(), "the main run has the scene's diagram");
+    drawings
 }
 
 /// Warnings of the scene, the run and the variants.

@@ -28,6 +28,8 @@ pub(crate) struct Page {
     pub(crate) warnings: Vec<String>,
     /// Drawn in order, each over the full width.
     pub(crate) figures: Vec<Figure>,
+    /// Block diagrams as SVG for a page, each with its title.
+    pub(crate) diagrams: Vec<(String, String)>,
     /// The table of checks.
     pub(crate) checks: Vec<CheckRow>,
     /// The recorded signals with their error bars.

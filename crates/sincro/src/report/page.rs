@@ -14,6 +14,7 @@ pub(super) fn html(page: &Page) -> String {
     let body = [
         header(page),
         figures,
+        section(if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, &diagrams(&page.diagrams)),
         section("Checks", &checks),
         section("How well the signals are known", &signal_table(&page.signals)),
         section("Energy", &page.energy.map(|energy| energy_line(&energy)).unwrap_or_default()),
@@ -51,6 +52,15 @@ fn header(page: &Page) -> String {
         stop.unwrap_or_default(),
         warnings
     )
+}
+
+/// Drawings of the controllers; wide ones are scrolled, not shrunk.
+fn diagrams(list: &[(String, String)]) -> String {
+    let one = |(title, svg): &(String, String)| {
+        let caption = if list.len() > 1 { paragraph("key", title) } else { String::new() };
+        format!("{caption}<div class=\"diagram\">{svg}</div>\n")
+    };
+    list.iter().map(one).collect()
 }
 
 fn figures(figures: &[Figure]) -> String {

@@ -1,21 +1,22 @@
 //! What both pages share: the document around them, the verdict, small building blocks.
 
 use super::{CheckRow, CheckVerdict, Stop};
+use crate::draw::DRAW_CSS;
 use crate::plot::number::short;
 use crate::plot::{self, escape, escape_raised};
 
 /// The whole document around a body.
 pub(crate) fn document(title: &str, class: &str, body: &str) -> String {
     let title = escape(title);
-    let (plot_css, page_css) = (plot::PAGE_CSS, include_str!("style.css"));
+    let (plot_css, draw_css, page_css) = (plot::PAGE_CSS, DRAW_CSS, include_str!("style.css"));
     format!(
         concat!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
             "<meta name=\"color-scheme\" content=\"light dark\">\n",
-            "<title>{}</title>\n<style>\n{}{}</style>\n</head>\n<body class=\"{}\">\n<main>\n{}</main>\n</body>\n</html>\n"
+            "<title>{}</title>\n<style>\n{}{}{}</style>\n</head>\n<body class=\"{}\">\n<main>\n{}</main>\n</body>\n</html>\n"
         ),
-        title, plot_css, page_css, class, body
+        title, plot_css, draw_css, page_css, class, body
     )
 }
 
