@@ -21,11 +21,11 @@ pub(super) struct Heights {
 }
 
 impl Heights {
-    pub fn new(graph: &mut Graph, layers: &mut Layers, sketch: &mut Sketch) -> Self {
+    pub fn new(graph: &mut Graph, layers: &Layers, sketch: &mut Sketch) -> Self {
         order_world(graph, layers, sketch);
         let is_above = (0..graph.nets.len()).map(|net| runs_above(graph, layers, sketch, net)).collect::<Vec<_>>();
         let extents = (0..graph.nodes.len())
-            .map(|node| Extent::new(graph, node, &sides(graph, layers, sketch, &is_above, node)))
+            .map(|node| Extent::new(graph, node, &sides(graph, sketch, &is_above, node)))
             .collect();
         let mut heights = Self { top: vec![0; sketch.cells.len()], extents, is_above };
         heights.settle(graph, sketch);
@@ -68,6 +68,8 @@ impl Heights {
         for link in &sketch.links {
             let weight = self.weight(sketch, link);
             if Some(link.to) == world {
+                // the way to the plant is the main one: where an output feeds several, this one is straight
+                let weight = weight + 15;
                 let b = sketch.cells.len() + link.in_port;
                 pulls.push(Pull { a: link.from, b, rest: self.output(link.from, link.out_port), weight });
             } else {
@@ -81,6 +83,9 @@ impl Heights {
         if let Some(world) = world {
             let inputs: Vec<i64> = ports.iter().map(|y| y - self.top[world]).collect();
             self.extents[world].stretch(&inputs);
+            if !sketch.links.iter().any(|link| link.from == world) {
+                self.extents[world].spread_outputs();
+            }
         }
     }
 
@@ -128,7 +133,7 @@ impl Heights {
 }
 
 /// Lists the world's ports in the order of what they are wired to.
-fn order_world(graph: &mut Graph, layers: &mut Layers, sketch: &mut Sketch) {
+fn order_world(graph: &mut Graph, layers: &Layers, sketch: &mut Sketch) {
     let Some(world) = graph.nodes.iter().position(|node| node.shape == Shape::World) else { return };
     let rank = sketch.ranks();
     let n_in = graph.nodes[world].inputs.len();
@@ -183,7 +188,7 @@ fn runs_above(graph: &Graph, layers: &Layers, sketch: &Sketch, net: usize) -> bo
 }
 
 /// Sides at which the inputs of a node enter: all at the left, but of circles.
-fn sides(graph: &Graph, layers: &Layers, sketch: &Sketch, is_above: &[bool], node: usize) -> Vec<Side> {
+fn sides(graph: &Graph, sketch: &Sketch, is_above: &[bool], node: usize) -> Vec<Side> {
     let n = graph.nodes[node].inputs.len();
     let mut sides = vec![Side::Left; n];
     if !matches!(graph.nodes[node].shape, Shape::Sum | Shape::Product) || !(2..=3).contains(&n) {
@@ -202,7 +207,6 @@ fn sides(graph: &Graph, layers: &Layers, sketch: &Sketch, is_above: &[bool], nod
         .collect();
     comes.sort_unstable();
     let is_back = |height: i64| height.abs() == 1_000_000;
-    debug_assert!(layers.layer.len() == graph.nodes.len(), "each node has a column");
     match comes[..] {
         [(first, a), (_, b)] if (b == 0 && !is_back(comes[1].0)) || is_back(first) => {
             sides[a] = Side::Above;

@@ -136,6 +136,11 @@ impl Extent {
         self.inputs = inputs.iter().map(|y| (Side::Left, *y)).collect();
     }
 
+    /// Puts the outputs evenly below the heading, as far apart as the height allows.
+    pub fn spread_outputs(&mut self) {
+        self.outputs = spread(self.outputs.len(), HEADING, self.height);
+    }
+
     /// Height that one must keep free, from the outline's top: negative above it.
     pub fn span(&self) -> (i64, i64) {
         (-self.above, self.height + self.below)
