@@ -125,9 +125,9 @@ impl Heights {
         let entry = sketch.cells[link.to].node.map(|node| (self.extents[node].inputs[link.in_port].0, node));
         match entry {
             Some((Side::Above | Side::Below, _)) => 4,
-            Some((_, node)) if self.extents[node].inputs.len() == 1 => [40, 60][passes.min(1)],
-            Some(_) => [24, 40][passes.min(1)],
-            None => [40, 40, 80][passes],
+            Some((_, node)) if self.extents[node].inputs.len() == 1 => [46, 60][passes.min(1)],
+            Some(_) => [28, 38][passes.min(1)],
+            None => [36, 36, 80][passes],
         }
     }
 }

@@ -83,6 +83,18 @@ fn position_control() -> Diagram {
     d
 }
 
+/// Two loops without anything on the way back.
+fn plain_loops() -> Diagram {
+    let mut d = Diagram::new();
+    for k in 1..=2 {
+        d.block(&format!("target{k}"), Constant::new(1.0)).block(&format!("error{k}"), Sum::new("+-"));
+        d.block(&format!("gain{k}"), Gain::new(8.0)).wire(&format!("target{k}"), &format!("error{k}.u1"));
+        d.wire(&format!("error{k}"), &format!("gain{k}")).wire(&format!("gain{k}"), &format!("/joint{k}"));
+        d.wire(&format!("/joint{k}.position"), &format!("error{k}.u2"));
+    }
+    d
+}
+
 fn pid() -> Diagram {
     let mut d = Diagram { inputs: vec!["target".into(), "speed".into()], outputs: vec!["u".into()], ..Diagram::new() };
     d.block("error", Sum::new("+-")).block("kp", Gain::new(2.0)).block("ki", Gain::new(0.4));
@@ -191,6 +203,7 @@ fn examples() -> Vec<(&'static str, Diagram)> {
         ("position", position_control()),
         ("velocity", velocity_control()),
         ("lqr", state_feedback()),
+        ("loops", plain_loops()),
         ("odd", odd_ends()),
         ("pid", pid()),
         ("one", chain(1)),
@@ -344,7 +357,11 @@ fn a_standalone_file_names_no_variable() {
 #[test]
 fn examples_can_be_looked_at() {
     let Ok(folder) = std::env::var("SINCRO_DRAW") else { return };
-    for (name, diagram) in examples().iter().take(10) {
+    let (css, inline) = (crate::plot::PAGE_CSS, Options { is_inline: true, ..Options::default() });
+    let pictures: String = examples().iter().take(5).map(|(_, diagram)| draw(diagram, &inline)).collect();
+    let page = format!("<style>{css}{DRAW_CSS}body {{ background: var(--sp-paper); }}</style>{pictures}");
+    std::fs::write(format!("{folder}/page.html"), page).unwrap();
+    for (name, diagram) in examples().iter().take(11) {
         let options = Options { title: (*name).into(), ..Options::default() };
         std::fs::write(format!("{folder}/{name}.svg"), draw(diagram, &options)).unwrap();
     }
