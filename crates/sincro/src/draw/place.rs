@@ -6,8 +6,9 @@ use super::order::{Link, Sketch};
 use super::settle::{Gap, Pull, settle};
 use super::size::{Extent, HEADING, ROW, Side};
 
-/// Room between two things in a column.
+/// Room between two things in a column, and beside a wire that passes.
 const BETWEEN: i64 = 16;
+const BESIDE: i64 = 11;
 
 /// Heights of all cells.
 #[derive(Clone, Debug)]
@@ -52,7 +53,9 @@ impl Heights {
         let mut pulls = Vec::new();
         for pair in sketch.columns.iter().flat_map(|column| column.windows(2)) {
             let (upper, lower) = (self.span(pair[0]).1, self.span(pair[1]).0);
-            let gap = Gap { a: pair[0], b: pair[1], least: upper - lower + BETWEEN };
+            let passes = pair.iter().any(|&cell| sketch.cells[cell].node.is_none());
+            let room = if passes { BESIDE } else { BETWEEN };
+            let gap = Gap { a: pair[0], b: pair[1], least: upper - lower + room };
             gaps.push(gap);
             // a little, so that what has no wire between does not drift apart
             pulls.push(Pull { a: gap.a, b: gap.b, rest: gap.least, weight: 1 });
