@@ -129,7 +129,7 @@ impl Heights {
         match entry {
             Some((Side::Above | Side::Below, _)) => 4,
             Some((_, node)) if self.extents[node].inputs.len() == 1 => [46, 60][passes.min(1)],
-            Some(_) => [28, 38][passes.min(1)],
+            Some(_) => [40, 42][passes.min(1)],
             None => [36, 36, 80][passes],
         }
     }
