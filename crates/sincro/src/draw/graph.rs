@@ -92,7 +92,22 @@ impl Graph {
                 _ => finder.graph.connect_all(&from, to),
             }
         }
+        (0..finder.graph.nodes.len()).for_each(|node| finder.graph.sort_outputs(node));
         finder.graph
+    }
+
+    /// Components stand where their port stood, instead of it if nothing takes the whole.
+    fn sort_outputs(&mut self, node: usize) {
+        let old = self.nodes[node].outputs.clone();
+        let is_used = |port: usize| self.nets.iter().any(|net| net.from == Pin { node, port });
+        let has_parts = |port: usize| old.iter().any(|other| other.name == old[port].name && other.range.is_some());
+        let mut order: Vec<usize> = (0..old.len()).filter(|&port| is_used(port) || !has_parts(port)).collect();
+        let base = |port: usize| old.iter().position(|other| other.name == old[port].name);
+        order.sort_by_key(|&port| (base(port), old[port].range.as_ref().map(|range| (range.start, range.end))));
+        for net in self.nets.iter_mut().filter(|net| net.from.node == node) {
+            net.from.port = order.iter().position(|port| *port == net.from.port).unwrap_or(0);
+        }
+        self.nodes[node].outputs = order.iter().map(|&port| old[port].clone()).collect();
     }
 
     fn connect(&mut self, from: Pin, to: Pin) {
@@ -173,7 +188,6 @@ impl Finder<'_> {
         let node_ref = &mut self.graph.nodes[node];
         let whole = port(&mut node_ref.outputs, &end.port, node_ref.shape == Shape::World);
         let wanted = Port { range: end.range.clone(), ..node_ref.outputs[whole].clone() };
-        // a port of which only components are used stays, if it is one of several: the box shows what is open
         let port = match node_ref.outputs.iter().position(|port| *port == wanted) {
             Some(at) => at,
             None => {

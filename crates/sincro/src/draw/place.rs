@@ -2,12 +2,13 @@
 
 use super::graph::{Graph, Shape};
 use super::layers::Layers;
-use super::order::Sketch;
+use super::order::{Link, Sketch};
 use super::settle::{Gap, Pull, settle};
-use super::size::{Extent, Side};
+use super::size::{Extent, HEADING, ROW, Side};
 
-/// Room between two things in a column.
+/// Room between two things in a column, and beside a wire that passes.
 const BETWEEN: i64 = 16;
+const BESIDE: i64 = 11;
 
 /// Heights of all cells.
 #[derive(Clone, Debug)]
@@ -21,11 +22,11 @@ pub(super) struct Heights {
 }
 
 impl Heights {
-    pub fn new(graph: &mut Graph, layers: &mut Layers, sketch: &mut Sketch) -> Self {
+    pub fn new(graph: &mut Graph, layers: &Layers, sketch: &mut Sketch) -> Self {
         order_world(graph, layers, sketch);
         let is_above = (0..graph.nets.len()).map(|net| runs_above(graph, layers, sketch, net)).collect::<Vec<_>>();
         let extents = (0..graph.nodes.len())
-            .map(|node| Extent::new(graph, node, &sides(graph, layers, sketch, &is_above, node)))
+            .map(|node| Extent::new(graph, node, &sides(graph, sketch, &is_above, node)))
             .collect();
         let mut heights = Self { top: vec![0; sketch.cells.len()], extents, is_above };
         heights.settle(graph, sketch);
@@ -50,36 +51,92 @@ impl Heights {
     fn settle(&mut self, graph: &Graph, sketch: &Sketch) {
         let mut gaps = Vec::new();
         let mut pulls = Vec::new();
-        for column in &sketch.columns {
-            for pair in column.windows(2) {
-                let (upper, lower) = (self.span(pair[0]).1, self.span(pair[1]).0);
-                let least = upper - self.top[pair[0]] - (lower - self.top[pair[1]]) + BETWEEN;
-                gaps.push(Gap { a: pair[0], b: pair[1], least });
-                // a little, so that what has no wire between does not drift apart
-                pulls.push(Pull { a: pair[0], b: pair[1], rest: least, weight: 1 });
-            }
+        for pair in sketch.columns.iter().flat_map(|column| column.windows(2)) {
+            let (upper, lower) = (self.span(pair[0]).1, self.span(pair[1]).0);
+            let passes = pair.iter().any(|&cell| sketch.cells[cell].node.is_none());
+            let room = if passes { BESIDE } else { BETWEEN };
+            let gap = Gap { a: pair[0], b: pair[1], least: upper - lower + room };
+            gaps.push(gap);
+            // a little, so that what has no wire between does not drift apart
+            pulls.push(Pull { a: gap.a, b: gap.b, rest: gap.least, weight: 1 });
+        }
+        let mut start = vec![0; sketch.cells.len()];
+        for gap in &gaps {
+            start[gap.b] = start[gap.a] + gap.least;
+        }
+        let world = graph.nodes.iter().position(|node| node.shape == Shape::World);
+        if let Some(world) = world {
+            self.free_ports(world, sketch, &mut start, &mut pulls, &mut gaps);
         }
         for link in &sketch.links {
-            let rest = self.output(link.from, link.out_port) - self.input(link.to, link.in_port);
-            let passes = [link.from, link.to].iter().filter(|&&cell| sketch.cells[cell].node.is_none()).count();
-            let is_main = sketch.cells[link.to].node.is_some_and(|node| {
-                matches!(self.extents[node].inputs[link.in_port].0, Side::Left) && graph.nodes[node].inputs.len() == 1
-            });
-            let weight = [20, 40, 80][passes] + if is_main { 20 } else { 0 };
-            pulls.push(Pull { a: link.from, b: link.to, rest, weight });
-        }
-        for column in &sketch.columns {
-            for pair in column.windows(2) {
-                let least = gaps.iter().find(|gap| gap.a == pair[0] && gap.b == pair[1]).map_or(0, |gap| gap.least);
-                self.top[pair[1]] = self.top[pair[0]] + least;
+            let weight = self.weight(sketch, link);
+            if Some(link.to) == world {
+                // the way to the plant is the main one: where an output feeds several, this one is straight
+                let weight = weight + 15;
+                let b = sketch.cells.len() + link.in_port;
+                pulls.push(Pull { a: link.from, b, rest: self.output(link.from, link.out_port), weight });
+            } else {
+                let rest = self.output(link.from, link.out_port) - self.input(link.to, link.in_port);
+                pulls.push(Pull { a: link.from, b: link.to, rest, weight });
             }
         }
-        settle(&mut self.top, &pulls, &gaps);
+        settle(&mut start, &pulls, &gaps);
+        let ports = start.split_off(sketch.cells.len());
+        self.top = start;
+        if let Some(world) = world {
+            let inputs: Vec<i64> = ports.iter().map(|y| y - self.top[world]).collect();
+            self.extents[world].stretch(&inputs);
+            if !sketch.links.iter().any(|link| link.from == world) {
+                self.extents[world].spread_outputs();
+            }
+        }
+    }
+
+    /// The world's inputs may move apart, so that wires come straight: things of their own behind the cells.
+    fn free_ports(
+        &self,
+        world: usize,
+        sketch: &Sketch,
+        start: &mut Vec<i64>,
+        pulls: &mut Vec<Pull>,
+        gaps: &mut Vec<Gap>,
+    ) {
+        let n_ports = self.extents[world].inputs.len();
+        let column = &sketch.columns[sketch.cells[world].column];
+        let below = column.iter().skip_while(|cell| **cell != world).nth(1).copied();
+        for port in 0..n_ports {
+            let b = sketch.cells.len() + port;
+            let (a, least) = if port == 0 { (world, HEADING + ROW / 2 - 4) } else { (b - 1, ROW) };
+            gaps.push(Gap { a, b, least });
+            pulls.push(Pull { a, b, rest: least, weight: 3 });
+            start.push(start[a] + least);
+        }
+        if let Some(below) = below.filter(|_| n_ports > 0) {
+            let least = ROW / 2 + self.extents[world].below + BETWEEN - self.span(below).0;
+            let last = sketch.cells.len() + n_ports - 1;
+            let shift = (start[last] + least - start[below]).max(0);
+            gaps.push(Gap { a: last, b: below, least });
+            for cell in column.iter().skip_while(|cell| **cell != below) {
+                start[*cell] += shift;
+            }
+        }
+    }
+
+    /// How much a link should be straight: those that pass columns most, those that bend anyway least.
+    fn weight(&self, sketch: &Sketch, link: &Link) -> i64 {
+        let passes = [link.from, link.to].iter().filter(|&&cell| sketch.cells[cell].node.is_none()).count();
+        let entry = sketch.cells[link.to].node.map(|node| (self.extents[node].inputs[link.in_port].0, node));
+        match entry {
+            Some((Side::Above | Side::Below, _)) => 4,
+            Some((_, node)) if self.extents[node].inputs.len() == 1 => [46, 60][passes.min(1)],
+            Some(_) => [40, 42][passes.min(1)],
+            None => [36, 36, 80][passes],
+        }
     }
 }
 
 /// Lists the world's ports in the order of what they are wired to.
-fn order_world(graph: &mut Graph, layers: &mut Layers, sketch: &mut Sketch) {
+fn order_world(graph: &mut Graph, layers: &Layers, sketch: &mut Sketch) {
     let Some(world) = graph.nodes.iter().position(|node| node.shape == Shape::World) else { return };
     let rank = sketch.ranks();
     let n_in = graph.nodes[world].inputs.len();
@@ -134,7 +191,7 @@ fn runs_above(graph: &Graph, layers: &Layers, sketch: &Sketch, net: usize) -> bo
 }
 
 /// Sides at which the inputs of a node enter: all at the left, but of circles.
-fn sides(graph: &Graph, layers: &Layers, sketch: &Sketch, is_above: &[bool], node: usize) -> Vec<Side> {
+fn sides(graph: &Graph, sketch: &Sketch, is_above: &[bool], node: usize) -> Vec<Side> {
     let n = graph.nodes[node].inputs.len();
     let mut sides = vec![Side::Left; n];
     if !matches!(graph.nodes[node].shape, Shape::Sum | Shape::Product) || !(2..=3).contains(&n) {
@@ -153,7 +210,6 @@ fn sides(graph: &Graph, layers: &Layers, sketch: &Sketch, is_above: &[bool], nod
         .collect();
     comes.sort_unstable();
     let is_back = |height: i64| height.abs() == 1_000_000;
-    debug_assert!(layers.layer.len() == graph.nodes.len(), "each node has a column");
     match comes[..] {
         [(first, a), (_, b)] if (b == 0 && !is_back(comes[1].0)) || is_back(first) => {
             sides[a] = Side::Above;

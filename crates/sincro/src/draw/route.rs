@@ -63,9 +63,9 @@ struct Lane {
 
 impl Layout {
     pub fn new(graph: &mut Graph) -> (Self, Heights) {
-        let mut layers = Layers::new(graph);
+        let layers = Layers::new(graph);
         let mut sketch = Sketch::new(graph, &layers);
-        let heights = Heights::new(graph, &mut layers, &mut sketch);
+        let heights = Heights::new(graph, &layers, &mut sketch);
         let mut router = Router::new(graph, &layers, &sketch, &heights);
         let layout = router.layout();
         (layout, heights)

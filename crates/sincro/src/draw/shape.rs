@@ -92,9 +92,9 @@ fn signs(canvas: &mut Canvas, node: &Node, outline: &Outline, extent: &Extent) {
     for (sign, (side, at)) in signs.zip(&extent.inputs) {
         let place = match side {
             Side::Left if is_lone => (middle, y + 0.5 * height),
-            Side::Left => (x + 8.0, y + *at as f64),
-            Side::Above => (middle, y + 8.5),
-            Side::Below => (middle, y + height - 9.5),
+            Side::Left => (x + 9.5, y + *at as f64),
+            Side::Above => (middle, y + 9.0),
+            Side::Below => (middle, y + height - 9.0),
         };
         let sign = if is_lone { 'Σ' } else { sign };
         canvas.words(place, "middle", 14.0, "", &sign.to_string());

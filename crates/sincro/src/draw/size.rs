@@ -9,9 +9,10 @@ pub(super) const NAME: f64 = 11.0;
 pub(super) const SMALL: f64 = 9.5;
 
 /// Diameter of a circle.
-pub(super) const ROUND: i64 = 32;
-/// Height of the world's heading.
+pub(super) const ROUND: i64 = 36;
+/// Height of the world's heading, and distance of its ports.
 pub(super) const HEADING: i64 = 30;
+pub(super) const ROW: i64 = 24;
 /// How far from a circle a wire turns towards its top or bottom.
 const APPROACH: i64 = 14;
 /// Longer texts are cut in the middle.
@@ -73,9 +74,7 @@ pub(super) fn shows_ports(node: &Node, of_outputs: bool) -> bool {
     let ports = if of_outputs { &node.outputs } else { &node.inputs };
     match node.shape {
         Shape::World | Shape::Inner => true,
-        Shape::Box | Shape::Missing | Shape::Scope | Shape::Saturation => {
-            ports.iter().any(|port| port.name != ports[0].name)
-        }
+        Shape::Box | Shape::Missing => ports.iter().any(|port| port.name != ports[0].name),
         _ => false,
     }
 }
@@ -131,6 +130,17 @@ impl Extent {
         }
     }
 
+    /// Puts the inputs at these heights, and makes room for them and the outputs.
+    pub fn stretch(&mut self, inputs: &[i64]) {
+        self.height = self.height.max(inputs.last().map_or(0, |y| y + ROW / 2));
+        self.inputs = inputs.iter().map(|y| (Side::Left, *y)).collect();
+    }
+
+    /// Puts the outputs evenly below the heading, as far apart as the height allows.
+    pub fn spread_outputs(&mut self) {
+        self.outputs = spread(self.outputs.len(), HEADING, self.height);
+    }
+
     /// Height that one must keep free, from the outline's top: negative above it.
     pub fn span(&self) -> (i64, i64) {
         (-self.above, self.height + self.below)
@@ -145,13 +155,13 @@ fn outline(node: &Node) -> (i64, i64) {
         Shape::Sum if node.inputs.len() > 3 => (ROUND, 20 * n + 8),
         Shape::Product if node.inputs.len() > 3 => (ROUND, 20 * n + 8),
         Shape::Sum | Shape::Product => (ROUND, ROUND),
-        Shape::Gain => (((label + 8) * 100 / 68).max(48), 48),
+        Shape::Gain => (((label + 12) * 100 / 68).max(48), 48),
         Shape::Bar => (6, (18 * n).max(30)),
         Shape::Terminal => (label + 22, 24),
-        Shape::Scope | Shape::Saturation => (port_room(node).max(46), (20 * n).max(40)),
+        Shape::Scope | Shape::Saturation => (46, (20 * n).max(40)),
         Shape::World => {
             let heading = text(&node.label, LABEL) + 24;
-            ((port_room(node) + 20).max(heading).max(90), HEADING + 24 * n.max(1))
+            ((port_room(node) + 20).max(heading).max(90), HEADING + ROW * n.max(1))
         }
         Shape::Box | Shape::Inner | Shape::Missing => {
             let inside = if port_room(node) > 0 { port_room(node) + 12 } else { 24 };
