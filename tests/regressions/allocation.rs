@@ -5,6 +5,7 @@ use std::path::Path;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::diagram::Controller;
 use sincro_sim::load;
+use sincro_sim::overrides::Override;
 use sincro_sim::record::Recorder;
 use sincro_sim::run::LockStep;
 
@@ -16,11 +17,29 @@ const METHODS: [MethodKind; 5] = [
     MethodKind::Stiff,
 ];
 
+/// With a step at which the explicit methods are stable, too.
+const PID: &[(&str, &str)] = &[
+    ("diagram", "pid.toml"),
+    ("/shoulder.motor.mode", "torque"),
+    ("/shoulder/elbow.motor.mode", "torque"),
+    ("step", "0.00025"),
+];
+
 #[test]
 fn a_step_and_a_row_allocate_nothing() {
     // jumps of motors every tick, limits and events, quaternions, external signals
-    for name in ["motor-ramp", "flexible-velocity-step", "alexandros-release", "free-body", "two-dof-open-loop"] {
-        let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &[]).unwrap();
+    for (name, set) in [
+        ("motor-ramp", &[][..]),
+        ("flexible-velocity-step", &[]),
+        ("alexandros-release", &[]),
+        ("free-body", &[]),
+        ("two-dof-open-loop", &[]),
+        // sampled blocks on ideal motors, continuous ones on torque motors
+        ("two-dof-position", &[]),
+        ("two-dof-position", PID),
+    ] {
+        let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
+        let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();
         for method in METHODS {
             let mut lockstep = LockStep::new(&loaded, method, false);
             let signals = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();

@@ -23,7 +23,7 @@ fn advance(lockstep: &mut LockStep, trace: &mut Trace, n: usize) {
 
 #[test]
 fn a_saved_run_continues_with_the_same_hash() {
-    for name in ["flexible-velocity-step", "free-body", "motor-ramp", "alexandros-release"] {
+    for name in ["flexible-velocity-step", "free-body", "motor-ramp", "alexandros-release", "two-dof-position"] {
         let loaded = scene(name);
         let (method, _) = choose_method(&loaded.scene, &loaded.experiment);
         let mut lockstep = LockStep::new(&loaded, method, false);

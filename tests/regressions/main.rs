@@ -2,4 +2,5 @@
 
 mod allocation;
 mod determinism;
+mod parity;
 mod scenes;

@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 use sincro_blocks::compile::{Interface, Place, Spot, compile};
 use sincro_blocks::diagram::{Diagram, What};
+use sincro_blocks::runner::Runner;
 use sincro_dynamics::model::Model;
 
 pub use coupling::{Control, NotFinite, Wiring};
@@ -113,6 +114,18 @@ impl Controller {
         let program = Arc::new(compile(&diagram, &interface)?);
         let wiring = Arc::new(Wiring::new(program, &measurements));
         Ok(Self { diagram, wiring })
+    }
+
+    /// The block whose continuous state decays fastest at the start, and how fast [1/s]; none if nothing does.
+    #[must_use]
+    pub fn fastest(&self) -> Option<(String, f64)> {
+        let program = self.wiring.program();
+        let mut runner = Runner::<f64>::new(program.clone());
+        let mut decay = vec![0.0; program.n_states];
+        runner.decays(0, 0.0, &mut decay);
+        let k = (0..decay.len()).max_by(|a, b| decay[*a].total_cmp(&decay[*b]))?;
+        let step = program.steps.iter().find(|s| s.states.contains(&k))?;
+        (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
     }
 
     /// The diagram's signals as they are recorded: `block`, `block.port`, components of vectors as `block[0]`.

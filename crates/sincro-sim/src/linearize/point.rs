@@ -2,7 +2,7 @@
 
 use crate::load::Loaded;
 use crate::problem::{Located, Problem};
-use crate::run::{LockStep, choose_method};
+use crate::run::{LockStep, method_for};
 
 /// What is to be linearised.
 #[derive(Clone, Debug, Default)]
@@ -26,7 +26,7 @@ pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Problem> {
         let problem = Problem::nowhere(format!("there is no operating point at {t} s"));
         return Err(problem.with_help("give a time from 0 on"));
     }
-    let (method, _) = choose_method(&loaded.scene, &loaded.experiment);
+    let (method, _) = method_for(loaded);
     let mut run = LockStep::new(loaded, method, false);
     let mut go = run.start();
     for _ in 0..n as u64 {

@@ -139,6 +139,35 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
     (kind, warnings)
 }
 
+/// As [`choose_method`], the diagram's continuous blocks considered too.
+#[must_use]
+pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
+    let (kind, mut warnings) = choose_method(&loaded.scene, &loaded.experiment);
+    let Some((block, rate)) = loaded.controller.as_ref().and_then(Controller::fastest) else {
+        return (kind, warnings);
+    };
+    let (step, product) = (loaded.experiment.step, rate * loaded.experiment.step);
+    let is_auto = loaded.experiment.integrator == Integrator::Auto;
+    if kind == MethodKind::Rk4 && product > RK4_LIMIT {
+        warnings.push(format!(
+            "block `{block}` decays at {rate:.3e} 1/s, too fast for `rk4` at a step of {step} s, which is stable up to {:.2e} s: \
+             the run will diverge. Use integrator = \"auto\" or \"implicit\"",
+            RK4_LIMIT / rate
+        ));
+    }
+    if kind == MethodKind::DormandPrince && product > SLOW_FROM {
+        if is_auto {
+            return (MethodKind::Stiff, warnings);
+        }
+        warnings.push(format!(
+            "block `{block}` decays at {rate:.3e} 1/s and makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \
+             \"auto\" or \"stiff\"",
+            product / 3.3
+        ));
+    }
+    (kind, warnings)
+}
+
 /// A fast degree of freedom in words.
 fn describe(scene: &Scene, s: &Stiffness) -> String {
     format!(
@@ -189,7 +218,7 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
 /// [`Simulated::status`].
 pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> Result<Simulated, RunError> {
     let Loaded { scene, experiment, controller, .. } = loaded;
-    let (method, warnings) = choose_method(scene, experiment);
+    let (method, warnings) = method_for(loaded);
     let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
     let mut recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
     let rows = experiment.n_steps / experiment.record_every + 1;

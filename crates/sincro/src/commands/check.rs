@@ -6,7 +6,7 @@ use clap::Args;
 use sincro_blocks::program::Rate;
 use sincro_sim::diagram::Controller;
 use sincro_sim::record::catalogue;
-use sincro_sim::run::{choose_method, method_word, model_hash};
+use sincro_sim::run::{method_for, method_word, model_hash};
 use sincro_sim::scene::{Object, ObjectKind, Scene};
 use sincro_sim::{Loaded, load};
 
@@ -57,7 +57,7 @@ fn print(loaded: &Loaded) {
     if let Some(controller) = &loaded.controller {
         print_diagram(controller, experiment.step);
     }
-    let (method, warnings) = choose_method(scene, experiment);
+    let (method, warnings) = method_for(loaded);
     say!("run");
     say!(
         "  {} s at {} s: {} steps, {} recorded signals",

@@ -54,11 +54,16 @@ fn header(page: &Page) -> String {
     )
 }
 
-/// Drawings of the controllers; wide ones are scrolled, not shrunk.
+/// Least share of its size that a wide drawing is shrunk to; beyond, it is scrolled.
+const LEAST_SCALE: f64 = 0.7;
+
+/// Drawings of the controllers.
 fn diagrams(list: &[(String, String)]) -> String {
     let one = |(title, svg): &(String, String)| {
         let caption = if list.len() > 1 { paragraph("key", title) } else { String::new() };
-        format!("{caption}<div class=\"diagram\">{svg}</div>\n")
+        let width = svg.split_once("width=\"").and_then(|(_, rest)| rest.split('"').next()?.parse::<f64>().ok());
+        let least = width.map_or(String::new(), |w| format!(" style=\"--least: {:.0}px\"", LEAST_SCALE * w));
+        format!("{caption}<div class=\"diagram\"{least}>{svg}</div>\n")
     };
     list.iter().map(one).collect()
 }
