@@ -70,21 +70,22 @@ fn group_title(names: &[&str]) -> String {
 
 /// A figure of recorded signals; `reference` is drawn with the first one instead of what the checks say.
 fn figure(title: &str, names: &[&str], reference: Option<Expected>, campaign: &Campaign) -> Figure {
-    let table = &campaign.main.simulated.table;
-    let columns: Vec<&Column> = names.iter().filter_map(|name| table.column(name)).collect();
-    let unit = columns.first().map_or("", |c| c.unit.as_str());
-    let label = columns.first().map_or_else(String::new, |c| quantity(&c.name).replace('_', " "));
+    let drawn: Vec<Drawn<'_>> = names.iter().filter_map(|name| Drawn::find(name, campaign)).collect();
+    let unit = drawn.first().map_or("", |d| d.column.unit.as_str());
+    let label = drawn.first().map_or_else(String::new, |d| quantity(&d.column.name).replace('_', " "));
     let mut panel = Panel::new(Axis::new(label, unit));
     let mut error = Panel::error(unit);
-    for (k, column) in columns.iter().enumerate() {
-        panel.series.push(curve(column, &column.name, Role::Simulated, k, table.times()));
-        let checked = expected_of(&campaign.main.outcomes, &column.name);
+    for (k, Drawn { name, column, done, of_variant }) in drawn.iter().enumerate() {
+        let times = done.simulated.table.times();
+        panel.series.push(curve(column, name, Role::Simulated, k, times));
+        let checked = expected_of(&done.outcomes, &column.name);
         let given = if k == 0 { reference.clone().map(|r| (r, None)) } else { None };
         if let Some((expected, tolerance)) = given.or(checked) {
-            add_reference(&mut panel, &mut error, (k, column, table.times()), expected, tolerance);
-            add_band(&mut error, k, column, &campaign.main, table.times());
+            add_reference(&mut panel, &mut error, (k, column, times), expected, tolerance);
+            add_band(&mut error, k, column, done, times);
         }
-        for (v, (variant, done)) in campaign.variants.iter().enumerate() {
+        let others = if *of_variant { &[][..] } else { &campaign.variants };
+        for (v, (variant, done)) in others.iter().enumerate() {
             let other = &done.simulated.table;
             if let Some(same) = other.column(&column.name) {
                 let name = if k == 0 { variant.name.as_str() } else { "" };
@@ -94,6 +95,27 @@ fn figure(title: &str, names: &[&str], reference: Option<Expected>, campaign: &C
     }
     let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };
     Figure { title: title.to_owned(), x: Axis::time(), panels }
+}
+
+/// A signal in a figure: of the main run, drawn with its variants, or of one variant alone, as `variant:signal`.
+struct Drawn<'a> {
+    name: &'a str,
+    column: &'a Column,
+    done: &'a Done,
+    of_variant: bool,
+}
+
+impl<'a> Drawn<'a> {
+    fn find(name: &'a str, campaign: &'a Campaign) -> Option<Self> {
+        let main = &campaign.main;
+        if let Some(column) = main.simulated.table.column(name) {
+            return Some(Self { name, column, done: main, of_variant: false });
+        }
+        let (of, signal) = name.split_once(':')?;
+        let (_, done) = campaign.variants.iter().find(|(variant, _)| variant.name == of)?;
+        let column = done.simulated.table.column(signal)?;
+        Some(Self { name, column, done, of_variant: true })
+    }
 }
 
 fn curve(column: &Column, name: &str, role: Role, signal: usize, times: &[f64]) -> Series {

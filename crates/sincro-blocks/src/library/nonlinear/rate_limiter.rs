@@ -48,12 +48,7 @@ impl Described for RateLimiter {
         equation: "y[k] = y[k−1] + min(max(u[k] − y[k−1], −falling·Ts), rising·Ts)",
         parameters: &[
             Parameter::required("rising", Takes::Numbers, "fastest rise [unit of u / s]"),
-            Parameter::optional(
-                "falling",
-                Takes::Numbers,
-                "fastest fall, a positive number [unit of u / s]",
-                "rising",
-            ),
+            Parameter::optional("falling", Takes::Numbers, "fastest fall, a positive number [unit of u / s]", "rising"),
             Parameter::optional("initial", Takes::Numbers, "y before the start", "u"),
         ],
     };

@@ -45,7 +45,12 @@ impl Described for ForwardKinematics {
         equation: "position = p(q), quaternion = (w, x, y, z) of R(q); velocity = ṗ, angular_velocity = ω, world axes",
         parameters: &[
             Parameter::required("frame", Takes::Text, "path of the body or frame"),
-            Parameter::optional("velocity", Takes::Flag, "whether there is an input `v` and outputs for velocities", "false"),
+            Parameter::optional(
+                "velocity",
+                Takes::Flag,
+                "whether there is an input `v` and outputs for velocities",
+                "false",
+            ),
         ],
     };
 

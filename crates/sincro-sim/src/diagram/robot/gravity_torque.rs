@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sincro_blocks::block::{At, Block, Ports};
 use sincro_blocks::kind::{Described, Group, Kind};
 use sincro_blocks::reader::Reader;
-use sincro_dynamics::rnea::inverse_dynamics;
 use sincro_dynamics::model::Model;
+use sincro_dynamics::rnea::inverse_dynamics;
 use sincro_math::Real;
 
 use super::{Context, Item, Robot, check_widths};
@@ -17,10 +17,8 @@ pub struct GravityTorque {
     model: Arc<Model<f64>>,
 }
 
-pub(super) const ITEM: Item = Item {
-    kind: GravityTorque::KIND,
-    read: |_, context| Box::new(GravityTorque::new(context)),
-};
+pub(super) const ITEM: Item =
+    Item { kind: GravityTorque::KIND, read: |_, context| Box::new(GravityTorque::new(context)) };
 
 impl GravityTorque {
     /// Of the scene's model.

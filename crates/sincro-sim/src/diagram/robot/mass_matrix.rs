@@ -17,10 +17,7 @@ pub struct MassMatrix {
     model: Arc<Model<f64>>,
 }
 
-pub(super) const ITEM: Item = Item {
-    kind: MassMatrix::KIND,
-    read: |_, context| Box::new(MassMatrix::new(context)),
-};
+pub(super) const ITEM: Item = Item { kind: MassMatrix::KIND, read: |_, context| Box::new(MassMatrix::new(context)) };
 
 impl MassMatrix {
     /// Of the scene's model.

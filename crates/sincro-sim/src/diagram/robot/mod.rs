@@ -44,13 +44,8 @@ pub struct Item {
 
 /// All robot blocks.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    const SHELF: &[Item] = &[
-        forward_kinematics::ITEM,
-        jacobian::ITEM,
-        inverse_dynamics::ITEM,
-        gravity_torque::ITEM,
-        mass_matrix::ITEM,
-    ];
+    const SHELF: &[Item] =
+        &[forward_kinematics::ITEM, jacobian::ITEM, inverse_dynamics::ITEM, gravity_torque::ITEM, mass_matrix::ITEM];
     SHELF.iter()
 }
 
@@ -88,7 +83,8 @@ fn frame(reader: &mut Reader<'_>, context: &Context) -> usize {
         None => {
             let near = crate::suggest::nearest(&path, frames.iter().map(|f| f.name.as_str()));
             let all = frames.iter().map(|f| format!("`{}`", f.name)).collect::<Vec<_>>().join(", ");
-            let help = near.map_or_else(|| format!("bodies and frames: {all}"), |near| format!("did you mean `{near}`?"));
+            let help =
+                near.map_or_else(|| format!("bodies and frames: {all}"), |near| format!("did you mean `{near}`?"));
             reader.fault("frame", format!("there is no body or frame `{path}`"), help);
             0
         }
