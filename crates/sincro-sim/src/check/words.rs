@@ -66,8 +66,7 @@ pub(super) fn unit(check: &Check, along: &Along) -> String {
     let signal = plain_signal(check).and_then(|name| along.table.column(name));
     match (check.measure, signal.map(|column| column.unit.as_str())) {
         (Measure::TimeOfMin | Measure::TimeOfMax | Measure::RiseTime | Measure::SettlingTime, _) => key_unit.to_owned(),
-        (Measure::Overshoot, _) => "1".to_owned(),
-        (_, None) => String::new(),
+        (Measure::Overshoot, _) | (_, None) => String::new(),
         (Measure::Integral, Some(unit)) => times(unit, key_unit),
         (_, Some(unit)) => unit.to_owned(),
     }
