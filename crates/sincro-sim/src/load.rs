@@ -76,7 +76,7 @@ fn further_settings(experiment: &Experiment) -> Vec<Vec<Override>> {
     let mut all: Vec<Vec<Override>> = experiment.variants.iter().map(|variant| variant.set.clone()).collect();
     if let Some(sweep) = &experiment.sweep {
         let ends = [sweep.values.first(), sweep.values.last()];
-        all.extend(ends.into_iter().flatten().map(|value| vec![sweep.setting(*value)]));
+        all.extend(ends.into_iter().flatten().map(|value| sweep.settings(*value).collect()));
     }
     all
 }

@@ -200,7 +200,7 @@ fn a_sweep_sets_its_parameter() {
     let folder = TestFolder::new();
     let sweep = folder.load(&[]).unwrap().experiment.sweep.unwrap();
     assert_eq!(sweep.values, [10.0, 20.0, 30.0]);
-    let loaded = load(&folder.path, &[sweep.setting(1e-7)]).unwrap();
+    let loaded = load(&folder.path, &sweep.settings(1e-7).collect::<Vec<_>>()).unwrap();
     assert_eq!(loaded.scene.model.dofs()[0].stiffness, 1e-7);
 }
 

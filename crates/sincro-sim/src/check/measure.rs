@@ -3,6 +3,17 @@
 //! A NaN among the values is the result. Means over time follow the trapezoidal rule, that is, they take the series as straight
 //! between the rows. The integral does not: a row's value stands for the interval that ends at the row, Σ x_k·(t_k − t_{k−1}),
 //! which is exact for mean values of a step such as `motor_torque`.
+//!
+//! A step response leads from x_0, the first value, to the target x_1; h = x_1 − x_0 is the height of the step. Crossing times are
+//! found between two rows on the straight line through them.
+//!
+//! | measure | |
+//! |---|---|
+//! | overshoot | the greatest (x − x_1)/h of a row, at least 0 |
+//! | rise time | from the first crossing of x_0 + 0.1·h to the first of x_0 + 0.9·h |
+//! | settling time | from the first row to the instant after which \|x − x_1\| stays at most band·\|h\| |
+//!
+//! A level that is not reached, or a response that has not settled in the last row, gives an infinite time, which never holds.
 
 use crate::experiment::check::Measure;
 
@@ -13,9 +24,18 @@ pub(super) struct Measured {
     pub(super) row: Option<usize>,
 }
 
+/// What a step response is measured against.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepShape {
+    /// Where the step ends; the last value if not given.
+    pub(super) target: Option<f64>,
+    /// Of the settling time, as a share of the step's height.
+    pub(super) band: f64,
+}
+
 /// The measure of a series of at least one value over its keys. `Measure::Error` is no number of one series and counts as the
 /// final value.
-pub(super) fn measure(measure: Measure, keys: &[f64], values: &[f64]) -> Result<Measured, String> {
+pub(super) fn measure(measure: Measure, shape: &StepShape, keys: &[f64], values: &[f64]) -> Result<Measured, String> {
     let of_row = |row: usize| Ok(Measured { value: values[row], row: Some(row) });
     let key_of_row = |row: usize| if values[row].is_nan() { f64::NAN } else { keys[row] };
     let over_time = |value: f64| {
@@ -38,7 +58,64 @@ pub(super) fn measure(measure: Measure, keys: &[f64], values: &[f64]) -> Result<
         Measure::Rms => over_time(mean_square(keys, values, 0.0).sqrt()),
         Measure::Std => over_time(mean_square(keys, values, mean(keys, values)).sqrt()),
         Measure::Integral => over_time(integral(keys, values)),
+        Measure::Overshoot => {
+            let shares = shares(shape, values)?;
+            let row = greatest(&shares);
+            Ok(Measured { value: nan_or_max(shares[row] - 1.0, 0.0), row: None })
+        }
+        Measure::RiseTime => Ok(Measured { value: rise_time(keys, &shares(shape, values)?), row: None }),
+        Measure::SettlingTime => {
+            Ok(Measured { value: settling_time(keys, &shares(shape, values)?, shape.band), row: None })
+        }
     }
+}
+
+/// (x − x_0)/h: the way from the first value to the target as a share of the step's height.
+fn shares(shape: &StepShape, values: &[f64]) -> Result<Vec<f64>, String> {
+    let (first, last) = (values[0], shape.target.unwrap_or(values[values.len() - 1]));
+    if first == last {
+        return Err(format!("there is no step: the first row and the target are both {first}"));
+    }
+    Ok(values.iter().map(|x| (x - first) / (last - first)).collect())
+}
+
+fn nan_or_max(value: f64, least: f64) -> f64 {
+    if value < least { least } else { value }
+}
+
+fn rise_time(keys: &[f64], shares: &[f64]) -> f64 {
+    if shares.iter().any(|s| s.is_nan()) {
+        return f64::NAN;
+    }
+    let first_crossing = |level: f64| {
+        let row = shares.iter().position(|s| *s >= level)?;
+        // the first share is 0, so that a row stands before the crossing
+        Some(crossing(keys, shares, row - 1, level))
+    };
+    match (first_crossing(0.1), first_crossing(0.9)) {
+        (Some(from), Some(to)) => to - from,
+        _ => f64::INFINITY,
+    }
+}
+
+fn settling_time(keys: &[f64], shares: &[f64], band: f64) -> f64 {
+    if shares.iter().any(|s| s.is_nan()) {
+        return f64::NAN;
+    }
+    match shares.iter().rposition(|s| (s - 1.0).abs() > band) {
+        None => 0.0,
+        Some(row) if row + 1 == shares.len() => f64::INFINITY,
+        Some(row) => {
+            let edge = if shares[row] > 1.0 { 1.0 + band } else { 1.0 - band };
+            crossing(keys, shares, row, edge) - keys[0]
+        }
+    }
+}
+
+/// Where the line from a row to the next passes a level.
+fn crossing(keys: &[f64], values: &[f64], row: usize, level: f64) -> f64 {
+    let along = (level - values[row]) / (values[row + 1] - values[row]);
+    keys[row] + along * (keys[row + 1] - keys[row])
 }
 
 /// Where the greatest value stands: the first of equals, and the first NaN before any number.
@@ -95,6 +172,12 @@ mod tests {
     const T: [f64; 4] = [0.0, 1.0, 2.0, 4.0];
     const X: [f64; 4] = [1.0, 3.0, -5.0, 2.0];
 
+    const SHAPE: StepShape = StepShape { target: None, band: 0.02 };
+
+    fn measure(of: Measure, keys: &[f64], values: &[f64]) -> Result<Measured, String> {
+        super::measure(of, &SHAPE, keys, values)
+    }
+
     fn value(of: Measure) -> f64 {
         measure(of, &T, &X).unwrap().value
     }
@@ -133,12 +216,76 @@ mod tests {
 
     #[test]
     fn a_nan_is_the_result_of_every_measure() {
-        use Measure::{Integral, Max, MaxAbs, Mean, Min, Rms, Std, TimeOfMax, TimeOfMin};
-        for (place, of) in [Mean, Min, Max, MaxAbs, Rms, Std, Integral, TimeOfMin, TimeOfMax].into_iter().enumerate() {
+        use Measure::{
+            Integral, Max, MaxAbs, Mean, Min, Overshoot, RiseTime, Rms, SettlingTime, Std, TimeOfMax, TimeOfMin,
+        };
+        let all = [Mean, Min, Max, MaxAbs, Rms, Std, Integral, TimeOfMin, TimeOfMax, Overshoot, RiseTime, SettlingTime];
+        for (place, of) in all.into_iter().enumerate() {
             let mut values = X;
             values[place % 3] = f64::NAN;
             assert!(measure(of, &T, &values).unwrap().value.is_nan(), "{of:?}");
         }
+    }
+
+    /// 1 − e^(−ζωt)·(cos ω_d t + ζω/ω_d·sin ω_d t) every millisecond for 20 s, from `from` to `to`.
+    fn second_order(omega: f64, zeta: f64, from: f64, to: f64) -> (Vec<f64>, Vec<f64>) {
+        let damped = omega * (1.0 - zeta * zeta).sqrt();
+        let keys: Vec<f64> = (0..=20_000).map(|k| f64::from(k) * 1e-3).collect();
+        let share = |t: &f64| {
+            let turn = (damped * t).cos() + zeta * omega / damped * (damped * t).sin();
+            from + (to - from) * (1.0 - (-zeta * omega * t).exp() * turn)
+        };
+        let values = keys.iter().map(share).collect();
+        (keys, values)
+    }
+
+    #[test]
+    fn overshoot_of_a_second_order_step_is_its_closed_form() {
+        for (zeta, from, to) in [(0.2, 0.0, 1.0), (0.5, 1.0, -3.0), (0.7, -2.0, -1.0)] {
+            let (keys, values) = second_order(2.0, zeta, from, to);
+            let shape = StepShape { target: Some(to), band: 0.02 };
+            let found = super::measure(Measure::Overshoot, &shape, &keys, &values).unwrap();
+            let expected = (-zeta * std::f64::consts::PI / (1.0 - zeta * zeta).sqrt()).exp();
+            // the greatest row is at most half a millisecond from the peak: (ω·0.5 ms)²/2
+            assert!((found.value - expected).abs() < 1e-6, "{zeta}: {} {expected}", found.value);
+        }
+    }
+
+    #[test]
+    fn rise_and_settling_time_of_a_first_order_step_are_its_closed_form() {
+        let keys: Vec<f64> = (0..=2_000).map(|k| f64::from(k) * 0.01).collect();
+        let values: Vec<f64> = keys.iter().map(|t| 5.0 - 3.0 * (-t / 0.8).exp()).collect();
+        let shape = StepShape { target: Some(5.0), band: 0.05 };
+        let found = |of| super::measure(of, &shape, &keys, &values).unwrap().value;
+        // straight lines of 10 ms on a curve of time constant 0.8 s: (0.01/0.8)²/8·0.8 s
+        assert!((found(Measure::RiseTime) - 0.8 * 9.0_f64.ln()).abs() < 2e-5);
+        assert!((found(Measure::SettlingTime) - 0.8 * 20.0_f64.ln()).abs() < 2e-5);
+        assert_eq!(found(Measure::Overshoot), 0.0);
+    }
+
+    #[test]
+    fn crossings_are_found_between_rows() {
+        let (keys, values) = ([0.0, 1.0, 2.0, 3.0, 4.0], [0.0, 0.5, 1.2, 1.1, 1.0]);
+        let of = |m| measure(m, &keys, &values).unwrap().value;
+        assert!((of(Measure::Overshoot) - 0.2).abs() < 1e-15);
+        // 0.1 at 0.2 s; 0.9 at 1 + 0.4/0.7 s; 1.02 on the way down at 3.8 s
+        assert!((of(Measure::RiseTime) - (1.0 + 0.4 / 0.7 - 0.2)).abs() < 1e-15);
+        assert!((of(Measure::SettlingTime) - 3.8).abs() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_never_reached_takes_for_ever() {
+        let keys = [0.0, 1.0, 2.0];
+        let shape = StepShape { target: Some(2.0), band: 0.02 };
+        let of = |m| super::measure(m, &shape, &keys, &[0.0, 0.5, 1.0]).unwrap().value;
+        assert_eq!((of(Measure::RiseTime), of(Measure::SettlingTime)), (f64::INFINITY, f64::INFINITY));
+        assert_eq!(of(Measure::Overshoot), 0.0);
+    }
+
+    #[test]
+    fn a_flat_response_is_no_step() {
+        let message = measure(Measure::Overshoot, &T[..3], &[1.0, 7.0, 1.0]).unwrap_err();
+        assert_eq!(message, "there is no step: the first row and the target are both 1");
     }
 
     #[test]

@@ -14,7 +14,7 @@
 //! compared with one expected number. What is expected is then a number or a formula of parameters alone; a reference, or a
 //! formula that varies from row to row, is measured in the same way over the same rows: peak against peak, mean against mean.
 //!
-//! The deviation is |measured − expected|; with `relative`, divided by max(|expected|, floor), where zero of zero is zero.
+//! The deviation is |measured − expected|, with `at_most` and `at_least` how far the measured value lies beyond the bound; with `relative`, divided by max(|expected|, floor), where zero of zero is zero.
 //! A check holds if the deviation is finite and at most the tolerance. A NaN among the numbers that enter a comparison is its
 //! result, so a check with a NaN never holds. What cannot be compared is not made, and says why: a run that stopped early has
 //! only its checks of the time before.
@@ -28,11 +28,11 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-use crate::experiment::check::{Check, Expected, Measure};
+use crate::experiment::check::{Check, Expected, Measure, Sense};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use along::Along;
-use measure::Measured;
+use measure::{Measured, StepShape};
 use rows::Rows;
 use series::Source;
 
@@ -49,7 +49,10 @@ pub struct Outcome {
     pub measured: Option<f64>,
     /// The value expected at the same place.
     pub expected: Option<f64>,
-    /// |measured − expected|, divided by max(|expected|, floor) if `relative`; may be infinite or NaN, which never holds.
+    /// Whether the expected value is a bound.
+    pub sense: Sense,
+    /// |measured − expected|, divided by max(|expected|, floor) if `relative`; how far beyond a bound; may be infinite or NaN, which
+    /// never holds.
     pub deviation: Option<f64>,
     /// Largest deviation that holds.
     pub limit: f64,
@@ -63,7 +66,7 @@ pub struct Outcome {
     pub n_rows: usize,
     /// The recorded signal that was measured as it is; none for formulas.
     pub signal: Option<String>,
-    /// For `error` against a reference or a formula: what was expected, row by row, as far as the run came.
+    /// For `error` against a reference or a formula, no bound: what was expected, row by row, as far as the run came.
     pub series: Option<Series>,
 }
 
@@ -128,6 +131,7 @@ fn judge(check: &Check, along: &Along) -> Outcome {
         about: words::about(check, along),
         measured: comparison.as_ref().map(|c| c.measured),
         expected: comparison.as_ref().map(|c| c.expected),
+        sense: check.sense,
         deviation: comparison.as_ref().map(|c| c.deviation),
         limit: check.tolerance,
         relative: check.relative,
@@ -158,12 +162,12 @@ fn compare(check: &Check, along: &Along) -> Result<Comparison, String> {
 
 /// The row that deviates most; the first of equals, and the first that is not a number before all others.
 fn compare_rows(check: &Check, along: &Along, rows: &Rows, measured: &[f64], expected: &[f64]) -> Comparison {
-    let deviations: Vec<f64> = measured.iter().zip(expected).map(|(m, e)| deviation(check, *m, *e)).collect();
-    let worst = measure::greatest(&deviations);
+    let excesses: Vec<f64> = measured.iter().zip(expected).map(|(m, e)| excess(check, *m, *e)).collect();
+    let worst = measure::greatest(&excesses);
     Comparison {
         measured: measured[worst],
         expected: expected[worst],
-        deviation: deviations[worst],
+        deviation: deviation(check, measured[worst], expected[worst]),
         at: Some(along.keys()[rows.idxs[worst]]),
         n_rows: rows.idxs.len(),
     }
@@ -177,10 +181,11 @@ fn compare_numbers(
     measured: &[f64],
 ) -> Result<Comparison, String> {
     let keys: Vec<f64> = rows.idxs.iter().map(|row_idx| along.keys()[*row_idx]).collect();
-    let Measured { value: measured, row } = measure::measure(check.measure, &keys, measured)?;
+    let shape = StepShape { target: check.target, band: check.band };
+    let Measured { value: measured, row } = measure::measure(check.measure, &shape, &keys, measured)?;
     let expected = match source.expected_number(rows)? {
         Some(number) => number,
-        None => measure::measure(check.measure, &keys, &source.expected(rows)?)?.value,
+        None => measure::measure(check.measure, &shape, &keys, &source.expected(rows)?)?.value,
     };
     Ok(Comparison {
         measured,
@@ -191,17 +196,32 @@ fn compare_numbers(
     })
 }
 
-fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
-    let difference = (measured - expected).abs();
+/// How far a value is from holding: the deviation; for a bound with its sign, negative where it holds.
+fn excess(check: &Check, measured: f64, expected: f64) -> f64 {
+    let difference = match check.sense {
+        Sense::Equal => (measured - expected).abs(),
+        Sense::AtMost => measured - expected,
+        Sense::AtLeast => expected - measured,
+    };
     if !check.relative || difference == 0.0 || difference.is_nan() {
         return difference;
     }
     difference / expected.abs().max(check.floor)
 }
 
+/// What cannot be reached has no distance: an infinite value is beyond every bound.
+fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
+    let excess = excess(check, measured, expected);
+    match measured.is_infinite() {
+        true => f64::INFINITY,
+        false if excess < 0.0 => 0.0,
+        false => excess,
+    }
+}
+
 /// What is expected, row by row, where a plot can show it.
 fn overlay(check: &Check, along: &Along) -> Option<Series> {
-    if check.measure != Measure::Error {
+    if check.measure != Measure::Error || check.sense != Sense::Equal {
         return None;
     }
     match &check.expected {

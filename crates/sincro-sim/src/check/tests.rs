@@ -24,7 +24,10 @@ fn check(signal: &str, value: f64) -> Check {
         aliases: Vec::new(),
         parameters: Arc::new([("k".into(), 2.0)]),
         expected: Expected::Value(value),
+        sense: Sense::Equal,
         measure: Measure::Error,
+        target: None,
+        band: 0.02,
         at: None,
         window: None,
         tolerance: 0.25,
@@ -98,6 +101,30 @@ fn the_worst_row_counts() {
     assert_eq!((outcome.verdict, outcome.unit.as_str(), outcome.n_rows), (Verdict::Fails, "rad", 5));
     assert_eq!(outcome.about, "/j.position against 5");
     assert_eq!((outcome.signal.as_deref(), outcome.series), (Some("/j.position"), None));
+}
+
+#[test]
+fn a_bound_holds_on_its_side_and_shows_the_row_nearest_to_it() {
+    let bound = |sense, value| judged(Check { sense, tolerance: 0.0, ..check("/j.position", value) });
+    let outcome = bound(Sense::AtMost, 16.0);
+    assert_eq!((numbers(&outcome), outcome.verdict), ((16.0, 16.0, 0.0, Some(0.4)), Verdict::Holds));
+    assert_eq!(outcome.about, "/j.position at most 16");
+    let outcome = bound(Sense::AtMost, 15.5);
+    assert_eq!((numbers(&outcome), outcome.verdict), ((16.0, 15.5, 0.5, Some(0.4)), Verdict::Fails));
+    let outcome = bound(Sense::AtLeast, -1.0);
+    assert_eq!((numbers(&outcome), outcome.verdict), ((0.0, -1.0, 0.0, Some(0.0)), Verdict::Holds));
+    let nan = Check { sense: Sense::AtMost, tolerance: 0.0, ..check("/j.velocity", 1e9) };
+    assert_eq!(judged(nan).verdict, Verdict::Fails);
+}
+
+#[test]
+fn what_takes_for_ever_is_within_no_bound() {
+    for sense in [Sense::AtMost, Sense::AtLeast] {
+        let rising = Check { sense, measure: Measure::RiseTime, target: Some(100.0), ..check("/j.position", 1.0) };
+        let outcome = judged(Check { tolerance: 0.0, ..rising });
+        assert_eq!((outcome.measured, outcome.verdict), (Some(f64::INFINITY), Verdict::Fails));
+        assert_eq!(outcome.unit, "s");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::along::{Along, short};
 use super::rows::file_name;
 use super::series::plain_signal;
-use crate::experiment::check::{Check, Expected, Measure, Subject};
+use crate::experiment::check::{Check, Expected, Measure, Sense, Subject};
 
 /// `greatest value of /shoulder.position against 0.2, from t = 1 s to 3 s`.
 pub(super) fn about(check: &Check, along: &Along) -> String {
@@ -20,6 +20,11 @@ pub(super) fn about(check: &Check, along: &Along) -> String {
         Measure::Integral => format!("integral of {what}"),
         Measure::TimeOfMin => format!("place of the least value of {what}"),
         Measure::TimeOfMax => format!("place of the greatest value of {what}"),
+        Measure::Overshoot => format!("overshoot of {what}{}", towards(check)),
+        Measure::RiseTime => format!("rise time (10–90 %) of {what}{}", towards(check)),
+        Measure::SettlingTime => {
+            format!("settling time (±{} %) of {what}{}", short(100.0 * check.band), towards(check))
+        }
     };
     let what = if along.is_sweep() { what } else { what.replacen("place of", "time of", 1) };
     let against = match &check.expected {
@@ -27,7 +32,16 @@ pub(super) fn about(check: &Check, along: &Along) -> String {
         Expected::Formula(formula) => formula.to_string(),
         Expected::Reference(reference) => format!("column {} of {}", reference.column, file_name(reference)),
     };
-    format!("{what} against {against}{}", place(check, along))
+    let link = match check.sense {
+        Sense::Equal => "against",
+        Sense::AtMost => "at most",
+        Sense::AtLeast => "at least",
+    };
+    format!("{what} {link} {against}{}", place(check, along))
+}
+
+fn towards(check: &Check) -> String {
+    check.target.map_or_else(String::new, |target| format!(" towards {}", short(target)))
 }
 
 fn subject(check: &Check) -> String {
@@ -51,8 +65,8 @@ pub(super) fn unit(check: &Check, along: &Along) -> String {
     let key_unit = along.table.columns[0].unit.as_str();
     let signal = plain_signal(check).and_then(|name| along.table.column(name));
     match (check.measure, signal.map(|column| column.unit.as_str())) {
-        (Measure::TimeOfMin | Measure::TimeOfMax, _) => key_unit.to_owned(),
-        (_, None) => String::new(),
+        (Measure::TimeOfMin | Measure::TimeOfMax | Measure::RiseTime | Measure::SettlingTime, _) => key_unit.to_owned(),
+        (Measure::Overshoot, _) | (_, None) => String::new(),
         (Measure::Integral, Some(unit)) => times(unit, key_unit),
         (_, Some(unit)) => unit.to_owned(),
     }

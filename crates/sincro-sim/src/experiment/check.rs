@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use sincro_math::expression::Expression;
 
 use crate::problem::{Located, Location};
@@ -23,13 +24,20 @@ pub struct Check {
     pub parameters: Arc<[(String, f64)]>,
     /// What it should be.
     pub expected: Expected,
+    /// Whether it should be that, or at most or at least that.
+    pub sense: Sense,
     /// What of the series is compared.
     pub measure: Measure,
+    /// Of `overshoot`, `rise-time` and `settling-time`: where the step ends; the last row if not given.
+    pub target: Option<f64>,
+    /// Of `settling-time`: half the width of the band around the target, as a share of the step's height.
+    pub band: f64,
     /// The one time `[s]` that is looked at, if given; it excludes `window`.
     pub at: Option<f64>,
     /// First and last time `[s]` that are looked at, ends included; all if not given.
     pub window: Option<(f64, f64)>,
-    /// Largest |measured − expected| that holds, in the unit of what is measured (or 1, if `relative`); not negative.
+    /// Largest |measured − expected| that holds, in the unit of what is measured (or 1, if `relative`); not negative,
+    /// and 0 if `sense` is not `Equal`.
     pub tolerance: f64,
     /// Whether the difference is divided by max(|expected|, floor).
     pub relative: bool,
@@ -37,6 +45,19 @@ pub struct Check {
     pub floor: f64,
     /// The check's `name` in the file, for messages.
     pub location: Location,
+}
+
+/// How measured and expected value are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sense {
+    /// They are equal within the tolerance.
+    #[default]
+    Equal,
+    /// The measured value is not greater.
+    AtMost,
+    /// The measured value is not less.
+    AtLeast,
 }
 
 /// What is measured.
@@ -106,6 +127,13 @@ pub enum Measure {
     TimeOfMin,
     /// Time `[s]` of the greatest value.
     TimeOfMax,
+    /// How far a step response goes beyond its target, as a share of the step's height. The step leads from the first row that is
+    /// looked at to the target.
+    Overshoot,
+    /// Time `[s]` between the first crossings of 10 % and of 90 % of the step's height.
+    RiseTime,
+    /// Time `[s]` from the first row to the last instant at which the response enters the band around its target.
+    SettlingTime,
 }
 
 impl Measure {
@@ -124,7 +152,16 @@ impl Measure {
             Self::Integral => "integral",
             Self::TimeOfMin => "time-of-min",
             Self::TimeOfMax => "time-of-max",
+            Self::Overshoot => "overshoot",
+            Self::RiseTime => "rise-time",
+            Self::SettlingTime => "settling-time",
         }
+    }
+
+    /// Whether it is one of a step response, which has a target.
+    #[must_use]
+    pub fn is_of_step(self) -> bool {
+        matches!(self, Self::Overshoot | Self::RiseTime | Self::SettlingTime)
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use sincro_math::expression::{Expression, is_name};
 
-use super::check::{Check, Expected, Measure, Reference, Subject};
+use super::check::{Check, Expected, Measure, Reference, Sense, Subject};
 use super::file::{CheckFile, NumberOrFormula, ReferenceFile};
 use super::grid::{Grid, short};
 use crate::document::{Document, escape};
@@ -60,6 +60,8 @@ impl CheckReader<'_> {
             .collect();
         let what = self.subject(file, pointer, &slots);
         let expected = self.expected(file, pointer, &slots);
+        let (sense, tolerance) = self.sense(file, pointer);
+        let target = self.step_response(file, pointer);
         self.times(file, pointer, "");
         if file.floor.is_some() && !file.relative {
             let at = self.document.key_at(&format!("{pointer}/floor"));
@@ -72,10 +74,13 @@ impl CheckReader<'_> {
             aliases,
             parameters: self.parameters.clone(),
             expected: expected?,
+            sense,
             measure: Measure::from(file.measure),
+            target,
+            band: file.band.unwrap_or(0.02),
             at: file.at,
             window: file.window.map(|[from, to]| (from, to)),
-            tolerance: file.tolerance,
+            tolerance: tolerance?,
             relative: file.relative,
             floor: file.floor.unwrap_or(0.0),
             location,
@@ -128,15 +133,64 @@ impl CheckReader<'_> {
     }
 
     fn expected(&mut self, file: &CheckFile, pointer: &str, slots: &[String]) -> Option<Expected> {
-        match (&file.value, &file.reference) {
-            (Some(NumberOrFormula::Number(x)), _) => Some(Expected::Value(*x)),
-            (Some(NumberOrFormula::Formula(text)), _) => {
-                self.formula(text, &format!("{pointer}/value"), slots).map(Expected::Formula)
+        if let Some(reference) = &file.reference {
+            return self.reference(reference, &format!("{pointer}/reference")).map(Expected::Reference);
+        }
+        let keys = [("value", &file.value), ("at_most", &file.at_most), ("at_least", &file.at_least)];
+        let (key, given) = keys.into_iter().find_map(|(key, given)| Some((key, given.as_ref()?)))?;
+        match given {
+            NumberOrFormula::Number(x) => Some(Expected::Value(*x)),
+            NumberOrFormula::Formula(text) => {
+                self.formula(text, &format!("{pointer}/{key}"), slots).map(Expected::Formula)
             }
-            (None, Some(reference)) => {
-                self.reference(reference, &format!("{pointer}/reference")).map(Expected::Reference)
-            }
+        }
+    }
+
+    /// How measured and expected are compared, and the tolerance; none, with a problem noted, if it is missing.
+    fn sense(&mut self, file: &CheckFile, pointer: &str) -> (Sense, Option<f64>) {
+        let bound = match (&file.at_most, &file.at_least) {
+            (Some(_), _) => Some((Sense::AtMost, "at_most")),
+            (None, Some(_)) => Some((Sense::AtLeast, "at_least")),
             (None, None) => None,
+        };
+        let Some((sense, key)) = bound else {
+            if file.tolerance.is_none() {
+                let at = self.document.title_at(pointer);
+                let problem = Problem::error(&at, format!("`tolerance` is missing in check `{}`", file.name));
+                self.problems.push(problem.with_help("it is the largest difference that holds; `at_most` needs none"));
+            }
+            return (Sense::Equal, file.tolerance);
+        };
+        let given = [("tolerance", file.tolerance.is_some()), ("relative", file.relative)];
+        for (other, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
+            let at = self.document.key_at(&format!("{pointer}/{other}"));
+            let problem = Problem::error(&at, format!("`{other}` has no meaning with `{key}`"));
+            self.problems.push(problem.with_help(format!("leave it out: `{key}` is exact")));
+        }
+        (sense, Some(0.0))
+    }
+
+    /// Where the step of a measure ends, if that is given; refuses keys that belong to other measures.
+    fn step_response(&mut self, file: &CheckFile, pointer: &str) -> Option<f64> {
+        let measure = Measure::from(file.measure);
+        let given = [
+            ("target", file.target.is_some() && !measure.is_of_step(), "`overshoot`, `rise-time` and `settling-time`"),
+            ("band", file.band.is_some() && measure != Measure::SettlingTime, "`settling-time`"),
+        ];
+        for (key, _, owners) in given.into_iter().filter(|(_, is_wrong, _)| *is_wrong) {
+            let at = self.document.key_at(&format!("{pointer}/{key}"));
+            let problem = Problem::error(&at, format!("`{key}` has no meaning for the measure `{}`", measure.word()));
+            self.problems.push(problem.with_help(format!("it belongs to {owners}")));
+        }
+        match file.target.as_ref()? {
+            NumberOrFormula::Number(x) => Some(*x),
+            NumberOrFormula::Formula(text) => {
+                let parameters = self.parameters.clone();
+                let names: Vec<String> = parameters.iter().map(|(name, _)| name.clone()).collect();
+                let formula = self.formula(text, &format!("{pointer}/target"), &names)?;
+                let values: Vec<f64> = parameters.iter().map(|(_, x)| *x).collect();
+                Some(formula.eval(&values, &mut formula.scratch()))
+            }
         }
     }
 

@@ -101,7 +101,9 @@ pub(crate) enum ErrorBarFile {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("allOf" = [
     {"oneOf": [{"required": ["signal"]}, {"required": ["signals"]}]},
-    {"oneOf": [{"required": ["value"]}, {"required": ["reference"]}]},
+    {"oneOf": [
+        {"required": ["value"]}, {"required": ["reference"]}, {"required": ["at_most"]}, {"required": ["at_least"]}
+    ]},
     {"not": {"required": ["at", "window"]}}
 ]))]
 pub(crate) struct CheckFile {
@@ -117,16 +119,26 @@ pub(crate) struct CheckFile {
     pub value: Option<NumberOrFormula>,
     /// What it must be: a column of a CSV file.
     pub reference: Option<ReferenceFile>,
+    /// What it must not exceed: a number or a formula.
+    pub at_most: Option<NumberOrFormula>,
+    /// What it must not fall below: a number or a formula.
+    pub at_least: Option<NumberOrFormula>,
     /// What of the series is compared.
     #[serde(default)]
     pub measure: MeasureFile,
+    /// Of `overshoot`, `rise-time` and `settling-time`: where the step ends, a number or a formula of the parameters; default the
+    /// last row.
+    pub target: Option<NumberOrFormula>,
+    /// Of `settling-time`: half the width of the band around the target, as a share of the step's height; default 0.02.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub band: Option<f64>,
     /// The one time that is looked at [s]; in a sweep, the one value of the parameter.
     pub at: Option<f64>,
     /// First and last time that are looked at [s], default all; in a sweep, values of the parameter.
     pub window: Option<[f64; 2]>,
-    /// Largest difference that holds, in the unit of what is checked (without unit if `relative`).
+    /// With `value` or `reference`: largest difference that holds, in the unit of what is checked (without unit if `relative`).
     #[schemars(range(min = 0.0))]
-    pub tolerance: f64,
+    pub tolerance: Option<f64>,
     /// Whether the difference is divided by max(|expected|, floor).
     #[serde(default)]
     pub relative: bool,
@@ -193,6 +205,12 @@ pub(crate) enum MeasureFile {
     TimeOfMin,
     /// Time of the greatest value [s].
     TimeOfMax,
+    /// How far a step response goes beyond its target, as a share of the step's height.
+    Overshoot,
+    /// Time from 10 % to 90 % of the step's height [s].
+    RiseTime,
+    /// Time until a step response stays within a band around its target [s].
+    SettlingTime,
 }
 
 impl From<MeasureFile> for Measure {
@@ -209,6 +227,9 @@ impl From<MeasureFile> for Measure {
             MeasureFile::Integral => Self::Integral,
             MeasureFile::TimeOfMin => Self::TimeOfMin,
             MeasureFile::TimeOfMax => Self::TimeOfMax,
+            MeasureFile::Overshoot => Self::Overshoot,
+            MeasureFile::RiseTime => Self::RiseTime,
+            MeasureFile::SettlingTime => Self::SettlingTime,
         }
     }
 }
@@ -220,6 +241,9 @@ impl From<MeasureFile> for Measure {
 pub(crate) struct SweepFile {
     /// What is varied: a path as for `--set`.
     pub parameter: String,
+    /// More paths that take the same value: a parameter of the diagram that goes with a key of the scene.
+    #[serde(default)]
+    pub also: Vec<String>,
     /// Evenly spaced values.
     pub range: Option<RangeFile>,
     /// The values themselves.
@@ -268,7 +292,7 @@ pub(crate) struct VariantFile {
 pub(crate) struct PlotFile {
     /// Title of the plot.
     pub title: String,
-    /// Recorded signals, one line each.
+    /// Recorded signals, one line each, with the variants over them; `NAME:SIGNAL` is that of one variant.
     #[schemars(length(min = 1))]
     pub signals: Vec<String>,
     /// Drawn over the first signal; default what the checks compare it with.

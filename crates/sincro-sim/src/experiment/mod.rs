@@ -103,6 +103,8 @@ pub enum ErrorBar {
 pub struct Sweep {
     /// What is varied: a path as for `--set`.
     pub parameter: Located<String>,
+    /// What takes the same value.
+    pub also: Vec<Located<String>>,
     /// Its values, in the order in which they are run.
     pub values: Vec<f64>,
     /// What must come out over the whole sweep.
@@ -110,11 +112,12 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// The setting for one value, to be added to those the experiment was loaded with.
-    #[must_use]
-    pub fn setting(&self, value: f64) -> Override {
-        let number = Override::new(&self.parameter.value, &format!("{value:?}"));
-        Override { path: self.parameter.clone(), ..number }
+    /// The settings for one value, to be added to those the experiment was loaded with.
+    pub fn settings(&self, value: f64) -> impl Iterator<Item = Override> {
+        std::iter::once(&self.parameter).chain(&self.also).map(move |path| {
+            let number = Override::new(&path.value, &format!("{value:?}"));
+            Override { path: path.clone(), ..number }
+        })
     }
 }
 

@@ -152,7 +152,10 @@ impl Resolver<'_> {
         }
         let checks = self.reader(parameters, Keys::Sweep(values.clone())).list(&file.check, "/sweep");
         let parameter = Located { value: file.parameter.clone(), at: self.document.at("/sweep/parameter") };
-        Sweep { parameter, values, checks }
+        let also = file.also.iter().enumerate();
+        let also =
+            also.map(|(k, path)| Located { value: path.clone(), at: self.document.at(&format!("/sweep/also/{k}")) });
+        Sweep { parameter, also: also.collect(), values, checks }
     }
 
     fn range(&mut self, &RangeFile { from, to, step }: &RangeFile) -> Vec<f64> {

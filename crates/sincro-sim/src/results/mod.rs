@@ -12,6 +12,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Outcome, Verdict};
+use crate::experiment::check::Sense;
 use crate::sweep::Sweep;
 use crate::table::Table;
 pub use file::{FileError, prepare};
@@ -176,6 +177,9 @@ pub struct CheckReport {
     pub measured: Option<f64>,
     /// The value expected.
     pub expected: Option<f64>,
+    /// Whether the expected value is a bound.
+    #[serde(default)]
+    pub sense: Sense,
     /// How far they are apart.
     pub deviation: Option<f64>,
     /// How far they may be.
@@ -216,6 +220,7 @@ impl From<&Outcome> for CheckReport {
             reason,
             measured: outcome.measured,
             expected: outcome.expected,
+            sense: outcome.sense,
             deviation: outcome.deviation,
             limit: outcome.limit,
             relative: outcome.relative,

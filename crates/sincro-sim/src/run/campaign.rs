@@ -164,7 +164,7 @@ fn run_sweep(
     let n = plan.values.len();
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
     let point = |value: f64| -> Result<Simulated, RunError> {
-        let settings: Vec<Override> = overrides.iter().cloned().chain([plan.setting(value)]).collect();
+        let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
         let at = load(folder, &settings)?;
         simulate(&at, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
     };

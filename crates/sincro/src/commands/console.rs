@@ -5,6 +5,7 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use sincro_sim::Loaded;
+use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
 use sincro_sim::run::Campaign;
 
@@ -139,6 +140,16 @@ fn figures(check: &CheckReport) -> String {
     }
     let unit = if check.relative { "(relative)" } else { check.unit.as_str() };
     let deviation = check.deviation.map_or_else(|| "not finite".into(), |d| significant(d, 2));
+    let bound = match check.sense {
+        Sense::Equal => None,
+        Sense::AtMost => Some("at most"),
+        Sense::AtLeast => Some("at least"),
+    };
+    if let (Some(bound), Some(measured), Some(expected)) = (bound, check.measured, check.expected) {
+        let beyond =
+            if check.verdict == VerdictReport::Fails { format!("; beyond by {deviation}") } else { String::new() };
+        return format!("{}, {bound} {} {unit}{beyond}", significant(measured, 4), significant(expected, 4));
+    }
     let mut text = format!("off by {deviation}, allowed {} {unit}", short(check.limit));
     if check.verdict == VerdictReport::Fails {
         if let (Some(measured), Some(expected)) = (check.measured, check.expected) {

@@ -76,21 +76,22 @@ fn figure(
     compares_variants: Option<bool>,
     campaign: &Campaign,
 ) -> Figure {
-    let table = &campaign.main.simulated.table;
-    let columns: Vec<&Column> = names.iter().filter_map(|name| table.column(name)).collect();
-    let unit = columns.first().map_or("", |c| c.unit.as_str());
-    let label = columns.first().map_or_else(String::new, |c| quantity(&c.name).replace('_', " "));
+    let drawn: Vec<Drawn<'_>> = names.iter().filter_map(|name| Drawn::find(name, campaign)).collect();
+    let unit = drawn.first().map_or("", |d| d.column.unit.as_str());
+    let label = drawn.first().map_or_else(String::new, |d| quantity(&d.column.name).replace('_', " "));
     let mut panel = Panel::new(Axis::new(label, unit));
     let mut error = Panel::error(unit);
-    for (k, column) in columns.iter().enumerate() {
-        panel.series.push(curve(column, &column.name, Role::Simulated, k, table.times()));
-        let checked = expected_of(&campaign.main.outcomes, &column.name);
+    for (k, Drawn { name, column, done, of_variant }) in drawn.iter().enumerate() {
+        let times = done.simulated.table.times();
+        panel.series.push(curve(column, name, Role::Simulated, k, times));
+        let checked = expected_of(&done.outcomes, &column.name);
         let given = if k == 0 { reference.clone().map(|r| (r, None)) } else { None };
         if let Some((expected, tolerance)) = given.or(checked) {
-            add_reference(&mut panel, &mut error, (k, column, table.times()), expected, tolerance);
-            add_band(&mut error, k, column, &campaign.main, table.times());
+            add_reference(&mut panel, &mut error, (k, column, times), expected, tolerance);
+            add_band(&mut error, k, column, done, times);
         }
-        for (v, (variant, done)) in campaign.variants.iter().enumerate() {
+        let others = if *of_variant { &[][..] } else { &campaign.variants };
+        for (v, (variant, done)) in others.iter().enumerate() {
             let other = &done.simulated.table;
             if let Some(same) = other.column(&column.name) {
                 let name = if k == 0 { variant.name.as_str() } else { "" };
@@ -99,9 +100,9 @@ fn figure(
         }
     }
     let below = match compares_variants {
-        Some(true) => comparison(&columns, unit, campaign),
+        Some(true) => comparison(&drawn, unit, campaign),
         Some(false) => error,
-        None if error.series.is_empty() => comparison(&columns, unit, campaign),
+        None if error.series.is_empty() => comparison(&drawn, unit, campaign),
         None => error,
     };
     let panels = if below.series.is_empty() { vec![panel] } else { vec![panel, below] };
@@ -109,11 +110,11 @@ fn figure(
 }
 
 /// How the variants differ from the main run, where they have rows at the same times.
-fn comparison(columns: &[&Column], unit: &str, campaign: &Campaign) -> Panel {
+fn comparison(drawn: &[Drawn<'_>], unit: &str, campaign: &Campaign) -> Panel {
     let mut panel = Panel { title: "variant − main run".into(), ..Panel::error(unit) };
     panel.y.label = "difference".into();
     let times = campaign.main.simulated.table.times();
-    for (k, column) in columns.iter().enumerate() {
+    for (k, Drawn { column, .. }) in drawn.iter().enumerate().filter(|(_, d)| !d.of_variant) {
         for (v, (_, done)) in campaign.variants.iter().enumerate() {
             let other = &done.simulated.table;
             let Some(same) = other.column(&column.name) else { continue };
@@ -129,6 +130,27 @@ fn comparison(columns: &[&Column], unit: &str, campaign: &Campaign) -> Panel {
         }
     }
     panel
+}
+
+/// A signal in a figure: of the main run, drawn with its variants, or of one variant alone, as `variant:signal`.
+struct Drawn<'a> {
+    name: &'a str,
+    column: &'a Column,
+    done: &'a Done,
+    of_variant: bool,
+}
+
+impl<'a> Drawn<'a> {
+    fn find(name: &'a str, campaign: &'a Campaign) -> Option<Self> {
+        let main = &campaign.main;
+        if let Some(column) = main.simulated.table.column(name) {
+            return Some(Self { name, column, done: main, of_variant: false });
+        }
+        let (of, signal) = name.split_once(':')?;
+        let (_, done) = campaign.variants.iter().find(|(variant, _)| variant.name == of)?;
+        let column = done.simulated.table.column(signal)?;
+        Some(Self { name, column, done, of_variant: true })
+    }
 }
 
 fn curve(column: &Column, name: &str, role: Role, signal: usize, times: &[f64]) -> Series {

@@ -154,6 +154,7 @@ fn check_row(check: &CheckReport, run: &str) -> CheckRow {
         about,
         measured: check.measured,
         expected: check.expected,
+        sense: check.sense,
         deviation: check.deviation.unwrap_or(f64::NAN),
         limit: check.limit,
         is_relative: check.relative,

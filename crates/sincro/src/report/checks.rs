@@ -1,7 +1,7 @@
 //! The table of checks: digits that show the deviation, and how much of each limit is used.
 
 use super::shell::{cell, check_badge, table};
-use super::{CheckRow, CheckVerdict};
+use super::{CheckRow, CheckVerdict, Sense};
 use crate::plot::number::{fixed, resolved, short, significant};
 use crate::plot::{escape, escape_raised};
 
@@ -29,7 +29,7 @@ fn row(check: &CheckRow) -> String {
         cell("Verdict", "verdict", &check_badge(check.verdict)),
         cell("Check", "name", &name(check)),
         cell("Measured", "num", &value(check, check.measured)),
-        cell("Expected", "num", &value(check, check.expected)),
+        cell("Expected", "num", &expected(check)),
         cell("Deviation", "num", &deviation(check)),
         cell("Limit", "num", &limit(check)),
         cell("Unit", "unit", &escape_raised(&check.unit)),
@@ -47,11 +47,30 @@ fn name(check: &CheckRow) -> String {
     }
 }
 
+/// The expected value; a bound with its sign.
+fn expected(check: &CheckRow) -> String {
+    let sign = match check.sense {
+        Sense::Equal => "",
+        Sense::AtMost => "≤ ",
+        Sense::AtLeast => "≥ ",
+    };
+    format!("{sign}{}", value(check, check.expected))
+}
+
+/// A bound that holds has no deviation.
+fn is_within_bound(check: &CheckRow) -> bool {
+    check.sense != Sense::Equal && check.deviation == 0.0
+}
+
 fn deviation(check: &CheckRow) -> String {
-    if check.verdict == CheckVerdict::NotMade { DASH.into() } else { escape_raised(&significant(check.deviation, 2)) }
+    let none = check.verdict == CheckVerdict::NotMade || is_within_bound(check);
+    if none { DASH.into() } else { escape_raised(&significant(check.deviation, 2)) }
 }
 
 fn limit(check: &CheckRow) -> String {
+    if check.sense != Sense::Equal {
+        return DASH.into();
+    }
     let limit = escape_raised(&short(check.limit, 3));
     if check.is_relative { format!("{limit} <small>relative</small>") } else { limit }
 }
@@ -61,6 +80,9 @@ pub(super) fn value(check: &CheckRow, value: Option<f64>) -> String {
     let Some(value) = value else { return DASH.into() };
     let size = check.expected.or(check.measured).unwrap_or(value).abs();
     let resolution = if check.is_relative { check.limit * size } else { check.limit };
+    if check.sense != Sense::Equal {
+        return escape_raised(&significant(value, 4));
+    }
     if check.expected.is_none() {
         return escape_raised(&significant(value, 3));
     }
@@ -69,7 +91,7 @@ pub(super) fn value(check: &CheckRow, value: Option<f64>) -> String {
 
 /// Share of the limit that is used; `None` where the two cannot be compared.
 pub(super) fn share(check: &CheckRow) -> Option<f64> {
-    if check.verdict == CheckVerdict::NotMade {
+    if check.verdict == CheckVerdict::NotMade || check.sense != Sense::Equal {
         return None;
     }
     let share = if check.deviation == 0.0 && check.limit >= 0.0 { 0.0 } else { check.deviation / check.limit };

@@ -2,7 +2,7 @@
 
 use super::checks::{margin, share, share_text, value};
 use super::shell::{Outcome, cell, check_badge, document, list, paragraph, section, settings, table};
-use super::{Card, CheckRow, CheckVerdict, IndexPage};
+use super::{Card, CheckRow, CheckVerdict, IndexPage, Sense};
 use crate::plot::number::short;
 use crate::plot::{self, Size, escape, thumbnail};
 
@@ -125,6 +125,14 @@ fn headlines(checks: &[CheckRow]) -> String {
     if rows.is_empty() { rows } else { format!("<ul class=\"headlines\">\n{rows}</ul>\n") }
 }
 
+fn relation(sense: Sense) -> &'static str {
+    match sense {
+        Sense::Equal => "expected",
+        Sense::AtMost => "at most",
+        Sense::AtLeast => "at least",
+    }
+}
+
 fn headline(check: &CheckRow) -> String {
     let failed = if check.verdict == CheckVerdict::Holds { String::new() } else { check_badge(check.verdict) + " " };
     let unit = match check.unit.is_empty() {
@@ -132,7 +140,7 @@ fn headline(check: &CheckRow) -> String {
         false => format!(" <small>[{}]</small>", plot::escape_raised(&check.unit)),
     };
     let expected = match check.expected {
-        Some(_) => format!("<span><i>expected</i> {}</span>", value(check, check.expected)),
+        Some(_) => format!("<span><i>{}</i> {}</span>", relation(check.sense), value(check, check.expected)),
         None => format!("<span><i>at most</i> {}</span>", plot::escape_raised(&short(check.limit, 3))),
     };
     format!(

@@ -11,6 +11,8 @@ mod index;
 pub(crate) mod page;
 pub(crate) mod shell;
 
+use sincro_sim::experiment::check::Sense;
+
 use crate::plot::Figure;
 
 /// The report of one run.
@@ -64,7 +66,9 @@ pub(crate) struct CheckRow {
     pub(crate) measured: Option<f64>,
     /// The value expected at the same place. `None`: the measured value itself is what must be small.
     pub(crate) expected: Option<f64>,
-    /// |measured − expected|, divided by the expected value if `is_relative`.
+    /// Whether the expected value is a bound.
+    pub(crate) sense: Sense,
+    /// |measured − expected|, divided by the expected value if `is_relative`; how far beyond a bound.
     pub(crate) deviation: f64,
     /// Largest deviation allowed.
     pub(crate) limit: f64,

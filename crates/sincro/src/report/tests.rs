@@ -10,6 +10,7 @@ fn check(name: &str, deviation: f64, verdict: CheckVerdict) -> CheckRow {
         measured: Some(-0.29700587 + deviation),
         expected: Some(-0.29700587),
         deviation,
+        sense: Sense::Equal,
         limit: 2e-9,
         is_relative: false,
         unit: "rad".into(),
