@@ -42,7 +42,7 @@ const STIFF_FROM: f64 = 1.0;
 /// Rate times base step above which an explicit method with error control is slow enough to be announced.
 const SLOW_FROM: f64 = 20.0;
 /// Pole times step above which a method that takes a feedback at the old state diverges.
-const EULER_LIMIT: f64 = 2.0;
+const EULER_LIMIT: f64 = 1.0;
 /// How much finer the second run of an error estimate is: fixed steps halved, tolerance divided.
 const FINER: f64 = 100.0;
 
@@ -175,7 +175,7 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         && closed * step > limit
     {
         warnings.push(format!(
-            "the loop that the diagram closes has a pole of {closed:.3e} 1/s, too fast for `{}` at a step of {step} s: the run will \
+            "the loop that the diagram closes has a pole of {closed:.3e} 1/s, too fast for `{}` at a step of {step} s: the run may \
              diverge. {}",
             method_word(kind),
             mend(closed, limit)
