@@ -1,8 +1,11 @@
 //! Every scene of the repository loads, with its variants.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use sincro_sim::load;
+use sincro_sim::overrides::Override;
+use sincro_sim::run::{Manner, Watch, simulate};
 
 fn scenes() -> Vec<PathBuf> {
     let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -28,4 +31,27 @@ fn every_scene_loads_without_warnings() {
             assert_eq!(of_variant.experiment.variants.len(), loaded.experiment.variants.len());
         }
     }
+}
+
+/// A row shows the torque of its own instant, not that of the tick before, when the diagram commands it continuously.
+#[test]
+fn continuous_commands_are_seen_as_of_now() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/motor-step");
+    let settings = [
+        ("diagram", "velocity-loop.toml"),
+        ("/motor.motor", "{ mode = \"torque\" }"),
+        ("record", "[\"/motor.motor_torque_now\", \"pi\"]"),
+    ];
+    let settings = settings.map(|(path, value)| Override::new(path, value));
+    let loaded = load(&folder, &settings).unwrap_or_else(|problems| panic!("{problems}"));
+    let interrupt = AtomicBool::new(false);
+    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
+    let table = simulate(&loaded, Manner::default(), &mut watch).unwrap().table;
+    let column = |name: &str| &table.column(name).unwrap().values;
+    let (now, pi) = (column("/motor.motor_torque_now"), column("pi"));
+    // the row of the step itself shows the torque before it, and what the controller asks for from then on
+    let step = table.times().iter().position(|t| *t >= 0.05).unwrap();
+    assert_eq!((now[step], pi[step] > 0.0), (0.0, true));
+    assert_eq!(now[step + 1..], pi[step + 1..]);
+    assert!(now[step + 1] != 0.0);
 }

@@ -268,6 +268,14 @@ impl Control<f64> {
         self.impulse.copy_from_slice(&totals[2..]);
     }
 
+    /// Brings the continuous commands to the end of a step, sampled blocks still holding: what the world is seen with before the next
+    /// tick acts.
+    pub fn arrive(&mut self, world: &mut World, t: f64) {
+        world.with_seen(t, |mut seen| self.read_state(&mut seen, true));
+        self.runner.minor(self.tick, t, self.corner);
+        self.write_commands(&mut world.state.commands, true);
+    }
+
     /// Latches the commands of the diagram, from this tick on.
     pub fn latch(&self, commands: &mut [f64]) {
         self.write_commands(commands, false);

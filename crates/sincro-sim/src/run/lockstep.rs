@@ -134,6 +134,10 @@ impl LockStep {
         };
         advanced.map_err(|(t, cause)| Halt::World { tick, t, cause })?;
         self.tick += 1;
+        let arrived = self.t();
+        if let Some(control) = self.control.as_mut().filter(|c| c.is_continuous()) {
+            control.arrive(&mut self.world, arrived);
+        }
         self.look()
     }
 
