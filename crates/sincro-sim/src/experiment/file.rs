@@ -300,6 +300,8 @@ pub(crate) struct PlotFile {
     /// What the panel below shows: the difference from what is expected, or that of the variants from the main run; default the first,
     /// where something is expected.
     pub difference: Option<DifferenceFile>,
+    /// Names of the variants that are drawn; default all.
+    pub variants: Option<Vec<String>>,
 }
 
 /// Difference from what.

@@ -151,4 +151,6 @@ pub struct Plot {
     pub reference: Option<Reference>,
     /// Whether the panel below shows how the variants differ from the main run; none: as it fits.
     pub compares_variants: Option<bool>,
+    /// Names of the variants that are drawn; none: all.
+    pub variants: Option<Vec<String>>,
 }

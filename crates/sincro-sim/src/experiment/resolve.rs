@@ -231,7 +231,7 @@ impl Resolver<'_> {
 
     fn plots(&mut self, parameters: &Arc<[(String, f64)]>, grid: Grid) -> Vec<Plot> {
         let mut plots = Vec::new();
-        for (k, PlotFile { title, signals, reference, difference }) in self.file.plot.iter().enumerate() {
+        for (k, PlotFile { title, signals, reference, difference, variants }) in self.file.plot.iter().enumerate() {
             let pointer = format!("/plot/{k}");
             let located = |(i, name): (usize, &String)| Located {
                 value: name.clone(),
@@ -241,7 +241,20 @@ impl Resolver<'_> {
             let mut reader = self.reader(parameters, Keys::Run(grid));
             let reference = reference.as_ref().and_then(|file| reader.reference(file, &format!("{pointer}/reference")));
             let compares_variants = difference.map(|d| d == DifferenceFile::Variants);
-            plots.push(Plot { title: title.clone(), signals, reference, compares_variants });
+            for (i, name) in variants.iter().flatten().enumerate() {
+                let known: Vec<&str> = self.file.variant.iter().map(|v| v.name.as_str()).collect();
+                if !known.contains(&name.as_str()) {
+                    let help = crate::suggest::help(name, &known, "variants");
+                    self.error(&format!("{pointer}/variants/{i}"), format!("there is no variant `{name}`"), help);
+                }
+            }
+            plots.push(Plot {
+                title: title.clone(),
+                signals,
+                reference,
+                compares_variants,
+                variants: variants.clone(),
+            });
         }
         plots
     }

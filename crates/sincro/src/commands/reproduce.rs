@@ -25,14 +25,18 @@ pub(crate) struct Arguments {
 }
 
 /// The order of the thesis; what is not named follows by name.
-const ORDER: [&str; 8] = [
+const ORDER: [&str; 12] = [
     "motor-step",
     "motor-ramp",
     "spring-static",
+    "spring-static-equations",
     "spring-dynamic",
     "two-dof-open-loop",
+    "two-dof-equations",
+    "two-dof-position",
     "flexible-open-loop",
     "flexible-velocity-step",
+    "flexible-position",
     "alexandros-release",
 ];
 

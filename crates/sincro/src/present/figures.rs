@@ -5,7 +5,7 @@
 
 use sincro_sim::Loaded;
 use sincro_sim::check::{Outcome, Series as Expected};
-use sincro_sim::experiment::Plot;
+use sincro_sim::experiment::{Plot, Variant};
 use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::{Column, Table};
 
@@ -23,7 +23,7 @@ pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
     if plots.is_empty() {
         figures.extend(groups(&campaign.main.simulated.table).iter().map(|names| {
             let title = group_title(names);
-            figure(&title, names, None, None, campaign)
+            figure(&title, names, None, Below::default(), campaign)
         }));
     } else {
         figures.extend(plots.iter().map(|plot| asked_for(plot, campaign)));
@@ -34,7 +34,7 @@ pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
 fn asked_for(plot: &Plot, campaign: &Campaign) -> Figure {
     let names: Vec<&str> = plot.signals.iter().map(|s| s.value.as_str()).collect();
     let reference = plot.reference.as_ref().map(|r| Expected { times: r.keys.to_vec(), values: r.values.to_vec() });
-    figure(&plot.title, &names, reference, plot.compares_variants, campaign)
+    figure(&plot.title, &names, reference, Below::of(plot), campaign)
 }
 
 /// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together.
@@ -68,14 +68,25 @@ fn group_title(names: &[&str]) -> String {
     }
 }
 
-/// A figure of recorded signals; `reference` is drawn with the first one instead of what the checks say.
-fn figure(
-    title: &str,
-    names: &[&str],
-    reference: Option<Expected>,
+/// What a plot asks for beside its signals.
+#[derive(Clone, Copy, Default)]
+struct Below<'a> {
     compares_variants: Option<bool>,
-    campaign: &Campaign,
-) -> Figure {
+    variants: Option<&'a [String]>,
+}
+
+impl<'a> Below<'a> {
+    fn of(plot: &'a Plot) -> Self {
+        Self { compares_variants: plot.compares_variants, variants: plot.variants.as_deref() }
+    }
+
+    fn draws(&self, variant: &Variant) -> bool {
+        self.variants.is_none_or(|names| names.contains(&variant.name))
+    }
+}
+
+/// A figure of recorded signals; `reference` is drawn with the first one instead of what the checks say.
+fn figure(title: &str, names: &[&str], reference: Option<Expected>, wanted: Below<'_>, campaign: &Campaign) -> Figure {
     let drawn: Vec<Drawn<'_>> = names.iter().filter_map(|name| Drawn::find(name, campaign)).collect();
     let unit = drawn.first().map_or("", |d| d.column.unit.as_str());
     let label = drawn.first().map_or_else(String::new, |d| quantity(&d.column.name).replace('_', " "));
@@ -91,7 +102,7 @@ fn figure(
             add_band(&mut error, k, column, done, times);
         }
         let others = if *of_variant { &[][..] } else { &campaign.variants };
-        for (v, (variant, done)) in others.iter().enumerate() {
+        for (v, (variant, done)) in others.iter().enumerate().filter(|(_, (variant, _))| wanted.draws(variant)) {
             let other = &done.simulated.table;
             if let Some(same) = other.column(&column.name) {
                 let name = if k == 0 { variant.name.as_str() } else { "" };
@@ -99,10 +110,10 @@ fn figure(
             }
         }
     }
-    let below = match compares_variants {
-        Some(true) => comparison(&drawn, unit, campaign),
+    let below = match wanted.compares_variants {
+        Some(true) => comparison(&drawn, unit, wanted, campaign),
         Some(false) => error,
-        None if error.series.is_empty() => comparison(&drawn, unit, campaign),
+        None if error.series.is_empty() => comparison(&drawn, unit, wanted, campaign),
         None => error,
     };
     let panels = if below.series.is_empty() { vec![panel] } else { vec![panel, below] };
@@ -110,12 +121,13 @@ fn figure(
 }
 
 /// How the variants differ from the main run, where they have rows at the same times.
-fn comparison(drawn: &[Drawn<'_>], unit: &str, campaign: &Campaign) -> Panel {
+fn comparison(drawn: &[Drawn<'_>], unit: &str, wanted: Below<'_>, campaign: &Campaign) -> Panel {
     let mut panel = Panel { title: "variant − main run".into(), ..Panel::error(unit) };
     panel.y.label = "difference".into();
     let times = campaign.main.simulated.table.times();
     for (k, Drawn { column, .. }) in drawn.iter().enumerate().filter(|(_, d)| !d.of_variant) {
-        for (v, (_, done)) in campaign.variants.iter().enumerate() {
+        let variants = campaign.variants.iter().enumerate().filter(|(_, (variant, _))| wanted.draws(variant));
+        for (v, (_, done)) in variants {
             let other = &done.simulated.table;
             let Some(same) = other.column(&column.name) else { continue };
             let (mut x, mut y) = (Vec::new(), Vec::new());

@@ -100,8 +100,11 @@ fn diagrams(loaded: &Loaded, campaign: &Campaign) -> Vec<(String, String)> {
     for (title, done) in std::iter::once(("main run".to_owned(), &campaign.main)).chain(variants) {
         let Some(controller) = &done.controller else { continue };
         let drawing = crate::commands::draw::drawing(controller, "", &campaign.report.scene, true);
-        if !shown.contains(&drawing) {
-            shown.push(drawing.clone());
+        // what is told on hovering alone is no other picture
+        let picture: String =
+            drawing.split("<title>").map(|part| part.split_once("</title>").map_or(part, |p| p.1)).collect();
+        if !shown.contains(&picture) {
+            shown.push(picture);
             drawings.push((title, drawing));
         }
     }
