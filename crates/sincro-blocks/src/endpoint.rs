@@ -57,7 +57,7 @@ impl Endpoint {
                 let parts: Vec<&str> = inside.split(':').map(str::trim).collect();
                 let number = |part: &str| part.parse::<usize>().ok();
                 let range = match parts[..] {
-                    [one] => number(one).map(|k| k..k + 1),
+                    [one] => number(one).filter(|k| *k < usize::MAX).map(|k| k..k + 1),
                     [from, to] => number(from).zip(number(to)).map(|(a, b)| a..b).filter(|r| !r.is_empty()),
                     _ => None,
                 };

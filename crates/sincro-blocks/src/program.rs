@@ -156,6 +156,14 @@ impl Program {
             n_memory: 0,
             step: interface.step,
         };
+        if n_signals > MOST_NUMBERS {
+            let widest =
+                (LATE + 1..flat.nodes.len()).max_by_key(|&n| flat.nodes[n].out_widths.iter().flatten().sum::<usize>());
+            let node = &flat.nodes[widest.unwrap_or(LATE)];
+            let message = format!("all signals together have {n_signals} components; {MOST_NUMBERS} are possible");
+            let help = format!("the widest is that of `{}`", node.path);
+            return Err(vec![Problem { place: node.place.clone(), message, help }]);
+        }
         let mut problems = Vec::new();
         let mut nodes: Vec<Option<crate::compile::FlatNode>> = flat.nodes.into_iter().map(Some).collect();
         for &n in order.iter().filter(|&&n| n != EARLY && n != LATE) {
@@ -173,8 +181,17 @@ impl Program {
             if let Err((message, help)) = template.check(&node) {
                 let message = format!("`{}`: {message}", flat_node.path);
                 problems.push(Problem { place: flat_node.place, message, help });
+                continue;
             }
             let Memory { continuous, discrete } = template.memory(&node);
+            let numbers = n_signals + program.n_states + program.n_memory;
+            if continuous.saturating_add(discrete).saturating_add(numbers) > MOST_NUMBERS {
+                let own = continuous.saturating_add(discrete);
+                let message = format!("`{}` keeps {own} numbers; a diagram may have {MOST_NUMBERS}", flat_node.path);
+                let help = "delay by fewer samples, or a narrower signal".to_owned();
+                problems.push(Problem { place: flat_node.place, message, help });
+                continue;
+            }
             let start = begins[n].first().copied().unwrap_or(0);
             if !program.periods.contains(&every) {
                 program.periods.push(every);
@@ -234,6 +251,9 @@ impl Program {
         self.n_states > 0 || self.commands.iter().any(|c| c.is_continuous)
     }
 }
+
+/// Signals, states and memory of a diagram together: 400 MB.
+const MOST_NUMBERS: usize = 50_000_000;
 
 /// Whether any node that `reads` is evaluated between ticks, has continuous states, or is the world that takes commands.
 fn minor_reads(flat: &Flat, minor: &[bool], rates: &[Rate], reads: impl Fn(&usize) -> bool) -> bool {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use sincro_math::expression::{Expression, is_name};
 
 use crate::kind::{Kind, Takes};
+use crate::suggest;
 
 /// A parameter as it is given: what every file format can say.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +82,9 @@ impl Files for NoFiles {
     }
 }
 
+/// Ports of one block.
+pub const MOST_PORTS: usize = 10_000;
+
 /// Reads the parameters of one block.
 pub struct Reader<'a> {
     kind: &'static Kind,
@@ -110,7 +114,11 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let known: Vec<&str> = self.kind.parameters.iter().map(|p| p.name).collect();
-            let help = if known.is_empty() { "it has none".into() } else { format!("it has {}", known.join(", ")) };
+            let all = if known.is_empty() { "it has none".into() } else { format!("it has {}", known.join(", ")) };
+            let help = match suggest::nearest(key, known.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`? {all}"),
+                None => all,
+            };
             let message = format!("`{}` has no parameter `{key}`", self.kind.name);
             self.faults.push(Fault { path: vec![key.clone()], span: None, message, help });
         }
@@ -224,6 +232,15 @@ impl<'a> Reader<'a> {
         if is_whole { x as usize } else { 0 }
     }
 
+    /// A whole number of ports, up to [`MOST_PORTS`] (1 if it is greater, 0 after other faults).
+    pub fn port_count(&mut self, key: &str) -> usize {
+        let n = self.count(key);
+        if n > MOST_PORTS {
+            self.fault(key, format!("`{key}` is {n}"), format!("a block has at most {MOST_PORTS}"));
+        }
+        if n > MOST_PORTS { 1 } else { n }
+    }
+
     /// One number, or one for each component; never empty.
     pub fn numbers(&mut self, key: &str) -> Vec<f64> {
         match self.value(key) {
@@ -335,7 +352,12 @@ impl<'a> Reader<'a> {
         };
         let text = self.text(key);
         words.iter().position(|word| *word == text).unwrap_or_else(|| {
-            self.fault(key, format!("`{key}` is `{text}`"), format!("it is one of {}", words.join(", ")));
+            let near = suggest::nearest(&text, words.iter().copied());
+            let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+            // what is no text at all has been noted
+            if self.given.get(key).is_none_or(|value| matches!(value, Value::Text(_))) {
+                self.fault(key, format!("`{key}` is `{text}`"), format!("{near}it is one of {}", words.join(", ")));
+            }
             0
         })
     }

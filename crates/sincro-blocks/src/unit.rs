@@ -85,7 +85,7 @@ impl Unit {
         let known = SYMBOLS.iter().find(|s| s.0 == symbol).ok_or_else(|| format!("`{symbol}` is no unit"))?;
         let power = power * sign;
         for (e, base) in self.exponents.iter_mut().zip(known.2) {
-            *e += base * power;
+            *e = e.checked_add(base * power).ok_or_else(|| format!("`{}` has too high a power", self.text))?;
         }
         for _ in 0..power.abs() {
             self.factor = if power > 0 { self.factor * known.1 } else { self.factor / known.1 };
@@ -113,7 +113,7 @@ fn exponent(text: &str) -> Option<i8> {
             c => Some(c),
         })
         .collect();
-    plain.parse().ok().filter(|e: &i8| e.abs() <= 9)
+    plain.parse().ok().filter(|e: &i8| (-9..=9).contains(e))
 }
 
 impl fmt::Display for Unit {

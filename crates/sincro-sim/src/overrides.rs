@@ -108,6 +108,10 @@ impl Override {
         let path = self.path.value.strip_prefix(OF_DIAGRAM).unwrap_or(&self.path.value);
         let keys = steps(path);
         let names: Vec<String> = names_of_blocks(document);
+        if keys.is_empty() {
+            let help = "write BLOCK.PARAMETER=VALUE, such as pid.kp=3";
+            return Err(self.error(format!("`{}` names nothing", self.path.value)).with_help(help));
+        }
         let pointer = match names.iter().position(|name| *name == keys[0]) {
             Some(k) => format!("/block/{k}"),
             None if matches!(keys[0].as_str(), "parameters" | "sample_time") => String::new(),
@@ -119,7 +123,8 @@ impl Override {
         };
         let rest = if pointer.is_empty() { &keys[..] } else { &keys[1..] };
         if rest.is_empty() {
-            return Err(self.error("the path names a block, none of its parameters"));
+            let problem = self.error(format!("`{}` names a block, none of its parameters", self.path.value));
+            return Err(problem.with_help(format!("write {}.PARAMETER=VALUE", self.path.value)));
         }
         let (last, inner) = rest.split_last().expect("not empty");
         let mut at = pointer;

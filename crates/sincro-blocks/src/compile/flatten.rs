@@ -1,6 +1,6 @@
 //! Inner diagrams dissolve: every block gets a path, every input the outputs that reach it, through however many ports.
 
-use core::ops::Range;
+use std::collections::BTreeMap;
 
 use super::{Flat, FlatNode, Input, Interface, LATE, Place, Problem, Spot, Terminal, listed};
 use crate::diagram::{Diagram, Entry, What};
@@ -25,13 +25,24 @@ pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, 
         out_units: Vec::new(),
     };
     let flat = Flat { nodes: vec![world(0), world(0)], measurements: [Vec::new(), Vec::new()], commands: Vec::new() };
-    let mut work = Flattening { interface, flat, scopes: Vec::new(), problems: Vec::new() };
+    let mut work = Flattening {
+        measurements: by_name(&interface.measurements),
+        commands: by_name(&interface.commands),
+        in_use: BTreeMap::new(),
+        interface,
+        flat,
+        scopes: Vec::new(),
+        problems: Vec::new(),
+    };
     let root = work.collect(diagram, Vec::new(), None, None);
     if work.problems.is_empty() {
         work.connect(root);
     }
     if work.problems.is_empty() { Ok(work.flat) } else { Err(work.problems) }
 }
+
+/// Most blocks of a diagram with all that is inside it: definitions that use definitions grow fast.
+const MOST_BLOCKS: usize = 100_000;
 
 /// A diagram in its place.
 struct Scope<'a> {
@@ -41,6 +52,10 @@ struct Scope<'a> {
     parent: Option<(usize, String)>,
     /// By entry: the node, or the scope of an inner diagram.
     members: Vec<Member>,
+    /// Number of the first entry of each name.
+    entries: BTreeMap<&'a str, usize>,
+    /// Number of the first wire into each block and port, as they are written.
+    wires_into: BTreeMap<(&'a str, &'a str), usize>,
 }
 
 #[derive(Clone, Copy)]
@@ -54,6 +69,11 @@ struct Flattening<'a> {
     flat: Flat,
     scopes: Vec<Scope<'a>>,
     problems: Vec<Problem>,
+    /// Terminals of the interface by name.
+    measurements: BTreeMap<&'a str, usize>,
+    commands: BTreeMap<&'a str, usize>,
+    /// Node and port of the measurements in use, by terminal.
+    in_use: BTreeMap<usize, (usize, usize)>,
 }
 
 impl<'a> Flattening<'a> {
@@ -71,9 +91,26 @@ impl<'a> Flattening<'a> {
         sample_time: Option<f64>,
     ) -> usize {
         let index = self.scopes.len();
-        self.scopes.push(Scope { diagram, path: path.clone(), parent, members: Vec::new() });
+        let (mut entries, mut wires_into) = (BTreeMap::new(), BTreeMap::new());
         for (k, entry) in diagram.entries.iter().enumerate() {
-            self.check_name(diagram, entry, k, &path);
+            entries.entry(entry.name.as_str()).or_insert(k);
+        }
+        for (k, wire) in diagram.wires.iter().enumerate() {
+            wires_into.entry((wire.to.block.as_str(), wire.to.port.as_str())).or_insert(k);
+        }
+        self.scopes.push(Scope { diagram, path: path.clone(), parent, members: Vec::new(), entries, wires_into });
+        self.check_ports(index);
+        for (k, entry) in diagram.entries.iter().enumerate() {
+            if self.flat.nodes.len() > MOST_BLOCKS {
+                let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+                // said once, where the limit was passed
+                if self.problems.iter().all(|p| p.message != message) {
+                    let help = "count what the definitions inside definitions come to";
+                    self.problem(&path, Spot::Entry(entry.name.clone()), message, help);
+                }
+                break;
+            }
+            self.check_name(index, entry, k);
             let (own, inherited) = (entry.sample_time.map(|ts| (ts, false)), sample_time.map(|ts| (ts, true)));
             let member = match &entry.what {
                 What::Block(template) => {
@@ -92,22 +129,41 @@ impl<'a> Flattening<'a> {
         index
     }
 
-    fn check_name(&mut self, diagram: &Diagram, entry: &Entry, k: usize, path: &[String]) {
+    /// Names of the ports of a diagram.
+    fn check_ports(&mut self, scope: usize) {
+        let diagram = self.scopes[scope].diagram;
+        let path = self.scopes[scope].path.clone();
+        for (list, word) in [(&diagram.inputs, "inputs"), (&diagram.outputs, "outputs")] {
+            for (k, port) in list.iter().enumerate() {
+                let spot = Spot::Port(port.clone());
+                if !is_name(port) || port == WORLD {
+                    let message = format!("`{port}` is no name of a port");
+                    self.problem(
+                        &path,
+                        spot,
+                        message,
+                        "names have letters, digits, `_`, `-`; `world` is the world itself",
+                    );
+                } else if list[..k].contains(port) {
+                    self.problem(&path, spot, format!("there are two {word} `{port}`"), "rename one of them");
+                }
+            }
+        }
+    }
+
+    fn check_name(&mut self, scope: usize, entry: &Entry, k: usize) {
+        let diagram = self.scopes[scope].diagram;
+        let path = &self.scopes[scope].path.clone();
         let name = &entry.name;
         let spot = || Spot::Entry(name.clone());
-        let good = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
-        if name.is_empty() || !name.chars().all(good) {
-            self.problem(
-                path,
-                spot(),
-                format!("`{name}` is no name of a block"),
-                "names have letters, digits, `_`, `-`",
-            );
+        if !is_name(name) {
+            let help = "names have letters, digits, `_`, `-`";
+            self.problem(path, spot(), format!("`{name}` is no name of a block"), help);
         }
         if name == WORLD {
             self.problem(path, spot(), "`world` is the world itself", "give the block another name");
         }
-        if diagram.entries[..k].iter().any(|e| e.name == *name) {
+        if self.scopes[scope].entries.get(name.as_str()).is_some_and(|first| *first < k) {
             self.problem(path, spot(), format!("there are two blocks `{name}`"), "rename one of them");
         }
         if diagram.inputs.iter().chain(&diagram.outputs).any(|port| port == name) {
@@ -193,7 +249,7 @@ impl<'a> Flattening<'a> {
             if wire.to.block != WORLD {
                 continue;
             }
-            let Some(terminal) = find(&self.interface.commands, &wire.to.port) else { continue };
+            let Some(&terminal) = self.commands.get(wire.to.port.as_str()) else { continue };
             let Some(input) = self.gather(root, k, 0) else { continue };
             let Terminal { names, width, unit, .. } = self.interface.commands[terminal].clone();
             let world = &mut self.flat.nodes[LATE];
@@ -207,30 +263,31 @@ impl<'a> Flattening<'a> {
 
     /// Number of the wire into a port.
     fn wire_into(&self, scope: usize, block: &str, port: &str) -> Option<usize> {
-        let only = |names: &[String]| names.len() == 1 && names[0] == port;
-        let single = self.target_ports(scope, block).is_some_and(|names| only(&names));
-        self.scopes[scope]
-            .diagram
-            .wires
-            .iter()
-            .position(|w| w.to.block == block && (w.to.port == port || (w.to.port.is_empty() && single)))
+        let is_only = self.target_ports(scope, block).is_some_and(|names| names.len() == 1 && names[0] == port);
+        let wires = &self.scopes[scope].wires_into;
+        let unnamed = if is_only { wires.get(&(block, "")) } else { None };
+        [wires.get(&(block, port)), unnamed].into_iter().flatten().min().copied()
+    }
+
+    /// What stands under a name.
+    fn member(&self, scope: usize, block: &str) -> Option<Member> {
+        let scope = &self.scopes[scope];
+        scope.entries.get(block).map(|k| scope.members[*k])
     }
 
     /// Input ports of an entry.
-    fn target_ports(&self, scope: usize, block: &str) -> Option<Vec<String>> {
-        let k = self.scopes[scope].diagram.entries.iter().position(|e| e.name == block)?;
-        Some(match self.scopes[scope].members[k] {
-            Member::Node(node) => self.flat.nodes[node].input_names.clone(),
-            Member::Scope(inner) => self.scopes[inner].diagram.inputs.clone(),
+    fn target_ports(&self, scope: usize, block: &str) -> Option<&[String]> {
+        Some(match self.member(scope, block)? {
+            Member::Node(node) => &self.flat.nodes[node].input_names,
+            Member::Scope(inner) => &self.scopes[inner].diagram.inputs,
         })
     }
 
     /// Output ports of an entry.
-    fn source_ports(&self, scope: usize, block: &str) -> Option<Vec<String>> {
-        let k = self.scopes[scope].diagram.entries.iter().position(|e| e.name == block)?;
-        Some(match self.scopes[scope].members[k] {
-            Member::Node(node) => self.flat.nodes[node].output_names.clone(),
-            Member::Scope(inner) => self.scopes[inner].diagram.outputs.clone(),
+    fn source_ports(&self, scope: usize, block: &str) -> Option<&[String]> {
+        Some(match self.member(scope, block)? {
+            Member::Node(node) => &self.flat.nodes[node].output_names,
+            Member::Scope(inner) => &self.scopes[inner].diagram.outputs,
         })
     }
 
@@ -238,21 +295,24 @@ impl<'a> Flattening<'a> {
     fn check_wires(&mut self, scope: usize) {
         let diagram = self.scopes[scope].diagram;
         let path = self.scopes[scope].path.clone();
+        let mut taken = BTreeMap::new();
         for k in 0..diagram.wires.len() {
             for end in &diagram.wires[k].from {
                 self.check_source(scope, k, end);
             }
-            self.check_target(scope, k);
+            if self.check_target(scope, k) {
+                self.check_single(scope, k, &mut taken);
+            }
         }
         for port in &diagram.outputs {
-            if !diagram.wires.iter().any(|w| w.to.block == *port && w.to.port.is_empty()) {
+            if !self.scopes[scope].wires_into.contains_key(&(port.as_str(), "")) {
                 let message = format!("the output `{port}` of the diagram is not connected");
                 self.problem(&path, Spot::Port(port.clone()), message, format!("add a wire \"… -> {port}\""));
             }
         }
         // an inner diagram's inputs are connected in the diagram around it
         for entry in diagram.entries.iter().filter(|e| matches!(e.what, What::Diagram(..))) {
-            for port in self.target_ports(scope, &entry.name).unwrap_or_default() {
+            for port in self.target_ports(scope, &entry.name).unwrap_or_default().to_vec() {
                 if self.wire_into(scope, &entry.name, &port).is_none() {
                     let message = format!("the input `{port}` of `{}` is not connected", entry.name);
                     let help = format!("add a wire \"… -> {}.{port}\"", entry.name);
@@ -267,12 +327,20 @@ impl<'a> Flattening<'a> {
         let path = self.scopes[scope].path.clone();
         let spot = Spot::From(wire);
         if end.block == WORLD {
-            let names = self.interface.measurements.iter().flat_map(|t| t.names.iter().map(String::as_str));
             if !path.is_empty() {
                 let help = "bring the signal in through a port: inputs = [\"…\"]";
                 self.problem(&path, spot, format!("`{end}`: an inner diagram does not see the world"), help);
-            } else if find(&self.interface.measurements, &end.port).is_none() {
-                let help = suggest::help(&end.port, names, "the world has no such signal; `sincro check` lists them");
+            } else if end.port.is_empty() {
+                let help = "say which of its signals: `/joint.position`, `/body.position`, `world.q`, `world.v` …";
+                self.problem(&path, spot, "`world` is all signals of the world", help);
+            } else if let Some(terminal) = self.measurements.get(end.port.as_str()) {
+                if self.interface.measurements[*terminal].width == 0 {
+                    let help = "the scene has no joint that moves";
+                    self.problem(&path, spot, format!("`{end}` has no components"), help);
+                }
+            } else {
+                let names = self.measurements.keys().copied();
+                let help = suggest::help(&end.port, names, "`sincro check --signals` lists what can be measured");
                 self.problem(&path, spot, format!("the world has no signal `{}`", end.port), help);
             }
             return;
@@ -281,93 +349,107 @@ impl<'a> Flattening<'a> {
             return;
         }
         match self.source_ports(scope, &end.block) {
-            None => self.unknown_block(scope, spot, &end.block, &diagram.inputs),
-            Some(ports) => self.check_port(&path, spot, end, &ports, "output"),
-        }
-    }
-
-    fn check_target(&mut self, scope: usize, k: usize) {
-        let diagram = self.scopes[scope].diagram;
-        let path = self.scopes[scope].path.clone();
-        let end = &diagram.wires[k].to;
-        let spot = Spot::To(k);
-        if end.range.is_some() {
-            let help = "a wire fills a whole port; choose components where it begins";
-            return self.problem(&path, spot, format!("`{end}` is a part of a port"), help);
-        }
-        if end.block == WORLD {
-            let names = self.interface.commands.iter().flat_map(|t| t.names.iter().map(String::as_str));
-            if !path.is_empty() {
-                let help = "lead the signal out through a port: outputs = [\"…\"]";
-                self.problem(&path, spot, format!("`{end}`: an inner diagram does not see the world"), help);
-            } else if find(&self.interface.commands, &end.port).is_none() {
-                let help = suggest::help(&end.port, names, "the scene has no motor that takes commands");
-                self.problem(&path, spot, format!("the world takes no `{}`", end.port), help);
-            } else {
-                self.check_single(scope, k);
-            }
-            return;
-        }
-        if diagram.outputs.contains(&end.block) && end.port.is_empty() {
-            return self.check_single(scope, k);
-        }
-        match self.target_ports(scope, &end.block) {
-            None => self.unknown_block(scope, spot, &end.block, &diagram.outputs),
+            None => self.unknown_block(scope, spot, end, &diagram.inputs, &diagram.outputs),
             Some(ports) => {
-                let before = self.problems.len();
-                self.check_port(&path, spot, end, &ports, "input");
-                if self.problems.len() == before {
-                    self.check_single(scope, k);
+                if let Some((message, help)) = misnamed_port(end, ports, "output") {
+                    self.problem(&path, spot, message, help);
                 }
             }
         }
     }
 
-    /// A port takes one wire.
-    fn check_single(&mut self, scope: usize, k: usize) {
+    /// Whether a wire ends at a port that there is.
+    fn check_target(&mut self, scope: usize, k: usize) -> bool {
+        let diagram = self.scopes[scope].diagram;
+        let path = self.scopes[scope].path.clone();
+        let end = &diagram.wires[k].to;
+        let spot = Spot::To(k);
+        let before = self.problems.len();
+        if end.range.is_some() {
+            let help = "a wire fills a whole port; choose components where it begins";
+            self.problem(&path, spot, format!("`{end}` is a part of a port"), help);
+        } else if end.block == WORLD {
+            self.check_command(&path, spot, end);
+        } else if diagram.outputs.contains(&end.block) && end.port.is_empty() {
+            return true;
+        } else {
+            match self.target_ports(scope, &end.block) {
+                None => self.unknown_block(scope, spot, end, &diagram.outputs, &diagram.inputs),
+                Some(ports) => {
+                    if let Some((message, help)) = misnamed_port(end, ports, "input") {
+                        self.problem(&path, spot, message, help);
+                    }
+                }
+            }
+        }
+        self.problems.len() == before
+    }
+
+    fn check_command(&mut self, path: &[String], spot: Spot, end: &Endpoint) {
+        if !path.is_empty() {
+            let help = "lead the signal out through a port: outputs = [\"…\"]";
+            self.problem(path, spot, format!("`{end}`: an inner diagram does not see the world"), help);
+        } else if !self.commands.contains_key(end.port.as_str()) {
+            let joint = end.port.strip_suffix(".command").unwrap_or(&end.port);
+            let is_joint = self.measurements.contains_key(format!("{joint}.motor_torque").as_str());
+            let is_there = ["position", "velocity", "position.x", "quaternion.w", "position.1"]
+                .iter()
+                .any(|quantity| self.measurements.contains_key(format!("{joint}.{quantity}").as_str()));
+            let all: Vec<&str> =
+                self.interface.commands.iter().filter_map(|t| t.names.first()).map(String::as_str).collect();
+            let otherwise = match &all[..] {
+                [] => {
+                    "the scene has no motor that takes commands: give a joint motor = { mode = \"torque\" }".to_owned()
+                }
+                _ => format!("commands go to the joints with a motor: {}", listed(all)),
+            };
+            let (message, help) = match (is_joint, is_there) {
+                (true, _) => (format!("the motor of `{joint}` is free and takes no command"), otherwise),
+                (_, true) => (format!("`{joint}` has no motor that takes commands"), otherwise),
+                _ => {
+                    let help = suggest::help(&end.port, self.commands.keys().copied(), &otherwise);
+                    (format!("the world takes no command `{}`", end.port), help)
+                }
+            };
+            self.problem(path, spot, message, help);
+        }
+    }
+
+    /// A port takes one wire; `taken` are the wires into the ports so far.
+    fn check_single(&mut self, scope: usize, k: usize, taken: &mut BTreeMap<(&'a str, String), usize>) {
         let diagram = self.scopes[scope].diagram;
         let end = &diagram.wires[k].to;
-        let same = |other: &Endpoint| -> bool {
-            if end.block == WORLD && other.block == WORLD {
-                let terminal = |e: &Endpoint| find(&self.interface.commands, &e.port);
-                return terminal(end) == terminal(other);
-            }
-            other.block == end.block && (other.port == end.port || other.port.is_empty() || end.port.is_empty())
+        let port = match self.target_ports(scope, &end.block) {
+            _ if end.block == WORLD => self.commands[end.port.as_str()].to_string(),
+            Some([only]) => only.clone(),
+            _ => end.port.clone(),
         };
-        if let Some(first) = diagram.wires[..k].iter().position(|w| same(&w.to)) {
-            let first = diagram.wires[first].from.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        let first = *taken.entry((&end.block, port)).or_insert(k);
+        if first != k {
+            let ends = diagram.wires[first].from.iter().map(ToString::to_string).collect::<Vec<_>>();
             let path = self.scopes[scope].path.clone();
-            let message = format!("two wires go into `{end}`; the other comes from `{first}`");
+            let message = format!("two wires go into `{end}`; the other comes from `{}`", ends.join(", "));
             self.problem(&path, Spot::To(k), message, "add the signals in a `sum`, or choose in a `switch`");
         }
     }
 
-    fn unknown_block(&mut self, scope: usize, spot: Spot, name: &str, ports: &[String]) {
-        let path = self.scopes[scope].path.clone();
-        let entries = &self.scopes[scope].diagram.entries;
-        let names = entries.iter().map(|e| e.name.as_str()).chain(ports.iter().map(String::as_str));
-        let fallback = "declare it, or write `/…` for a signal of the world";
-        let help = suggest::help(name, names, fallback);
-        self.problem(&path, spot, format!("there is no block `{name}`"), help);
-    }
-
-    fn check_port(&mut self, path: &[String], spot: Spot, end: &Endpoint, ports: &[String], word: &str) {
-        let whole = |port: &String| format!("{}.{port}", end.block);
-        if end.port.is_empty() {
-            if ports.len() != 1 {
-                let (message, help) = if ports.is_empty() {
-                    (format!("`{}` has no {word}", end.block), "remove the wire, or use another block".to_owned())
-                } else {
-                    let message = format!("`{}` has {} {word}s", end.block, ports.len());
-                    (message, format!("say which: {}", listed(ports.iter().map(whole))))
-                };
-                self.problem(path, spot, message, help);
-            }
-        } else if !ports.contains(&end.port) {
-            let all = if ports.is_empty() { "it has none".into() } else { format!("it has {}", listed(ports)) };
-            let help = suggest::help(&end.port, ports.iter().map(String::as_str), &all);
-            self.problem(path, spot, format!("`{}` has no {word} `{}`", end.block, end.port), help);
-        }
+    /// `ports` are those of the diagram that a wire may have here, `others` those at its other side.
+    fn unknown_block(&mut self, scope: usize, spot: Spot, end: &Endpoint, ports: &[String], others: &[String]) {
+        let (path, name) = (self.scopes[scope].path.clone(), &end.block);
+        let (message, help) = if ports.contains(name) {
+            let message = format!("`{name}` is a port of the diagram and has no port `{}` of its own", end.port);
+            (message, format!("write `{name}`"))
+        } else if others.contains(name) {
+            let is_source = matches!(spot, Spot::From(_));
+            let (what, does) = if is_source { ("output", "ends") } else { ("input", "begins") };
+            (format!("`{name}` is an {what} of the diagram"), format!("a wire {does} there: turn it round"))
+        } else {
+            let entries = &self.scopes[scope].diagram.entries;
+            let names = entries.iter().map(|e| e.name.as_str()).chain(ports.iter().map(String::as_str));
+            let otherwise = "declare it, or write `/…` for a signal of the world";
+            (format!("there is no block `{name}`"), suggest::help(name, names, otherwise))
+        };
+        self.problem(&path, spot, message, help);
     }
 
     /// Where a wire's numbers come from; several sources are put together by a block of their own.
@@ -377,6 +459,12 @@ impl<'a> Flattening<'a> {
             return self.resolve(scope, wire, end, depth);
         }
         let path = self.scopes[scope].path.clone();
+        if self.flat.nodes.len() > MOST_BLOCKS {
+            let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+            let help = "each `[a, b]` in a wire is one, also those that lead through ports";
+            self.problem(&path, Spot::From(wire), message, help);
+            return None;
+        }
         let target = self.scopes[scope].diagram.wires[wire].to.to_string();
         let mux = Mux::new(ends.len());
         let name = format!("[{target}]");
@@ -412,10 +500,9 @@ impl<'a> Flattening<'a> {
             };
             let outer = self.wire_into(around, &name, &end.block)?;
             let input = self.gather(around, outer, depth + 1)?;
-            return Some(self.narrowed(input, end.range.clone(), place));
+            return self.narrowed(input, end, place);
         }
-        let k = diagram.entries.iter().position(|e| e.name == end.block)?;
-        match self.scopes[scope].members[k] {
+        match self.member(scope, &end.block)? {
             Member::Node(node) => {
                 let names = &self.flat.nodes[node].output_names;
                 let port = if end.port.is_empty() { 0 } else { names.iter().position(|n| *n == end.port)? };
@@ -424,41 +511,75 @@ impl<'a> Flattening<'a> {
             Member::Scope(inner) => {
                 let inside = self.scopes[inner].diagram;
                 let port = if end.port.is_empty() { inside.outputs.first()? } else { &end.port };
-                let wire = inside.wires.iter().position(|w| w.to.block == *port && w.to.port.is_empty())?;
+                let wire = *self.scopes[inner].wires_into.get(&(port.as_str(), ""))?;
                 let input = self.gather(inner, wire, depth + 1)?;
-                Some(self.narrowed(input, end.range.clone(), place))
+                self.narrowed(input, end, place)
             }
         }
     }
 
     /// Components of what may itself be components.
-    fn narrowed(&mut self, input: Input, range: Option<Range<usize>>, place: Place) -> Input {
-        let range = match (input.range, range) {
+    fn narrowed(&mut self, input: Input, end: &Endpoint, place: Place) -> Option<Input> {
+        let range = match (input.range, end.range.clone()) {
             (None, range) | (range, None) => range,
-            // a range beyond the first is found out by the widths
+            (Some(whole), Some(part)) if part.end > whole.len() => {
+                let name = Endpoint { range: None, ..end.clone() };
+                let message = format!("`{name}` has {} components: there is no [{}]", whole.len(), part.end - 1);
+                let help = format!("components are counted from 0 to {}", whole.len() - 1);
+                self.problems.push(Problem { place, message, help });
+                return None;
+            }
             (Some(whole), Some(part)) => Some(whole.start + part.start..whole.start + part.end),
         };
-        Input { node: input.node, port: input.port, range, place }
+        Some(Input { node: input.node, port: input.port, range, place })
     }
 
     /// The node and port of a measurement, which is in use from now on.
     fn world_port(&mut self, name: &str) -> Option<(usize, usize)> {
-        let terminal = find(&self.interface.measurements, name)?;
+        let terminal = *self.measurements.get(name)?;
+        if let Some(found) = self.in_use.get(&terminal) {
+            return Some(*found);
+        }
         let Terminal { names, width, unit, is_special } = &self.interface.measurements[terminal];
         let node = usize::from(*is_special);
-        if let Some(port) = self.flat.measurements[node].iter().position(|t| *t == terminal) {
-            return Some((node, port));
-        }
         self.flat.measurements[node].push(terminal);
         let world = &mut self.flat.nodes[node];
         world.output_names.push(names[0].clone());
         world.out_widths.push(Some(*width));
         world.out_units.push(unit.clone());
-        Some((node, world.output_names.len() - 1))
+        let found = (node, world.output_names.len() - 1);
+        self.in_use.insert(terminal, found);
+        Some(found)
     }
 }
 
-/// Number of the terminal of a name.
-fn find(terminals: &[Terminal], name: &str) -> Option<usize> {
-    terminals.iter().position(|t| t.names.iter().any(|n| n == name))
+/// Why an end of a wire names no port of its block, and what would mend it.
+fn misnamed_port(end: &Endpoint, ports: &[String], word: &str) -> Option<(String, String)> {
+    let block = &end.block;
+    if end.port.is_empty() {
+        return match ports.len() {
+            1 => None,
+            0 => Some((format!("`{block}` has no {word}"), "remove the wire, or use another block".into())),
+            n => {
+                let all = listed(ports.iter().map(|port| format!("{block}.{port}")));
+                Some((format!("`{block}` has {n} {word}s"), format!("say which: {all}")))
+            }
+        };
+    }
+    if ports.contains(&end.port) {
+        return None;
+    }
+    let all = if ports.is_empty() { "it has none".into() } else { format!("it has {}", listed(ports)) };
+    let help = suggest::help(&end.port, ports.iter().map(String::as_str), &all);
+    Some((format!("`{block}` has no {word} `{}`", end.port), help))
+}
+
+fn is_name(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-'))
+}
+
+/// Numbers of terminals by their names; the first of a name stands.
+fn by_name(terminals: &[Terminal]) -> BTreeMap<&str, usize> {
+    let all = terminals.iter().enumerate().rev();
+    all.flat_map(|(k, terminal)| terminal.names.iter().map(move |name| (name.as_str(), k))).collect()
 }

@@ -1,27 +1,36 @@
 //! The order of evaluation: every block after those whose outputs it needs at once; otherwise as written. A circle of such
 //! needs is an algebraic loop.
 
+use std::collections::BTreeSet;
+
 use super::{EARLY, Flat, LATE, Problem};
 
 /// Numbers of all nodes in the order of evaluation, the world's late measurements (if there are any) as late as possible.
 pub(super) fn order(flat: &Flat) -> Result<Vec<usize>, Vec<Problem>> {
     let n = flat.nodes.len();
     let needs: Vec<Vec<usize>> = (0..n).map(|node| needed(flat, node)).collect();
+    let mut needed_by: Vec<Vec<usize>> = vec![Vec::new(); n];
+    let mut waits_for: Vec<usize> = vec![0; n];
+    for (node, sources) in needs.iter().enumerate() {
+        waits_for[node] = sources.len();
+        sources.iter().for_each(|&source| needed_by[source].push(node));
+    }
+    let mut ready: BTreeSet<usize> = (0..n).filter(|&k| waits_for[k] == 0).collect();
     let mut done = vec![false; n];
     let mut order = Vec::with_capacity(n);
-    while order.len() < n {
-        let ready = |&k: &usize| !done[k] && needs[k].iter().all(|&m| done[m]);
-        // the world last of those that are ready: everything that does not depend on its accelerations comes before it
-        let next = (0..n).filter(|&k| k != LATE).find(ready).or(Some(LATE).filter(ready));
-        match next {
-            Some(k) => {
-                done[k] = true;
-                order.push(k);
+    // the world last of those that are ready: everything that does not depend on its accelerations comes before it
+    while let Some(&next) = ready.iter().find(|&&k| k != LATE).or(ready.first()) {
+        ready.remove(&next);
+        done[next] = true;
+        order.push(next);
+        for &node in &needed_by[next] {
+            waits_for[node] -= 1;
+            if waits_for[node] == 0 {
+                ready.insert(node);
             }
-            None => return Err(loops(flat, &needs, &done)),
         }
     }
-    Ok(order)
+    if order.len() == n { Ok(order) } else { Err(loops(flat, &needs, done)) }
 }
 
 /// Nodes whose outputs a node's outputs depend on at once.
@@ -34,7 +43,9 @@ fn needed(flat: &Flat, node: usize) -> Vec<usize> {
 }
 
 /// One loop for each knot of blocks that wait for each other.
-fn loops(flat: &Flat, needs: &[Vec<usize>], done: &[bool]) -> Vec<Problem> {
+fn loops(flat: &Flat, needs: &[Vec<usize>], mut done: Vec<bool>) -> Vec<Problem> {
+    leave_out_followers(needs, &mut done);
+    let done = &done[..];
     let mut seen = done.to_vec();
     let mut problems = Vec::new();
     for start in 0..needs.len() {
@@ -49,6 +60,23 @@ fn loops(flat: &Flat, needs: &[Vec<usize>], done: &[bool]) -> Vec<Problem> {
         }
     }
     problems
+}
+
+/// What only waits for a loop is in none: leaves out whatever nobody who waits needs, again and again.
+fn leave_out_followers(needs: &[Vec<usize>], done: &mut [bool]) {
+    let mut n_users = vec![0; needs.len()];
+    let waiting = (0..needs.len()).filter(|&k| !done[k]);
+    waiting.for_each(|k| needs[k].iter().for_each(|&source| n_users[source] += 1));
+    let mut unused: Vec<usize> = (0..needs.len()).filter(|&k| !done[k] && n_users[k] == 0).collect();
+    while let Some(node) = unused.pop() {
+        done[node] = true;
+        for &source in needs[node].iter().filter(|&&s| !done[s]) {
+            n_users[source] -= 1;
+            if n_users[source] == 0 && !done[source] {
+                unused.push(source);
+            }
+        }
+    }
 }
 
 /// The shortest way from a node back to itself against the wires, given in the direction of the wires.

@@ -83,7 +83,7 @@ fn continuous_with_sample_time(node: &FlatNode, inherited: bool) -> Problem {
     let kind = node.template.as_ref().map_or("", |t| t.kind().name);
     let message = format!("`{}` is a continuous block ({kind}) and cannot have a sample time", node.path);
     let help = if inherited {
-        "its diagram has one: use the block of the same name from the discrete shelf, or leave the diagram's sample time out"
+        "its diagram has one: leave the diagram's sample time out, or use a block of the discrete shelf"
     } else {
         "leave `sample_time` out, or use a block of the discrete shelf"
     };

@@ -1,19 +1,30 @@
 //! Widths: from what is known to what follows, until nothing changes; what is then still open is a scalar.
 
+use std::collections::BTreeSet;
+
 use super::{EARLY, Flat, Input, LATE, Problem};
 
+/// Most components of a signal: more is a mistake, such as vectors put together of themselves.
+const MOST_COMPONENTS: usize = 1_000_000;
+
 pub(super) fn infer(flat: &mut Flat) -> Result<(), Vec<Problem>> {
+    let mut users: Vec<Vec<usize>> = vec![Vec::new(); flat.nodes.len()];
+    for n in LATE + 1..flat.nodes.len() {
+        flat.nodes[n].inputs.iter().for_each(|input| users[input.node].push(n));
+    }
+    let mut due: BTreeSet<usize> = (LATE + 1..flat.nodes.len()).collect();
+    let mut open = LATE + 1;
     loop {
-        let changed = sweep(flat)?;
-        if changed {
-            continue;
+        while !due.is_empty() {
+            due = sweep(flat, due, &users)?;
         }
         // a loop of blocks of any width, such as a delay that feeds itself: a scalar
-        let open = (LATE + 1..flat.nodes.len()).find(|&n| flat.nodes[n].out_widths.contains(&None));
-        match open {
-            Some(n) => flat.nodes[n].out_widths.iter_mut().for_each(|w| *w = Some(w.unwrap_or(1))),
-            None => break,
-        }
+        let is_open = |n: &usize| flat.nodes[*n].out_widths.contains(&None);
+        let Some(n) = (open..flat.nodes.len()).find(is_open) else { break };
+        flat.nodes[n].out_widths.iter_mut().for_each(|w| *w = Some(w.unwrap_or(1)));
+        due.insert(n);
+        due.extend(&users[n]);
+        open = n;
     }
     let problems: Vec<Problem> = (0..flat.nodes.len()).flat_map(|n| ranges(flat, n)).collect();
     if !problems.is_empty() {
@@ -23,36 +34,58 @@ pub(super) fn infer(flat: &mut Flat) -> Result<(), Vec<Problem>> {
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-/// One pass over all blocks; whether anything became known.
-fn sweep(flat: &mut Flat) -> Result<bool, Vec<Problem>> {
-    let (mut changed, mut problems) = (false, Vec::new());
-    for n in LATE + 1..flat.nodes.len() {
-        let found: Vec<Problem> = ranges(flat, n);
-        if !found.is_empty() {
-            problems.extend(found);
-            continue;
-        }
-        let inputs: Vec<Option<usize>> = flat.nodes[n].inputs.iter().map(|i| width(flat, i)).collect();
-        let template = flat.nodes[n].template.as_ref().expect("a block, not the world");
-        match template.widths(&inputs) {
-            Ok(outputs) => {
-                let node = &mut flat.nodes[n];
-                for (old, new) in node.out_widths.iter_mut().zip(outputs) {
-                    match (*old, new) {
-                        (None, Some(w)) => (*old, changed) = (Some(w), true),
-                        (Some(a), Some(b)) if a != b => {
-                            let message = format!("`{}` gives {b} components where {a} were inferred", node.path);
-                            let help = "give its parameters the width of the signal".to_owned();
-                            problems.push(Problem { place: node.place.clone(), message, help });
-                        }
-                        _ => {}
-                    }
-                }
-                node.in_widths = inputs;
-            }
-            Err(words) => problems.push(misfit(flat, n, &inputs, &words)),
+/// One pass over the blocks that are due, in their order; those that are due in the next one.
+fn sweep(flat: &mut Flat, mut due: BTreeSet<usize>, users: &[Vec<usize>]) -> Result<BTreeSet<usize>, Vec<Problem>> {
+    let (mut next, mut problems) = (BTreeSet::new(), Vec::new());
+    while let Some(n) = due.pop_first() {
+        match visit(flat, n) {
+            Ok(true) => users[n].iter().for_each(|&user| {
+                if user > n {
+                    due.insert(user)
+                } else {
+                    next.insert(user)
+                };
+            }),
+            Ok(false) => {}
+            Err(found) => problems.extend(found),
         }
     }
+    if problems.is_empty() { Ok(next) } else { Err(problems) }
+}
+
+/// The widths of a block as far as they follow; whether anything became known.
+fn visit(flat: &mut Flat, n: usize) -> Result<bool, Vec<Problem>> {
+    let found: Vec<Problem> = ranges(flat, n);
+    if !found.is_empty() {
+        return Err(found);
+    }
+    let inputs: Vec<Option<usize>> = flat.nodes[n].inputs.iter().map(|i| width(flat, i)).collect();
+    let template = flat.nodes[n].template.as_ref().expect("a block, not the world");
+    let outputs = template.widths(&inputs).map_err(|words| vec![misfit(flat, n, &inputs, &words)])?;
+    let (mut changed, mut problems) = (false, Vec::new());
+    let node = &mut flat.nodes[n];
+    for (old, new) in node.out_widths.iter_mut().zip(outputs) {
+        let wrong = match (*old, new) {
+            (_, Some(w)) if w > MOST_COMPONENTS => {
+                let help =
+                    "look for a vector that is put together of itself again and again, or a number that is too large";
+                Some((format!("`{}` gives {w} components; at most {MOST_COMPONENTS} are possible", node.path), help))
+            }
+            (None, Some(w)) => {
+                (*old, changed) = (Some(w), true);
+                None
+            }
+            (Some(a), Some(b)) if a != b => {
+                let help = "give its parameters the width of the signal";
+                Some((format!("`{}` gives {b} components where {a} were inferred", node.path), help))
+            }
+            _ => None,
+        };
+        if let Some((message, help)) = wrong {
+            problems.push(Problem { place: node.place.clone(), message, help: help.to_owned() });
+        }
+    }
+    node.in_widths = inputs;
     if problems.is_empty() { Ok(changed) } else { Err(problems) }
 }
 

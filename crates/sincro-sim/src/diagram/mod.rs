@@ -11,7 +11,7 @@ mod read;
 pub mod robot;
 pub(crate) mod schema;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sincro_blocks::compile::{Interface, Place, Spot, compile};
@@ -53,7 +53,7 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
     let file: DiagramFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
     let robot = robot::Context { model: setting.model.clone() };
-    let mut reader = DiagramReader { document, folder, file: &file, robot: &robot, problems: Problems::new() };
+    let mut reader = DiagramReader::new(document, folder, &file, &robot);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
     if reader.problems.any_error() {
         return Err(reader.problems.sorted());
@@ -64,12 +64,12 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
         }
     }
     Controller::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
-        let mut problems = Problems::new();
+        let (mut problems, mut said) = (Problems::new(), BTreeSet::new());
         for problem in found {
             let at = locate(document, &origin, &diagram, &problem.place);
-            let located = Problem::error(&at, problem.message).with_help(problem.help);
-            if !problems.0.contains(&located) {
-                problems.push(located);
+            // what is wrong in a definition is said once, however often it is used
+            if said.insert((at.span.start, problem.message.clone())) {
+                problems.push(Problem::error(&at, problem.message).with_help(problem.help));
             }
         }
         problems.sorted()
@@ -155,8 +155,14 @@ fn entries(wiring: &Wiring) -> Vec<Entry> {
 /// Where in the file a problem of the compiler is.
 fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place) -> Location {
     let (mut origin, mut diagram) = (origin, diagram);
+    // where sample times may be given, outermost first
+    let mut times = vec!["/sample_time".to_owned()];
     for name in &place.diagram {
         let Some(inner) = origin.inner.get(name) else { break };
+        times.push(format!("{}/sample_time", inner.pointer));
+        if let Some(k) = diagram.entries.iter().rposition(|e| e.name == *name) {
+            times.push(format!("{}/block/{k}/sample_time", origin.pointer));
+        }
         origin = inner;
         if let Some(What::Diagram(_, content)) = diagram.entry(name).map(|e| &e.what) {
             diagram = content;
@@ -170,10 +176,8 @@ fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place
     match &place.what {
         Spot::Entry(name) => block(name).map_or_else(|| document.at(pointer), |p| document.title_at(&p)),
         Spot::SampleTime(name) => {
-            let of_block = block(name).map(|p| format!("{p}/sample_time"));
-            let own = of_block.filter(|p| document.get(p).is_some());
-            let around = [format!("{pointer}/sample_time"), "/sample_time".to_owned()];
-            let found = own.or_else(|| around.into_iter().find(|p| document.get(p).is_some()));
+            times.extend(block(name).map(|p| format!("{p}/sample_time")));
+            let found = times.into_iter().rev().find(|p| document.get(p).is_some());
             found.map_or_else(
                 || block(name).map_or(document.at(pointer), |p| document.title_at(&p)),
                 |p| document.at(&p),

@@ -1,6 +1,7 @@
 //! From the diagram file to a [`Diagram`]: parameters to blocks, texts to wires, definitions to inner diagrams.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 use serde_json::Value as Json;
 use sincro_blocks::diagram::{Diagram, What, Wire};
@@ -21,7 +22,10 @@ use crate::suggest;
 pub(super) type Scope = BTreeMap<String, f64>;
 
 /// Deepest nesting of diagrams.
-const MAX_DEPTH: usize = 32;
+const MAX_DEPTH: usize = 256;
+
+/// Most blocks that definitions inside definitions may come to.
+const MOST_BLOCKS: usize = 100_000;
 
 /// Where a diagram, its blocks and its wires stand in the file.
 #[derive(Clone, Debug)]
@@ -41,9 +45,29 @@ pub(super) struct DiagramReader<'a> {
     pub file: &'a DiagramFile,
     pub robot: &'a robot::Context,
     pub problems: Problems,
+    /// Definitions around what is being read, outermost first.
+    pub around: Vec<usize>,
+    /// Blocks read so far, those of every use of a definition counted.
+    pub n_blocks: usize,
+    /// File, place and words of the problems.
+    said: BTreeSet<(Option<PathBuf>, usize, String)>,
 }
 
-impl DiagramReader<'_> {
+impl<'a> DiagramReader<'a> {
+    /// Before reading.
+    pub fn new(document: &'a Document, folder: &'a Folder, file: &'a DiagramFile, robot: &'a robot::Context) -> Self {
+        Self {
+            document,
+            folder,
+            file,
+            robot,
+            problems: Problems::new(),
+            around: Vec::new(),
+            n_blocks: 0,
+            said: BTreeSet::new(),
+        }
+    }
+
     /// The whole file.
     pub fn diagram(&mut self, outer: &Scope) -> (Diagram, Origin, Option<f64>) {
         self.check_definitions();
@@ -51,7 +75,7 @@ impl DiagramReader<'_> {
         let given = self.file_parameters();
         self.fill_scope(&mut scope, &given);
         let sample_time = self.number("/sample_time", &scope);
-        let (diagram, origin) = self.content("", &self.file.block, &self.file.wires, &scope, 0);
+        let (diagram, origin) = self.content("", &self.file.block, &self.file.wires, &scope);
         (diagram, origin, sample_time)
     }
 
@@ -66,14 +90,31 @@ impl DiagramReader<'_> {
 
     fn fill_scope(&mut self, scope: &mut Scope, parameters: &[(String, String)]) {
         for (name, pointer) in parameters {
-            if !sincro_math::expression::is_name(name) || name == "t" || name == "pi" {
-                let message = format!("`{name}` cannot be the name of a parameter");
-                let help = "letters, digits and `_`, beginning with a letter; `t` and `pi` have a meaning of their own";
-                self.problems.push(Problem::error(&self.document.key_at(pointer), message).with_help(help));
-            }
+            self.check_parameter_name(name, pointer);
             if let Some(x) = self.number(pointer, scope) {
                 scope.insert(name.clone(), x);
             }
+        }
+    }
+
+    fn check_parameter_name(&mut self, name: &str, pointer: &str) {
+        let help = if !sincro_math::expression::is_name(name) || name == "t" || name == "pi" {
+            "letters, digits and `_`, beginning with a letter; `t` and `pi` have a meaning of their own"
+        } else if pointer.starts_with("/diagram/") && matches!(name, "name" | "type" | "sample_time" | "unit") {
+            "every block has a key of that name"
+        } else {
+            return;
+        };
+        let message = format!("`{name}` cannot be the name of a parameter");
+        self.push(Problem::error(&self.document.key_at(pointer), message).with_help(help));
+    }
+
+    /// Notes a problem once, however often a definition is used.
+    fn push(&mut self, problem: Problem) {
+        let start = problem.span.as_ref().map_or(0, |span| span.start);
+        let path = problem.source.as_ref().map(|source| source.path.clone());
+        if self.said.insert((path, start, problem.message.clone())) {
+            self.problems.push(problem);
         }
     }
 
@@ -81,6 +122,7 @@ impl DiagramReader<'_> {
     fn number(&mut self, pointer: &str, scope: &Scope) -> Option<f64> {
         let json = self.document.get(pointer)?;
         let given = BTreeMap::from([("gain".to_owned(), self.value(json, pointer))]);
+        let n_problems = self.problems.0.len();
         // any block with one number will do: the reader turns formulas into numbers and says what is wrong with them
         let kind = library::find("gain").expect("the library has a gain").kind;
         let mut reader = Reader::new(kind, &given, scope, &NoFiles);
@@ -88,7 +130,8 @@ impl DiagramReader<'_> {
         for fault in reader.finish() {
             self.fault_at(pointer, Fault { path: Vec::new(), ..fault }, None);
         }
-        x.is_finite().then_some(x)
+        // what has been noted is not noted again wherever it is used
+        (x.is_finite() || self.problems.0.len() > n_problems).then_some(if x.is_finite() { x } else { 1.0 })
     }
 
     fn check_definitions(&mut self) {
@@ -105,25 +148,22 @@ impl DiagramReader<'_> {
     }
 
     /// The blocks and wires of one table.
-    fn content(
-        &mut self,
-        pointer: &str,
-        blocks: &[BlockFile],
-        wires: &[String],
-        scope: &Scope,
-        depth: usize,
-    ) -> (Diagram, Origin) {
+    fn content(&mut self, pointer: &str, blocks: &[BlockFile], wires: &[String], scope: &Scope) -> (Diagram, Origin) {
         let mut diagram = Diagram::new();
         let mut origin = Origin { pointer: pointer.to_owned(), wires: Vec::new(), inner: BTreeMap::new() };
         for (k, block) in blocks.iter().enumerate() {
             let at = format!("{pointer}/block/{k}");
+            self.n_blocks += 1;
+            if self.n_blocks > MOST_BLOCKS {
+                self.too_many_blocks(&at);
+                break;
+            }
             let sample_time = self.number(&format!("{at}/sample_time"), scope);
-            let Some((what, inner)) = self.what(block, &at, scope, depth) else { continue };
-            let (what, sample_time) = match what {
-                // a definition's own sample time stands unless the block gives another
-                (what, own) => (what, sample_time.or(own)),
+            let Some(((what, own), inner)) = self.what(block, &at, scope) else {
+                continue;
             };
-            diagram.add(&block.name, what, sample_time);
+            // a definition's own sample time stands unless the block gives another
+            diagram.add(&block.name, what, sample_time.or(own));
             if let Some(entry) = diagram.entries.last_mut() {
                 entry.unit.clone_from(&block.unit);
             }
@@ -137,17 +177,19 @@ impl DiagramReader<'_> {
         (diagram, origin)
     }
 
+    fn too_many_blocks(&mut self, at: &str) {
+        let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+        if self.problems.0.iter().all(|p| p.message != message) {
+            let problem = Problem::error(&self.document.title_at(at), message);
+            self.problems.push(problem.with_help("count what the definitions inside definitions come to"));
+        }
+    }
+
     /// What a block is: of the library, about the robot, or a diagram of this file.
     #[allow(clippy::type_complexity)]
-    fn what(
-        &mut self,
-        block: &BlockFile,
-        at: &str,
-        scope: &Scope,
-        depth: usize,
-    ) -> Option<((What, Option<f64>), Option<Origin>)> {
+    fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((What, Option<f64>), Option<Origin>)> {
         if let Some(k) = self.file.diagram.iter().position(|d| d.name == block.kind) {
-            let (inner, origin, sample_time) = self.instance(k, block, at, scope, depth)?;
+            let (inner, origin, sample_time) = self.instance(k, block, at, scope)?;
             let what = What::Diagram(block.kind.clone(), Box::new(inner));
             return Some(((what, sample_time), Some(origin)));
         }
@@ -181,12 +223,12 @@ impl DiagramReader<'_> {
     fn unknown_kind(&mut self, block: &BlockFile, at: &str) {
         let kinds = library::all().map(|item| item.kind.name).chain(robot::all().map(|item| item.kind.name));
         let known: Vec<&str> = kinds.chain(self.file.diagram.iter().map(|d| d.name.as_str())).collect();
-        let help = match suggest::nearest(&block.kind, known.iter().copied()) {
+        let help = match suggest::nearest(&block.kind, known) {
             Some(near) => format!("did you mean `{near}`?"),
             None => "`sincro blocks` lists every block with its parameters".into(),
         };
         let message = format!("there is no block type `{}` (block `{}`)", block.kind, block.name);
-        self.problems.push(Problem::error(&self.document.at(&format!("{at}/type")), message).with_help(help));
+        self.push(Problem::error(&self.document.at(&format!("{at}/type")), message).with_help(help));
     }
 
     /// A diagram of this file with the parameters of a block.
@@ -196,35 +238,53 @@ impl DiagramReader<'_> {
         block: &BlockFile,
         at: &str,
         outer: &Scope,
-        depth: usize,
     ) -> Option<(Diagram, Origin, Option<f64>)> {
-        let definition: &DefinitionFile = &self.file.diagram[k];
+        let definition: &'a DefinitionFile = &self.file.diagram[k];
         let pointer = format!("/diagram/{k}");
-        if depth >= MAX_DEPTH {
-            let message = format!("`{}` contains itself", definition.name);
-            let at = self.document.title_at(&pointer);
-            self.problems.push(Problem::error(&at, message).with_help("break the circle of definitions"));
+        if self.around.contains(&k) || self.around.len() >= MAX_DEPTH {
+            self.too_deep(k, at);
             return None;
         }
         let mut scope = Scope::new();
         for name in definition.parameters.keys() {
-            let (from, known) = match block.parameters.contains_key(name) {
-                true => (format!("{at}/{}", escape(name)), outer),
-                false => (format!("{pointer}/parameters/{}", escape(name)), &Scope::new()),
+            let default = format!("{pointer}/parameters/{}", escape(name));
+            self.check_parameter_name(name, &default);
+            let value = match block.parameters.contains_key(name) {
+                true => self.number(&format!("{at}/{}", escape(name)), outer),
+                false => self.number(&default, &Scope::new()),
             };
-            let value = self.number(&from, known);
-            scope.insert(name.clone(), value.unwrap_or(f64::NAN));
+            scope.insert(name.clone(), value.unwrap_or(1.0));
         }
         for key in block.parameters.keys().filter(|key| !definition.parameters.contains_key(*key)) {
             let known: Vec<&str> = definition.parameters.keys().map(String::as_str).collect();
             let message = format!("the diagram `{}` has no parameter `{key}`", definition.name);
             let at = self.document.key_at(&format!("{at}/{}", escape(key)));
-            self.problems.push(Problem::error(&at, message).with_help(suggest::help(key, &known, "parameters")));
+            self.push(Problem::error(&at, message).with_help(suggest::help(key, &known, "parameters")));
         }
         let sample_time = self.number(&format!("{pointer}/sample_time"), &scope);
-        let (diagram, origin) = self.content(&pointer, &definition.block, &definition.wires, &scope, depth + 1);
+        self.around.push(k);
+        let (diagram, origin) = self.content(&pointer, &definition.block, &definition.wires, &scope);
+        self.around.pop();
         let ports = Diagram { inputs: definition.inputs.clone(), outputs: definition.outputs.clone(), ..diagram };
         Some((ports, origin, sample_time))
+    }
+
+    /// A definition inside itself, or too many inside each other; `at` is the block that would go one deeper.
+    fn too_deep(&mut self, k: usize, at: &str) {
+        let place = self.document.at(&format!("{at}/type"));
+        let problem = match self.around.iter().position(|&i| i == k) {
+            Some(first) => {
+                let circle = self.around[first..].iter().chain([&k]).map(|&i| self.file.diagram[i].name.as_str());
+                let circle = circle.collect::<Vec<_>>().join(" -> ");
+                let message = format!("the diagram `{}` contains itself: {circle}", self.file.diagram[k].name);
+                Problem::error(&place, message).with_help("break the circle of definitions")
+            }
+            None => {
+                let message = format!("more than {MAX_DEPTH} diagrams are nested in each other");
+                Problem::error(&place, message).with_help("put some of them side by side")
+            }
+        };
+        self.push(problem);
     }
 
     /// A text such as `a -> b.u1 -> c`: a wire for every arrow.
@@ -240,7 +300,7 @@ impl DiagramReader<'_> {
         };
         if parts.len() < 2 {
             let problem = Problem::error(&self.document.at(pointer), format!("`{text}` is no wire"));
-            self.problems.push(problem.with_help("write \"FROM -> TO\", such as \"error -> pid -> /motor1\""));
+            self.push(problem.with_help("write \"FROM -> TO\", such as \"error -> pid -> /motor1\""));
             return;
         }
         for pair in parts.windows(2) {
@@ -252,7 +312,7 @@ impl DiagramReader<'_> {
                     let place = within(&self.document.at(pointer), &span);
                     let help =
                         "ends of wires are `block`, `block.port`, `block.port[0]`, or `/joint.position` of the world";
-                    self.problems.push(Problem::error(&place, error.message.clone()).with_help(help));
+                    self.push(Problem::error(&place, error.message.clone()).with_help(help));
                 }
             }
             if let (Ok(from_ends), Ok(to_end)) = (source, target) {
@@ -272,7 +332,9 @@ impl DiagramReader<'_> {
             Json::Null => match self.document.odd(pointer) {
                 Some(Odd::Infinite { positive: true }) => Value::Number(f64::INFINITY),
                 Some(Odd::Infinite { positive: false }) => Value::Number(f64::NEG_INFINITY),
-                _ => Value::Number(f64::NAN),
+                Some(Odd::NotANumber) => Value::Number(f64::NAN),
+                // a date, or an integer beyond 64 bits: fits nowhere
+                _ => Value::Table(Vec::new()),
             },
             Json::Bool(flag) => Value::Flag(*flag),
             Json::Number(x) => Value::Number(x.as_f64().unwrap_or(f64::NAN)),
@@ -305,9 +367,7 @@ impl DiagramReader<'_> {
         };
         let problem = Problem::error(&at, message);
         let problem = if fault.help.is_empty() { problem } else { problem.with_help(fault.help) };
-        if !self.problems.0.contains(&problem) {
-            self.problems.push(problem);
-        }
+        self.push(problem);
     }
 }
 

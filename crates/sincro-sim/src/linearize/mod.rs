@@ -16,6 +16,7 @@ mod trim;
 pub use point::{Request, operating_point};
 pub use trim::{Trim, TrimRequest, Trimmed, trim};
 
+use sincro_dynamics::world::MethodKind;
 use sincro_math::Dual;
 
 use crate::linear::{Axis, DMatrix, StateSpace};
@@ -89,6 +90,20 @@ pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Li
 /// An axis from a name and a unit.
 fn axis(name: impl Into<String>, unit: impl Into<String>) -> Axis {
     Axis { name: name.into(), unit: unit.into() }
+}
+
+/// Moduli [1/s] of the fastest poles at the start, with the diagram's continuous blocks in the loop and without; none if there is no
+/// operating point.
+pub(crate) fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> {
+    let mut at = LockStep::new(loaded, method, false);
+    at.start().ok()?;
+    at.latch();
+    let fastest = |is_closed: bool| {
+        let found = linearize(loaded, &at, &Request { is_closed, ..Request::default() }).ok()?;
+        let moduli = found.system.poles().into_iter().map(|mode| mode.natural_frequency);
+        Some(moduli.fold(0.0_f64, f64::max))
+    };
+    fastest(true).zip(fastest(false)).filter(|(closed, open)| closed.is_finite() && open.is_finite())
 }
 
 /// Rates with state `k` changed by `by` about where a run is: for whoever wants to check derivatives by differences. The diagram is

@@ -41,6 +41,8 @@ use crate::table::{CsvWriter, Table};
 const STIFF_FROM: f64 = 1.0;
 /// Rate times base step above which an explicit method with error control is slow enough to be announced.
 const SLOW_FROM: f64 = 20.0;
+/// Pole times step above which a method that takes a feedback at the old state diverges.
+const EULER_LIMIT: f64 = 1.0;
 /// How much finer the second run of an error estimate is: fixed steps halved, tolerance divided.
 const FINER: f64 = 100.0;
 
@@ -139,30 +141,44 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
     (kind, warnings)
 }
 
-/// As [`choose_method`], the diagram's continuous blocks considered too.
+/// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest pole of the loop that
+/// they close, which the linearisation gives exactly.
 #[must_use]
 pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     let (kind, mut warnings) = choose_method(&loaded.scene, &loaded.experiment);
-    let Some((block, rate)) = loaded.controller.as_ref().and_then(Controller::fastest) else {
+    let Some(controller) = loaded.controller.as_ref().filter(|c| c.wiring.program().is_continuous()) else {
         return (kind, warnings);
     };
-    let (step, product) = (loaded.experiment.step, rate * loaded.experiment.step);
-    let is_auto = loaded.experiment.integrator == Integrator::Auto;
-    if kind == MethodKind::Rk4 && product > RK4_LIMIT {
-        warnings.push(format!(
-            "block `{block}` decays at {rate:.3e} 1/s, too fast for `rk4` at a step of {step} s, which is stable up to {:.2e} s: \
-             the run will diverge. Use integrator = \"auto\" or \"implicit\"",
-            RK4_LIMIT / rate
-        ));
-    }
-    if kind == MethodKind::DormandPrince && product > SLOW_FROM {
-        if is_auto {
+    let step = loaded.experiment.step;
+    let mend = |rate: f64, limit: f64| format!("Use integrator = \"auto\", or a step below {:.1e} s", limit / rate);
+    if let Some((block, rate)) = controller.fastest()
+        && kind == MethodKind::DormandPrince
+        && rate * step > SLOW_FROM
+    {
+        if loaded.experiment.integrator == Integrator::Auto {
             return (MethodKind::Stiff, warnings);
         }
         warnings.push(format!(
-            "block `{block}` decays at {rate:.3e} 1/s and makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \
-             \"auto\" or \"stiff\"",
-            product / 3.3
+                "block `{block}` decays at {rate:.3e} 1/s and makes `dormand-prince` take about {:.0} sub-steps a step. Use \
+                 integrator = \"auto\" or \"stiff\"",
+                rate * step / 3.3
+            ));
+    }
+    // fixed steps take what blocks do to the world at the old state, whatever else they take at the new one
+    let limit = match kind {
+        MethodKind::Rk4 => RK4_LIMIT,
+        MethodKind::SemiImplicitEuler | MethodKind::Implicit => EULER_LIMIT,
+        MethodKind::DormandPrince | MethodKind::Stiff => return (kind, warnings),
+    };
+    if let Some((closed, open)) = crate::linearize::fastest_poles(loaded, kind)
+        && closed > 1.2 * open
+        && closed * step > limit
+    {
+        warnings.push(format!(
+            "the loop that the diagram closes has a pole of {closed:.3e} 1/s, too fast for `{}` at a step of {step} s: the run may \
+             diverge. {}",
+            method_word(kind),
+            mend(closed, limit)
         ));
     }
     (kind, warnings)

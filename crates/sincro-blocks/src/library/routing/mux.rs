@@ -32,7 +32,7 @@ impl Described for Mux {
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
-        let inputs = p.count("inputs");
+        let inputs = p.port_count("inputs");
         if inputs == 0 {
             p.fault("inputs", "`inputs` is 0", "it must be 1 or more");
         }
