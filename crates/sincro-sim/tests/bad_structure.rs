@@ -230,7 +230,7 @@ integrator = "RK4"
 tolerance = 1e-6"#,
         r#"value = "2*k""#,
         r#"experiment.toml:11:8: error: `tolerance` is missing in check `angle`
-  help: `tolerance`: Largest difference that holds, in the unit of what is checked (without unit if `relative`)."#,
+  help: it is the largest difference that holds; `at_most` needs none"#,
     ),
     (
         "experiment.toml",
@@ -239,14 +239,33 @@ tolerance = 1e-6"#,
         r#"value = "2*k"
 tolerance = -1.0"#,
         r#"experiment.toml:15:13: error: `tolerance` is -1, expected a number, at least 0
-  help: Largest difference that holds, in the unit of what is checked (without unit if `relative`)."#,
+  help: With `value` or `reference`: largest difference that holds, in the unit of what is checked (without unit if `relative`)."#,
+    ),
+    (
+        "experiment.toml",
+        r#"value = "2*k"
+tolerance = 1e-6"#,
+        r#"at_most = "2*k"
+tolerance = 1e-6"#,
+        r#"experiment.toml:15:1: error: `tolerance` has no meaning with `at_most`
+  help: leave it out: `at_most` is exact"#,
+    ),
+    (
+        "experiment.toml",
+        r#"value = "2*k"
+tolerance = 1e-6"#,
+        r#"value = "2*k"
+tolerance = 1e-6
+target = 1.0"#,
+        r#"experiment.toml:16:1: error: `target` has no meaning for the measure `error`
+  help: it belongs to `overshoot`, `rise-time` and `settling-time`"#,
     ),
     (
         "experiment.toml",
         r#"value = "2*k"
 "#,
         "",
-        "experiment.toml:11:8: error: one of `value`, `reference` is missing in check `angle`",
+        "experiment.toml:11:8: error: one of `value`, `reference`, `at_most`, `at_least` is missing in check `angle`",
     ),
     (
         "experiment.toml",
