@@ -227,9 +227,19 @@ impl<'a> Reader<'a> {
         let x = self.number(key);
         let is_whole = x >= 0.0 && x.fract() == 0.0 && x < 1e9;
         if !is_whole && !x.is_nan() {
-            self.fault(key, format!("`{key}` is {x}"), "it must be a whole number from 0 on");
+            self.fault(key, format!("`{key}` is {}", plain(x)), "it must be a whole number from 0 on");
         }
         if is_whole { x as usize } else { 0 }
+    }
+
+    /// A whole number from 1 on (1 after a fault).
+    pub fn positive_count(&mut self, key: &str) -> usize {
+        let x = self.number(key);
+        let is_whole = x >= 1.0 && x.fract() == 0.0 && x < 1e9;
+        if !is_whole && !x.is_nan() {
+            self.fault(key, format!("`{key}` is {}", plain(x)), "it must be a whole number from 1 on");
+        }
+        if is_whole { x as usize } else { 1 }
     }
 
     /// A whole number of ports, up to [`MOST_PORTS`] (1 if it is greater, 0 after other faults).
@@ -412,7 +422,11 @@ impl<'a> Reader<'a> {
                 Some(Formula { expression, n_names: names.len(), constants: constants.iter().map(|c| c.1).collect() })
             }
             Err(error) => {
-                let known = if names.is_empty() { String::new() } else { format!("it knows {}", all.join(", ")) };
+                let known = match &all[..] {
+                    _ if !error.message.starts_with("unknown name") => String::new(),
+                    [] => "it knows no names: there are no parameters".to_owned(),
+                    all => format!("it knows {}", all.join(", ")),
+                };
                 self.fault_at(
                     path,
                     Some(error.span.clone()),
@@ -456,19 +470,20 @@ impl<'a> Reader<'a> {
         match value {
             Value::Number(x) if x.is_finite() => *x,
             Value::Number(x) => {
-                self.fault_at(path, None, format!("{x} is not a finite number"), "give a finite number");
+                self.fault_at(path, None, format!("`{}` is {x}", shown(path)), "it must be a finite number");
                 f64::NAN
             }
             Value::Text(text) => self.formula(path, text, &[]).map_or(f64::NAN, |formula| {
                 let x = formula.expression.eval(&formula.constants, &mut formula.expression.scratch());
                 if !x.is_finite() {
-                    self.fault_at(path, None, format!("`{text}` is {x}"), "it must be a finite number");
+                    let message = format!("`{}`: `{text}` is {x}", shown(path));
+                    self.fault_at(path, None, message, "it must be a finite number");
                 }
                 x
             }),
             _ => {
                 let help = "write a number, or a formula of the diagram's parameters in quotes";
-                self.fault_at(path, None, "this is not a number", help);
+                self.fault_at(path, None, format!("`{}` is not a number", shown(path)), help);
                 f64::NAN
             }
         }
@@ -516,6 +531,24 @@ impl Matrix {
     pub fn at(&self, i: usize, k: usize) -> f64 {
         self.entries[i * self.columns + k]
     }
+}
+
+/// Steps to a value as one would write them: `value[1]`, `expressions.y`.
+fn shown(path: &[&str]) -> String {
+    let mut text = String::new();
+    for step in path {
+        match step.parse::<usize>() {
+            Ok(k) => text.push_str(&format!("[{k}]")),
+            Err(_) if text.is_empty() => text.push_str(step),
+            Err(_) => text.push_str(&format!(".{step}")),
+        }
+    }
+    text
+}
+
+/// A number without a tail of zeros.
+fn plain(x: f64) -> String {
+    if x.abs() < 1e15 { format!("{x}") } else { format!("{x:e}") }
 }
 
 /// A default as it stands in a description.

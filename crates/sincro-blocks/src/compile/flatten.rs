@@ -339,8 +339,7 @@ impl<'a> Flattening<'a> {
                     self.problem(&path, spot, format!("`{end}` has no components"), help);
                 }
             } else {
-                let names = self.measurements.keys().copied();
-                let help = suggest::help(&end.port, names, "`sincro check --signals` lists what can be measured");
+                let help = self.measurements_like(&end.port);
                 self.problem(&path, spot, format!("the world has no signal `{}`", end.port), help);
             }
             return;
@@ -355,6 +354,18 @@ impl<'a> Flattening<'a> {
                     self.problem(&path, spot, message, help);
                 }
             }
+        }
+    }
+
+    /// What may have been meant by a measurement that is not there.
+    fn measurements_like(&self, name: &str) -> String {
+        let of_it = format!("{name}.");
+        let names = self.measurements.keys().copied();
+        let own: Vec<&str> = names.clone().filter(|known| known.starts_with(&of_it)).collect();
+        match own.len() {
+            0 => suggest::help(name, names, "`sincro check --signals` lists what can be measured"),
+            1..=8 => format!("it has {}", listed(own)),
+            n => format!("it has {} and {} more", listed(&own[..8]).replace(" and ", ", "), n - 8),
         }
     }
 
@@ -408,7 +419,7 @@ impl<'a> Flattening<'a> {
                 (_, true) => (format!("`{joint}` has no motor that takes commands"), otherwise),
                 _ => {
                     let help = suggest::help(&end.port, self.commands.keys().copied(), &otherwise);
-                    (format!("the world takes no command `{}`", end.port), help)
+                    (format!("the world takes no command `{end}`"), help)
                 }
             };
             self.problem(path, spot, message, help);
@@ -446,8 +457,12 @@ impl<'a> Flattening<'a> {
         } else {
             let entries = &self.scopes[scope].diagram.entries;
             let names = entries.iter().map(|e| e.name.as_str()).chain(ports.iter().map(String::as_str));
-            let otherwise = "declare it, or write `/…` for a signal of the world";
-            (format!("there is no block `{name}`"), suggest::help(name, names, otherwise))
+            let known: Vec<&str> = names.clone().take(9).collect();
+            let otherwise = match known.len() {
+                1..=8 => format!("the diagram has {}; `/…` is a signal of the world", listed(known)),
+                _ => "declare it, or write `/…` for a signal of the world".into(),
+            };
+            (format!("there is no block `{name}`"), suggest::help(name, names, &otherwise))
         };
         self.problem(&path, spot, message, help);
     }
@@ -524,9 +539,7 @@ impl<'a> Flattening<'a> {
             (None, range) | (range, None) => range,
             (Some(whole), Some(part)) if part.end > whole.len() => {
                 let name = Endpoint { range: None, ..end.clone() };
-                let message = format!("`{name}` has {} components: there is no [{}]", whole.len(), part.end - 1);
-                let help = format!("components are counted from 0 to {}", whole.len() - 1);
-                self.problems.push(Problem { place, message, help });
+                self.problems.push(super::widths::beyond(&name.to_string(), whole.len(), &part, place));
                 return None;
             }
             (Some(whole), Some(part)) => Some(whole.start + part.start..whole.start + part.end),

@@ -67,6 +67,8 @@ pub enum Spot {
     Entry(String),
     /// The sample time of an entry.
     SampleTime(String),
+    /// The unit of an entry.
+    Unit(String),
     /// Where the wire of a number comes from.
     From(usize),
     /// Where the wire of a number goes.
@@ -157,7 +159,8 @@ impl Flat {
     pub fn output_name(&self, node: usize, port: usize) -> String {
         let n = &self.nodes[node];
         match (node, n.output_names.len()) {
-            (EARLY | LATE, _) => n.output_names[port].clone(),
+            (EARLY | LATE, _) if n.output_names[port].starts_with('/') => n.output_names[port].clone(),
+            (EARLY | LATE, _) => format!("{}.{}", n.path, n.output_names[port]),
             (_, 1) => n.path.clone(),
             _ => format!("{}.{}", n.path, n.output_names[port]),
         }

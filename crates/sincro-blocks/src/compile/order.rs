@@ -106,7 +106,11 @@ fn shortest_circle(start: usize, needs: &[Vec<usize>], done: &[bool]) -> Option<
 fn describe(flat: &Flat, circle: &[usize]) -> Problem {
     let first = circle.iter().copied().min_by_key(|&k| if k == LATE { usize::MAX } else { k }).unwrap_or(circle[0]);
     let turn = circle.iter().position(|&k| k == first).unwrap_or(0);
-    let names: Vec<&str> = circle[turn..].iter().chain(&circle[..=turn]).map(|&k| &*flat.nodes[k].path).collect();
+    let names = circle[turn..]
+        .iter()
+        .chain(&circle[..=turn])
+        .map(|&k| if k == LATE { "world's accelerations" } else { &flat.nodes[k].path });
+    let names: Vec<&str> = names.collect();
     let message = format!("algebraic loop: {}", names.join(" -> "));
     let help = "each of these needs the output of the one before it at the same instant. Break the loop with a block that does not \
                 pass its input on at once: `unit-delay` (one sample), or `low-pass` or `integrator` (continuous)";

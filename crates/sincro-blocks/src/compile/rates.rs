@@ -59,6 +59,11 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
 
 /// The sample time in base steps.
 fn multiple(node: &FlatNode, ts: f64, step: f64) -> Result<u64, Problem> {
+    if ts <= 0.0 {
+        let message = format!("the sample time {ts} s of `{}` is not greater than 0", node.path);
+        let help = format!("use a multiple of the base step {step} s, or leave it out");
+        return Err(Problem { place: sample_place(node), message, help });
+    }
     let n = (ts / step).round();
     if n >= 1.0 && (n * step - ts).abs() <= 1e-9 * ts && n < 1e15 {
         return Ok(n as u64);

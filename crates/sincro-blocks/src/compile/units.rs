@@ -1,6 +1,6 @@
 //! Units: carried along wires as far as they are known, and compared wherever two meet.
 
-use super::{EARLY, Flat, LATE, Problem};
+use super::{EARLY, Flat, FlatNode, LATE, Place, Problem, Spot};
 use crate::unit::Unit;
 
 /// Units of all outputs, as far as they are known, noted in the nodes.
@@ -41,7 +41,7 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
         match Unit::parse(text) {
             Err(message) => {
                 let help = "units are products such as N·m/rad, m/s^2, kg·m²".to_owned();
-                problems.push(Problem { place: node.place.clone(), message, help });
+                problems.push(Problem { place: unit_place(node), message, help });
             }
             Ok(declared) => {
                 for unit in &mut units[n] {
@@ -50,7 +50,7 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
                     {
                         let message = format!("`{}` is declared in {declared}, its signal is in {found}", node.path);
                         let help = format!("declare unit = \"{found}\", or leave it out");
-                        problems.push(Problem { place: node.place.clone(), message, help });
+                        problems.push(Problem { place: unit_place(node), message, help });
                     }
                     *unit = Some(declared.clone());
                 }
@@ -58,6 +58,13 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
         }
     }
     problems
+}
+
+fn unit_place(node: &FlatNode) -> Place {
+    match &node.place.what {
+        Spot::Entry(name) => Place { diagram: node.place.diagram.clone(), what: Spot::Unit(name.clone()) },
+        _ => node.place.clone(),
+    }
 }
 
 /// What goes to the world is in the unit that the world takes.

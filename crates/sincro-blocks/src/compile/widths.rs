@@ -1,8 +1,9 @@
 //! Widths: from what is known to what follows, until nothing changes; what is then still open is a scalar.
 
+use core::ops::Range;
 use std::collections::BTreeSet;
 
-use super::{EARLY, Flat, Input, LATE, Problem};
+use super::{EARLY, Flat, Input, LATE, Place, Problem};
 
 /// Most components of a signal: more is a mistake, such as vectors put together of themselves.
 const MOST_COMPONENTS: usize = 1_000_000;
@@ -105,12 +106,21 @@ fn ranges(flat: &Flat, n: usize) -> Vec<Problem> {
             && range.end > whole
         {
             let name = flat.output_name(input.node, input.port);
-            let message = format!("`{name}` has {whole} components: there is no [{}]", range.end - 1);
-            let help = format!("components are counted from 0 to {}", whole - 1);
-            problems.push(Problem { place: input.place.clone(), message, help });
+            problems.push(beyond(&name, whole, range, input.place.clone()));
         }
     }
     problems
+}
+
+/// The problem of components `range` that a signal of `width` components does not have.
+pub(super) fn beyond(name: &str, width: usize, range: &Range<usize>, place: Place) -> Problem {
+    let components = if width == 1 { "1 component" } else { &format!("{width} components") };
+    let message = format!("`{name}` has {components}: there is no [{}]", range.end - 1);
+    let help = match width {
+        0 | 1 => format!("write `{name}`"),
+        _ => format!("components are counted from 0 to {}", width - 1),
+    };
+    Problem { place, message, help }
 }
 
 /// Inputs that do not fit each other: every one with its size and where it comes from.

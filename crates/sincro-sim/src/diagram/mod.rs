@@ -183,6 +183,13 @@ fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place
                 |p| document.at(&p),
             )
         }
+        Spot::Unit(name) => block(name).map_or_else(
+            || document.at(pointer),
+            |p| {
+                let unit = format!("{p}/unit");
+                if document.get(&unit).is_some() { document.at(&unit) } else { document.title_at(&p) }
+            },
+        ),
         Spot::From(k) | Spot::To(k) => match origin.wires.get(*k) {
             Some((text, from, to)) => {
                 let span = if matches!(place.what, Spot::From(_)) { from } else { to };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::Value as Json;
 use sincro_blocks::diagram::{Diagram, What, Wire};
-use sincro_blocks::endpoint::Endpoint;
+use sincro_blocks::endpoint::{Endpoint, EndpointError};
 use sincro_blocks::instance::Template;
 use sincro_blocks::library;
 use sincro_blocks::reader::{Fault, Files, NoFiles, Reader, Value};
@@ -127,8 +127,10 @@ impl<'a> DiagramReader<'a> {
         let kind = library::find("gain").expect("the library has a gain").kind;
         let mut reader = Reader::new(kind, &given, scope, &NoFiles);
         let x = reader.number("gain");
+        let key = pointer.rsplit('/').next().unwrap_or("");
         for fault in reader.finish() {
-            self.fault_at(pointer, Fault { path: Vec::new(), ..fault }, None);
+            let message = fault.message.replacen("`gain`", &format!("`{key}`"), 1);
+            self.fault_at(pointer, Fault { path: Vec::new(), message, ..fault }, None);
         }
         // what has been noted is not noted again wherever it is used
         (x.is_finite() || self.problems.0.len() > n_problems).then_some(if x.is_finite() { x } else { 1.0 })
@@ -214,8 +216,13 @@ impl<'a> DiagramReader<'a> {
             self.unknown_kind(block, at);
             return None;
         };
-        for fault in faults {
-            self.fault_at(at, fault, Some(&block.name));
+        let is_given = |fault: &Fault| fault.path.first().is_some_and(|key| given.contains_key(key));
+        for (k, fault) in faults.iter().enumerate() {
+            // the same of two parameters, such as a file that is not there: said where something is written
+            let mut others = faults.iter().enumerate().filter(|(i, other)| *i != k && other.message == fault.message);
+            if is_given(fault) || others.all(|(_, other)| !is_given(other)) {
+                self.fault_at(at, fault.clone(), Some(&block.name));
+            }
         }
         Some(template)
     }
@@ -305,7 +312,14 @@ impl<'a> DiagramReader<'a> {
         }
         for pair in parts.windows(2) {
             let ((from_at, from), (to_at, to)) = (pair[0], pair[1]);
-            let (source, target) = (Endpoint::parse_list(from), Endpoint::parse(to));
+            let source = Endpoint::parse_list(from);
+            let target = if to.trim_start().starts_with('[') {
+                let start = to.len() - to.trim_start().len();
+                let message = "a wire ends at one port; write a wire for each".to_owned();
+                Err(EndpointError { span: start..to.trim_end().len(), message })
+            } else {
+                Endpoint::parse(to)
+            };
             for (at, error) in [(from_at, source.as_ref().err()), (to_at, target.as_ref().err())] {
                 if let Some(error) = error {
                     let span = at + error.span.start..at + error.span.end;
@@ -356,7 +370,16 @@ impl<'a> DiagramReader<'a> {
         let inner = fault.path.iter().fold(pointer.to_owned(), |p, step| format!("{p}/{}", escape(step)));
         let is_unknown = fault.message.contains("has no parameter");
         let at = match (fault.path.is_empty(), is_unknown) {
+            (true, _) if block.is_none() => self.document.at(&inner),
             (true, _) => self.document.title_at(&inner),
+            // about a parameter that is left out
+            _ if fault
+                .path
+                .first()
+                .is_some_and(|key| self.document.get(&format!("{pointer}/{}", escape(key))).is_none()) =>
+            {
+                self.document.title_at(pointer)
+            }
             (_, true) => self.document.key_at(&inner),
             _ => self.document.at(&inner),
         };

@@ -88,7 +88,8 @@ impl Block for TransportDelay {
             return Err((message, format!("delay by {} s or more, or take a smaller `step`", node.step)));
         }
         if steps > MOST_STEPS {
-            let message = format!("a delay of {} s is {steps:.0} base steps of {} s", self.delay, node.step);
+            let (delay, steps) = (short(self.delay), short(steps.ceil()));
+            let message = format!("a delay of {delay} s is {steps} base steps of {} s", node.step);
             return Err((message, format!("at most {MOST_STEPS} steps are remembered: take a larger `step`")));
         }
         Ok(())

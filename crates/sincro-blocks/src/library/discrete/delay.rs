@@ -48,11 +48,8 @@ impl Described for Delay {
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
-        let samples = p.count("samples");
-        if samples == 0 && p.has("samples") {
-            p.fault("samples", "`samples` is 0, or no whole number", "it must be 1 or more");
-        }
-        Self { samples: samples.max(1), initial: p.numbers("initial") }
+        let samples = p.positive_count("samples");
+        Self { samples, initial: p.numbers("initial") }
     }
 }
 

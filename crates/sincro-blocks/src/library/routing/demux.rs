@@ -34,7 +34,11 @@ impl Described for Demux {
     fn read(p: &mut Reader<'_>) -> Self {
         let sizes = p.numbers("sizes");
         if let Some(bad) = sizes.iter().find(|x| x.fract() != 0.0 || !(1.0..1e6).contains(*x)) {
-            p.fault("sizes", format!("`sizes` has {bad}"), "sizes are whole numbers from 1 on");
+            p.fault(
+                "sizes",
+                format!("`sizes` has {}", crate::library::short(*bad)),
+                "sizes are whole numbers from 1 on",
+            );
         }
         Self { sizes: sizes.iter().map(|x| *x as usize).collect() }
     }
