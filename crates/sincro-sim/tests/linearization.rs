@@ -167,3 +167,20 @@ fn the_regulator_of_the_double_integrator_is_the_textbook_one() {
     let k = lqr(&a, &b, &DMatrix::identity(2, 2), &DMatrix::identity(1, 1)).unwrap().k;
     assert!((k[0] - 1.0).abs() < 1e-12 && (k[1] - 3.0_f64.sqrt()).abs() < 1e-12, "{k}");
 }
+
+#[test]
+fn the_gains_of_the_cart_and_pole_are_those_of_its_linearisation() {
+    let loaded = scene("cart-pole-lqr", &[("/rail/cart/hinge.initial.position", "0")]);
+    let (_, linear) = at_start(&loaded, &Request::default());
+    let q = DMatrix::from_diagonal(&sincro_sim::linear::DVector::from_column_slice(&[1.0, 10.0, 1.0, 1.0]));
+    let design = lqr(&linear.system.a, &linear.system.b, &q, &DMatrix::from_element(1, 1, 0.1)).unwrap();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/cart-pole-lqr/lqr.toml");
+    let text = std::fs::read_to_string(folder).unwrap();
+    let list = text.split_once("gain = [[").and_then(|(_, rest)| rest.split_once("]]")).unwrap().0;
+    let gains: Vec<f64> = list.split(',').map(|x| x.trim().parse().unwrap()).collect();
+    // the block feeds back +K·x for u = −K·x of the design
+    for (k, gain) in gains.iter().enumerate() {
+        assert!((gain + design.k[k]).abs() < 1e-8 * gain.abs(), "{k}: {gain} {}", design.k[k]);
+    }
+    assert!(design.poles.iter().all(|p| p.re < -1.0), "{:?}", design.poles);
+}

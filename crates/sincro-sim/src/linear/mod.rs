@@ -147,19 +147,23 @@ impl StateSpace {
     }
 }
 
+/// A row or column below this share of the largest entry is the rounding of a reduction, not a slow mode.
+const ROUNDING: f64 = 1e-13;
+
 /// Whether a square matrix is singular to working precision. Its rows are scaled first, so that units do not decide.
 fn is_singular(matrix: &DMatrix<f64>) -> bool {
     let mut scaled = matrix.clone();
+    let largest = matrix.amax();
     for mut row in scaled.row_iter_mut() {
         let size = row.amax();
-        if size == 0.0 {
+        if size <= ROUNDING * largest {
             return true;
         }
         row /= size;
     }
     for mut column in scaled.column_iter_mut() {
         let size = column.amax();
-        if size == 0.0 {
+        if size <= ROUNDING {
             return true;
         }
         column /= size;

@@ -31,7 +31,11 @@ impl StateSpace {
         let rate = if self.a.norm() > 0.0 { self.a.norm() } else { 1.0 };
         let channel = Channel { a: &self.a / rate, b: b / size_b, c: c / size_c, d: d * rate / (size_b * size_c) };
         let zeros = channel.zeros().ok_or_else(no_path)?;
-        Ok(zeros.into_iter().map(|zero| zero * rate).collect())
+        // relative to the system's own rates, less than rounding is zero
+        let exact = |zero: Complex<f64>| {
+            if zero.norm_sqr() <= NOTHING * NOTHING { Complex::new(0.0, 0.0) } else { zero * rate }
+        };
+        Ok(zeros.into_iter().map(exact).collect())
     }
 }
 

@@ -156,7 +156,14 @@ fn solve(
     let x0 = vec![0.0; unknowns.places.len()];
     let n_residuals = n_equations + targets.len();
     newton::solve(n_residuals, residual, jacobian, &x0, AT_REST, MOST_STEPS).map_err(|failure| {
-        let help = "start nearer (`initial` of the joints), set commands free (--free), or ask for less (--want)";
-        Problem::nowhere(format!("no equilibrium found: {failure}")).with_help(help).into()
+        let axes = duals.state_axes();
+        let what = match unknowns.equations.clone().nth(failure.worst) {
+            Some(k) => format!("the rate of `{}`", axes[k].name),
+            None => "a signal that was asked for".to_owned(),
+        };
+        let message = format!("no equilibrium found: {:.3e} is left over in {what}", failure.residual);
+        let help = "commands are held as they are at that time: set them free (--free NAME) or give others (--set); or start nearer \
+                    (`initial` of the joints), or ask for less (--want)";
+        Problem::nowhere(message).with_help(help).into()
     })
 }

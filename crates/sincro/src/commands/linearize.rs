@@ -110,6 +110,7 @@ fn print(analysis: &Analysis, found: &Linearization, out: Option<&Path>) {
         }
     }
     match found.drift() {
+        0.0 => say!("  an equilibrium: all rates are zero"),
         drift if drift < 1e-8 => say!("  an equilibrium: no rate is above {drift:.1e}"),
         drift => say!(
             "  no equilibrium: rates up to {drift:.4}. The matrices hold along the motion; --equilibrium finds a rest"

@@ -83,13 +83,17 @@ fn show(arguments: &Arguments, found: &Trim) -> Exit {
         say!("{text}");
         return Exit::Holds;
     }
-    say!("equilibrium after {} steps; rates below {:.1e}", found.iterations, found.residual.max(f64::MIN_POSITIVE));
+    let rates =
+        if found.residual == 0.0 { "all rates are zero".into() } else { format!("rates up to {:.1e}", found.residual) };
+    say!("equilibrium after {} steps of Newton's method; {rates}", found.iterations);
     for (title, list) in [("state", &found.states), ("commands", &found.inputs), ("wanted", &found.outputs)] {
         if !list.is_empty() {
             say!("{title}");
         }
         let width = list.iter().map(|(axis, _)| axis.name.chars().count()).max().unwrap_or(0);
         for (axis, value) in list {
+            // no minus before a zero
+            let value = if value.abs() < 5e-10 { 0.0 } else { *value };
             say!("  {:<width$}  {value:>16.9} {}", axis.name, axis.unit);
         }
     }
