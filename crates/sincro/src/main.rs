@@ -28,6 +28,8 @@ enum Command {
     Run(commands::run::Arguments),
     /// Look a scene over without running it: objects, degrees of freedom, warnings, signals on offer
     Check(commands::check::Arguments),
+    /// List the blocks that diagrams are made of, or show one with its parameters and an example
+    Blocks(commands::blocks::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
     Reproduce(commands::reproduce::Arguments),
     /// Measure speed, memory and accuracy on this machine, beside peers if asked
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
     let exit = match Cli::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match bench::run(&options) {
             Ok(()) => Exit::Holds,
