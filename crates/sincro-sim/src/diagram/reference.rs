@@ -16,7 +16,7 @@ use super::robot;
 #[must_use]
 pub fn kinds() -> Vec<&'static Kind> {
     let of_library = library::all().map(|item| item.kind);
-    let mut kinds: Vec<&Kind> = of_library.chain(robot::all().map(|item| item.kind)).collect();
+    let mut kinds: Vec<&'static Kind> = of_library.chain(robot::all().map(|item| item.kind)).collect();
     kinds.sort_by_key(|kind| kind.group);
     kinds
 }
@@ -41,7 +41,7 @@ pub fn reference() -> String {
     text
 }
 
-fn section(kind: &Kind) -> String {
+fn section(kind: &'static Kind) -> String {
     let mut text = format!("\n### {}\n\n{}\n\n`{}`\n", kind.name, kind.summary, kind.equation);
     if let Some((inputs, outputs)) = ports(kind) {
         let _ = write!(text, "\nInputs: {inputs}. Outputs: {outputs}.\n");
@@ -60,7 +60,7 @@ fn section(kind: &Kind) -> String {
 
 /// A block as it is printed on a terminal, with an example for a diagram file.
 #[must_use]
-pub fn page(kind: &Kind) -> String {
+pub fn page(kind: &'static Kind) -> String {
     let mut text = format!("{} ({})\n  {}\n  {}\n", kind.name, kind.group.title(), kind.summary, kind.equation);
     if let Some((inputs, outputs)) = ports(kind) {
         let _ = write!(text, "ports\n  inputs: {}\n  outputs: {}\n", inputs.replace('`', ""), outputs.replace('`', ""));
@@ -106,7 +106,7 @@ fn written(parameter: &Parameter) -> String {
 }
 
 /// Names of inputs and outputs with as few parameters as can be given; none where that does not say it.
-fn ports(kind: &Kind) -> Option<(String, String)> {
+fn ports(kind: &'static Kind) -> Option<(String, String)> {
     let template = least(kind)?;
     let ports = template.ports();
     let list = |names: &[String]| match names {
@@ -117,7 +117,7 @@ fn ports(kind: &Kind) -> Option<(String, String)> {
 }
 
 /// The block with as few parameters as it needs.
-fn least(kind: &Kind) -> Option<Box<dyn Template>> {
+fn least(kind: &'static Kind) -> Option<Box<dyn Template>> {
     let value = |p: &Parameter| match p.takes {
         Takes::Choice(words) => Value::from(words[0]),
         Takes::Flag => Value::Flag(true),
@@ -128,7 +128,17 @@ fn least(kind: &Kind) -> Option<Box<dyn Template>> {
         _ => Value::Number(1.0),
     };
     let required = kind.parameters.iter().filter(|p| p.default.is_none());
-    let given: BTreeMap<String, Value> = required.map(|p| (p.name.to_owned(), value(p))).collect();
+    let mut given: BTreeMap<String, Value> = required.map(|p| (p.name.to_owned(), value(p))).collect();
+    // where one of several must be given
+    let pair = || Value::from(vec![0.0, 1.0]);
+    let more: Vec<(&str, Value)> = match kind.name {
+        "sine" => vec![("frequency_hz", 1.0.into())],
+        "table" => vec![("times", pair()), ("values", pair())],
+        "expression" => vec![("expression", "u".into())],
+        "lookup-table" => vec![("breakpoints", pair()), ("values", pair())],
+        _ => Vec::new(),
+    };
+    given.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
     let scope = BTreeMap::new();
     let mut reader = Reader::new(kind, &given, &scope, &NoFiles);
     let template = match library::find(kind.name) {

@@ -2,8 +2,8 @@
 
 use clap::Args;
 use sincro_blocks::kind::Group;
+use sincro_blocks::suggest;
 use sincro_sim::diagram::reference::{kinds, page};
-use sincro_sim::suggest;
 
 use crate::{Exit, diagnostics};
 
