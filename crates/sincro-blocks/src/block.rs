@@ -3,6 +3,66 @@
 //! Every block has the same verbs. Before a run: [`Block::ports`], [`Block::widths`], [`Block::memory`], [`Block::start`]. In a
 //! run: [`Block::output`] gives the outputs, [`Block::slope`] the rates of the continuous states, [`Block::update`] the memory
 //! after a tick. No verb but `update` changes state, and no verb allocates.
+//!
+//! A block of one's own needs a struct of its parameters, a description, and the verbs that are not the default:
+//!
+//! ```
+//! use sincro_blocks::block::{At, Block, Ports, elementwise};
+//! use sincro_blocks::compile::{Interface, compile};
+//! use sincro_blocks::diagram::Diagram;
+//! use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
+//! use sincro_blocks::library::sources::Constant;
+//! use sincro_blocks::reader::Reader;
+//! use sincro_math::Real;
+//!
+//! /// A spring that hardens: y = stiffness·u + cubic·u³.
+//! #[derive(Clone, Debug)]
+//! struct HardSpring {
+//!     stiffness: f64,
+//!     cubic: f64,
+//! }
+//!
+//! impl Described for HardSpring {
+//!     const KIND: &'static Kind = &Kind {
+//!         name: "hard-spring",
+//!         group: Group::Nonlinear,
+//!         summary: "A spring that hardens.",
+//!         equation: "y = stiffness·u + cubic·u³",
+//!         parameters: &[
+//!             Parameter::required("stiffness", Takes::Number, "[N·m/rad]"),
+//!             Parameter::optional("cubic", Takes::Number, "[N·m/rad³]", "0"),
+//!         ],
+//!     };
+//!
+//!     fn read(p: &mut Reader<'_>) -> Self {
+//!         Self { stiffness: p.number("stiffness"), cubic: p.number("cubic") }
+//!     }
+//! }
+//!
+//! impl Block for HardSpring {
+//!     type Work<R: Real> = ();
+//!
+//!     fn ports(&self) -> Ports {
+//!         Ports::single()
+//!     }
+//!
+//!     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+//!         Ok(vec![elementwise(inputs, &[])?])
+//!     }
+//!
+//!     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+//!         for (i, y) in y.iter_mut().enumerate() {
+//!             let u = at.component(0, i);
+//!             *y = R::splat(self.stiffness) * u + R::splat(self.cubic) * u * u * u;
+//!         }
+//!     }
+//! }
+//!
+//! let mut diagram = Diagram::new();
+//! diagram.block("angle", Constant::new(2.0)).block("spring", HardSpring { stiffness: 1.0, cubic: 0.5 });
+//! diagram.wire("angle", "spring");
+//! assert_eq!(compile(&diagram, &Interface::new(0.001)).unwrap().order(), ["angle", "spring"]);
+//! ```
 
 use core::fmt::Debug;
 

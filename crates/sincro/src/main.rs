@@ -36,6 +36,8 @@ enum Command {
     Linearize(commands::linearize::Arguments),
     /// Find where a scene stays as it is
     Trim(commands::trim::Arguments),
+    /// List the blocks that diagrams are made of, or show one with its parameters and an example
+    Blocks(commands::blocks::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
     Reproduce(commands::reproduce::Arguments),
     /// Measure speed, memory and accuracy on this machine, beside peers if asked
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
         Command::Draw(arguments) => commands::draw::run(&arguments),
         Command::Linearize(arguments) => commands::linearize::run(&arguments),
         Command::Trim(arguments) => commands::trim::run(&arguments),
+        Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match bench::run(&options) {
             Ok(()) => Exit::Holds,

@@ -82,6 +82,11 @@ impl<'a> Flattening<'a> {
         self.problems.push(Problem { place, message: message.into(), help: help.into() });
     }
 
+    /// Whether similar names are still looked for: after many problems that would only take time.
+    fn helps(&self) -> bool {
+        self.problems.len() < 100
+    }
+
     /// Makes nodes of all blocks of a diagram and of those inside it.
     fn collect(
         &mut self,
@@ -350,7 +355,7 @@ impl<'a> Flattening<'a> {
         match self.source_ports(scope, &end.block) {
             None => self.unknown_block(scope, spot, end, &diagram.inputs, &diagram.outputs),
             Some(ports) => {
-                if let Some((message, help)) = misnamed_port(end, ports, "output") {
+                if let Some((message, help)) = misnamed_port(end, ports, "output", self.helps()) {
                     self.problem(&path, spot, message, help);
                 }
             }
@@ -387,7 +392,7 @@ impl<'a> Flattening<'a> {
             match self.target_ports(scope, &end.block) {
                 None => self.unknown_block(scope, spot, end, &diagram.outputs, &diagram.inputs),
                 Some(ports) => {
-                    if let Some((message, help)) = misnamed_port(end, ports, "input") {
+                    if let Some((message, help)) = misnamed_port(end, ports, "input", self.helps()) {
                         self.problem(&path, spot, message, help);
                     }
                 }
@@ -462,7 +467,8 @@ impl<'a> Flattening<'a> {
                 1..=8 => format!("the diagram has {}; `/…` is a signal of the world", listed(known)),
                 _ => "declare it, or write `/…` for a signal of the world".into(),
             };
-            (format!("there is no block `{name}`"), suggest::help(name, names, &otherwise))
+            let near = names.take(if self.helps() { usize::MAX } else { 0 });
+            (format!("there is no block `{name}`"), suggest::help(name, near, &otherwise))
         };
         self.problem(&path, spot, message, help);
     }
@@ -567,7 +573,7 @@ impl<'a> Flattening<'a> {
 }
 
 /// Why an end of a wire names no port of its block, and what would mend it.
-fn misnamed_port(end: &Endpoint, ports: &[String], word: &str) -> Option<(String, String)> {
+fn misnamed_port(end: &Endpoint, ports: &[String], word: &str, helps: bool) -> Option<(String, String)> {
     let block = &end.block;
     if end.port.is_empty() {
         return match ports.len() {
@@ -583,7 +589,8 @@ fn misnamed_port(end: &Endpoint, ports: &[String], word: &str) -> Option<(String
         return None;
     }
     let all = if ports.is_empty() { "it has none".into() } else { format!("it has {}", listed(ports)) };
-    let help = suggest::help(&end.port, ports.iter().map(String::as_str), &all);
+    let near = ports.iter().map(String::as_str).take(if helps { usize::MAX } else { 0 });
+    let help = suggest::help(&end.port, near, &all);
     Some((format!("`{block}` has no {word} `{}`", end.port), help))
 }
 

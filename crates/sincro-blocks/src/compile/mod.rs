@@ -181,9 +181,15 @@ impl Flat {
     }
 }
 
-/// `a`, `b` and `c`.
+/// `a`, `b` and `c`; of many the first.
 pub(crate) fn listed(names: impl IntoIterator<Item = impl AsRef<str>>) -> String {
-    let quoted: Vec<String> = names.into_iter().map(|n| format!("`{}`", n.as_ref())).collect();
+    const SHOWN: usize = 16;
+    let mut names = names.into_iter();
+    let quoted: Vec<String> = names.by_ref().take(SHOWN).map(|n| format!("`{}`", n.as_ref())).collect();
+    let n_more = names.count();
+    if n_more > 0 {
+        return format!("{} and {n_more} more", quoted.join(", "));
+    }
     match quoted.split_last() {
         None => "none".into(),
         Some((last, [])) => last.clone(),

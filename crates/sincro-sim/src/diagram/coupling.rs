@@ -214,20 +214,21 @@ impl Control<f64> {
         if !self.wiring.late.is_empty() {
             self.look_late(world, tick, t);
         }
-        match self.runner.not_finite() {
-            None => Ok(()),
-            Some((step, _)) => Err(NotFinite {
-                block: step.path.clone(),
-                kind: step.template.kind().name,
-                outputs: self.runner.signals()[step.out.clone()].to_vec(),
-                inputs: step
-                    .ports
-                    .iter()
-                    .flat_map(|&(at, len)| &self.runner.signals()[at as usize..(at + len) as usize])
-                    .copied()
-                    .collect(),
-            }),
-        }
+        self.not_finite().map_or(Ok(()), Err)
+    }
+
+    /// The first block, in the order of evaluation, whose output is not finite as it was last evaluated.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<NotFinite> {
+        let (step, _) = self.runner.not_finite()?;
+        let signals = self.runner.signals();
+        let inputs = step.ports.iter().flat_map(|&(at, len)| &signals[at as usize..(at + len) as usize]);
+        Some(NotFinite {
+            block: step.path.clone(),
+            kind: step.template.kind().name,
+            outputs: signals[step.out.clone()].to_vec(),
+            inputs: inputs.copied().collect(),
+        })
     }
 
     /// What depends on the accelerations that the new commands cause.

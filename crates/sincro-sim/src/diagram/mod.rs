@@ -1,13 +1,14 @@
 //! Block diagrams of a scene folder: the file, its errors, and the diagram in one step with the world.
 //!
 //! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `coupling.rs`
-//! runs both together; `robot/` has the blocks that use the model.
+//! runs both together; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
 
 mod coupling;
 mod file;
 mod ports;
 pub(crate) mod probe;
 mod read;
+pub mod reference;
 pub mod robot;
 pub(crate) mod schema;
 
@@ -22,6 +23,7 @@ use sincro_dynamics::model::Model;
 pub use coupling::{Control, NotFinite, Wiring};
 pub(crate) use file::DiagramFile;
 use read::{DiagramReader, Origin};
+pub use reference::reference;
 
 use crate::document::Document;
 use crate::folder::Folder;
@@ -56,7 +58,7 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
     let mut reader = DiagramReader::new(document, folder, &file, &robot);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
     if reader.problems.any_error() {
-        return Err(reader.problems.sorted());
+        return Err(shortened(reader.problems));
     }
     if let Some(sample_time) = sample_time {
         for entry in &mut diagram.entries {
@@ -72,8 +74,20 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
                 problems.push(Problem::error(&at, problem.message).with_help(problem.help));
             }
         }
-        problems.sorted()
+        shortened(problems)
     })
+}
+
+/// Sorted, and of very many the first: who has mended those will see the next.
+fn shortened(problems: Problems) -> Problems {
+    const MOST: usize = 200;
+    let mut problems = problems.sorted();
+    let n_more = problems.0.len().saturating_sub(MOST);
+    if n_more > 0 {
+        problems.0.truncate(MOST);
+        problems.push(Problem::nowhere(format!("{n_more} more problems of the diagram are not shown")));
+    }
+    problems
 }
 
 impl Controller {

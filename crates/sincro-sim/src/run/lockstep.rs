@@ -34,7 +34,7 @@ pub enum Halt {
     },
     /// A block gave what is not a finite number.
     Block {
-        /// The tick at which it did.
+        /// The tick at which it did, or after which, if it did between ticks.
         tick: u64,
         /// Where `[s]`.
         t: f64,
@@ -132,7 +132,11 @@ impl LockStep {
                 }
             }
         };
-        advanced.map_err(|(t, cause)| Halt::World { tick, t, cause })?;
+        if let Err((t, cause)) = advanced {
+            // between ticks a block shows in the motion first
+            let culprit = self.control.as_ref().and_then(Control::not_finite);
+            return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
+        }
         self.tick += 1;
         let arrived = self.t();
         if let Some(control) = self.control.as_mut().filter(|c| c.is_continuous()) {

@@ -22,7 +22,7 @@ impl Halt {
 
 /// A block that gave what is not a number.
 fn of_block(tick: u64, time: f64, culprit: &NotFinite) -> Status {
-    let list = |numbers: &[f64]| numbers.iter().take(6).map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
+    let list = |numbers: &[f64]| numbers.iter().take(6).map(number).collect::<Vec<_>>().join(", ");
     let NotFinite { block, kind, outputs, inputs } = culprit;
     let inputs_were = if inputs.is_empty() { String::new() } else { format!(" from the inputs {}", list(inputs)) };
     let reason =
@@ -35,6 +35,11 @@ fn of_block(tick: u64, time: f64, culprit: &NotFinite) -> Status {
         _ => "look at the blocks before it: something grew without bound, or a division by zero",
     };
     Status::Stopped { tick, time, reason, help: help.to_owned() }
+}
+
+/// Six digits.
+fn number(x: &f64) -> String {
+    if *x == 0.0 || !x.is_finite() || (1e-3..1e7).contains(&x.abs()) { format!("{x:.6}") } else { format!("{x:.6e}") }
 }
 
 /// The stop in words, from the last state that was still finite.

@@ -8,6 +8,7 @@ macro_rules! say {
     }};
 }
 
+pub(crate) mod blocks;
 pub(crate) mod check;
 pub(crate) mod console;
 pub(crate) mod draw;
