@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Time of the operating point [s]: the run goes there first
+    /// Time of the operating point, in seconds: the run goes there first
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     at: f64,
     /// Find an equilibrium near that point first, commands as they are (`sincro trim` can do more)

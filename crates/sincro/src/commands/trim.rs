@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Where the search begins: the state of the run at this time [s], brought to rest
+    /// Where the search begins: the state of the run at this time in seconds, brought to rest
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     from: f64,
     /// A command that may be changed: a motor (`/joint`) or a force's component; the others are as the scene gives them
