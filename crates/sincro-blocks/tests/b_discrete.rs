@@ -121,7 +121,7 @@ fn a_delay_gives_back_every_sample_to_the_bit() {
     assert!((0..30).all(|k| y[k] == if k < 4 { 9.0 } else { u[k - 4] }));
     let one = block("delay", &[("samples", 1.0.into())]);
     assert_eq!(answer(&u, STEP, one), answer(&u, STEP, block("unit-delay", &[])));
-    assert!(faults("delay", &[("samples", 0.0.into())]).contains("it must be 1 or more"));
+    assert!(faults("delay", &[("samples", 0.0.into())]).contains("it must be a whole number from 1 on"));
     assert_eq!(block("delay", &[("samples", 12.0.into())]).label(), "z⁻¹²");
 }
 

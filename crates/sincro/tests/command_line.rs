@@ -260,3 +260,39 @@ fn reproduce_makes_one_page_of_all_scenes() {
     let index = fs::read_to_string(out.join("index.html")).unwrap();
     assert!(index.contains("pendulum/report.html") && out.join("pendulum/report.html").is_file());
 }
+
+#[test]
+fn a_bad_diagram_is_status_two_and_writes_nothing() {
+    let folder = Folder::new("bad-diagram");
+    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    fs::write(scene.join("experiment.toml"), format!("diagram = \"d.toml\"\n{EXPERIMENT}")).unwrap();
+    fs::write(scene.join("d.toml"), "wires = [\"/hinge.position -> pdi\"]\n").unwrap();
+    let (_, stderr, exit) = run(&scene, &out, &[]);
+    assert!(exit == 2 && stderr.contains("there is no block `pdi`") && stderr.contains("d.toml:1:"), "{stderr}");
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_block_that_stops_the_run_is_status_three_and_keeps_its_rows() {
+    let folder = Folder::new("stopped-diagram");
+    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    fs::write(scene.join("experiment.toml"), format!("diagram = \"d.toml\"\n{EXPERIMENT}")).unwrap();
+    let root = "[[block]]\nname = \"root\"\ntype = \"expression\"\ninputs = [\"u\"]\nexpression = \"sqrt(0.1 - u)\"\nsample_time = 0.01\n";
+    let clock = "[[block]]\nname = \"clock\"\ntype = \"clock\"\n";
+    fs::write(scene.join("d.toml"), format!("wires = [\"clock -> root\"]\n{root}{clock}")).unwrap();
+    let (stdout, _, exit) = run(&scene, &out, &[]);
+    assert_eq!(exit, 3, "{stdout}");
+    assert!(stdout.contains("block `root` (expression) gave NaN in tick 11"), "{stdout}");
+    let rows = fs::read_to_string(out.join("signals.csv")).unwrap().lines().count();
+    assert!((11..=13).contains(&rows), "{rows}");
+}
+
+#[test]
+fn blocks_lists_the_library_and_shows_one() {
+    let all = sincro(&["blocks"]);
+    assert!(status(&all) == 0 && text(&all.stdout).contains("transfer-function"));
+    let one = text(&sincro(&["blocks", "low-pass"]).stdout);
+    assert!(one.contains("type = \"low-pass\"") && one.contains("time_constant = 1.0"), "{one}");
+    let none = sincro(&["blocks", "gian"]);
+    assert!(status(&none) == 2 && text(&none.stderr).contains("did you mean `gain`?"));
+}
