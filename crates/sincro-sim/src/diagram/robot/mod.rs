@@ -57,19 +57,26 @@ pub fn find(name: &str) -> Option<&'static Item> {
 
 /// The model on the numbers that a diagram runs on, with memory for its algorithms; made when the block is.
 #[derive(Clone, Debug, Default)]
-pub struct Robot<R>(Option<Box<(Model<R>, Scratch<R>, Vec<R>)>>);
+pub struct Robot<R>(Option<Box<Parts<R>>>);
+
+#[derive(Clone, Debug)]
+struct Parts<R> {
+    model: Model<R>,
+    scratch: Scratch<R>,
+    zero: Vec<R>,
+}
 
 impl<R: Real> Robot<R> {
     fn new(model: &Model<f64>) -> Self {
         let model = Model::pack(&[model]).expect("one model has one structure");
         let scratch = Scratch::new(&model);
         let zero = vec![R::zero(); model.n_v()];
-        Self(Some(Box::new((model, scratch, zero))))
+        Self(Some(Box::new(Parts { model, scratch, zero })))
     }
 
     /// Model, scratch, and as many zeros as there are velocities.
     fn parts(&mut self) -> (&Model<R>, &mut Scratch<R>, &[R]) {
-        let (model, scratch, zero) = &mut **self.0.as_mut().expect("made with the block");
+        let Parts { model, scratch, zero } = &mut **self.0.as_mut().expect("made with the block");
         (model, scratch, zero)
     }
 }
