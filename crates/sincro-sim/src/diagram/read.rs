@@ -76,7 +76,27 @@ impl<'a> DiagramReader<'a> {
         self.fill_scope(&mut scope, &given);
         let sample_time = self.number("/sample_time", &scope);
         let (diagram, origin) = self.content("", &self.file.block, &self.file.wires, &scope);
+        self.check_unused();
         (diagram, origin, sample_time)
+    }
+
+    /// Definitions that no block uses are looked over with their defaults: what is wrong in them should not wait for their first use.
+    fn check_unused(&mut self) {
+        let of_definitions = self.file.diagram.iter().flat_map(|d| &d.block);
+        let used: Vec<&str> = self.file.block.iter().chain(of_definitions).map(|b| b.kind.as_str()).collect();
+        for (k, definition) in self.file.diagram.iter().enumerate() {
+            if used.contains(&definition.name.as_str()) {
+                continue;
+            }
+            let mut scope = Scope::new();
+            for name in definition.parameters.keys() {
+                let value = self.number(&format!("/diagram/{k}/parameters/{}", escape(name)), &Scope::new());
+                scope.insert(name.clone(), value.unwrap_or(1.0));
+            }
+            self.around.push(k);
+            self.content(&format!("/diagram/{k}"), &definition.block, &definition.wires, &scope);
+            self.around.pop();
+        }
     }
 
     /// Keys of the file's parameters in the order in which they stand there: each may use those before.
