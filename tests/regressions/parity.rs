@@ -92,3 +92,32 @@ fn a_continuous_block_is_integrated_with_the_world() {
         assert!((a - b).abs() < 1e-8, "{in_diagram:?} {in_joint:?}");
     }
 }
+
+/// A force that a diagram gives and one that the scene gives move a free body alike, to the bit.
+#[test]
+fn a_force_from_a_diagram_is_that_of_the_scene() {
+    let scene = |force: &str| {
+        let text = format!(
+            "gravity = [0, 0, 0]\n\
+             joint = [{{ name = \"free\", kind = \"free\" }}]\n\
+             body = [{{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = {{ xx = 0.1, yy = 0.2, zz = 0.25 }} }}]\n\
+             force = [{{ name = \"push\", parent = \"/free/brick\", in_frame = \"body\", {force} }}]"
+        );
+        sincro_sim::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
+    };
+    let run = |force: &str, diagram: Option<Diagram>| -> Vec<u64> {
+        let mut loaded = self::scene(&[]);
+        loaded.scene = scene(force);
+        loaded.controller = diagram.map(|d| Controller::new(d, &loaded.scene.model, 0.005, 0).unwrap());
+        let mut run = LockStep::new(&loaded, MethodKind::Rk4, false);
+        run.start().unwrap();
+        (0..200).for_each(|_| run.advance().unwrap());
+        run.state().q.iter().map(|x| x.to_bits()).collect()
+    };
+    let mut d = Diagram::new();
+    d.block("f", sincro_blocks::library::sources::Constant::new(3.0)).wire("f", "/free/brick/push.force.x");
+    d.block("m", sincro_blocks::library::sources::Constant::new(0.5)).wire("m", "/free/brick/push.torque.y");
+    let by_scene = run("force = [3, 0, 0], torque = [0, 0.5, 0]", None);
+    assert_eq!(run("input = true", Some(d)), by_scene);
+    assert_ne!(run("input = true", Some(Diagram::new())), by_scene);
+}
