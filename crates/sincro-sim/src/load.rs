@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use crate::diagram::{self, Controller};
 use crate::document::Document;
-use crate::experiment::{self, Experiment};
+use crate::experiment::{self, Experiment, Plot};
 use crate::folder::Folder;
 use crate::overrides::{Override, Target, apply_all};
-use crate::problem::{Problem, Problems, SourceText};
+use crate::problem::{Located, Problem, Problems, SourceText};
 use crate::record::Recorder;
 use crate::scene::{self, Scene};
 use crate::schema::{diagram_schema, experiment_schema, scene_schema, validate};
@@ -150,6 +150,10 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     let scene = open_scene(&document, folder, overrides, &mut problems);
     let experiment = experiment.flatten();
     let controller = open_diagram(&document, folder, overrides, experiment.as_ref(), scene.as_ref(), &mut problems);
+    let experiment = match (experiment, &controller, &scene) {
+        (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
+        (experiment, ..) => experiment,
+    };
     let is_whole = document.located("/diagram").is_some() == controller.is_some();
     if let (Some(experiment), Some(scene), true) = (&experiment, &scene, is_whole) {
         let signals = controller.as_ref().map(Controller::entries).unwrap_or_default();
@@ -241,6 +245,21 @@ fn open_diagram(
         parameters: &experiment.parameters,
     };
     diagram::open(&document, folder, setting).map_err(|found| problems.merge(found)).ok()
+}
+
+/// What the diagram's scopes look at is recorded and plotted.
+fn with_scopes(mut experiment: Experiment, controller: &Controller, scene: &Scene) -> Experiment {
+    let at = experiment.record[0].at.clone();
+    for (title, names) in controller.scopes(&scene.model).into_iter().filter(|(_, names)| !names.is_empty()) {
+        let signals: Vec<Located<String>> = names.into_iter().map(|value| Located { value, at: at.clone() }).collect();
+        for signal in &signals {
+            if !experiment.record.iter().any(|known| known.value == signal.value) {
+                experiment.record.push(signal.clone());
+            }
+        }
+        experiment.plots.push(Plot { title, signals, reference: None, compares_variants: None, variants: None });
+    }
+    experiment
 }
 
 /// The document with the settings that are for it.

@@ -40,7 +40,6 @@ fn a_division_by_zero_names_block_and_tick() {
     );
     let wires = r#""clock -> late", "one -> ratio.u1", "late -> ratio.u2", "ratio -> /shoulder""#;
     let (rows, tick, reason, help) = stops(wires, &blocks, "auto");
-    println!("{rows} {tick} {reason} {help}");
     assert_eq!(tick, 50);
     assert!(reason.contains("block `ratio` (divide) gave inf in tick 50 at t = 0.5") && help.contains("divisor"));
     assert!(rows >= 50, "{rows}");
@@ -64,7 +63,6 @@ fn a_loop_that_grows_without_bound_names_its_first_block() {
     let blocks = "[[block]]\nname = \"x\"\ntype = \"unit-delay\"\ninitial = 1\n[[block]]\nname = \"grow\"\ntype = \"gain\"\ngain = 1e9\n";
     let wires = r#""x -> grow -> x""#;
     let (rows, tick, reason, help) = stops(wires, blocks, "auto");
-    println!("{rows} {tick} {reason} {help}");
     assert_eq!((rows, tick), (35, 34));
     assert!(reason.contains("block `grow` (gain) gave inf") && help.contains("without bound"), "{reason} {help}");
 }

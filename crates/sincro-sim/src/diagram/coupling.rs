@@ -50,6 +50,13 @@ impl Wiring {
         Self { early, late, needs_poses, program }
     }
 
+    /// Which measurement of the world a signal is, if it is one.
+    pub(super) fn measured(&self, signal: usize) -> Option<Probe> {
+        let all = self.early.iter().chain(&self.late);
+        let reading = all.into_iter().find(|r| (r.at..r.at + r.probes.len()).contains(&signal))?;
+        Some(reading.probes[signal - reading.at])
+    }
+
     /// The compiled diagram.
     #[must_use]
     pub fn program(&self) -> &Arc<Program> {

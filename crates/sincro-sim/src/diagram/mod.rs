@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use sincro_blocks::compile::{Interface, Place, Spot, compile};
 use sincro_blocks::diagram::{Diagram, What};
+use sincro_blocks::program::Program;
 use sincro_blocks::runner::Runner;
 use sincro_dynamics::model::Model;
 
@@ -28,7 +29,7 @@ pub use reference::reference;
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Location, Problem, Problems};
-use crate::record::{Entry, Probe};
+use crate::record::{Entry, Probe, catalogue};
 
 /// A diagram of a scene, ready to run.
 #[derive(Clone, Debug)]
@@ -142,11 +143,50 @@ impl Controller {
         (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
     }
 
+    /// What its scopes look at: title, and the names of the recorded signals.
+    #[must_use]
+    pub fn scopes(&self, model: &Model<f64>) -> Vec<(String, Vec<String>)> {
+        let program = self.wiring.program();
+        let entries = self.entries();
+        let of_world = catalogue(model);
+        let name = |signal: usize| {
+            let own = entries.iter().find(|e| e.probe == Probe::Signal(signal));
+            own.or_else(|| of_world.iter().find(|e| Some(e.probe) == self.wiring.measured(signal)))
+                .map(|e| e.name.clone())
+        };
+        let scopes = program.steps.iter().filter(|step| step.template.kind().name == "scope");
+        scopes
+            .map(|step| {
+                let signals = step.ports.iter().flat_map(|&(at, len)| at as usize..(at + len) as usize);
+                let names = signals.filter_map(|k| name(source_of(program, k))).collect();
+                let title = match step.template.label() {
+                    title if title.is_empty() => step.path.clone(),
+                    title => title,
+                };
+                (title, names)
+            })
+            .collect()
+    }
+
     /// The diagram's signals as they are recorded: `block`, `block.port`, components of vectors as `block[0]`.
     #[must_use]
     pub fn entries(&self) -> Vec<Entry> {
         entries(&self.wiring)
     }
+}
+
+/// The signal that a component of a bundle `[a, b]` is taken from; any other signal is its own.
+fn source_of(program: &Program, signal: usize) -> usize {
+    let bundle = program.steps.iter().find(|s| s.out.contains(&signal) && s.path.contains('['));
+    let Some(step) = bundle else { return signal };
+    let mut within = signal - step.out.start;
+    for &(at, len) in &step.ports {
+        if within < len as usize {
+            return source_of(program, at as usize + within);
+        }
+        within -= len as usize;
+    }
+    signal
 }
 
 /// See [`Controller::entries`].

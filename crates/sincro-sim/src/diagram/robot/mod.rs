@@ -23,7 +23,7 @@ use sincro_math::Real;
 pub use forward_kinematics::ForwardKinematics;
 pub use gravity_torque::GravityTorque;
 pub use inverse_dynamics::InverseDynamics;
-pub use jacobian::Jacobian;
+pub use jacobian::{Jacobian, Rows as JacobianRows};
 pub use mass_matrix::MassMatrix;
 
 /// What robot blocks are made with.
