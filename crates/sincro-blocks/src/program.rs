@@ -83,6 +83,8 @@ pub struct Program {
     pub late: Vec<Measured>,
     /// Commands.
     pub commands: Vec<Commanded>,
+    /// Output ports of inner diagrams: name, place among the signals, unit.
+    pub aliases: Vec<(String, Range<usize>, Option<Unit>)>,
     /// Sample times in use, in base steps.
     pub periods: Vec<u64>,
     /// Number of signals.
@@ -132,6 +134,11 @@ impl Program {
                 None => start..start + flat.nodes[input.node].out_widths[input.port].unwrap_or(0),
             }
         };
+        let aliases = flat.aliases.iter().map(|(name, input)| {
+            let unit = flat.nodes[input.node].out_units.get(input.port).cloned().flatten();
+            (name.clone(), place(input), unit)
+        });
+        let aliases = aliases.collect();
         let commands = flat.nodes[LATE].inputs.iter().zip(&flat.commands).map(|(input, &terminal)| Commanded {
             terminal,
             signal: place(input),
@@ -150,6 +157,7 @@ impl Program {
             early,
             late,
             commands,
+            aliases,
             periods: Vec::new(),
             n_signals,
             n_states: 0,
@@ -221,9 +229,11 @@ impl Program {
         self.steps.iter().map(|step| step.path.as_str()).collect()
     }
 
-    /// The outputs of all blocks: name (`block`, or `block.port` where there are several), place among the signals, unit.
+    /// The outputs of all blocks, then those of inner diagrams: name (`block`, or `block.port` where there are several), place among the
+    /// signals, unit.
     pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, Option<&Unit>)> {
-        self.steps.iter().flat_map(|step| {
+        let of_diagrams = self.aliases.iter().map(|(name, range, unit)| (name.clone(), range.clone(), unit.as_ref()));
+        let of_blocks = self.steps.iter().flat_map(|step| {
             let mut start = step.out.start;
             let ports = step.output_names.iter().zip(&step.node.outputs).zip(&step.units);
             ports.map(move |((port, width), unit)| {
@@ -235,7 +245,8 @@ impl Program {
                 start = range.end;
                 (name, range, unit.as_ref())
             })
-        })
+        });
+        of_blocks.chain(of_diagrams)
     }
 
     /// The first instant after `t` at which a function of time that is evaluated between ticks has a corner; infinite if none.

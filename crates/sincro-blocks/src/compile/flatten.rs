@@ -24,7 +24,12 @@ pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, 
         in_units: Vec::new(),
         out_units: Vec::new(),
     };
-    let flat = Flat { nodes: vec![world(0), world(0)], measurements: [Vec::new(), Vec::new()], commands: Vec::new() };
+    let flat = Flat {
+        nodes: vec![world(0), world(0)],
+        measurements: [Vec::new(), Vec::new()],
+        commands: Vec::new(),
+        aliases: Vec::new(),
+    };
     let mut work = Flattening {
         measurements: by_name(&interface.measurements),
         commands: by_name(&interface.commands),
@@ -221,6 +226,25 @@ impl<'a> Flattening<'a> {
             }
         }
         self.connect_world(root);
+        for scope in 0..self.scopes.len() {
+            self.name_outputs(scope);
+        }
+    }
+
+    /// The output ports of an inner diagram as names of what they give.
+    fn name_outputs(&mut self, scope: usize) {
+        let (diagram, path) = (self.scopes[scope].diagram, self.scopes[scope].path.join("/"));
+        if self.scopes[scope].parent.is_none() {
+            return;
+        }
+        for port in &diagram.outputs {
+            let wire = diagram.wires.iter().position(|w| w.to.block == *port && w.to.port.is_empty());
+            let Some(wire) = wire.filter(|&w| diagram.wires[w].from.len() == 1) else { continue };
+            let name = if diagram.outputs.len() == 1 { path.clone() } else { format!("{path}.{port}") };
+            if let Some(input) = self.resolve(scope, wire, &diagram.wires[wire].from[0], 0) {
+                self.flat.aliases.push((name, input));
+            }
+        }
     }
 
     fn connect_block(&mut self, scope: usize, entry: usize, node: usize) {

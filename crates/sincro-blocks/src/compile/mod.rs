@@ -116,6 +116,8 @@ pub(crate) struct Flat {
     pub measurements: [Vec<usize>; 2],
     /// The commands in use: number of the terminal, by input port of node 1.
     pub commands: Vec<usize>,
+    /// Output ports of inner diagrams and what they give, where that is an output of one block.
+    pub aliases: Vec<(String, Input)>,
 }
 
 /// The world's measurements that depend on its state alone.
@@ -309,6 +311,8 @@ mod tests {
         );
         solo.record("both", 2000);
         assert!((solo.output("both")[1] - 3.0).abs() < 1e-6);
+        // an inner diagram's output goes by its own name too
+        assert_eq!(solo.output("second"), solo.output("second/x"));
     }
 
     #[test]

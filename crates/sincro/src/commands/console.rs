@@ -173,8 +173,10 @@ fn print_error_bars(report: &RunReport) {
             units.push(&column.unit);
         }
     }
-    let bars: Vec<String> =
-        units.iter().filter_map(|u| worst(u).map(|bar| format!("{} {u}", significant(bar, 1)))).collect();
+    let bars: Vec<String> = units
+        .iter()
+        .filter_map(|u| worst(u).map(|bar| format!("{} {u}", significant(bar, 1)).trim_end().to_owned()))
+        .collect();
     if !bars.is_empty() {
         say!("  error bars up to {}", bars.join(", "));
     }
