@@ -226,8 +226,10 @@ impl<'a> Flattening<'a> {
             }
         }
         self.connect_world(root);
-        for scope in 0..self.scopes.len() {
-            self.name_outputs(scope);
+        if self.problems.is_empty() {
+            for scope in 0..self.scopes.len() {
+                self.name_outputs(scope);
+            }
         }
     }
 
