@@ -39,8 +39,10 @@ pub struct Runner<R: Number> {
     /// For each step: its period among the program's.
     period: Vec<usize>,
     new_memory: Vec<R>,
-    /// Steps that are evaluated between ticks, those that have continuous states, those that have anything to update.
+    /// Steps that are evaluated between ticks (before and after the late measurements), those that have continuous states, those that
+    /// have anything to update.
     minor: Vec<usize>,
+    minor_late: Vec<usize>,
     with_states: Vec<usize>,
     with_memory: Vec<usize>,
 }
@@ -64,7 +66,8 @@ impl<R: Number> Runner<R> {
             period: program.steps.iter().map(period).collect(),
             due: vec![true; program.periods.len()],
             new_memory: zeros(program.n_memory),
-            minor: those(&|s| s.is_minor),
+            minor: those(&|s| s.is_minor).into_iter().filter(|k| *k < program.n_early).collect(),
+            minor_late: those(&|s| s.is_minor).into_iter().filter(|k| *k >= program.n_early).collect(),
             with_states: those(&|s| !s.states.is_empty()),
             with_memory: those(&|s| !s.memory.is_empty() || !s.states.is_empty()),
             state,
@@ -196,20 +199,14 @@ impl<R: Number> Runner<R> {
     /// need accelerations. `corner`: see [`At::corner`].
     pub fn minor(&mut self, tick: u64, t: f64, corner: f64) {
         for i in 0..self.minor.len() {
-            let k = self.minor[i];
-            if k < self.program.n_early {
-                self.output(k, t, corner, tick);
-            }
+            self.output(self.minor[i], t, corner, tick);
         }
     }
 
     /// The rest of the outputs between ticks.
     pub fn minor_late(&mut self, tick: u64, t: f64, corner: f64) {
-        for i in 0..self.minor.len() {
-            let k = self.minor[i];
-            if k >= self.program.n_early {
-                self.output(k, t, corner, tick);
-            }
+        for i in 0..self.minor_late.len() {
+            self.output(self.minor_late[i], t, corner, tick);
         }
     }
 

@@ -86,6 +86,7 @@ pub struct World {
     accelerations: Vec<f64>,
     slope: Vec<f64>,
     decay: Vec<f64>,
+    attached_before: Vec<f64>,
     substeps: u32,
     effort: Effort,
 }
@@ -191,6 +192,7 @@ impl World {
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
             decay: vec![0.0; n_states],
+            attached_before: vec![0.0; n_states],
             substeps: 1,
             base_before,
             wanted: vec![0.0; n_drives],
@@ -290,7 +292,10 @@ impl World {
         h: f64,
         attachment: &mut A,
     ) -> Result<(), (f64, Stop)> {
+        // what the last tick ended at is behind
+        attachment.set_corner(f64::INFINITY);
         self.load(attachment);
+        self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
         self.latch();
         let reached = if let Method::SemiImplicitEuler(_) = self.method {
             let h = h / f64::from(self.substeps);
@@ -368,7 +373,10 @@ impl World {
             }
             let h = self.method_step(t, h_max, attachment).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
-                self.load(attachment);
+                // the attachment has last seen a trial state: its own is the one that was kept
+                let own = self.mechanism.dim();
+                self.mechanism.load(&self.state, &mut self.y);
+                self.y[own..].copy_from_slice(&self.attached_before);
                 return Err((start, Stop::Integration(Failure::NotFinite { t })));
             }
             self.effort.steps += 1;

@@ -334,8 +334,9 @@ impl<R: Number + Real> Attachment<R> for Control<R> {
         }
         if self.wiring.late.iter().any(|r| r.is_minor) {
             self.read_response(seen, response, true);
-            self.runner.minor_late(self.tick, seen.t, self.corner);
         }
+        // also what depends on a held sample of a late measurement and on something that moves
+        self.runner.minor_late(self.tick, seen.t, self.corner);
         self.runner.slopes(self.tick, seen.t, self.corner, slope);
     }
 
