@@ -11,7 +11,7 @@
 //! | the mass matrix | [`crba`] |
 //! | poses, velocities, Jacobians | [`kinematics`] |
 //! | energies and momentum | [`energy`] |
-//! | springs, dampers, friction, motors | [`force`] |
+//! | springs, dampers, friction, motors, rotors | [`force`] |
 //! | a world that advances | [`integrate`], [`world`] |
 //! | how stiff it is | [`stiffness`] |
 //! | what is integrated along, such as a diagram | [`attachment`] |

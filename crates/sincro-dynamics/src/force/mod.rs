@@ -8,12 +8,14 @@
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`gravity`] | through the base's acceleration | −m g·c | |
+//! | [`rotor`] | thrust and reaction at a hub | | what the shaft gives |
 
 pub mod applied;
 pub mod damper;
 pub mod friction;
 pub mod gravity;
 pub mod motor;
+pub mod rotor;
 pub mod spring;
 
 pub use applied::{AppliedTorque, AppliedWrench};

@@ -1,0 +1,79 @@
+//! Rotors: what a turning propeller does to the hub that carries it.
+//!
+//! | rotor | thrust | for |
+//! |---|---|---|
+//! | [`Rotor`] | blade elements in the flow that momentum theory gives | flight: climb, descent, forward speed |
+//! | [`ConstantCoefficients`] | b Ω·abs(Ω) | control design near hover |
+//! | [`CoefficientTable`] | measured coefficients over advance ratio | propellers from a data sheet |
+//! | [`StockPropeller`] | particles a second × their momentum | V-REP's propeller, as it was |
+//! | [`printed`] | a published script with its defects | comparison only |
+//!
+//! Axes of a rotor: z along the thrust axis, x and y in the disc. The velocity that a rotor takes is that of its hub
+//! relative to the air, so climb is positive and wind is subtracted beforehand; the turning of the body about its own
+//! centre (ω × r) is part of it. Loads are functions of one instant: nothing is stored, all power comes from the shaft.
+
+mod blade;
+mod coefficients;
+mod momentum;
+mod mounted;
+pub mod printed;
+mod stock;
+
+pub use blade::{Drag, Rotor, RotorSpec, Validity};
+pub use coefficients::{CoefficientTable, ConstantCoefficients, TableRow};
+pub use mounted::{MountedRotor, RotorLaw};
+pub use stock::StockPropeller;
+
+use sincro_math::Real;
+
+/// Which way a rotor turns at positive speed, seen from above (against the thrust axis).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Spin {
+    /// Counter-clockwise: the angular velocity is along +z, the reaction along −z.
+    CounterClockwise,
+    /// Clockwise: the angular velocity is along −z, the reaction along +z.
+    Clockwise,
+}
+
+impl Spin {
+    /// +1 counter-clockwise, −1 clockwise.
+    #[inline(always)]
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::CounterClockwise => 1.0,
+            Self::Clockwise => -1.0,
+        }
+    }
+}
+
+/// What a rotor does at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load<R> {
+    /// Force on the hub along the thrust axis `[N]`.
+    pub thrust: R,
+    /// Reaction on the airframe about the thrust axis [N·m].
+    pub torque: R,
+    /// Air through the disc relative to the hub, along −z `[m/s]`: climb and induced velocity together; 0 where the
+    /// model has none.
+    pub inflow: R,
+    /// What the shaft delivers to the air `[W]`; negative in a windmill.
+    pub power: R,
+}
+
+/// Fastest velocity that is taken as it is `[m/s]`: beyond it the squares and cubes of the equations would overflow.
+/// It is far beyond any physics; there only finiteness is promised.
+pub const FASTEST: f64 = 1e60;
+
+/// `x` limited to ±[`FASTEST`]; what is not finite becomes NaN, because a limit hides no failure.
+#[inline(always)]
+fn limited<R: Real>(x: R) -> R {
+    // x − x is 0 for a finite number and NaN for all others
+    x.clamp_abs(R::splat(FASTEST)) + (x - x)
+}
+
+/// What is wrong with a number that must be within [least, most], if anything.
+fn outside(name: &str, x: f64, (least, most): (f64, f64), unit: &str) -> Option<String> {
+    let within = x >= least && x <= most;
+    (!within).then(|| format!("`{name}` is {x} {unit}: expected a number from {least} to {most} {unit}"))
+}
