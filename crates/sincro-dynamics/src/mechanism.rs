@@ -57,7 +57,7 @@ impl<R: Real> Mechanism<R> {
             diagonal: zero.clone(),
             held_mask: zero.clone(),
             held_acceleration: zero,
-            external: vec![Force::zero(); if model.wrenches.is_empty() { 0 } else { model.links.len() }],
+            external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             model,
@@ -188,11 +188,11 @@ impl<R: Real> Mechanism<R> {
     fn accelerations(&mut self, t: f64, v: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
         let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
-        let external = if self.model.wrenches.is_empty() {
-            None
-        } else {
-            self.external_wrenches(t);
+        let external = if self.model.has_external() {
+            self.external_wrenches(t, v);
             Some(&*self.external)
+        } else {
+            None
         };
         let held = if self.drives.is_empty() {
             None
@@ -205,10 +205,17 @@ impl<R: Real> Mechanism<R> {
     }
 
     #[inline(always)]
-    fn external_wrenches(&mut self, t: f64) {
+    fn external_wrenches(&mut self, t: f64, v: &[R]) {
         self.external.fill(Force::zero());
-        if self.model.wrenches.iter().any(|w| !w.in_body) {
+        if !self.model.rotors.is_empty() {
+            // only poses and twists are looked at: any accelerations will do
+            kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
+        } else if self.model.wrenches.iter().any(|w| !w.in_body) {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
+        }
+        for rotor in &self.model.rotors {
+            let load = rotor.load(self.commands[rotor.command], &self.scratch.links[rotor.link].v);
+            self.external[rotor.link] += rotor.wrench(&load);
         }
         for wrench in &self.model.wrenches {
             self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);

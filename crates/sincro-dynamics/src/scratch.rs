@@ -59,6 +59,12 @@ pub struct Scratch<R> {
 }
 
 impl<R: Real> Scratch<R> {
+    /// Twist of a link in link axes about its origin, after [`motions`](crate::kinematics::motions).
+    #[must_use]
+    pub fn twist(&self, link: usize) -> crate::spatial::Motion<R> {
+        self.links[link].v
+    }
+
     /// Memory for `model`.
     #[must_use]
     pub fn new(model: &Model<R>) -> Self {

@@ -2,6 +2,7 @@
 
 use super::{MassProperties, Model, Problem, compile};
 use crate::force::Motor;
+use crate::force::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
@@ -71,12 +72,22 @@ pub struct ForceSpec {
     pub is_input: bool,
 }
 
+/// A rotor on a body or frame; the thrust axis is z of its own frame.
+#[derive(Clone, Debug)]
+pub struct RotorSpec {
+    /// How thrust and torque follow from speed and motion.
+    pub law: RotorLaw,
+    /// Density of the air [kg/m³].
+    pub density: f64,
+}
+
 pub(crate) enum NodeKind {
     World,
     Joint(Box<JointSpec>),
     Body(BodySpec),
     Frame,
     Force(Box<ForceSpec>),
+    Rotor(Box<RotorSpec>),
 }
 
 pub(crate) struct Node {
@@ -133,6 +144,11 @@ impl ModelBuilder {
     /// Adds a frame: a named point without mass.
     pub fn frame(&mut self, name: &str, parent: NodeId, pose: Pose<f64>) -> NodeId {
         self.add(name, parent, pose, NodeKind::Frame)
+    }
+
+    /// Adds a rotor whose hub frame stands at `pose` in its parent's; its speed is a command.
+    pub fn rotor(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: RotorSpec) -> NodeId {
+        self.add(name, parent, pose, NodeKind::Rotor(Box::new(spec)))
     }
 
     /// Adds an external wrench that acts at the origin of `parent`.

@@ -33,6 +33,15 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Problem> {
         match &node.kind {
             NodeKind::Joint(spec) => check_joint(&mut found, id, node, spec, builder),
             NodeKind::Body(spec) => check_mass(&mut found, id, &node.name, &spec.mass),
+            NodeKind::Rotor(spec) => {
+                if !(spec.density.is_finite() && spec.density >= 0.0) {
+                    let message = format!(
+                        "density {} kg/m³ of the air at `{}` is not a positive number",
+                        spec.density, node.name
+                    );
+                    found.error(id, "air_density", message, "1.225 at sea level, 0 in a vacuum");
+                }
+            }
             NodeKind::Force(_) | NodeKind::Frame | NodeKind::World => {}
         }
     }

@@ -9,6 +9,7 @@ use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind};
 use super::names::{FrameInfo, JointInfo, Names};
 use super::problem::{Problem, Severity};
 use super::{Dof, Link, Model, Shift, WORLD, check};
+use crate::force::rotor::MountedRotor;
 use crate::force::{AppliedTorque, AppliedWrench};
 use crate::joint::{JointKind, StageKind};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
@@ -45,6 +46,7 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
             motors: Vec::new(),
             applied: Vec::new(),
             wrenches: Vec::new(),
+            rotors: Vec::new(),
             drives: Vec::new(),
             n_q: 0,
             names: Arc::default(),
@@ -59,6 +61,9 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
     let n_motors = model.motors.len();
     for input in model.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
         *input = n_motors + 6 * *input;
+    }
+    for rotor in &mut model.rotors {
+        rotor.command += n_motors + 6 * names.inputs.len();
     }
     model.names = Arc::new(names);
     mark_children(&mut model.links);
@@ -105,6 +110,19 @@ impl Compiler<'_> {
                     if spec.is_input {
                         self.names.inputs.push(node.name.clone());
                     }
+                }
+                here
+            }
+            NodeKind::Rotor(spec) => {
+                if here.link != WORLD {
+                    self.model.rotors.push(MountedRotor {
+                        link: here.link as usize,
+                        pose: here.pose,
+                        law: spec.law.clone(),
+                        command: self.names.rotors.len(),
+                        density: spec.density,
+                    });
+                    self.names.rotors.push(node.name.clone());
                 }
                 here
             }

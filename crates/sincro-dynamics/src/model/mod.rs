@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use sincro_math::Real;
 
-pub use builder::{BodySpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
+pub use builder::{BodySpec, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorSpec};
 pub use mass::MassProperties;
 pub use names::{FrameInfo, JointInfo, Names};
 pub use pack::PackError;
@@ -27,6 +27,7 @@ pub use problem::{Problem, Severity};
 pub use shape::Shape;
 
 use crate::drive::Drive;
+use crate::force::rotor::MountedRotor;
 use crate::force::{AppliedTorque, AppliedWrench, Motor};
 use crate::joint::{Placement, Stage, StageKind};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
@@ -135,6 +136,7 @@ pub struct Model<R> {
     pub(crate) motors: Vec<Motor<R>>,
     pub(crate) applied: Vec<AppliedTorque>,
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
+    pub(crate) rotors: Vec<MountedRotor<R>>,
     pub(crate) drives: Vec<Drive>,
     pub(crate) n_q: usize,
     pub(crate) names: Arc<Names>,
@@ -171,10 +173,22 @@ impl<R: Real> Model<R> {
         &self.motors
     }
 
-    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them.
+    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them, then the speed
+    /// [rad/s] of each rotor.
     #[must_use]
     pub fn n_commands(&self) -> usize {
-        self.motors.len() + 6 * self.names.inputs.len()
+        self.motors.len() + 6 * self.names.inputs.len() + self.rotors.len()
+    }
+
+    /// The rotors, in the order of their commands.
+    #[must_use]
+    pub fn rotors(&self) -> &[MountedRotor<R>] {
+        &self.rotors
+    }
+
+    /// Whether anything pushes on links from outside.
+    pub(crate) fn has_external(&self) -> bool {
+        !self.wrenches.is_empty() || !self.rotors.is_empty()
     }
 
     /// Velocity motors and joints with Coulomb friction.

@@ -49,6 +49,8 @@ pub struct Names {
     pub frames: Vec<FrameInfo>,
     /// External forces that take commands, in the order of those.
     pub inputs: Vec<String>,
+    /// Rotors, in the order of their commands.
+    pub rotors: Vec<String>,
     /// For each degree of freedom, the joint it belongs to.
     pub dof_joint: Vec<usize>,
 }

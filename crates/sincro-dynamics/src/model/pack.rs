@@ -5,6 +5,7 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
+use crate::force::rotor::MountedRotor;
 use crate::force::{AppliedTorque, AppliedWrench, Motor};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
@@ -86,6 +87,13 @@ impl<R: Real> Model<R> {
             force: core::array::from_fn(|c| lanes(&|m| m.wrenches[i].force[c][0].clone())),
             torque: core::array::from_fn(|c| lanes(&|m| m.wrenches[i].torque[c][0].clone())),
         });
+        let rotors = (0..first.rotors.len()).map(|i| MountedRotor {
+            link: first.rotors[i].link,
+            pose: Pose { rot: mat3(&|m| m.rotors[i].pose.rot), pos: vec3(&|m| m.rotors[i].pose.pos) },
+            law: first.rotors[i].law.clone(),
+            command: first.rotors[i].command,
+            density: first.rotors[i].density,
+        });
         Ok(Self {
             drives: first.drives.clone(),
             links: links.collect(),
@@ -94,6 +102,7 @@ impl<R: Real> Model<R> {
             motors: motors.collect(),
             applied: applied.collect(),
             wrenches: wrenches.collect(),
+            rotors: rotors.collect(),
             n_q: first.n_q,
             names: Arc::clone(&first.names),
         })
@@ -107,12 +116,15 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let motors = |m: &Model<f64>| -> Vec<_> { m.motors.iter().map(|x| (x.dof, x.mode)).collect() };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
     let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
+    let rotors =
+        |m: &Model<f64>| -> Vec<_> { m.rotors.iter().map(|x| (x.link, x.law.clone(), x.command, x.density)).collect() };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction > 0.0).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
         (motors(a) == motors(b), "motors"),
         (applied(a) == applied(b), "applied torques"),
         (wrenches(a) == wrenches(b), "external forces"),
+        (rotors(a) == rotors(b), "rotors"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

@@ -99,7 +99,11 @@ pub(crate) fn commands(model: &Model<f64>) -> Vec<Terminal> {
         })
         .chain(of_forces.map(|entry| Terminal {
             unit: Unit::parse(&entry.unit).ok(),
-            names: vec![entry.name],
+            // a rotor's path stands for its speed
+            names: match entry.name.strip_suffix(".speed") {
+                Some(rotor) => vec![rotor.to_owned(), entry.name.clone()],
+                None => vec![entry.name],
+            },
             width: 1,
             is_special: false,
         }))
@@ -110,6 +114,10 @@ pub(crate) fn commands(model: &Model<f64>) -> Vec<Terminal> {
 fn can_be_measured(probe: Probe) -> bool {
     !matches!(
         probe,
-        Probe::Command(_) | Probe::FrictionTorque(_) | Probe::Energy(EnergyQuantity::Balance) | Probe::Signal(_)
+        Probe::Command(_)
+            | Probe::Rotor(..)
+            | Probe::FrictionTorque(_)
+            | Probe::Energy(EnergyQuantity::Balance)
+            | Probe::Signal(_)
     )
 }

@@ -82,7 +82,8 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
 fn default_inputs(loaded: &Loaded, at: &LockStep, all: &[Entry], is_closed: bool) -> Vec<Input> {
     let motors = loaded.scene.model.motors();
     let is_driven = |m: usize| is_closed && drives(at, m);
-    let free = (0..motors.len()).filter(|&m| !motors[m].is_drive() && !is_driven(m));
+    let is_ideal = |m: usize| motors.get(m).is_some_and(|motor| motor.is_drive());
+    let free = (0..loaded.scene.model.n_commands()).filter(|&m| !is_ideal(m) && !is_driven(m));
     let entry = |m: usize| all.iter().find(|e| e.probe == Probe::Command(m) && !e.unit.is_empty());
     free.filter_map(|m| entry(m).map(|e| Input { axis: axis(&e.name, &*e.unit), what: InputKind::Command(m) }))
         .collect()
@@ -100,14 +101,17 @@ fn input(
     name: &Located<String>,
     is_closed: bool,
 ) -> Result<Input, Problem> {
-    // a joint's path stands for its motor, as in a diagram
-    let entry = all.iter().find(|e| e.name == name.value || e.name.strip_suffix(".command") == Some(&name.value));
+    // a joint's path stands for its motor, a rotor's for its speed, as in a diagram
+    let path = |e: &Entry| e.name.strip_suffix(".command").or_else(|| e.name.strip_suffix(".speed")).map(str::to_owned);
+    let entry = all.iter().find(|e| e.name == name.value || path(e).as_ref() == Some(&name.value));
     let error = |message: String, help: &str| Err(Problem::error(&name.at, message).with_help(help));
     match entry.map(|e| (e, e.probe)) {
-        Some((_, Probe::Command(m))) if loaded.scene.model.motors()[m].is_drive() => error(
-            format!("`{}` is the command of an ideal motor: the velocity jumps with it", name.value),
-            "a jump has no linear equation: set the motor's mode to `torque`, or name another input",
-        ),
+        Some((_, Probe::Command(m))) if loaded.scene.model.motors().get(m).is_some_and(|motor| motor.is_drive()) => {
+            error(
+                format!("`{}` is the command of an ideal motor: the velocity jumps with it", name.value),
+                "a jump has no linear equation: set the motor's mode to `torque`, or name another input",
+            )
+        }
         Some((_, Probe::Command(m))) if is_closed && drives(at, m) => error(
             format!("`{}` is commanded by the diagram", name.value),
             "name the signal of the diagram that something is to be added to, or leave --closed-loop out",

@@ -6,7 +6,7 @@ use sincro_dynamics::force::MotorMode;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
 
-use super::{EnergyQuantity, FrameQuantity, Probe};
+use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
 
 /// A signal on offer.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +50,20 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
         let first = model.motors().len() + 6 * k;
         list.vector(&format!("{name}.force"), &XYZ, "N", |c| Probe::Command(first + c));
         list.vector(&format!("{name}.torque"), &XYZ, "N·m", |c| Probe::Command(first + 3 + c));
+    }
+    for (k, name) in model.names().rotors.iter().enumerate() {
+        use RotorQuantity as Q;
+        list.add(format!("{name}.speed"), "rad/s", Probe::Command(model.rotors()[k].command));
+        let quantities = [
+            ("thrust", "N", Q::Thrust),
+            ("torque", "N·m", Q::Torque),
+            ("inflow", "m/s", Q::Inflow),
+            ("power", "W", Q::Power),
+            ("valid", "1", Q::Valid),
+        ];
+        for (what, unit, quantity) in quantities {
+            list.add(format!("{name}.{what}"), unit, Probe::Rotor(quantity, k));
+        }
     }
     world_signals(&mut list);
     list.0

@@ -8,6 +8,7 @@ mod catalogue;
 pub use catalogue::{Entry, catalogue};
 
 use sincro_dynamics::energy::Energy;
+use sincro_dynamics::force::rotor::Validity;
 use sincro_dynamics::force::{damper, spring};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
@@ -45,8 +46,25 @@ pub enum Probe {
     Energy(EnergyQuantity),
     /// Component 0–2 of the angular, 3–5 of the linear momentum.
     Momentum(usize),
+    /// Of a rotor.
+    Rotor(RotorQuantity, usize),
     /// Signal of the diagram.
     Signal(usize),
+}
+
+/// What can be read of a rotor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RotorQuantity {
+    /// Force along its axis `[N]`.
+    Thrust,
+    /// Reaction on the airframe about its axis [N·m].
+    Torque,
+    /// Air through the disc [m/s].
+    Inflow,
+    /// Power of the shaft `[W]`.
+    Power,
+    /// Whether its law holds: 1, else 0.
+    Valid,
 }
 
 /// What can be read of a frame.
@@ -163,6 +181,7 @@ impl Recorder {
             Probe::FrictionTorque(k) => seen.friction_torque(k),
             Probe::AppliedTorque(k) => seen.model().applied_torque(k, t),
             Probe::Frame(quantity, frame, component) => frame_quantity(seen, quantity, frame, component),
+            Probe::Rotor(quantity, k) => rotor_quantity(seen, quantity, k),
             Probe::Energy(_) | Probe::Momentum(_) | Probe::Signal(_) => unreachable!("read once a row"),
         }
     }
@@ -198,6 +217,19 @@ fn frame_quantity(seen: &Observation<'_>, quantity: FrameQuantity, frame: usize,
             let com = info.body.map_or([0.0; 3], |(com, _)| com);
             pose().point(sincro_dynamics::spatial::Vec3(com))[component]
         }
+    }
+}
+
+fn rotor_quantity(seen: &Observation<'_>, quantity: RotorQuantity, k: usize) -> f64 {
+    let rotor = &seen.model().rotors()[k];
+    let (speed, twist) = (seen.state.commands[rotor.command], seen.scratch().twist(rotor.link));
+    let load = rotor.load(speed, &twist);
+    match quantity {
+        RotorQuantity::Thrust => load.thrust,
+        RotorQuantity::Torque => load.torque,
+        RotorQuantity::Inflow => load.inflow,
+        RotorQuantity::Power => load.power,
+        RotorQuantity::Valid => f64::from(u8::from(rotor.validity(speed, &twist, &load) == Validity::Valid)),
     }
 }
 

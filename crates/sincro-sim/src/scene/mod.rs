@@ -9,6 +9,7 @@ mod initial;
 mod joint;
 mod object;
 mod placement;
+mod rotor;
 mod signal_file;
 mod text;
 mod tree;
@@ -16,7 +17,7 @@ mod tree;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sincro_dynamics::model::{BodySpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId};
+use sincro_dynamics::model::{BodySpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId, RotorSpec};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
@@ -39,7 +40,7 @@ pub struct Scene {
     pub model: Arc<Model<f64>>,
     /// Where it starts.
     pub initial: State<f64>,
-    /// Commands of the motors over time, in the model's order of motors.
+    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of rotors.
     pub commands: Vec<Signal>,
     /// Every object, parents before children, children in the order of the file.
     pub objects: Vec<Object>,
@@ -61,6 +62,7 @@ enum Spec {
     Body(BodySpec, Vec<ShapeInstance>),
     Frame,
     Force(ForceSpec),
+    Rotor(RotorSpec, Signal),
 }
 
 /// Compiles a document that fits the schema.
@@ -70,7 +72,7 @@ pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Pro
     let entries = tree::entries(&file);
     let mut problems = Problems::new();
     let order = tree::order(&entries, document, &mut problems);
-    let mut maker = Maker { document, folder, problems: &mut problems };
+    let mut maker = Maker { document, folder, air_density: file.air_density, problems: &mut problems };
     let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
     if problems.any_error() {
         return Err(problems.sorted());
@@ -87,6 +89,8 @@ pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Pro
 struct Maker<'a> {
     document: &'a Document,
     folder: &'a Folder,
+    /// [kg/m³]
+    air_density: f64,
     problems: &'a mut Problems,
 }
 
@@ -103,6 +107,7 @@ impl Maker<'_> {
                 Spec::Body(BodySpec { mass }, shapes)
             }
             tree::AnyFile::Frame(_) => Spec::Frame,
+            tree::AnyFile::Rotor(file) => rotor::spec(file, &entry.pointer, self.air_density, &mut self.signals()),
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
     }
@@ -133,7 +138,7 @@ struct Assembly {
     builder: ModelBuilder,
     nodes: Vec<NodeId>,
     objects: Vec<Object>,
-    /// Command of the motor of the joint that is object k.
+    /// Command of the motor of the joint, or speed of the rotor, that is object k.
     commands: BTreeMap<usize, Signal>,
     /// Entry that is object k.
     entry_of: Vec<usize>,
@@ -169,6 +174,10 @@ impl Assembly {
             }
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
+            Spec::Rotor(spec, speed) => {
+                self.commands.insert(self.objects.len(), speed);
+                (self.builder.rotor(&path, parent, pose, spec), ObjectKind::Rotor)
+            }
         };
         let name = entry.name.to_owned();
         let location = document.title_at(&entry.pointer);
@@ -202,9 +211,13 @@ impl Assembly {
         Ok(Scene { model: Arc::new(model), initial, commands, objects: self.objects, warnings })
     }
 
-    /// Commands in the model's order of motors; tells joints the index of theirs.
+    /// Commands in the model's order; tells joints the index of their motors.
     fn motors(&mut self, model: &Model<f64>) -> Vec<Signal> {
-        let mut commands = vec![Signal::Constant(0.0); model.motors().len()];
+        let mut commands = vec![Signal::Constant(0.0); model.n_commands()];
+        for (rotor, name) in model.rotors().iter().zip(&model.names().rotors) {
+            let speed = self.objects.iter().position(|o| o.path == *name).and_then(|k| self.commands.remove(&k));
+            commands[rotor.command] = speed.expect("a rotor has a speed");
+        }
         for joint in &model.names().joints {
             let Some(index) = self.objects.iter().position(|o| o.path == joint.name) else { continue };
             if let (Some(motor), ObjectKind::Joint { motor: known, .. }) = (joint.motor, &mut self.objects[index].kind)
@@ -217,10 +230,11 @@ impl Assembly {
     }
 
     fn warn_of_idle_forces(&self, model: &Model<f64>, problems: &mut Problems) {
-        for object in self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force)) {
+        for object in self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force | ObjectKind::Rotor)) {
             let carrier = object.parent.and_then(|k| model.names().frame(&self.objects[k].path));
             if carrier.is_some_and(|frame| frame.link.is_none()) {
-                let message = format!("force `{}` acts on something that is fixed in the world", object.path);
+                let word = object.kind.word();
+                let message = format!("{word} `{}` acts on something that is fixed in the world", object.path);
                 let problem = Problem::error(&object.location, message).as_warning();
                 problems.push(problem.with_help("it moves nothing; hang its parent on a joint"));
             }

@@ -44,6 +44,8 @@ pub enum ObjectKind {
     Frame,
     /// External force on its parent.
     Force,
+    /// Rotor on its parent; thrust along its z.
+    Rotor,
 }
 
 impl ObjectKind {
@@ -64,6 +66,7 @@ impl ObjectKind {
             Self::Body { .. } => "body",
             Self::Frame => "frame",
             Self::Force => "force",
+            Self::Rotor => "rotor",
         }
     }
 }

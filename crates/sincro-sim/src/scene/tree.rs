@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::file::{BodyFile, ForceFile, FrameFile, JointFile, SceneFile};
+use super::file::{BodyFile, ForceFile, FrameFile, JointFile, RotorFile, SceneFile};
 use super::placement::Placement;
 use crate::document::Document;
 use crate::problem::{Problem, Problems};
@@ -29,6 +29,20 @@ pub(super) enum AnyFile<'a> {
     Body(&'a BodyFile),
     Frame(&'a FrameFile),
     Force(&'a ForceFile),
+    Rotor(&'a RotorFile),
+}
+
+impl AnyFile<'_> {
+    /// The word for it.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Joint(_) => "joint",
+            Self::Body(_) => "body",
+            Self::Frame(_) => "frame",
+            Self::Force(_) => "force",
+            Self::Rotor(_) => "rotor",
+        }
+    }
 }
 
 /// An object that hangs, by a chain of others, on the world.
@@ -47,6 +61,7 @@ impl Entry<'_> {
             AnyFile::Joint(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Body(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Frame(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Rotor(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Force(_) => Placement::new([0.0; 3], None, None),
         }
     }
@@ -58,6 +73,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
     let bodies = file.body.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Body(f))).enumerate();
     let frames = file.frame.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Frame(f))).enumerate();
     let forces = file.force.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Force(f))).enumerate();
+    let rotors = file.rotor.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Rotor(f))).enumerate();
     let named = |list: &'static str| {
         move |(k, (name, parent, file))| Entry {
             name,
@@ -68,7 +84,11 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
         }
     };
     let joints = joints.map(named("joint")).chain(bodies.map(named("body")));
-    joints.chain(frames.map(named("frame"))).chain(forces.map(named("force"))).collect()
+    joints
+        .chain(frames.map(named("frame")))
+        .chain(forces.map(named("force")))
+        .chain(rotors.map(named("rotor")))
+        .collect()
 }
 
 /// The objects, parents before children and children in the order of the file; notes what does not fit.
@@ -148,13 +168,16 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
     let at = document.at(&format!("{}/parent", entry.pointer));
     let carrier = parent.map(|p| p.file);
     match (entry.file, carrier) {
-        (_, Some(AnyFile::Force(_))) => {
-            let problem = Problem::error(&at, format!("`{}` is a force, it carries nothing", entry.parent));
+        (_, Some(AnyFile::Force(_) | AnyFile::Rotor(_))) => {
+            let word = carrier.map_or("", AnyFile::word);
+            let problem = Problem::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
             problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));
         }
-        (AnyFile::Force(_), None | Some(AnyFile::Joint(_))) => {
-            let message = format!("force `{}` acts on `{}`, which is no body and no frame", entry.path, entry.parent);
-            problems.push(Problem::error(&at, message).with_help("the parent of a force is a body or a frame"));
+        (AnyFile::Force(_) | AnyFile::Rotor(_), None | Some(AnyFile::Joint(_))) => {
+            let word = entry.file.word();
+            let message = format!("{word} `{}` acts on `{}`, which is no body and no frame", entry.path, entry.parent);
+            problems
+                .push(Problem::error(&at, message).with_help(format!("the parent of a {word} is a body or a frame")));
         }
         _ => {}
     }

@@ -15,11 +15,13 @@
 mod blade;
 mod coefficients;
 mod momentum;
+mod mounted;
 pub mod printed;
 mod stock;
 
 pub use blade::{Drag, Rotor, RotorSpec, Validity};
 pub use coefficients::{CoefficientTable, ConstantCoefficients, TableRow};
+pub use mounted::{MountedRotor, RotorLaw};
 pub use stock::StockPropeller;
 
 use sincro_math::Real;
