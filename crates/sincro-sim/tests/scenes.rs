@@ -24,8 +24,17 @@ fn every_scene_loads_without_warnings() {
     assert!(scenes.len() >= 10);
     for scene in scenes {
         let loaded = load(&scene, &[]).unwrap_or_else(|problems| panic!("{problems}"));
-        assert!(loaded.warnings.is_empty(), "{}: {:?}", scene.display(), loaded.warnings);
-        assert_eq!(loaded.scene.commands.len(), loaded.scene.model.motors().len());
+        // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each of its two scene files
+        let expected = if scene.ends_with("quadrotor-open-loop") { 2 } else { 0 };
+        let inertia = loaded.warnings.iter().filter(|w| w.message.contains("no rigid body has the inertia")).count();
+        assert_eq!(
+            (loaded.warnings.len(), inertia),
+            (expected, expected),
+            "{}: {:?}",
+            scene.display(),
+            loaded.warnings
+        );
+        assert_eq!(loaded.scene.commands.len(), loaded.scene.model.n_commands());
         for variant in &loaded.experiment.variants {
             let of_variant = load(&scene, &variant.set).unwrap_or_else(|problems| panic!("{problems}"));
             assert_eq!(of_variant.experiment.variants.len(), loaded.experiment.variants.len());

@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
 }
 
 /// The order of the thesis; what is not named follows by name.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "motor-step",
     "motor-ramp",
     "spring-static",
@@ -38,6 +38,7 @@ const ORDER: [&str; 12] = [
     "flexible-velocity-step",
     "flexible-position",
     "alexandros-release",
+    "quadrotor-open-loop",
 ];
 
 /// Runs the command.
