@@ -233,7 +233,8 @@ impl World {
         }
     }
 
-    /// Divides every fixed step into `n` equal ones; commands are still latched once a tick. For estimating errors.
+    /// Divides every fixed step into `n` equal ones, and lets no method with error control take longer ones; commands are still latched once
+    /// a tick. For estimating errors.
     pub fn set_substeps(&mut self, n: u32) {
         self.substeps = n.max(1);
     }
@@ -395,10 +396,10 @@ impl World {
         Ok(())
     }
 
-    /// Longest step of a fixed-step method within a tick of `span`.
+    /// Longest step within a tick of `span`, for methods with error control too: a finer run must not end up the same.
     fn substep(&self, span: f64) -> f64 {
         // a hair longer, so that rounding leaves no sliver behind
-        if self.control().is_some() { span } else { span / f64::from(self.substeps) * (1.0 + 1e-12) }
+        span / f64::from(self.substeps) * (1.0 + 1e-12)
     }
 
     /// One step of the method from `t`, at most `h_max`; y is charted anew. Returns the length made.

@@ -76,7 +76,30 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
         let message = "signals of the diagram are in the closed loop only";
         problems.push(Problem::nowhere(message).with_help("add --closed-loop, or name signals of the world"));
     }
+    note_friction(loaded, at, &mut names.notes);
+    let in_diagram = at.control().map_or(0, |c| c.wiring().program().n_states);
+    if !names.is_closed && loaded.scene.model.n_v() == 0 && in_diagram > 0 {
+        names.notes.push("the scene has no joints; the states of its diagram are seen with --closed-loop".into());
+    }
+    if names.outputs.is_empty() {
+        names.notes.push("no outputs: the scene has no coordinates, and none were named".into());
+    }
     if problems.any_error() { Err(problems) } else { Ok(names) }
+}
+
+/// Joints that friction holds where the scene is: no small force moves them.
+fn note_friction(loaded: &Loaded, at: &LockStep, notes: &mut Vec<String>) {
+    use sincro_dynamics::drive::DriveKind;
+    let drives = loaded.scene.model.drives().iter().zip(&at.state().drives);
+    let stuck = drives.filter(|(drive, pull)| drive.kind == DriveKind::Friction && **pull == 0.0);
+    let names: Vec<String> =
+        stuck.map(|(drive, _)| format!("`{}`", loaded.scene.model.names().dof_name(drive.dof))).collect();
+    if !names.is_empty() {
+        notes.push(format!(
+            "friction holds {}: no small input moves it, and its velocity is no state. Take --set JOINT.friction=0, or an instant of motion",
+            names.join(", ")
+        ));
+    }
 }
 
 fn default_inputs(loaded: &Loaded, at: &LockStep, all: &[Entry], is_closed: bool) -> Vec<Input> {

@@ -244,6 +244,12 @@ fn unknown(name: &Located<String>, all: &[Entry]) -> Problem {
         None => Vec::new(),
     };
     let nearest = suggest::nearest(&name.value, all.iter().map(|e| e.name.as_str()));
+    let component = format!("{}[", name.value);
+    let components: Vec<&str> = all.iter().map(|e| e.name.as_str()).filter(|n| n.starts_with(&component)).collect();
+    if let [first, .., last] = components[..] {
+        let help = format!("it is a vector: name its components, `{first}` to `{last}`");
+        return Problem::error(&name.at, message).with_help(help);
+    }
     let help = match (nearest, of_object.is_empty()) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, false) => format!("its object has {}", of_object.join(", ")),

@@ -48,11 +48,18 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 fn print(loaded: &Loaded) {
     let (scene, experiment) = (&loaded.scene, &loaded.experiment);
     say!("{}", experiment.title);
-    say!("objects");
-    print_children(scene, None, 1);
+    if !scene.objects.is_empty() {
+        say!("objects");
+        print_children(scene, None, 1);
+    }
     let model = &scene.model;
     say!("model");
-    say!("  {}, {} moving links, {} kg", degrees(model.n_v()), model.links().len(), short(model.total_mass()));
+    say!(
+        "  {}, {}, {} kg",
+        degrees(model.n_v()),
+        diagnostics::count(model.links().len(), "moving link"),
+        short(model.total_mass())
+    );
     say!("  hash {}", model_hash(model));
     if let Some(controller) = &loaded.controller {
         print_diagram(controller, experiment.step);
@@ -68,9 +75,9 @@ fn print(loaded: &Loaded) {
     );
     say!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
     say!(
-        "  {} checks, {} variants{}",
-        experiment.checks.len(),
-        experiment.variants.len(),
+        "  {}, {}{}",
+        diagnostics::count(experiment.checks.len(), "check"),
+        diagnostics::count(experiment.variants.len(), "variant"),
         experiment.sweep.as_ref().map_or(String::new(), |s| format!(
             ", sweep of {} over {} values",
             s.parameter.value,

@@ -138,7 +138,8 @@ fn figures(check: &CheckReport) -> String {
     if check.verdict == VerdictReport::NotMade {
         return check.reason.clone().unwrap_or_default();
     }
-    let unit = if check.relative { "(relative)" } else { check.unit.as_str() };
+    // with the space before it, if there is one
+    let unit = if check.relative { " (relative)".into() } else { spaced(&check.unit) };
     let deviation = check.deviation.map_or_else(|| "not finite".into(), |d| significant(d, 2));
     let bound = match check.sense {
         Sense::Equal => None,
@@ -148,18 +149,23 @@ fn figures(check: &CheckReport) -> String {
     if let (Some(bound), Some(measured), Some(expected)) = (bound, check.measured, check.expected) {
         let beyond =
             if check.verdict == VerdictReport::Fails { format!("; beyond by {deviation}") } else { String::new() };
-        return format!("{}, {bound} {} {unit}{beyond}", significant(measured, 4), significant(expected, 4));
+        return format!("{}, {bound} {}{unit}{beyond}", significant(measured, 4), significant(expected, 4));
     }
-    let mut text = format!("off by {deviation}, allowed {} {unit}", short(check.limit));
+    let mut text = format!("off by {deviation}, allowed {}{unit}", short(check.limit));
     if check.verdict == VerdictReport::Fails {
         if let (Some(measured), Some(expected)) = (check.measured, check.expected) {
             text += &format!("; measured {}, expected {}", significant(measured, 8), significant(expected, 8));
         }
         if let Some(at) = check.at {
-            text += &format!(" at {}", short(at));
+            text += &format!(" at t = {} s", short(at));
         }
     }
     text
+}
+
+/// A unit as it follows a number.
+fn spaced(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 fn print_error_bars(report: &RunReport) {
@@ -173,10 +179,8 @@ fn print_error_bars(report: &RunReport) {
             units.push(&column.unit);
         }
     }
-    let bars: Vec<String> = units
-        .iter()
-        .filter_map(|u| worst(u).map(|bar| format!("{} {u}", significant(bar, 1)).trim_end().to_owned()))
-        .collect();
+    let bars: Vec<String> =
+        units.iter().filter_map(|u| worst(u).map(|bar| format!("{}{}", significant(bar, 1), spaced(u)))).collect();
     if !bars.is_empty() {
         say!("  error bars up to {}", bars.join(", "));
     }
@@ -198,6 +202,7 @@ pub(crate) fn verdict_line(report: &RunReport) -> String {
     match (checks.len(), fails, missing) {
         (0, ..) => "no checks in this experiment".into(),
         (1, 0, 0) => "the check holds".into(),
+        (1, 1, 0) => "the check fails".into(),
         (n, 0, 0) => format!("all {n} checks hold"),
         (n, 0, missing) => format!("{missing} of {} could not be made", count(n, "check")),
         (n, fails, 0) => format!("{fails} of {} fail", count(n, "check")),

@@ -55,11 +55,16 @@ fn quantity(name: &str) -> &str {
     match name.split_once('.') {
         Some((object, rest)) if object.starts_with('/') => rest.split('.').next().unwrap_or(rest),
         Some((head, _)) => head,
-        None => name,
+        None => name.split('[').next().unwrap_or(name),
     }
 }
 
 fn group_title(names: &[&str]) -> String {
+    if let [one] = names
+        && *one == quantity(one)
+    {
+        return (*one).to_owned();
+    }
     let what = quantity(names[0]).replace('_', " ");
     let what = what[..1].to_uppercase() + &what[1..];
     match names {
