@@ -4,3 +4,4 @@ mod drives;
 mod mechanisms;
 mod orders;
 mod power;
+mod rotors;

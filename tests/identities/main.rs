@@ -4,3 +4,4 @@ mod batch;
 mod derivatives;
 mod dynamics;
 mod random;
+mod rotors;

@@ -210,7 +210,9 @@ impl Rotor {
         let mirror = speed.if_less(R::zero(), R::splat(-1.0), R::one());
         let tip = limited(speed).abs() * R::splat(self.spec.radius);
         let [x, y, z] = velocity.0.map(limited);
-        let in_plane_squared = x * x + y * y;
+        let square = x * x + y * y;
+        // a square that underflows has no slope either: its root would make one of 1/0
+        let in_plane_squared = square.if_less(R::splat(f64::MIN_POSITIVE), R::zero(), square);
         let supply =
             R::splat(self.lift * self.spec.collective_pitch) * (R::splat(2.0 / 3.0) * (tip * tip) + in_plane_squared);
         let balance = Balance { climb: mirror * z, in_plane_squared, relief: R::splat(self.lift) * tip, supply };

@@ -68,8 +68,8 @@ pub const FASTEST: f64 = 1e60;
 /// `x` limited to ±[`FASTEST`]; what is not finite becomes NaN, because a limit hides no failure.
 #[inline(always)]
 fn limited<R: Real>(x: R) -> R {
-    // x − x is 0 for a finite number and NaN for all others
-    x.clamp_abs(R::splat(FASTEST)) + (x - x)
+    // 0·x is 0 for a finite number and NaN for all others
+    x.clamp_abs(R::splat(FASTEST)) + R::zero() * x
 }
 
 /// What is wrong with a number that must be within [least, most], if anything.
