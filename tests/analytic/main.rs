@@ -5,3 +5,4 @@ mod mechanisms;
 mod orders;
 mod power;
 mod rotors;
+mod wind;

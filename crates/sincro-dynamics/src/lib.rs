@@ -13,6 +13,7 @@
 //! | energies and momentum | [`energy`] |
 //! | springs, dampers, friction, motors, rotors | [`force`] |
 //! | a world that advances | [`integrate`], [`world`] |
+//! | the air that moves | [`wind`] |
 //! | how stiff it is | [`stiffness`] |
 //! | what is integrated along, such as a diagram | [`attachment`] |
 //! | many worlds at once | [`batch`] |
@@ -38,4 +39,5 @@ pub mod signal;
 pub mod spatial;
 pub mod state;
 pub mod stiffness;
+pub mod wind;
 pub mod world;

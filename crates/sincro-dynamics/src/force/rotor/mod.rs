@@ -72,8 +72,9 @@ fn limited<R: Real>(x: R) -> R {
     x.clamp_abs(R::splat(FASTEST)) + R::zero() * x
 }
 
-/// What is wrong with a number that must be within [least, most], if anything.
+/// What is wrong with a number that must be within [least, most], if anything; `unit` may be empty.
 fn outside(name: &str, x: f64, (least, most): (f64, f64), unit: &str) -> Option<String> {
     let within = x >= least && x <= most;
-    (!within).then(|| format!("`{name}` is {x} {unit}: expected a number from {least} to {most} {unit}"))
+    let gap = if unit.is_empty() { "" } else { " " };
+    (!within).then(|| format!("`{name}` is {x}{gap}{unit}: expected a number from {least} to {most}{gap}{unit}"))
 }
