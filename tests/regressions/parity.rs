@@ -121,3 +121,24 @@ fn a_force_from_a_diagram_is_that_of_the_scene() {
     assert_eq!(run("input = true", Some(d)), by_scene);
     assert_ne!(run("input = true", Some(Diagram::new())), by_scene);
 }
+
+/// An acceleration is measured under all commands, those of forces too, and they are put back afterwards.
+#[test]
+fn an_acceleration_is_measured_under_a_force_from_the_diagram() {
+    let text = "gravity = [0, 0, 0]\n\
+                joint = [{ name = \"free\", kind = \"free\" }]\n\
+                body = [{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = { xx = 0.1, yy = 0.2, zz = 0.25 } }]\n\
+                force = [{ name = \"push\", parent = \"/free/brick\", input = true }]";
+    let mut loaded = scene(&[]);
+    loaded.scene = sincro_sim::scene::from_text(text).unwrap();
+    let mut d = Diagram::new();
+    d.block("f", sincro_blocks::library::sources::Constant::new(3.0)).wire("f", "/free/brick/push.force.x");
+    d.block("a", Gain::new(1.0)).wire("/free/brick.acceleration.x", "a");
+    loaded.controller = Some(Controller::new(d, &loaded.scene.model, 0.005, 0).unwrap());
+    let mut run = LockStep::new(&loaded, MethodKind::Rk4, false);
+    run.start().unwrap();
+    let control = run.control().unwrap();
+    let (_, a, _) = control.wiring().program().outputs().find(|(name, ..)| name == "a").unwrap();
+    assert_eq!(control.signals()[a], [1.5]);
+    assert!(run.state().commands.iter().all(|c| *c == 0.0), "not latched yet");
+}

@@ -106,7 +106,7 @@ impl<R: Number> Control<R> {
             late_torque: zeros(model.motors().len()),
             late_accelerations: zeros(model.n_v()),
             impulse: vec![0.0; model.motors().len()],
-            held: vec![0.0; model.motors().len()],
+            held: vec![0.0; model.n_commands()],
         }
     }
 
