@@ -129,27 +129,14 @@ impl<R: Number> Runner<R> {
     }
 
     fn evaluate_range(&mut self, steps: core::ops::Range<usize>, tick: u64, t: f64) {
-        let Self { program, state, instances, due, period, .. } = self;
         for k in steps {
-            let step = &program.steps[k];
-            if step.rate != Rate::Constant && due[period[k]] {
-                let (before, out) = state.signals.split_at_mut(step.out.start);
-                let at = At {
-                    t,
-                    corner: f64::INFINITY,
-                    tick,
-                    node: &step.node,
-                    states: &state.continuous[step.states.clone()],
-                    memory: &state.memory[step.memory.clone()],
-                    signals: before,
-                    ports: &step.ports,
-                };
-                instances[k].output(&at, &mut out[..step.out.len()]);
+            if self.program.steps[k].rate != Rate::Constant && self.due[self.period[k]] {
+                self.output(k, t, f64::INFINITY, tick);
             }
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn output(&mut self, k: usize, t: f64, corner: f64, tick: u64) {
         let step = &self.program.steps[k];
         let (before, out) = self.state.signals.split_at_mut(step.out.start);

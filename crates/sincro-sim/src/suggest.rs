@@ -1,18 +1,9 @@
 //! "Did you mean": the known names nearest to an unknown one.
 
-/// A name that is nearer than this (Jaro–Winkler, 1 = the same) was probably meant.
-const NEAR: f64 = 0.8;
+pub use sincro_blocks::suggest::nearest;
 
 /// How many known names are listed.
 const LISTED: usize = 8;
-
-/// The known name that was probably meant.
-#[must_use]
-pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let wanted = name.to_lowercase();
-    let scored = known.into_iter().map(|k| (strsim::jaro_winkler(&wanted, &k.to_lowercase()), k));
-    scored.filter(|(score, _)| *score >= NEAR).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)
-}
 
 /// A help line: the nearest name if there is one, and a few known ones, nearest first.
 ///

@@ -17,8 +17,8 @@ use sincro_dynamics::world::World;
 use sincro_math::Real;
 
 use super::ports::{Measurement, is_known_at_ticks_only};
-use super::probe;
 use crate::record::Probe;
+use crate::record::probe::{self, View};
 
 /// A measurement in use: where its components are read and where they go.
 #[derive(Clone, Debug)]
@@ -34,7 +34,8 @@ pub struct Wiring {
     program: Arc<Program>,
     early: Vec<Reading>,
     late: Vec<Reading>,
-    needs_poses: bool,
+    /// Whether any measurement needs poses and twists: at ticks, and between them.
+    needs_poses: [bool; 2],
 }
 
 impl Wiring {
@@ -46,7 +47,8 @@ impl Wiring {
         };
         let early: Vec<Reading> = program.early.iter().map(reading).collect();
         let late = program.late.iter().map(reading).collect();
-        let needs_poses = early.iter().flat_map(|r| &r.probes).any(|p| probe::needs_kinematics(*p));
+        let needs = |r: &Reading| r.probes.iter().any(|p| probe::needs_kinematics(*p));
+        let needs_poses = [early.iter().any(needs), early.iter().any(|r| r.is_minor && needs(r))];
         Self { early, late, needs_poses, program }
     }
 
@@ -122,21 +124,17 @@ impl<R: Number> Control<R> {
         self.wiring.program.is_continuous()
     }
 
-    /// Sets the tick whose samples are held while the integrator looks around.
-    pub fn set_tick(&mut self, tick: u64) {
-        self.tick = tick;
-    }
-
     fn read_state(&mut self, seen: &mut Seen<'_, R>, is_minor: bool) {
         if self.wiring.early.is_empty() {
             return;
         }
-        if self.wiring.needs_poses {
+        if self.wiring.needs_poses[usize::from(is_minor)] {
             kinematics::motions(seen.model, seen.q, seen.v, &self.zero, seen.scratch);
         }
+        let view = View::of(seen);
         for reading in self.wiring.early.iter().filter(|r| r.is_minor || !is_minor) {
             for (k, probe) in reading.probes.iter().enumerate() {
-                if let Some(x) = probe::of_state(seen, *probe) {
+                if let Some(x) = probe::of_state(&view, *probe) {
                     self.runner.signals_mut()[reading.at + k] = x;
                 }
             }
@@ -145,9 +143,10 @@ impl<R: Number> Control<R> {
 
     fn read_response(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, is_minor: bool) {
         kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
+        let view = View::of(seen);
         for reading in self.wiring.late.iter().filter(|r| r.is_minor || !is_minor) {
             for (k, probe) in reading.probes.iter().enumerate() {
-                if let Some(x) = probe::of_response(seen, response, *probe) {
+                if let Some(x) = probe::of_response(&view, response, *probe) {
                     self.runner.signals_mut()[reading.at + k] = x;
                 }
             }

@@ -6,7 +6,6 @@
 mod coupling;
 mod file;
 mod ports;
-pub(crate) mod probe;
 mod read;
 pub mod reference;
 pub mod robot;

@@ -37,7 +37,7 @@ fn whole(name: &str, probes: Vec<Probe>) -> Measurement {
 
 fn measurement(name: String, unit: &str, probes: Vec<Probe>) -> Measurement {
     let is_special = probes.iter().any(|p| depends_on_commands(*p));
-    let unit = Unit::parse(unit).ok().filter(|_| !unit.is_empty());
+    let unit = unit_of(unit);
     Measurement { terminal: Terminal { names: vec![name], width: probes.len(), unit, is_special }, probes }
 }
 
@@ -82,32 +82,26 @@ pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
 
 /// Everything that can be commanded, in the order of the world's commands.
 pub(crate) fn commands(model: &Model<f64>) -> Vec<Terminal> {
-    let with_motor = |m: usize| model.names().joints.iter().find(|j| j.motor == Some(m));
-    let of_forces =
-        catalogue(model).into_iter().filter(|e| matches!(e.probe, Probe::Command(c) if c >= model.motors().len()));
-    let motors = model.motors().iter().enumerate();
-    motors
-        .map(|(m, motor)| {
-            let name = with_motor(m).map_or_else(String::new, |j| j.name.clone());
-            let unit =
-                catalogue(model).into_iter().find(|e| e.probe == Probe::Command(m)).map_or("".into(), |e| e.unit);
-            // an ideal motor jumps to what it is told: between ticks it cannot follow
-            let is_special = motor.is_drive();
-            let names =
-                if motor.mode == MotorMode::Free { Vec::new() } else { vec![name.clone(), format!("{name}.command")] };
-            Terminal { names, width: 1, unit: Unit::parse(&unit).ok().filter(|_| !unit.is_empty()), is_special }
-        })
-        .chain(of_forces.map(|entry| Terminal {
-            unit: Unit::parse(&entry.unit).ok(),
-            // a rotor's path stands for its speed
-            names: match entry.name.strip_suffix(".speed") {
-                Some(rotor) => vec![rotor.to_owned(), entry.name.clone()],
-                None => vec![entry.name],
-            },
-            width: 1,
-            is_special: false,
-        }))
-        .collect()
+    let entries = catalogue(model);
+    let terminal = |command: usize| {
+        let entry = entries.iter().find(|e| e.probe == Probe::Command(command)).expect("every command is on offer");
+        let motor = model.motors().get(command);
+        // the path of a joint stands for its motor, that of a rotor for its speed
+        let path = entry.name.strip_suffix(".command").or_else(|| entry.name.strip_suffix(".speed"));
+        let names = match motor.map(|m| m.mode) {
+            Some(MotorMode::Free) => Vec::new(),
+            _ => path.map(str::to_owned).into_iter().chain([entry.name.clone()]).collect(),
+        };
+        // an ideal motor jumps to what it is told: between ticks it cannot follow
+        let is_special = motor.is_some_and(|m| m.is_drive());
+        Terminal { names, width: 1, unit: unit_of(&entry.unit), is_special }
+    };
+    (0..model.n_commands()).map(terminal).collect()
+}
+
+/// A unit of the catalogue; none where it has none.
+fn unit_of(text: &str) -> Option<Unit> {
+    Unit::parse(text).ok().filter(|_| !text.is_empty())
 }
 
 /// What is known before the commands, or follows from them in one step. The rest can be recorded all the same.

@@ -11,10 +11,10 @@ use sincro_math::Dual;
 
 use super::axis;
 use super::names::{InputKind, Names, Output};
-use crate::diagram::{Control, probe};
+use crate::diagram::Control;
 use crate::linear::Axis;
 use crate::load::Loaded;
-use crate::record::{Probe, catalogue};
+use crate::record::{Probe, catalogue, probe};
 use crate::run::LockStep;
 
 /// A scene at an operating point.
@@ -255,11 +255,12 @@ impl<R: Number> Attachment<R> for Watch<R> {
             control.slope_whole(seen, response, slope, self.perturbed);
         }
         kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
+        let view = probe::View::of(seen);
         for (value, output) in self.values.iter_mut().zip(&self.outputs) {
             *value = match output.probe {
                 Probe::Signal(k) => self.control.as_ref().map_or(R::zero(), |c| c.runner.signals()[k]),
-                other => probe::of_state(seen, other)
-                    .or_else(|| probe::of_response(seen, response, other))
+                other => probe::of_state(&view, other)
+                    .or_else(|| probe::of_response(&view, response, other))
                     .unwrap_or(R::zero()),
             };
         }

@@ -4,18 +4,19 @@
 //! no look-up and no allocation.
 
 mod catalogue;
+pub(crate) mod probe;
 
 pub use catalogue::{Entry, catalogue};
 
+use sincro_dynamics::attachment::Response;
 use sincro_dynamics::energy::Energy;
 use sincro_dynamics::force::rotor::Validity;
-use sincro_dynamics::force::{damper, spring};
-use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
 
 use crate::problem::{Located, Problem, Problems};
 use crate::suggest;
+use probe::View;
 
 /// One number that can be read off a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,24 +166,20 @@ impl Recorder {
 
     fn read(&self, seen: &Observation<'_>, probe: Probe, t: f64) -> f64 {
         let state = seen.state;
-        let dof = |k: usize| &seen.model().dofs()[k];
         match probe {
-            Probe::Coordinate(i) => state.q[i],
-            Probe::Rate(k) => state.v[k],
-            Probe::Acceleration(k) => seen.accelerations[k],
             Probe::Command(m) => state.commands[m],
             Probe::MotorTorqueMean(m) => {
                 let span = t - self.last_t;
                 if span > 0.0 { (state.totals[2 + m] - self.motor_impulse[m]) / span } else { 0.0 }
             }
-            Probe::MotorTorqueNow(m) => seen.motor_torque()[m],
-            Probe::SpringTorque(k) => spring::torque(dof(k), state.q[dof(k).coordinate().expect("a scalar joint")]),
-            Probe::DampingTorque(k) => damper::torque(dof(k), state.v[k]),
             Probe::FrictionTorque(k) => seen.friction_torque(k),
-            Probe::AppliedTorque(k) => seen.model().applied_torque(k, t),
-            Probe::Frame(quantity, frame, component) => frame_quantity(seen, quantity, frame, component),
             Probe::Rotor(quantity, k) => rotor_quantity(seen, quantity, k),
-            Probe::Energy(_) | Probe::Momentum(_) | Probe::Signal(_) => unreachable!("read once a row"),
+            probe => {
+                let view = View { t, model: seen.model(), q: &state.q, v: &state.v, scratch: seen.scratch() };
+                let response = Response { accelerations: seen.accelerations, motor_torque: seen.motor_torque() };
+                let value = probe::of_state(&view, probe).or_else(|| probe::of_response(&view, response, probe));
+                value.expect("what is neither of the state nor of its response is read above")
+            }
         }
     }
 
@@ -194,28 +191,6 @@ impl Recorder {
             EnergyQuantity::Work => totals[0],
             EnergyQuantity::Dissipated => totals[1],
             EnergyQuantity::Balance => energy.total() - self.energy_at_start - totals[0] + totals[1],
-        }
-    }
-}
-
-fn frame_quantity(seen: &Observation<'_>, quantity: FrameQuantity, frame: usize, component: usize) -> f64 {
-    let info = &seen.model().names().frames[frame];
-    let at = Attached { link: info.link, pose: info.pose };
-    let scratch = seen.scratch();
-    let pose = || kinematics::frame_pose(scratch, &at);
-    match quantity {
-        FrameQuantity::Position => pose().pos[component],
-        FrameQuantity::Quaternion => {
-            let q = sincro_dynamics::spatial::Quat::from_matrix(&pose().rot);
-            [q.w, q.xyz[0], q.xyz[1], q.xyz[2]][component]
-        }
-        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&pose().rot)[component],
-        FrameQuantity::Velocity => kinematics::frame_velocity(scratch, &at).lin[component],
-        FrameQuantity::AngularVelocity => kinematics::frame_velocity(scratch, &at).ang[component],
-        FrameQuantity::Acceleration => kinematics::frame_acceleration(scratch, &at).lin[component],
-        FrameQuantity::CenterOfMass => {
-            let com = info.body.map_or([0.0; 3], |(com, _)| com);
-            pose().point(sincro_dynamics::spatial::Vec3(com))[component]
         }
     }
 }

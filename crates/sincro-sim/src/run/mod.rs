@@ -150,7 +150,6 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         return (kind, warnings);
     };
     let step = loaded.experiment.step;
-    let mend = |rate: f64, limit: f64| format!("Use integrator = \"auto\", or a step below {:.1e} s", limit / rate);
     if let Some((block, rate)) = controller.fastest()
         && kind == MethodKind::DormandPrince
         && rate * step > SLOW_FROM
@@ -158,11 +157,11 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         if loaded.experiment.integrator == Integrator::Auto {
             return (MethodKind::Stiff, warnings);
         }
+        let sub_steps = rate * step / 3.3;
         warnings.push(format!(
-                "block `{block}` decays at {rate:.3e} 1/s and makes `dormand-prince` take about {:.0} sub-steps a step. Use \
-                 integrator = \"auto\" or \"stiff\"",
-                rate * step / 3.3
-            ));
+            "block `{block}` decays at {rate:.3e} 1/s and makes `dormand-prince` take about {sub_steps:.0} sub-steps a step. Use \
+             integrator = \"auto\" or \"stiff\""
+        ));
     }
     // fixed steps take what blocks do to the world at the old state, whatever else they take at the new one
     let limit = match kind {
@@ -176,9 +175,9 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     {
         warnings.push(format!(
             "the loop that the diagram closes has a pole of {closed:.3e} 1/s, too fast for `{}` at a step of {step} s: the run may \
-             diverge. {}",
+             diverge. Use integrator = \"auto\", or a step below {:.1e} s",
             method_word(kind),
-            mend(closed, limit)
+            limit / closed
         ));
     }
     (kind, warnings)

@@ -10,7 +10,8 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;
 use sincro_math::Real;
 
-use super::{Context, Item, Robot, attached, check_widths, frame};
+use super::{Context, Item, Robot, check_widths, frame};
+use crate::record::probe::attached;
 
 /// Where a body or frame is in the world: position `[m]`, quaternion (w, x, y, z), and with velocities also angular velocity [rad/s] and
 /// velocity [m/s] in world axes.

@@ -9,7 +9,8 @@ use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_math::Real;
 
-use super::{Context, Item, Robot, attached, check_widths, frame};
+use super::{Context, Item, Robot, check_widths, frame};
+use crate::record::probe::attached;
 
 /// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s], world axes.
 #[derive(Clone, Debug)]

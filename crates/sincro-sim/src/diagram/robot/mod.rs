@@ -14,10 +14,8 @@ use std::sync::Arc;
 use sincro_blocks::instance::Template;
 use sincro_blocks::kind::Kind;
 use sincro_blocks::reader::Reader;
-use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
-use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use sincro_math::Real;
 
 pub use forward_kinematics::ForwardKinematics;
@@ -96,13 +94,6 @@ fn frame(reader: &mut Reader<'_>, context: &Context) -> usize {
             0
         }
     }
-}
-
-/// Where a frame is fixed.
-fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
-    let info = &model.names().frames[frame];
-    let rot = Mat3(info.pose.rot.0.map(|row| row.map(R::splat)));
-    Attached { link: info.link, pose: Pose { rot, pos: Vec3(info.pose.pos.0.map(R::splat)) } }
 }
 
 /// Inputs that must be as wide as the model's vectors are.

@@ -1,0 +1,97 @@
+//! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is linearised.
+
+use sincro_dynamics::attachment::{Response, Seen};
+use sincro_dynamics::energy::{energy, momentum};
+use sincro_dynamics::force::{damper, spring};
+use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::model::Model;
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
+use sincro_math::Real;
+
+use super::{EnergyQuantity, FrameQuantity, Probe};
+
+/// What a measurement is taken of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View<'a, R> {
+    /// Time `[s]`.
+    pub t: f64,
+    pub model: &'a Model<R>,
+    pub q: &'a [R],
+    pub v: &'a [R],
+    /// With the kinematics at (q, v), where a probe needs them.
+    pub scratch: &'a Scratch<R>,
+}
+
+impl<'a, R> View<'a, R> {
+    /// Of what an attachment sees.
+    pub fn of(seen: &'a Seen<'_, R>) -> Self {
+        Self { t: seen.t, model: seen.model, q: seen.q, v: seen.v, scratch: seen.scratch }
+    }
+}
+
+/// Whether a probe needs the poses and twists of links.
+pub(crate) fn needs_kinematics(probe: Probe) -> bool {
+    matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_))
+}
+
+/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks only.
+pub(crate) fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
+    let model = at.model;
+    Some(match probe {
+        Probe::Coordinate(i) => at.q[i],
+        Probe::Rate(k) => at.v[k],
+        Probe::SpringTorque(k) => {
+            let dof = &model.dofs()[k];
+            spring::torque(dof, at.q[dof.coordinate().expect("a scalar joint")])
+        }
+        Probe::DampingTorque(k) => damper::torque(&model.dofs()[k], at.v[k]),
+        Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
+        Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
+        Probe::Energy(EnergyQuantity::Kinetic) => energy(model, at.q, at.v, at.scratch).kinetic,
+        Probe::Energy(EnergyQuantity::Potential) => energy(model, at.q, at.v, at.scratch).potential,
+        Probe::Energy(EnergyQuantity::Total) => energy(model, at.q, at.v, at.scratch).total(),
+        Probe::Momentum(k) if k < 3 => momentum(model, at.scratch).ang[k],
+        Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
+        _ => return None,
+    })
+}
+
+/// A measurement that depends on the commands; after kinematics with the accelerations.
+pub(crate) fn of_response<R: Real>(at: &View<'_, R>, response: Response<'_, R>, probe: Probe) -> Option<R> {
+    Some(match probe {
+        Probe::Acceleration(k) => response.accelerations[k],
+        Probe::MotorTorqueNow(m) => response.motor_torque[m],
+        Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
+            kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
+        }
+        _ => return None,
+    })
+}
+
+/// Where a frame of the model is fixed.
+pub(crate) fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
+    let info = &model.names().frames[frame];
+    let rot = Mat3(info.pose.rot.0.map(|row| row.map(R::splat)));
+    Attached { link: info.link, pose: Pose { rot, pos: Vec3(info.pose.pos.0.map(R::splat)) } }
+}
+
+fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, component: usize) -> R {
+    let fixed = attached(at.model, frame);
+    let pose = || kinematics::frame_pose(at.scratch, &fixed);
+    match quantity {
+        FrameQuantity::Position => pose().pos[component],
+        FrameQuantity::Quaternion => {
+            let q = Quat::from_matrix(&pose().rot);
+            [q.w, q.xyz[0], q.xyz[1], q.xyz[2]][component]
+        }
+        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&pose().rot)[component],
+        FrameQuantity::Velocity => kinematics::frame_velocity(at.scratch, &fixed).lin[component],
+        FrameQuantity::AngularVelocity => kinematics::frame_velocity(at.scratch, &fixed).ang[component],
+        FrameQuantity::Acceleration => kinematics::frame_acceleration(at.scratch, &fixed).lin[component],
+        FrameQuantity::CenterOfMass => {
+            let com = at.model.names().frames[frame].body.map_or([0.0; 3], |(com, _)| com);
+            pose().point(Vec3(com.map(R::splat)))[component]
+        }
+    }
+}
