@@ -32,9 +32,11 @@ pub struct Kind {
 pub enum Group {
     Sources,
     Maths,
+    Matrices,
     Nonlinear,
     Continuous,
     Discrete,
+    Adaptation,
     Routing,
     Logic,
     Rotations,
@@ -49,9 +51,11 @@ impl Group {
         match self {
             Self::Sources => "Sources",
             Self::Maths => "Maths",
+            Self::Matrices => "Matrices",
             Self::Nonlinear => "Nonlinear",
             Self::Continuous => "Continuous",
             Self::Discrete => "Discrete",
+            Self::Adaptation => "Adaptation",
             Self::Routing => "Routing",
             Self::Logic => "Logic and comparison",
             Self::Rotations => "Rotations",

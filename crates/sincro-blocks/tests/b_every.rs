@@ -1,4 +1,5 @@
-//! What holds for every block of the shelves nonlinear, continuous, discrete and rotations, with all its parameters in use.
+//! What holds for every block of the shelves matrices, nonlinear, continuous, discrete, adaptation and rotations, with all its
+//! parameters in use.
 
 mod b_common;
 
@@ -81,6 +82,15 @@ fn examples() -> Vec<(&'static str, Parameters, Vec<usize>)> {
         ("discrete-pid", lagged(), vec![2, 2, 2]),
         ("fir-filter", vec![("coefficients", list(&[1.0, 2.0, 3.0]))], vec![2]),
         ("iir-filter", vec![("sections", list(&[1.0, 1.0, 0.0, 1.0, -0.5, 0.0]))], vec![2]),
+        ("matrix-product", vec![("rows", 2.0.into()), ("transposed", true.into())], vec![6, 4]),
+        ("matrix-concatenate", vec![("rows", 2.0.into())], vec![2, 4]),
+        ("diagonal", vec![], vec![2]),
+        ("normalized-gradient", vec![("gain", list(&[2.0, 0.5, 8.0]))], vec![6, 2]),
+        (
+            "ellipsoid-projection",
+            vec![("bound", 0.05.into()), ("weights", list(&[1.0, 2.0])), ("gain", list(&[800.0, 0.5]))],
+            vec![2],
+        ),
         ("saturation", vec![("upper", 0.35.into())], vec![2]),
         ("rate-limiter", vec![("rising", 1.0.into()), ("initial", 0.0.into())], vec![2]),
         ("dead-zone", vec![("lower", 0.0.into()), ("upper", 0.2.into())], vec![2]),
@@ -123,9 +133,10 @@ fn fed(kind: &str, parameters: &[(&str, Value)], inputs: &[usize]) -> Arc<Progra
 
 #[test]
 fn no_block_is_forgotten_here() {
-    use Group::{Continuous, Discrete, Nonlinear, Rotations};
+    use Group::{Adaptation, Continuous, Discrete, Matrices, Nonlinear, Rotations};
     let known: Vec<&str> = examples().iter().map(|e| e.0).collect();
-    let own = library::all().filter(|i| matches!(i.kind.group, Nonlinear | Continuous | Discrete | Rotations));
+    let is_own = |group| matches!(group, Matrices | Nonlinear | Continuous | Discrete | Adaptation | Rotations);
+    let own = library::all().filter(|i| is_own(i.kind.group));
     for item in own {
         assert!(known.contains(&item.kind.name), "{}", item.kind.name);
     }

@@ -234,7 +234,7 @@ impl<'a> Walk<'a> {
         let known_to_table = self.tables().find_map(|table| property(table, key));
         let index = key.parse::<usize>().ok();
         let item = index.and(self.lists().find_map(|list| list.get("items")));
-        let Some(schema) = known_to_table.or(item) else { return Err(self.unknown(key)) };
+        let Some(schema) = known_to_table.or(item) else { return Err(self.unknown(document, key)) };
         self.check_presence(document, key, known_to_table.is_some(), index)?;
         self.pointer = format!("{}/{}", self.pointer, escape(key));
         self.schema = schema;
@@ -292,11 +292,14 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    fn unknown(&self, key: &str) -> Problem {
+    fn unknown(&self, document: &Document, key: &str) -> Problem {
         let known = self.known();
         let known: Vec<&str> = known.iter().copied().filter(|k| !matches!(*k, "name" | "parent")).collect();
         let what = if self.pointer.is_empty() { "a scene or experiment".into() } else { format!("`{}`", self.title()) };
         let problem = self.setting.error(format!("`{}`: {what} has no `{key}`", self.setting.path.value));
+        if self.pointer.is_empty() && document.get(&format!("/parameters/{}", escape(key))).is_some() {
+            return problem.with_help(format!("did you mean `parameters.{key}`?"));
+        }
         if known.is_empty() && self.lists().next().is_some() {
             return problem.with_help("it is a list; its entries are counted from 0");
         }

@@ -33,6 +33,11 @@ const REFUSED: &[(&str, &str)] = &[
   help: did you mean `spring`? keys: `spring`, `damping`, `rotation_deg`, `quaternion_wxyz`, `kind`, `pitch`, `torque`, `initial` and 6 more"#,
     ),
     (
+        "k=3",
+        r#"--set:1:1: error: `k`: a scene or experiment has no `k`
+  help: did you mean `parameters.k`?"#,
+    ),
+    (
         "stpe=0.1",
         r#"--set:1:1: error: `stpe`: a scene or experiment has no `stpe`
   help: did you mean `step`? keys: `step`, `seed`, `scene`, `sweep`, `title`, `integrator`, `parameters`, `description` and 16 more"#,

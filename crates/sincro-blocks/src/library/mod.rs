@@ -2,10 +2,12 @@
 //!
 //! [`all`] lists them with their descriptions; [`find`] gives the one of a name.
 
+pub mod adaptation;
 pub mod continuous;
 pub mod discrete;
 pub mod logic;
 pub mod maths;
+pub mod matrices;
 pub mod nonlinear;
 pub mod rotations;
 pub mod routing;
@@ -36,9 +38,11 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
     let shelves = [
         sources::SHELF,
         maths::SHELF,
+        matrices::SHELF,
         nonlinear::SHELF,
         continuous::SHELF,
         discrete::SHELF,
+        adaptation::SHELF,
         routing::SHELF,
         logic::SHELF,
         rotations::SHELF,

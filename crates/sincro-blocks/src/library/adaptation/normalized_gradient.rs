@@ -1,0 +1,114 @@
+//! `y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε`: the direction of a normalised gradient law.
+//!
+//! For a plant that is linear in unknown parameters, ε = Φ·(θ* − θ), the law θ ← θ + a·y lets (θ* − θ)ᵀΓ⁻¹(θ* − θ) fall for every
+//! a in (0, 2), however large Γ and Φ are: the normalisation I + ΦΓΦᵀ is what an un-normalised law Γ·Φᵀ·ε lacks.
+//! Source: Goodwin & Sin, *Adaptive Filtering, Prediction and Control*, section 3.3 (projection algorithm), for several outputs.
+//!
+//! Notation: Φ — regressor, m × n; ε — error, m; Γ — gain, n positive numbers; S = I + ΦΓΦᵀ — m × m, symmetric, eigenvalues ≥ 1.
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Ports, of};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::library::short_list;
+use crate::reader::Reader;
+
+/// Change of parameters that an error asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NormalizedGradient {
+    gain: Vec<f64>,
+}
+
+impl NormalizedGradient {
+    /// With the diagonal of Γ; one number stands for all.
+    ///
+    /// # Panics
+    ///
+    /// If one is not positive.
+    #[must_use]
+    pub fn new(gain: &[f64]) -> Self {
+        assert!(!gain.is_empty() && gain.iter().all(|g| *g > 0.0), "gains are positive");
+        Self { gain: gain.to_vec() }
+    }
+}
+
+impl Described for NormalizedGradient {
+    const KIND: &'static Kind = &Kind {
+        name: "normalized-gradient",
+        group: Group::Adaptation,
+        summary: "The change of unknown parameters that an error asks for, normalised so that it is stable with every gain.",
+        equation: "y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε, Γ = diag(gain), Φ = regressor, row by row",
+        parameters: &[Parameter::required(
+            "gain",
+            Takes::Numbers,
+            "diagonal of Γ, one number for every parameter or one for all, positive",
+        )],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        Self { gain: p.positives("gain") }
+    }
+}
+
+impl Block for NormalizedGradient {
+    type Work<R: Real> = Vec<R>;
+
+    fn ports(&self) -> Ports {
+        Ports::new(&["regressor", "error"], &["y"])
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let (Some(regressor), Some(error)) = (inputs[0], inputs[1]) else { return Ok(vec![None]) };
+        if regressor % error != 0 {
+            return Err(format!("`error` has {error} components, `regressor` {regressor}: no matrix of {error} rows"));
+        }
+        let n = regressor / error;
+        if self.gain.len() != 1 && self.gain.len() != n {
+            return Err(format!("`gain` has {} numbers, the regressor {n} columns", self.gain.len()));
+        }
+        Ok(vec![Some(n)])
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Vec<R>, y: &mut [R]) {
+        let (phi, error) = (at.input(0), at.input(1));
+        let (m, n) = (error.len(), y.len());
+        work.resize(m * m + m, R::zero());
+        let (s, x) = work.split_at_mut(m * m);
+        // S = I + ΦΓΦᵀ, lower triangle
+        for i in 0..m {
+            for j in 0..=i {
+                let products = (0..n).map(|k| phi[i * n + k] * R::splat(of(&self.gain, k)) * phi[j * n + k]);
+                let unit = if i == j { R::one() } else { R::zero() };
+                s[i * m + j] = products.fold(unit, |sum, product| sum + product);
+            }
+        }
+        x.copy_from_slice(error);
+        solve(s, x);
+        // y = ΓΦᵀx
+        for (k, y) in y.iter_mut().enumerate() {
+            let products = (0..m).map(|i| phi[i * n + k] * x[i]);
+            *y = R::splat(of(&self.gain, k)) * products.fold(R::zero(), |sum, product| sum + product);
+        }
+    }
+
+    fn label(&self) -> String {
+        format!("Γ = {}", short_list(&self.gain))
+    }
+}
+
+/// x ← S⁻¹·x by S = LLᵀ; S is overwritten.
+fn solve<R: Real>(s: &mut [R], x: &mut [R]) {
+    let m = x.len();
+    for i in 0..m {
+        for j in 0..=i {
+            let sum = (0..j).fold(s[i * m + j], |sum, k| sum - s[i * m + k] * s[j * m + k]);
+            s[i * m + j] = if i == j { sum.sqrt() } else { sum / s[j * m + j] };
+        }
+    }
+    for i in 0..m {
+        x[i] = (0..i).fold(x[i], |sum, k| sum - s[i * m + k] * x[k]) / s[i * m + i];
+    }
+    for i in (0..m).rev() {
+        x[i] = (i + 1..m).fold(x[i], |sum, k| sum - s[k * m + i] * x[k]) / s[i * m + i];
+    }
+}

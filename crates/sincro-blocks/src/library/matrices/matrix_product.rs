@@ -1,0 +1,92 @@
+//! `y = A·B` or `y = Aᵀ·B` of two signals.
+
+use sincro_math::Real;
+
+use crate::block::{At, Block, Ports};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+
+/// Multiplies two matrices, or a matrix and a vector, that come as signals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MatrixProduct {
+    rows: usize,
+    transposed: bool,
+}
+
+impl MatrixProduct {
+    /// Of a first factor with so many rows as it comes, taken transposed or not.
+    ///
+    /// # Panics
+    ///
+    /// If there are no rows.
+    #[must_use]
+    pub fn new(rows: usize, transposed: bool) -> Self {
+        assert!(rows > 0, "a matrix has a row");
+        Self { rows, transposed }
+    }
+
+    /// Rows and columns of the first factor as it is multiplied.
+    fn shape(self, width: usize) -> (usize, usize) {
+        let columns = width / self.rows;
+        if self.transposed { (columns, self.rows) } else { (self.rows, columns) }
+    }
+}
+
+impl Described for MatrixProduct {
+    const KIND: &'static Kind = &Kind {
+        name: "matrix-product",
+        group: Group::Matrices,
+        summary: "Multiplies a matrix by a matrix or vector, both signals; a matrix comes row by row.",
+        equation: "y = A·B, or y = Aᵀ·B if transposed",
+        parameters: &[
+            Parameter::required("rows", Takes::Count, "number of rows of A as it comes"),
+            Parameter::optional("transposed", Takes::Flag, "whether Aᵀ is taken in place of A", "false"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        Self { rows: p.positive_count("rows"), transposed: p.flag("transposed") }
+    }
+}
+
+impl Block for MatrixProduct {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::new(&["a", "b"], &["y"])
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let Some(a) = inputs[0] else { return Ok(vec![None]) };
+        if a % self.rows != 0 {
+            return Err(format!("`a` has {a} components: no matrix of {} rows", self.rows));
+        }
+        let (rows, columns) = self.shape(a);
+        match inputs[1] {
+            None => Ok(vec![None]),
+            Some(b) if b % columns != 0 => {
+                let name = if self.transposed { "aᵀ" } else { "a" };
+                Err(format!("`{name}` is {rows} × {columns}, `b` has {b} components: no matrix of {columns} rows"))
+            }
+            Some(b) => Ok(vec![Some(rows * (b / columns))]),
+        }
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        let (a, b) = (at.input(0), at.input(1));
+        let (rows, inner) = self.shape(a.len());
+        let columns = b.len() / inner;
+        // a[i, k] of the factor as it is multiplied
+        let (down, along) = if self.transposed { (1, rows) } else { (inner, 1) };
+        for (i, row) in y.chunks_exact_mut(columns).enumerate() {
+            for (j, y) in row.iter_mut().enumerate() {
+                let products = (0..inner).map(|k| a[i * down + k * along] * b[k * columns + j]);
+                *y = products.fold(R::zero(), |sum, product| sum + product);
+            }
+        }
+    }
+
+    fn label(&self) -> String {
+        if self.transposed { "Aᵀ·B" } else { "A·B" }.into()
+    }
+}
