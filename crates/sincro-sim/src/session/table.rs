@@ -216,7 +216,7 @@ impl Table {
                     let at = of_frame().unwrap_or(beside);
                     (Kind::Frame, at, at)
                 }
-                ObjectKind::Force => (Kind::Force, beside, beside),
+                ObjectKind::Force | ObjectKind::Drag => (Kind::Force, beside, beside),
                 ObjectKind::Rotor => (Kind::Rotor, beside, beside),
             };
             let (name, path) = (object.name.clone(), object.path.clone());
