@@ -33,6 +33,7 @@ use crate::experiment::{Experiment, Integrator};
 use crate::load::Loaded;
 use crate::problem::Problems;
 use crate::record::Recorder;
+use crate::replay::Tape;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::scene::Scene;
 use crate::table::{CsvWriter, Table};
@@ -57,6 +58,8 @@ pub struct Simulated {
     pub method: MethodKind,
     /// Hash of the states of all ticks.
     pub trace: Trace,
+    /// Frames to show it again, if they were asked for.
+    pub tape: Option<Tape>,
     /// The balance of energy.
     pub energy: EnergyReport,
     /// Sub-steps and events.
@@ -82,6 +85,8 @@ pub struct Manner<'a> {
     pub csv: Option<&'a Path>,
     /// Whether it is the finer run of an error estimate.
     pub refined: bool,
+    /// Whether frames are taken to show it again.
+    pub films: bool,
 }
 
 /// Why a run could not even be made.
@@ -241,6 +246,8 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
     let mut csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
 
+    let mut tape = manner.films.then(|| Tape::new(&scene.model, experiment));
+
     let clock = Instant::now();
     let mut lockstep = LockStep::new(loaded, method, manner.refined);
     let mut ledger = Ledger::start(lockstep.world());
@@ -252,9 +259,16 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
         table.push_row(row);
         csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
     };
+    let mut film = |lockstep: &mut LockStep, tick: u64, is_last: bool| {
+        if let Some(tape) = tape.as_mut().filter(|tape| tape.is_due(tick) || is_last) {
+            let t = tick as f64 * experiment.step;
+            tape.look(&lockstep.observe(t).0, tick, t);
+        }
+    };
     let mut status = Status::Completed;
     let first = lockstep.start();
     publish(&mut lockstep, 0.0, true)?;
+    film(&mut lockstep, 0, false);
     if let Err(halt) = first {
         status = halt.explain(&mut lockstep, experiment, method);
     }
@@ -272,6 +286,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
         if (tick + 1) % experiment.record_every == 0 || advanced.is_err() {
             publish(&mut lockstep, now, false)?;
         }
+        film(&mut lockstep, tick + 1, advanced.is_err() || tick + 1 == experiment.n_steps);
         if let Err(halt) = advanced {
             status = halt.explain(&mut lockstep, experiment, method);
             break;
@@ -290,7 +305,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let wall_time = clock.elapsed().as_secs_f64();
     let world = lockstep.world();
     let energy = ledger.close(world);
-    Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
+    Ok(Simulated { table, status, method, trace, tape, energy, effort: world.effort(), warnings, wall_time })
 }
 
 /// Follows the balance of energy.
