@@ -16,6 +16,11 @@ export function format(x: number | null | undefined, digits = 4): string {
   return x.toFixed(Math.min(decimals, 12)).replace("-", "−");
 }
 
+/** A round number without zeros at its end: for axes and for what stands in files. */
+export function plain(x: number): string {
+  return x !== 0 && (Math.abs(x) >= 1e6 || Math.abs(x) < 1e-4) ? format(x, 6) : String(+x.toPrecision(9)).replace("-", "−");
+}
+
 /** As many digits as bring the number back. */
 export function exact(x: number): string {
   return String(x);

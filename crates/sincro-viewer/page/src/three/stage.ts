@@ -1,7 +1,7 @@
 // The picture: camera, light, ground, and what the reader does with the mouse.
 
 import {
-  AxesHelper, Box3, Color, DirectionalLight, GridHelper, HemisphereLight, Mesh, PCFSoftShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
+  AxesHelper, Box3, Color, DirectionalLight, GridHelper, HemisphereLight, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
   Scene, ShadowMaterial, Vector2, Vector3, WebGLRenderer, type Material, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -31,6 +31,8 @@ export class Stage {
   private readonly overlays: Overlays;
   private readonly legend = el("div", { class: "sv-legend" });
   private isStale = true;
+  /** The reader has turned the camera, or named one. */
+  private wasMoved = false;
   private followed = new Vector3();
   /** Size of all that happens [m], and its middle. */
   private bounds = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
@@ -42,13 +44,25 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => (this.isStale = true));
+    this.controls.addEventListener("start", () => (this.wasMoved = true));
     this.overlays = new Overlays(session, this.scene);
     if (this.renderer) this.node.append(this.renderer.domElement, this.legend);
     else this.node.append(el("p", { class: "sv-nogl", text: "This browser shows no WebGL: the 3-D view is missing, everything else works." }));
     this.light();
     this.listen();
     this.rebuild();
+    this.followFar();
     this.frame("perspective");
+  }
+
+  /** What is small against its own way is followed from the start. */
+  private followFar(): void {
+    const flight = this.bounds.getSize(new Vector3()).length();
+    const body = this.session.view.objects.findIndex((o) => o.kind === "body" && o.mover !== null);
+    if (body < 0 || flight < 5 * this.main.size) return;
+    this.session.follow = true;
+    this.session.select(body);
+    this.session.tell("shown");
   }
 
   /** Draws if anything has changed. */
@@ -60,6 +74,7 @@ export class Stage {
       this.renderer.setSize(w, h, false);
       this.camera.aspect = w / h;
       this.camera.updateProjectionMatrix();
+      if (size.x !== w && !this.wasMoved) this.frame("perspective");
       this.isStale = true;
     }
     if (!this.isStale) return;
@@ -72,17 +87,29 @@ export class Stage {
   frame(name: string): void {
     const [, direction] = CAMERAS.find(([known]) => known === name) ?? (CAMERAS[0] as (typeof CAMERAS)[number]);
     const center = this.bounds.getCenter(new Vector3());
-    const radius = Math.max(this.bounds.getSize(new Vector3()).length() / 2, 1e-3);
+    let box = this.bounds;
     if (this.session.follow && this.session.selected !== null) {
       center.copy(this.main.position(this.session.selected));
-      this.look(center, direction, 1.6 * this.main.size);
-    } else this.look(center, direction, radius);
+      box = new Box3().setFromCenterAndSize(center, new Vector3(1, 1, 1).multiplyScalar(2 * this.main.size));
+    }
+    this.look(center, direction, box);
   }
 
-  private look(center: Vector3, direction: [number, number, number], radius: number): void {
-    const fit = Math.min(1, this.camera.aspect || 1);
-    const distance = (1.12 * radius) / (Math.sin((this.camera.fov * Math.PI) / 360) * fit);
-    this.camera.position.copy(center).addScaledVector(new Vector3(...direction).normalize(), distance);
+  /** As near as the whole box stays in the picture. */
+  private look(center: Vector3, direction: [number, number, number], box: Box3): void {
+    const back = new Vector3(...direction).normalize();
+    const right = new Vector3(0, 0, 1).cross(back).normalize();
+    const up = back.clone().cross(right);
+    const tall = Math.tan((this.camera.fov * Math.PI) / 360);
+    const wide = tall * (this.camera.aspect || 1);
+    let distance = 1e-3;
+    for (let k = 0; k < 8; k++) {
+      const corner = new Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z).sub(center);
+      const depth = corner.dot(back);
+      distance = Math.max(distance, Math.abs(corner.dot(right)) / wide + depth, Math.abs(corner.dot(up)) / tall + depth);
+    }
+    distance *= 1.12;
+    this.camera.position.copy(center).addScaledVector(back, distance);
     this.camera.near = distance / 500;
     this.camera.far = distance * 60;
     this.camera.updateProjectionMatrix();
@@ -140,7 +167,7 @@ export class Stage {
     const size = this.bounds.getSize(new Vector3());
     const span = Math.max(size.x, size.y, 0.6 * size.z, this.main.size);
     const cell = nice(span / 8);
-    const low = this.bounds.min.z < -1e-6 * span ? Math.floor(this.bounds.min.z / cell) * cell : 0;
+    const low = this.bounds.min.z < -0.12 * this.main.size ? Math.floor(this.bounds.min.z / cell) * cell : 0;
     const n = 2 * Math.ceil((1.6 * span) / cell);
     const center = this.bounds.getCenter(new Vector3());
     const [x, y] = [Math.round(center.x / cell) * cell, Math.round(center.y / cell) * cell];
@@ -150,7 +177,7 @@ export class Stage {
     const floor = new Mesh(new PlaneGeometry(n * cell, n * cell), new ShadowMaterial({ opacity: isDark ? 0.45 : 0.16 }));
     floor.position.set(x, y, low - 1e-4 * span);
     floor.receiveShadow = true;
-    this.axes.scale.setScalar(0.7 * cell);
+    this.axes.scale.setScalar(1.4 * cell);
     (this.axes.material as Material).depthTest = true;
     this.ground = [grid, floor];
     this.scene.add(grid, floor, this.axes);
@@ -242,7 +269,7 @@ function makeRenderer(): WebGLRenderer | null {
     const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.shadowMap.enabled = true;
-    renderer.shadowMap.type = PCFSoftShadowMap;
+    renderer.shadowMap.type = PCFShadowMap;
     return renderer;
   } catch {
     return null;

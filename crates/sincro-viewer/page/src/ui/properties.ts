@@ -1,7 +1,7 @@
 // The side panel: what the selected object is, where it is now, and its numbers; while a live run stands still they can be changed.
 
 import { Quaternion, Vector3 } from "three";
-import { el, format } from "../format";
+import { el, format, plain } from "../format";
 import type { ObjectView, Property } from "../film";
 import type { Session } from "../session";
 import type { Link } from "../link";
@@ -93,7 +93,7 @@ function table(session: Session, list: Property[]): HTMLElement {
           type: "text", inputmode: "decimal", value: edited ?? String(property.value), "aria-label": property.path, spellcheck: "false", class: edited === undefined ? "" : "sv-edited",
           onchange: (event) => change(session, link, property, event.target as HTMLInputElement),
         })
-      : el("span", { text: edited ?? format(property.value, 6) });
+      : el("span", { text: edited ?? plain(property.value) });
     return el("tr", { title: property.about, class: edited !== undefined && edited !== String(property.value) ? "sv-changed" : "" },
       el("th", { scope: "row", text: property.key }), el("td", {}, cell), el("td", { class: "sv-unit", text: property.unit }));
   });

@@ -1,7 +1,7 @@
 // One plot: recorded signals of one unit over time, references and other runs over them, the time that is shown as a line.
 
 import uPlot from "uplot";
-import { el, exact, format, save } from "../format";
+import { el, exact, format, plain, save } from "../format";
 import type { Run } from "../run";
 import type { Session } from "../session";
 
@@ -66,8 +66,8 @@ export class Scope {
         cursor: { drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
         scales: { x: { time: false } },
         axes: [
-          { ...axis, values: (_, at) => at.map((t) => (t === null ? "" : `${format(t, 6)} s`)), space: 70, size: 28 },
-          { ...axis, values: (_, at) => at.map((y) => (y === null ? "" : format(y, 5))), size: 62, label: unit ? `[${unit}]` : "", labelSize: 18, labelFont: axis.font },
+          { ...axis, values: (_, at) => at.map((t) => (t === null ? "" : `${plain(t)} s`)), space: 70, size: 28 },
+          { ...axis, values: (_, at) => at.map((y) => (y === null ? "" : plain(y))), size: 62, label: unit ? `[${unit}]` : "", labelSize: 18, labelFont: axis.font },
         ],
         series: [
           { label: "t", value: (_, t) => (t === null || t === undefined ? "–" : `${exact(t)} s`) },

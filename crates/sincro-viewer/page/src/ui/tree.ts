@@ -3,7 +3,7 @@
 import { el } from "../format";
 import type { Session } from "../session";
 
-const SYMBOLS: Record<string, string> = { body: "◼", frame: "⌖", force: "↗", rotor: "✣" };
+const SYMBOLS: Record<string, string> = { body: "■", frame: "+", force: "→", rotor: "✕" };
 
 export function tree(session: Session): HTMLElement {
   const list = el("ul", { class: "sv-tree", role: "tree", "aria-label": "Objects" });
@@ -35,7 +35,7 @@ export function tree(session: Session): HTMLElement {
           onkeydown: (event) => {
             if ((event as KeyboardEvent).key === "Enter") session.select(k);
           },
-        }, fold, el("span", { class: "sv-symbol", "aria-hidden": "true", text: SYMBOLS[object.kind] ?? "⟲" }), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
+        }, fold, el("span", { class: "sv-symbol", "aria-hidden": "true", text: SYMBOLS[object.kind] ?? "○" }), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
       );
     });
     list.replaceChildren(...items);
