@@ -14,6 +14,7 @@ mod load;
 pub mod overrides;
 pub mod problem;
 pub mod record;
+pub mod replay;
 pub mod results;
 pub mod rollout;
 pub mod run;

@@ -100,7 +100,8 @@ fn a_run_writes_what_the_contract_says() {
     }
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("A &lt;pendulum&gt; &amp; more") && !page.contains("<pendulum>"));
-    assert!(!page.contains("src=\"http") && !page.contains("href=\"http") && !page.contains("<script"));
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http") && !page.contains("<script src"));
+    assert!(page.contains("id=\"sincro-film\"") && out.join("replay.json").is_file());
     assert!(fs::read_dir(out.join("figures")).unwrap().count() >= 2);
     assert!(!out.join("signals.csv.partial").exists());
 }

@@ -95,6 +95,12 @@ impl<R: Real> Link<R> {
         (self.parent != WORLD).then_some(self.parent as usize)
     }
 
+    /// First degree of freedom in v of the stage that joins it to its parent.
+    #[must_use]
+    pub fn first_dof(&self) -> usize {
+        self.v_idx as usize
+    }
+
     /// Whether the link moves freely against its parent.
     pub fn is_free(&self) -> bool {
         self.kind == StageKind::Free

@@ -181,15 +181,7 @@ impl Recorder {
             }
             Probe::FrictionTorque(k) => seen.friction_torque(k),
             probe => {
-                let view = View {
-                    t,
-                    model: seen.model(),
-                    q: &state.q,
-                    v: &state.v,
-                    rotors: &state.rotors,
-                    commands: &state.commands,
-                    scratch: seen.scratch(),
-                };
+                let view = View::observed(seen, t);
                 let response = Response { accelerations: seen.accelerations, motor_torque: seen.motor_torque() };
                 let value = probe::of_state(&view, probe).or_else(|| probe::of_response(&view, response, probe));
                 value.expect("what is neither of the state nor of its response is read above")

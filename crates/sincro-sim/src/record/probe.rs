@@ -2,12 +2,14 @@
 
 use sincro_dynamics::attachment::{Response, Seen};
 use sincro_dynamics::energy::{energy, momentum};
-use sincro_dynamics::force::rotor::Validity;
+use sincro_dynamics::force::rotor::{Hub, Load, Validity};
 use sincro_dynamics::force::{damper, spring};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::Observation;
 use sincro_math::Real;
 
 use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
@@ -33,6 +35,14 @@ impl<'a, R> View<'a, R> {
     pub fn of(seen: &'a Seen<'_, R>) -> Self {
         let &Seen { t, model, q, v, rotors, commands, ref scratch } = seen;
         Self { t, model, q, v, rotors, commands, scratch }
+    }
+}
+
+impl<'a> View<'a, f64> {
+    /// Of a world that is observed.
+    pub fn observed(seen: &'a Observation<'_>, t: f64) -> Self {
+        let State { q, v, rotors, commands, .. } = seen.state;
+        Self { t, model: seen.model(), q, v, rotors, commands, scratch: seen.scratch() }
     }
 }
 
@@ -87,22 +97,27 @@ pub(crate) fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuant
     quantity != RotorQuantity::Speed && model.rotors()[rotor].speed.follows_at_once()
 }
 
-fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
+/// Speed and load of a rotor, and how the air meets it.
+pub(crate) fn rotor<'a, R: Real>(at: &View<'a, R>, k: usize) -> (R, Load<R>, Hub<'a, R>) {
     let rotor = &at.model.rotors()[k];
     let speed = rotor.speed.value(at.v, at.commands, at.rotors);
-    if quantity == RotorQuantity::Speed {
-        return speed;
-    }
     let air = at.model.wind().map(|wind| wind.at(at.t));
     let hub = rotor.hub(&at.scratch.twist(rotor.link), &at.scratch.link_poses()[rotor.link], air.as_ref());
-    let load = rotor.load(speed, at.rotors, &hub);
+    (speed, rotor.load(speed, at.rotors, &hub), hub)
+}
+
+fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
+    if quantity == RotorQuantity::Speed {
+        return at.model.rotors()[k].speed.value(at.v, at.commands, at.rotors);
+    }
+    let (speed, load, hub) = rotor(at, k);
     match quantity {
         RotorQuantity::Speed => speed,
         RotorQuantity::Thrust => load.thrust,
         RotorQuantity::Torque => load.torque,
         RotorQuantity::Inflow => load.inflow,
         RotorQuantity::Power => load.power,
-        RotorQuantity::Valid => match rotor.validity(speed, &hub, &load) {
+        RotorQuantity::Valid => match at.model.rotors()[k].validity(speed, &hub, &load) {
             Validity::Valid => R::one(),
             _ => R::zero(),
         },

@@ -11,6 +11,7 @@ use crate::diagram::Controller;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use crate::load::{Loaded, load};
 use crate::overrides::Override;
+use crate::replay::SceneView;
 use crate::results::{
     CheckReport, ColumnReport, Override as Setting, RunReport, Settings, Status, SweepReport, VariantReport,
 };
@@ -33,6 +34,8 @@ pub struct Done {
     pub model_hash: String,
     /// Its diagram, if it has one.
     pub controller: Option<Controller>,
+    /// Its scene, to be shown.
+    pub view: SceneView,
 }
 
 /// Everything that came out.
@@ -117,7 +120,7 @@ fn one_run(
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
     let mut watch = Watch { interrupt, progress: &mut tell };
-    let simulated = simulate(loaded, Manner { csv, refined: false }, &mut watch)?;
+    let simulated = simulate(loaded, Manner { csv, refined: false, films: true }, &mut watch)?;
     let columns = match simulated.status {
         Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
         _ => ColumnReport::of_table(&simulated.table),
@@ -137,7 +140,8 @@ fn one_run(
     let settings = settings(experiment, &simulated);
     let model_hash = model_hash(&scene.model);
     let controller = loaded.controller.clone();
-    Ok(Done { simulated, columns, outcomes, settings, model_hash, controller })
+    let view = SceneView::new(scene);
+    Ok(Done { simulated, columns, outcomes, settings, model_hash, controller, view })
 }
 
 fn settings(experiment: &Experiment, run: &Simulated) -> Settings {

@@ -32,6 +32,7 @@ pub use trace::{Trace, model_hash, plant_hash};
 use crate::experiment::{Experiment, Integrator};
 use crate::load::Loaded;
 use crate::problem::Problems;
+use crate::replay::Tape;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::scene::Scene;
 use crate::table::Table;
@@ -56,6 +57,8 @@ pub struct Simulated {
     pub method: MethodKind,
     /// Hash of the states of all ticks.
     pub trace: Trace,
+    /// Frames to show it again, if they were asked for.
+    pub tape: Option<Tape>,
     /// The balance of energy.
     pub energy: EnergyReport,
     /// Sub-steps and events.
@@ -81,6 +84,8 @@ pub struct Manner<'a> {
     pub csv: Option<&'a Path>,
     /// Whether it is the finer run of an error estimate.
     pub refined: bool,
+    /// Whether frames are taken to show it again.
+    pub films: bool,
 }
 
 /// Why a run could not even be made.

@@ -10,6 +10,7 @@ use super::{Manner, RunError, Simulated, Trace};
 use crate::diagram::Controller;
 use crate::load::Loaded;
 use crate::record::Recorder;
+use crate::replay::Tape;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::table::{CsvWriter, Table};
 
@@ -18,6 +19,7 @@ pub(crate) struct Recording {
     recorder: Recorder,
     table: Table,
     csv: Option<CsvWriter>,
+    tape: Option<Tape>,
     ledger: Ledger,
     trace: Trace,
     record_every: u64,
@@ -40,10 +42,11 @@ impl Recording {
         let table = Table::new(recorder.columns(), rows as usize);
         let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
         let csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
+        let tape = manner.films.then(|| Tape::new(&scene.model, experiment));
         let clock = Instant::now();
         let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
-        Ok(Self { recorder, table, csv, ledger, trace, record_every, last_tick, clock })
+        Ok(Self { recorder, table, csv, tape, ledger, trace, record_every, last_tick, clock })
     }
 
     /// Hash of the states so far.
@@ -57,7 +60,9 @@ impl Recording {
     ///
     /// The CSV file cannot be written.
     pub fn start(&mut self, lockstep: &mut LockStep) -> Result<(), FileError> {
-        self.publish(lockstep, true)
+        self.publish(lockstep, true)?;
+        self.film(lockstep, false);
+        Ok(())
     }
 
     /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be.
@@ -71,7 +76,15 @@ impl Recording {
         if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
             self.publish(lockstep, false)?;
         }
+        self.film(lockstep, is_last || tick == self.last_tick);
         Ok(())
+    }
+
+    fn film(&mut self, lockstep: &mut LockStep, is_last: bool) {
+        let (tick, t) = (lockstep.tick(), lockstep.t());
+        if let Some(tape) = self.tape.as_mut().filter(|tape| tape.is_due(tick) || is_last) {
+            tape.look(&lockstep.observe(t).0, tick, t);
+        }
     }
 
     fn publish(&mut self, lockstep: &mut LockStep, is_start: bool) -> Result<(), FileError> {
@@ -95,12 +108,12 @@ impl Recording {
         method: MethodKind,
         warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
-        let Self { table, csv, ledger, trace, clock, .. } = self;
+        let Self { table, csv, tape, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let wall_time = clock.elapsed().as_secs_f64();
         let world = lockstep.world();
         let energy = ledger.close(world);
-        Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
+        Ok(Simulated { table, status, method, trace, tape, energy, effort: world.effort(), warnings, wall_time })
     }
 }
 

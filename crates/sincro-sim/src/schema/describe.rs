@@ -107,7 +107,7 @@ pub(super) fn quoted(names: &[&str]) -> String {
 }
 
 /// The description of a value: its own, or that of its type.
-pub(super) fn description<'s>(root: &'s Value, schema: &'s Value) -> &'s str {
+pub(crate) fn description<'s>(root: &'s Value, schema: &'s Value) -> &'s str {
     let own = schema.get("description").and_then(Value::as_str);
     let of_type = || alternatives(root, schema).first().and_then(|c| c.get("description")).and_then(Value::as_str);
     own.or_else(of_type).unwrap_or("")
@@ -115,6 +115,11 @@ pub(super) fn description<'s>(root: &'s Value, schema: &'s Value) -> &'s str {
 
 /// The units in brackets in a description, such as `N·m/rad or N/m`.
 fn unit(description: &str) -> String {
+    units(description).join(" or ")
+}
+
+/// The units in brackets in a description, one by one.
+pub(crate) fn units(description: &str) -> Vec<&str> {
     let mut units = Vec::new();
     let mut rest = description;
     while let Some((_, after)) = rest.split_once('[') {
@@ -122,7 +127,7 @@ fn unit(description: &str) -> String {
         units.push(unit);
         rest = after;
     }
-    units.join(" or ")
+    units
 }
 
 #[cfg(test)]

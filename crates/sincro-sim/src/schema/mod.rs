@@ -12,6 +12,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 
+pub(crate) use describe::{description, units};
 pub(crate) use validate::validate;
 
 use crate::diagram::DiagramFile;

@@ -75,7 +75,14 @@ pub(crate) fn draw(diagram: &Diagram, options: &Options) -> String {
         }
         canvas.text.push_str(&format!("<g transform=\"translate(0 {})\">\n", height + heading));
         for (net, run) in graph.nets.iter().zip(&layout.runs) {
-            wire::draw(&mut canvas, run, is_wide(&graph, net, &figure.path, options));
+            let is_wide = is_wide(&graph, net, &figure.path, options);
+            if options.is_inline {
+                canvas.text.push_str(&carrier(&graph, net, &figure.path, run.start));
+                wire::draw(&mut canvas, run, is_wide);
+                canvas.close();
+            } else {
+                wire::draw(&mut canvas, run, is_wide);
+            }
         }
         for ((node, outline), extent) in graph.nodes.iter().zip(&layout.outlines).zip(&heights.extents) {
             shape::draw(&mut canvas, node, outline, extent);
@@ -104,6 +111,17 @@ fn figures<'a>(diagram: &'a Diagram, options: &Options) -> Vec<Figure<'a>> {
         next += 1;
     }
     all
+}
+
+/// Opens the group of a wire within a page: which signal it carries (`block.port`, or `block` where it has one output), and where it starts.
+fn carrier(graph: &Graph, net: &graph::Net, path: &str, (x, y): route::Point) -> String {
+    let node = &graph.nodes[net.from.node];
+    let port = &node.outputs[net.from.port].name;
+    let (signal, block) = match node.shape {
+        graph::Shape::World => (port.clone(), String::new()),
+        _ => (format!("{path}{}.{port}", node.name), format!("{path}{}", node.name)),
+    };
+    format!("<g data-signal=\"{}\" data-block=\"{}\" data-at=\"{x} {y}\">\n", escape(&signal), escape(&block))
 }
 
 fn is_wide(graph: &Graph, net: &graph::Net, path: &str, options: &Options) -> bool {

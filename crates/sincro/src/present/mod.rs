@@ -7,11 +7,12 @@ use std::path::Path;
 use sincro_sim::Loaded;
 use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
 use sincro_sim::run::Campaign;
+use sincro_viewer::film::Film;
 
 use crate::plot::{self, Figure, Size};
 use crate::report::{self, Card, CheckRow, CheckVerdict, Energy, Page, SignalRow, Stop};
 
-/// Writes `report.html` and the figures as SVG files into a results folder.
+/// Writes `report.html`, `replay.json` and the figures as SVG files into a results folder.
 ///
 /// # Errors
 ///
@@ -29,7 +30,16 @@ pub(crate) fn write(
         let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
         write_text(&folder.join(name), &plot::svg(figure, Size::wide(figure)))?;
     }
-    write_text(&out.join("report.html"), &report::html(&page(loaded, campaign, figures, up)))
+    let film = film(loaded, campaign).to_json();
+    write_text(&out.join("replay.json"), &film)?;
+    let replay = sincro_viewer::embed::replay(&film);
+    write_text(&out.join("report.html"), &report::html(&Page { replay, ..page(loaded, campaign, figures, up) }))
+}
+
+/// What the viewer shows of a campaign.
+pub(crate) fn film(loaded: &Loaded, campaign: &Campaign) -> Film {
+    let draw = |controller| crate::commands::draw::drawing(controller, "", &campaign.report.scene, true);
+    Film::of_campaign(loaded, campaign, loaded.controller.as_ref().map(draw))
 }
 
 /// Writes a text file, whole or not at all.
@@ -82,6 +92,7 @@ fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(
         up,
         stop: stop(&report.status),
         warnings: warnings(campaign),
+        replay: String::new(),
         figures,
         diagrams: diagrams(loaded, campaign),
         checks: checks(campaign),

@@ -1,6 +1,6 @@
 //! The pages of sincro: `report.html` of one run, and the index of `sincro reproduce`.
 //!
-//! Each is one self-contained file: styles and figures inline, no script, nothing fetched. It follows the reader's light or
+//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched; only the replay is a script. It follows the reader's light or
 //! dark preference, prints in black and white on A4, and fits a phone. [`Page`] and [`IndexPage`] are plain data; whoever
 //! fills them need not know any HTML. All text in them may come from a scene: it is escaped by [`crate::plot::escape`].
 //!
@@ -28,6 +28,8 @@ pub(crate) struct Page {
     pub(crate) stop: Option<Stop>,
     /// What the reader should know before trusting the numbers; shown right under the verdict.
     pub(crate) warnings: Vec<String>,
+    /// The replay as HTML with its program; may be empty.
+    pub(crate) replay: String,
     /// Drawn in order, each over the full width.
     pub(crate) figures: Vec<Figure>,
     /// Block diagrams as SVG for a page, each with its title.

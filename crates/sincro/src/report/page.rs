@@ -13,6 +13,7 @@ pub(super) fn html(page: &Page) -> String {
     let checks = if checks.is_empty() { checks } else { checks + CHECKS_KEY };
     let body = [
         header(page),
+        section("Replay", &page.replay),
         figures,
         section(if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, &diagrams(&page.diagrams)),
         section("Checks", &checks),

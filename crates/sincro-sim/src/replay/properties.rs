@@ -1,0 +1,191 @@
+//! Every number that stands in the files of a scene, with the path by which a setting reaches it.
+//!
+//! What the viewer offers for editing is what `--set` takes: one list, from the documents themselves, so that a key that is added to the format is
+//! there without a word here.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::document::Document;
+use crate::load::Loaded;
+use crate::overrides::{Override, Target, apply_all};
+use crate::schema::{alternatives, description, experiment_schema, property, scene_schema, units};
+use crate::tree;
+
+/// A number of a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Property {
+    /// Path of the object that it belongs to, `/` for the scene itself, `experiment`, or `diagram/BLOCK`.
+    pub owner: String,
+    /// As `--set` takes it: `/arm/link.mass`.
+    pub path: String,
+    /// What is behind the owner: `mass`, `inertia.xx`.
+    pub key: String,
+    /// Its value.
+    pub value: f64,
+    /// Its unit; empty if the format says none.
+    pub unit: String,
+    /// What it is; may be empty.
+    pub about: String,
+}
+
+/// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment, diagram.
+#[must_use]
+pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
+    let mut found = Vec::new();
+    let parsed = |name: &str, target: Target| {
+        let source = loaded.sources.iter().find(|s| s.path.file_name().is_some_and(|file| file == name))?;
+        let mut document = Document::parse(source).ok()?;
+        let problems = apply_all(&mut document, target, settings);
+        (!problems.any_error()).then_some(document)
+    };
+    let Some(experiment) = parsed("experiment.toml", Target::Experiment) else { return found };
+    let file_of = |key: &str| experiment.text(&format!("/{key}")).map(|name| base_name(name).to_owned());
+    let scene = file_of("scene").unwrap_or_else(|| "scene.toml".into());
+    if let Some(scene) = parsed(&scene, Target::Scene) {
+        of_scene(&scene, &mut found);
+    }
+    of_experiment(&experiment, &mut found);
+    if let Some(diagram) = file_of("diagram").and_then(|name| parsed(&name, Target::Diagram)) {
+        of_diagram(&diagram, &mut found);
+    }
+    found
+}
+
+fn base_name(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
+}
+
+fn of_scene(document: &Document, found: &mut Vec<Property>) {
+    let schema = scene_schema();
+    let mut world = Walk { root: schema, owner: "/", prefix: "", second_unit: false, found };
+    for key in ["gravity", "air_density"] {
+        if let Some(value) = document.root.get(key) {
+            world.value(value, property_of(schema, schema, key), key);
+        }
+    }
+    for object in tree::raw_objects(document) {
+        let list = object.pointer.split('/').nth(1).unwrap_or("");
+        let (Some(Value::Object(table)), items) = (document.get(&object.pointer), &schema["properties"][list]["items"])
+        else {
+            continue;
+        };
+        let prefix = format!("{}.", object.path);
+        let slides = table.get("kind").and_then(Value::as_str) == Some("prismatic");
+        let mut walk = Walk { root: schema, owner: &object.path, prefix: &prefix, second_unit: slides, found };
+        for (key, value) in table {
+            walk.value(value, property_of(schema, items, key), key);
+        }
+    }
+}
+
+fn of_experiment(document: &Document, found: &mut Vec<Property>) {
+    let schema = experiment_schema();
+    let mut walk = Walk { root: schema, owner: "experiment", prefix: "", second_unit: false, found };
+    for key in ["duration", "step", "accuracy", "parameters"] {
+        if let Some(value) = document.root.get(key) {
+            walk.value(value, property_of(schema, schema, key), key);
+        }
+    }
+}
+
+fn of_diagram(document: &Document, found: &mut Vec<Property>) {
+    let blocks = document.root.get("block").and_then(Value::as_array);
+    for block in blocks.into_iter().flatten() {
+        let (Some(name), Value::Object(table)) = (block.get("name").and_then(Value::as_str), block) else { continue };
+        let (owner, prefix) = (format!("diagram/{name}"), format!("diagram.{name}."));
+        let mut walk = Walk { root: &Value::Null, owner: &owner, prefix: &prefix, second_unit: false, found };
+        for (key, value) in table {
+            walk.value(value, None, key);
+        }
+    }
+}
+
+/// The schema of a key, whichever of the alternatives knows it.
+fn property_of<'s>(root: &'s Value, schema: &'s Value, key: &str) -> Option<&'s Value> {
+    alternatives(root, schema).into_iter().find_map(|table| property(table, key))
+}
+
+/// A walk through the values of one owner.
+struct Walk<'a> {
+    root: &'a Value,
+    owner: &'a str,
+    /// What stands before the key in a path.
+    prefix: &'a str,
+    /// Whether of two units the second one holds: that of what slides.
+    second_unit: bool,
+    found: &'a mut Vec<Property>,
+}
+
+impl Walk<'_> {
+    fn value(&mut self, value: &Value, schema: Option<&Value>, key: &str) {
+        match value {
+            Value::Number(number) => self.number(number.as_f64().unwrap_or(f64::NAN), schema, key),
+            Value::Array(list) => {
+                for (k, entry) in list.iter().enumerate() {
+                    // the description of a list says what its entries are
+                    let inner = schema.and_then(|s| {
+                        let choices = alternatives(self.root, s).into_iter();
+                        choices.filter_map(|choice| choice.get("items")).find(|items| items.get("$ref").is_some())
+                    });
+                    self.value(entry, inner.or(schema), &format!("{key}.{k}"));
+                }
+            }
+            Value::Object(table) => {
+                for (name, entry) in table {
+                    let inner = schema.and_then(|s| property_of(self.root, s, name));
+                    self.value(entry, inner, &format!("{key}.{name}"));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn number(&mut self, value: f64, schema: Option<&Value>, key: &str) {
+        let about = schema.map_or("", |schema| description(self.root, schema));
+        let units = units(about);
+        let unit = units.get(usize::from(self.second_unit)).or(units.first()).copied().unwrap_or("");
+        self.found.push(Property {
+            owner: self.owner.to_owned(),
+            path: format!("{}{key}", self.prefix),
+            key: key.to_owned(),
+            value,
+            unit: unit.to_owned(),
+            about: about.to_owned(),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::load;
+
+    #[test]
+    fn every_number_on_offer_can_be_set() {
+        for scene in ["quadrotor-open-loop", "two-dof-position", "flexible-open-loop"] {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
+            let all = properties(&load(&folder, &[]).unwrap(), &[]);
+            assert!(all.len() > 10, "{scene}: {}", all.len());
+            for one in &all {
+                let same = Override::new(&one.path, &format!("{:?}", one.value));
+                let loaded = load(&folder, std::slice::from_ref(&same)).unwrap_or_else(|p| panic!("{}: {p}", one.path));
+                assert_eq!(properties(&loaded, &[same]), all, "{}", one.path);
+            }
+        }
+    }
+
+    #[test]
+    fn units_are_those_of_the_format() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/quadrotor-open-loop");
+        let all = properties(&load(&folder, &[]).unwrap(), &[]);
+        let unit = |path: &str| all.iter().find(|p| p.path == path).map(|p| p.unit.as_str());
+        assert_eq!(unit("/air/quadrotor.mass"), Some("kg"));
+        assert_eq!(unit("/air/quadrotor.inertia.xx"), Some("kg·m²"));
+        assert_eq!(unit("/air/quadrotor/rotor1.blade.radius"), Some("m"));
+        assert_eq!(unit("gravity.2"), Some("m/s²"));
+        assert_eq!(unit("step"), Some("s"));
+    }
+}

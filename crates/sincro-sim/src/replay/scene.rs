@@ -1,0 +1,223 @@
+//! The objects of a scene as plain data: what stands where, how it moves, what it looks like.
+//!
+//! Poses are seven numbers: position `[m]`, then the quaternion x, y, z, w, as pictures want it. An object rides on a *mover*: the link of the
+//! joint of that index in the model, whose pose is in the frames; what is fixed in the world has none.
+
+use serde::Serialize;
+use sincro_dynamics::force::rotor::{RotorLaw, Spin};
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::kinematics;
+use sincro_dynamics::model::{Model, Shape};
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::{Pose, Quat};
+use sincro_dynamics::state::State;
+
+use super::tape::Layout;
+use crate::scene::{Object, ObjectKind, Scene, ShapeInstance};
+
+/// Everything of a scene that a picture needs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneView {
+    /// Parents before children.
+    pub objects: Vec<ObjectView>,
+    /// Number of movers: joints of the model that move.
+    pub n_movers: usize,
+    /// Number of rotors.
+    pub n_rotors: usize,
+    /// Number of coordinates.
+    pub n_q: usize,
+    /// Number of degrees of freedom.
+    pub n_v: usize,
+    /// Gravitational acceleration [m/s²].
+    pub gravity: [f64; 3],
+}
+
+/// A joint, body, frame, force or rotor.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ObjectView {
+    /// Path.
+    pub path: String,
+    /// Last part of the path.
+    pub name: String,
+    /// `revolute joint`, `body`, `rotor` …
+    pub kind: String,
+    /// Index of its parent; none for children of the world.
+    pub parent: Option<usize>,
+    /// What it rides on; none if it is fixed in the world. Of a joint: its moving side.
+    pub mover: Option<usize>,
+    /// Its frame in that of its mover, or in the world.
+    pub pose: [f64; 7],
+    /// What it looks like.
+    pub shapes: Vec<ShapeView>,
+    /// Mass `[kg]`, centre of mass `[m]` and inertia (xx, xy, xz, yy, yz, zz) [kg·m²] of a body.
+    pub mass: Option<(f64, [f64; 3], [f64; 6])>,
+    /// How a joint moves.
+    pub joint: Option<JointView>,
+    /// Of a rotor.
+    pub rotor: Option<RotorView>,
+}
+
+/// A solid in the frame of its body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ShapeView {
+    /// `cuboid`, `sphere`, `cylinder`, `capsule` or `cone`.
+    pub kind: &'static str,
+    /// Edge lengths of a cuboid; radius and length of the others `[m]`.
+    pub size: Vec<f64>,
+    /// Where it stands.
+    pub pose: [f64; 7],
+    /// `#rrggbb`.
+    pub color: Option<String>,
+}
+
+/// How a joint moves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointView {
+    /// What carries it; none for the world.
+    pub base_mover: Option<usize>,
+    /// Its frame in that of what carries it: the fixed side.
+    pub base_pose: [f64; 7],
+    /// Axes in the joint's frame: none for fixed, ball and free joints, two for universal ones.
+    pub axes: Vec<[f64; 3]>,
+    /// First coordinate in q.
+    pub q_idx: usize,
+    /// Number of coordinates.
+    pub n_q: usize,
+    /// First degree of freedom in v.
+    pub v_idx: usize,
+    /// Number of degrees of freedom.
+    pub n_v: usize,
+    /// Stiffness [N·m/rad] or [N/m] and rest `[rad]` or `[m]` of the springs that are there, with their degrees of freedom.
+    pub springs: Vec<(usize, f64, f64)>,
+    /// Whether it has a motor.
+    pub motor: bool,
+}
+
+/// Of a rotor: thrust is along z of its frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RotorView {
+    /// Its index in the frames.
+    pub index: usize,
+    /// Radius of the disc `[m]`, if the law has one.
+    pub radius: Option<f64>,
+    /// Whether it turns counter-clockwise, seen from above.
+    pub is_ccw: bool,
+}
+
+impl SceneView {
+    /// Of a compiled scene.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let model = &*scene.model;
+        let mut scratch = Scratch::new(model);
+        kinematics::poses(model, &State::new(model).q, &mut scratch);
+        let mut maker = Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new() };
+        let objects = scene.objects.iter().map(|object| maker.object(object)).collect();
+        Self {
+            objects,
+            n_movers: maker.links.len(),
+            n_rotors: model.rotors().len(),
+            n_q: model.n_q(),
+            n_v: model.n_v(),
+            gravity: model.gravity().0,
+        }
+    }
+}
+
+/// Finds what each object rides on, parents first.
+struct Maker<'a> {
+    model: &'a Model<f64>,
+    /// Link of each mover.
+    links: Vec<usize>,
+    /// Link poses at zero coordinates.
+    scratch: Scratch<f64>,
+    /// Of each object so far: its mover, and its pose in the world at zero coordinates.
+    placed: Vec<(Option<usize>, Pose<f64>)>,
+}
+
+impl Maker<'_> {
+    fn object(&mut self, object: &Object) -> ObjectView {
+        let (base_mover, x_wp) = object.parent.map_or((None, Pose::identity()), |k| self.placed[k]);
+        let x_wo = x_wp.compose(&object.pose);
+        let joint = self.model.names().joints.iter().position(|j| j.name == object.path);
+        let mover = joint.or(base_mover);
+        self.placed.push((mover, x_wo));
+        ObjectView {
+            path: object.path.clone(),
+            name: object.name.clone(),
+            kind: object.kind.word().to_owned(),
+            parent: object.parent,
+            mover,
+            pose: self.on(mover, &x_wo),
+            shapes: object.shapes.iter().map(shape).collect(),
+            mass: match &object.kind {
+                ObjectKind::Body { mass } => Some((mass.mass, mass.center_of_mass, mass.inertia)),
+                _ => None,
+            },
+            joint: joint.map(|k| self.joint(k, base_mover, &x_wo)),
+            rotor: self.rotor(object),
+        }
+    }
+
+    /// A pose in the world at zero coordinates as one in the frame of a mover.
+    fn on(&self, mover: Option<usize>, x_wo: &Pose<f64>) -> [f64; 7] {
+        match mover {
+            Some(k) => seven(&self.scratch.link_poses()[self.links[k]].inverse().compose(x_wo)),
+            None => seven(x_wo),
+        }
+    }
+
+    fn joint(&self, k: usize, base_mover: Option<usize>, x_wo: &Pose<f64>) -> JointView {
+        let info = &self.model.names().joints[k];
+        let dofs = self.model.dofs()[info.v_idx..info.v_idx + info.n_v].iter().enumerate();
+        JointView {
+            base_mover,
+            base_pose: self.on(base_mover, x_wo),
+            axes: axes(&info.kind),
+            q_idx: info.q_idx,
+            n_q: info.n_q,
+            v_idx: info.v_idx,
+            n_v: info.n_v,
+            springs: dofs.filter(|(_, d)| d.stiffness > 0.0).map(|(i, d)| (i, d.stiffness, d.rest)).collect(),
+            motor: info.motor.is_some(),
+        }
+    }
+
+    fn rotor(&self, object: &Object) -> Option<RotorView> {
+        let index = self.model.names().rotors.iter().position(|name| *name == object.path)?;
+        let (radius, spin) = match &self.model.rotors()[index].law {
+            RotorLaw::Blade(rotor) => (Some(rotor.spec().radius), rotor.spec().spin),
+            law => (None, law.spin().unwrap_or(Spin::CounterClockwise)),
+        };
+        Some(RotorView { index, radius, is_ccw: spin == Spin::CounterClockwise })
+    }
+}
+
+fn axes(kind: &JointKind) -> Vec<[f64; 3]> {
+    match *kind {
+        JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. } => vec![axis],
+        JointKind::Universal { axis, axis2 } => vec![axis, axis2],
+        JointKind::Planar => vec![[0.0, 0.0, 1.0]],
+        JointKind::Fixed | JointKind::Ball | JointKind::Free => Vec::new(),
+    }
+}
+
+fn shape(instance: &ShapeInstance) -> ShapeView {
+    let (kind, size) = match instance.shape {
+        Shape::Cuboid { size } => ("cuboid", size.to_vec()),
+        Shape::Sphere { radius } => ("sphere", vec![radius, 0.0]),
+        Shape::Cylinder { radius, length } => ("cylinder", vec![radius, length]),
+        Shape::Capsule { radius, length } => ("capsule", vec![radius, length]),
+        Shape::Cone { radius, length } => ("cone", vec![radius, length]),
+    };
+    let color = instance.color.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
+    ShapeView { kind, size, pose: seven(&instance.pose), color }
+}
+
+/// Position and quaternion x, y, z, w.
+fn seven(pose: &Pose<f64>) -> [f64; 7] {
+    let mut wxyz = [0.0; 4];
+    Quat::from_matrix(&pose.rot).write(&mut wxyz);
+    let [w, x, y, z] = wxyz;
+    [pose.pos[0], pose.pos[1], pose.pos[2], x, y, z, w]
+}

@@ -1,0 +1,143 @@
+//! Frames of a run: where every joint carried what hangs on it, decimated, in single precision.
+//!
+//! | part of a frame | numbers | unit |
+//! |---|---|---|
+//! | for each joint: position of its last link, quaternion x, y, z, w | 7 | m, 1 |
+//! | for each rotor: speed, thrust, torque | 3 | rad/s, N, N·m |
+//! | coordinates q | `n_q` | rad, m |
+//! | rates v | `n_v` | rad/s, m/s |
+//!
+//! A frame is for the eye: seven digits. Whoever wants all of them reads `signals.csv`.
+
+use sincro_dynamics::model::Model;
+use sincro_dynamics::spatial::Quat;
+use sincro_dynamics::world::Observation;
+
+use crate::experiment::Experiment;
+use crate::record::probe::{self, View};
+
+/// Frames a simulated second in a long run [1/s].
+const RATE: f64 = 60.0;
+/// Frames that a short run has all the same, so that it can be watched slowly.
+const LEAST_FRAMES: f64 = 300.0;
+/// Numbers that a tape may have: 64 MB.
+const MOST_NUMBERS: u64 = 16_000_000;
+
+/// What stands where in a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// The link that each joint of the model moves last.
+    links: Vec<usize>,
+    n_rotors: usize,
+    n_q: usize,
+    n_v: usize,
+}
+
+impl Layout {
+    /// For a model.
+    #[must_use]
+    pub fn new(model: &Model<f64>) -> Self {
+        let last_link = |v_end: usize| {
+            let of_joint = |link: &&(usize, usize)| link.1 < v_end;
+            let links: Vec<(usize, usize)> = model.links().iter().map(|l| l.first_dof()).enumerate().collect();
+            links.iter().filter(of_joint).max_by_key(|link| link.1).map_or(0, |link| link.0)
+        };
+        Self {
+            links: model.names().joints.iter().map(|j| last_link(j.v_idx + j.n_v)).collect(),
+            n_rotors: model.rotors().len(),
+            n_q: model.n_q(),
+            n_v: model.n_v(),
+        }
+    }
+
+    /// The link that each joint of the model moves last, in the order of the joints.
+    #[must_use]
+    pub fn links(&self) -> &[usize] {
+        &self.links
+    }
+
+    /// Numbers of a frame.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        7 * self.links.len() + 3 * self.n_rotors + self.n_q + self.n_v
+    }
+
+    /// Adds what is seen at time `t` `[s]` to `out`; `width` numbers.
+    pub fn write(&self, seen: &Observation<'_>, t: f64, out: &mut Vec<f32>) {
+        let poses = seen.scratch().link_poses();
+        for &link in &self.links {
+            let (pose, rot) = (&poses[link], Quat::from_matrix(&poses[link].rot));
+            let mut wxyz = [0.0; 4];
+            rot.write(&mut wxyz);
+            let [w, x, y, z] = wxyz;
+            out.extend([pose.pos[0], pose.pos[1], pose.pos[2], x, y, z, w].map(|x| x as f32));
+        }
+        let view = View::observed(seen, t);
+        for k in 0..self.n_rotors {
+            let (speed, load, _) = probe::rotor(&view, k);
+            out.extend([speed, load.thrust, load.torque].map(|x| x as f32));
+        }
+        out.extend(seen.state.q.iter().chain(&seen.state.v).map(|x| *x as f32));
+    }
+}
+
+/// The frames of a run, in the order of their times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tape {
+    /// What stands where in a frame.
+    pub layout: Layout,
+    /// Base steps from frame to frame.
+    pub every: u64,
+    /// Base steps done, one entry a frame.
+    pub ticks: Vec<u64>,
+    /// Times `[s]`, one entry a frame.
+    pub times: Vec<f64>,
+    /// The frames, one after the other.
+    pub numbers: Vec<f32>,
+}
+
+impl Tape {
+    /// An empty tape for a run.
+    #[must_use]
+    pub fn new(model: &Model<f64>, experiment: &Experiment) -> Self {
+        let layout = Layout::new(model);
+        let span = (1.0 / RATE).min(experiment.duration / LEAST_FRAMES);
+        let every = ((span / experiment.step).ceil() as u64).max(1);
+        let least = (experiment.n_steps * layout.width() as u64).div_ceil(MOST_NUMBERS);
+        Self { layout, every: every.max(least), ticks: Vec::new(), times: Vec::new(), numbers: Vec::new() }
+    }
+
+    /// Whether a frame is to be taken after so many base steps.
+    #[must_use]
+    pub fn is_due(&self, tick: u64) -> bool {
+        tick.is_multiple_of(self.every)
+    }
+
+    /// Takes a frame at time `t` `[s]`.
+    pub fn look(&mut self, seen: &Observation<'_>, tick: u64, t: f64) {
+        self.ticks.push(tick);
+        self.times.push(t);
+        self.layout.write(seen, t, &mut self.numbers);
+    }
+
+    /// Number of frames.
+    #[must_use]
+    pub fn n_frames(&self) -> usize {
+        self.times.len()
+    }
+
+    /// One frame.
+    #[must_use]
+    pub fn frame(&self, k: usize) -> &[f32] {
+        let width = self.layout.width();
+        &self.numbers[k * width..(k + 1) * width]
+    }
+
+    /// Forgets the frames after so many base steps.
+    pub fn truncate_after(&mut self, tick: u64) {
+        let n = self.ticks.partition_point(|known| *known <= tick);
+        self.ticks.truncate(n);
+        self.times.truncate(n);
+        self.numbers.truncate(n * self.layout.width());
+    }
+}

@@ -1,0 +1,113 @@
+// What the server and the report send: the shapes of the data, and how numbers come out of base 64.
+
+/** Position [m], then quaternion x, y, z, w. */
+export type Pose = [number, number, number, number, number, number, number];
+
+export interface ShapeView {
+  kind: "cuboid" | "sphere" | "cylinder" | "capsule" | "cone";
+  /** Edge lengths of a cuboid; radius and length of the others [m]. */
+  size: number[];
+  pose: Pose;
+  color: string | null;
+}
+
+export interface JointView {
+  base_mover: number | null;
+  base_pose: Pose;
+  axes: [number, number, number][];
+  q_idx: number;
+  n_q: number;
+  v_idx: number;
+  n_v: number;
+  springs: [number, number, number][];
+  motor: boolean;
+}
+
+export interface RotorView {
+  index: number;
+  radius: number | null;
+  is_ccw: boolean;
+}
+
+export interface ObjectView {
+  path: string;
+  name: string;
+  kind: string;
+  parent: number | null;
+  mover: number | null;
+  pose: Pose;
+  shapes: ShapeView[];
+  mass: [number, [number, number, number], [number, number, number, number, number, number]] | null;
+  joint: JointView | null;
+  rotor: RotorView | null;
+}
+
+export interface SceneView {
+  objects: ObjectView[];
+  n_movers: number;
+  n_rotors: number;
+  n_q: number;
+  n_v: number;
+  gravity: [number, number, number];
+}
+
+export interface Property {
+  owner: string;
+  path: string;
+  key: string;
+  value: number;
+  unit: string;
+  about: string;
+}
+
+export interface Reel {
+  name: string;
+  about: string;
+  view: number;
+  stop: string;
+  trace: string;
+  frames: { width: number; times: string; numbers: string };
+  signals: {
+    every: number;
+    columns: [string, string, number | null][];
+    times: string;
+    numbers: string;
+    references: [string, string, string][];
+  };
+}
+
+export interface Film {
+  format: string;
+  title: string;
+  description: string;
+  scene: string;
+  step: number;
+  duration: number;
+  views: SceneView[];
+  properties: Property[];
+  plots: [string, string[]][];
+  diagram: string | null;
+  runs: Reel[];
+}
+
+function bytes(text: string): Uint8Array<ArrayBuffer> {
+  const raw = atob(text);
+  const out = new Uint8Array(raw.length);
+  for (let k = 0; k < raw.length; k++) out[k] = raw.charCodeAt(k);
+  return out;
+}
+
+export function doubles(text: string): Float64Array<ArrayBuffer> {
+  return new Float64Array(bytes(text).buffer);
+}
+
+export function singles(text: string): Float32Array<ArrayBuffer> {
+  return new Float32Array(bytes(text).buffer);
+}
+
+/** Reads a film; throws a sentence if it is none of ours. */
+export function readFilm(text: string): Film {
+  const film = JSON.parse(text) as Film;
+  if (film.format !== "sincro-film-1") throw new Error(`this is not a replay that this page can show (format ${String(film.format)})`);
+  return film;
+}

@@ -1,0 +1,38 @@
+// Keys: space plays, arrows step, 1 to 4 are cameras.
+
+import { firstBody } from "./ui/shown";
+import { forward } from "./ui/transport";
+import { CAMERAS, type Stage } from "./three/stage";
+import type { Session } from "./session";
+
+export const KEYS = "space play · ← → one frame · shift ten · home end · 1–4 cameras · F follow · Z / Y undo, redo";
+
+export function keyboard(root: HTMLElement, session: Session, stage: Stage): void {
+  root.addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    const types = target instanceof HTMLInputElement && target.type !== "checkbox" && target.type !== "range";
+    if (types || target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target instanceof HTMLButtonElement && event.key === " ") target.blur();
+    const camera = CAMERAS[Number(event.key) - 1];
+    const n = event.shiftKey ? 10 : 1;
+    const actions: Record<string, () => void> = {
+      " ": () => session.togglePlay(),
+      ArrowLeft: () => session.stepFrames(-n),
+      ArrowRight: () => (n === 1 ? forward(session) : session.stepFrames(n)),
+      Home: () => session.seek(0),
+      End: () => session.seek(session.run.end),
+      f: () => {
+        session.follow = !session.follow;
+        if (session.follow && session.selected === null) session.select(firstBody(session));
+        session.tell("shown");
+      },
+      z: () => session.link?.undo(),
+      y: () => session.link?.redo(),
+      Escape: () => session.select(null),
+    };
+    const action = camera ? () => stage.frame(camera[0]) : actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}

@@ -1,0 +1,124 @@
+// What the page is looking at: the runs, the time, what is selected; and who must know when that changes.
+
+import type { Film, Property, SceneView } from "./film";
+import type { Link } from "./link";
+import { Run } from "./run";
+
+/** What may change. `frames`: a run has grown. */
+export type Topic = "time" | "runs" | "frames" | "selection" | "playing" | "shown" | "plots" | "properties" | "live" | "notice";
+
+/** What is drawn over the bodies. */
+export const SHOWN = {
+  axes: { label: "joint axes", on: false },
+  centers: { label: "centres of mass", on: false },
+  inertia: { label: "inertia boxes", on: false },
+  frames: { label: "frames", on: false },
+  springs: { label: "springs", on: true },
+  rotors: { label: "thrust", on: true },
+  forces: { label: "contacts and forces", on: true },
+  trace: { label: "path", on: true },
+  grid: { label: "ground", on: true },
+  shadows: { label: "shadows", on: true },
+} as const;
+
+export type Shown = keyof typeof SHOWN;
+
+export class Session {
+  runs: Run[] = [];
+  active = 0;
+  t = 0;
+  playing = false;
+  speed = 1;
+  selected: number | null = null;
+  hovered: number | null = null;
+  follow = false;
+  properties: Property[];
+  readonly shown: Record<Shown, boolean>;
+  link: Link | null = null;
+  notice = "";
+  private readonly listeners = new Map<Topic, (() => void)[]>();
+
+  constructor(readonly film: Film) {
+    this.runs = film.runs.map((reel, k) => Run.ofReel(film, reel, k));
+    this.properties = film.properties;
+    this.shown = Object.fromEntries(Object.entries(SHOWN).map(([key, { on }]) => [key, on])) as Record<Shown, boolean>;
+  }
+
+  get run(): Run {
+    return this.runs[this.active] as Run;
+  }
+
+  get view(): SceneView {
+    return this.run.view;
+  }
+
+  /** Where the timeline ends [s]: the experiment's duration, or the longest run. */
+  get end(): number {
+    return Math.max(this.link ? this.film.duration : 0, ...this.runs.filter((r, k) => r.isVisible || k === this.active).map((r) => r.end));
+  }
+
+  on(topic: Topic, listener: () => void): void {
+    const known = this.listeners.get(topic) ?? [];
+    known.push(listener);
+    this.listeners.set(topic, known);
+  }
+
+  tell(...topics: Topic[]): void {
+    for (const topic of topics) for (const listener of this.listeners.get(topic) ?? []) listener();
+  }
+
+  seek(t: number): void {
+    this.t = Math.min(Math.max(t, 0), Math.max(this.run.end, 0));
+    this.tell("time");
+  }
+
+  /** By so many frames, onto a frame. */
+  stepFrames(n: number): void {
+    const run = this.run;
+    const { k, share } = run.locate(this.t);
+    const to = n < 0 && share > 1e-9 ? k + n + 1 : k + n;
+    this.seek(run.times.at(Math.min(Math.max(to, 0), run.times.n - 1), 0));
+  }
+
+  select(object: number | null): void {
+    this.selected = object;
+    this.tell("selection");
+  }
+
+  activate(k: number): void {
+    this.active = k;
+    this.run.isVisible = true;
+    this.tell("runs", "frames", "time");
+  }
+
+  say(words: string): void {
+    this.notice = words;
+    this.tell("notice");
+  }
+
+  /** Plays on by `dt` seconds of the wall clock; only what is recorded. */
+  tick(dt: number): void {
+    if (!this.playing || this.link?.isRunning) return;
+    const end = this.run.end;
+    const t = this.t + dt * this.speed;
+    if (t >= end) {
+      this.playing = false;
+      this.t = end;
+      this.tell("time", "playing");
+    } else {
+      this.t = t;
+      this.tell("time");
+    }
+  }
+
+  /** The play button: what is recorded is shown again; at its end a live run goes on. */
+  togglePlay(): void {
+    if (this.link) {
+      this.link.togglePlay();
+      return;
+    }
+    if (!this.playing && this.t >= this.run.end - 1e-9) this.t = 0;
+    this.playing = !this.playing;
+    this.tell("playing", "time");
+  }
+}

@@ -1,0 +1,277 @@
+// The picture: camera, light, ground, and what the reader does with the mouse.
+
+import {
+  AxesHelper, Box3, Color, DirectionalLight, GridHelper, HemisphereLight, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
+  Scene, ShadowMaterial, Vector2, Vector3, WebGLRenderer, type Material, type Object3D,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { el, nice } from "../format";
+import type { Session } from "../session";
+import { Bodies } from "./bodies";
+import { Overlays } from "./overlays";
+
+/** Where the named cameras stand, seen from what they look at. */
+export const CAMERAS: [string, [number, number, number]][] = [
+  ["perspective", [0.55, -1, 0.42]],
+  ["front (along y)", [0, -1, 0.001]],
+  ["side (along x)", [1, 0, 0.001]],
+  ["top (along z)", [0, -0.001, 1]],
+];
+
+export class Stage {
+  readonly node = el("div", { class: "sv-stage", tabindex: "0", "aria-label": "3-D view of the scene", role: "img" });
+  private readonly renderer: WebGLRenderer | null;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(38, 1, 0.01, 1000);
+  private readonly controls: OrbitControls;
+  private readonly sun = new DirectionalLight("#ffffff", 2.1);
+  private readonly axes = new AxesHelper(1);
+  private ground: Object3D[] = [];
+  private bodies = new Map<number, Bodies>();
+  private readonly overlays: Overlays;
+  private readonly legend = el("div", { class: "sv-legend" });
+  private isStale = true;
+  /** The reader has turned the camera, or named one. */
+  private wasMoved = false;
+  private followed = new Vector3();
+  /** Size of all that happens [m], and its middle. */
+  private bounds = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
+
+  constructor(private readonly session: Session) {
+    this.camera.up.set(0, 0, 1);
+    this.renderer = makeRenderer();
+    const canvas = this.renderer?.domElement ?? el("canvas");
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener("change", () => (this.isStale = true));
+    this.controls.addEventListener("start", () => (this.wasMoved = true));
+    this.overlays = new Overlays(session, this.scene);
+    if (this.renderer) this.node.append(this.renderer.domElement, this.legend);
+    else this.node.append(el("p", { class: "sv-nogl", text: "This browser shows no WebGL: the 3-D view is missing, everything else works." }));
+    this.light();
+    this.listen();
+    this.rebuild();
+    this.followFar();
+    this.frame("perspective");
+  }
+
+  /** What is small against its own way is followed from the start. */
+  private followFar(): void {
+    const flight = this.bounds.getSize(new Vector3()).length();
+    const body = this.session.view.objects.findIndex((o) => o.kind === "body" && o.mover !== null);
+    if (body < 0 || flight < 5 * this.main.size) return;
+    this.session.follow = true;
+    this.session.select(body);
+    this.session.tell("shown");
+  }
+
+  /** Draws if anything has changed. */
+  draw(): void {
+    const { clientWidth: w, clientHeight: h } = this.node;
+    if (!this.renderer || w === 0 || h === 0) return;
+    const size = this.renderer.getSize(new Vector2());
+    if (size.x !== w || size.y !== h) {
+      this.renderer.setSize(w, h, false);
+      this.camera.aspect = w / h;
+      this.camera.updateProjectionMatrix();
+      if (size.x !== w && !this.wasMoved) this.frame("perspective");
+      this.isStale = true;
+    }
+    if (!this.isStale) return;
+    this.isStale = false;
+    this.renderer.render(this.scene, this.camera);
+    this.node.dataset["drawn"] = String(Number(this.node.dataset["drawn"] ?? "0") + 1);
+  }
+
+  /** A named camera that sees everything. */
+  frame(name: string): void {
+    const [, direction] = CAMERAS.find(([known]) => known === name) ?? (CAMERAS[0] as (typeof CAMERAS)[number]);
+    const center = this.bounds.getCenter(new Vector3());
+    let box = this.bounds;
+    if (this.session.follow && this.session.selected !== null) {
+      center.copy(this.main.position(this.session.selected));
+      box = new Box3().setFromCenterAndSize(center, new Vector3(1, 1, 1).multiplyScalar(2 * this.main.size));
+    }
+    this.look(center, direction, box);
+  }
+
+  /** As near as the whole box stays in the picture. */
+  private look(center: Vector3, direction: [number, number, number], box: Box3): void {
+    const back = new Vector3(...direction).normalize();
+    const right = new Vector3(0, 0, 1).cross(back).normalize();
+    const up = back.clone().cross(right);
+    const tall = Math.tan((this.camera.fov * Math.PI) / 360);
+    const wide = tall * (this.camera.aspect || 1);
+    let distance = 1e-3;
+    for (let k = 0; k < 8; k++) {
+      const corner = new Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z).sub(center);
+      const depth = corner.dot(back);
+      distance = Math.max(distance, Math.abs(corner.dot(right)) / wide + depth, Math.abs(corner.dot(up)) / tall + depth);
+    }
+    distance *= 1.12;
+    this.camera.position.copy(center).addScaledVector(back, distance);
+    this.camera.near = distance / 500;
+    this.camera.far = distance * 60;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(center);
+    this.controls.update();
+    this.followed.copy(center);
+    this.isStale = true;
+  }
+
+  private get main(): Bodies {
+    return this.bodies.get(this.session.run.id) as Bodies;
+  }
+
+  /** Makes bodies for the runs that are shown, and drops the others. */
+  private rebuild(): void {
+    const { session } = this;
+    for (const bodies of this.bodies.values()) bodies.dispose();
+    this.bodies = new Map();
+    session.runs.forEach((run, k) => {
+      if (k !== session.active && !run.isVisible) return;
+      const bodies = new Bodies(run.view, k !== session.active);
+      this.bodies.set(run.id, bodies);
+      this.scene.add(bodies.root);
+    });
+    this.measure();
+    this.lay();
+    this.overlays.rebuild(this.main);
+    this.main.highlight(session.selected, session.hovered);
+    this.place();
+  }
+
+  /** Bounds of the whole run: positions of all objects over up to 60 frames. */
+  private measure(): void {
+    const { run } = this.session;
+    const [bounds, at] = [new Box3(), new Vector3()];
+    const frames = Math.max(1, Math.min(60, run.times.n));
+    for (let k = 0; k < frames; k++) {
+      const t = run.start + ((run.end - run.start) * k) / Math.max(1, frames - 1);
+      this.main.place(run, t);
+      this.main.root.updateMatrixWorld(true);
+      run.view.objects.forEach((_, o) => bounds.expandByPoint(this.main.position(o, at)));
+      if (k === 0 || k === frames - 1) bounds.union(new Box3().setFromObject(this.main.root));
+    }
+    if (bounds.isEmpty()) bounds.set(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
+    const least = 0.25 * this.main.size;
+    const size = bounds.getSize(new Vector3());
+    bounds.expandByVector(new Vector3(Math.max(0, least - size.x / 2), Math.max(0, least - size.y / 2), 0));
+    this.bounds = bounds;
+  }
+
+  /** Ground below everything, its squares of a round size. */
+  private lay(): void {
+    for (const old of this.ground) old.removeFromParent();
+    const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+    const size = this.bounds.getSize(new Vector3());
+    const span = Math.max(size.x, size.y, 0.6 * size.z, this.main.size);
+    const cell = nice(span / 8);
+    const low = this.bounds.min.z < -0.12 * this.main.size ? Math.floor(this.bounds.min.z / cell) * cell : 0;
+    const n = 2 * Math.ceil((1.6 * span) / cell);
+    const center = this.bounds.getCenter(new Vector3());
+    const [x, y] = [Math.round(center.x / cell) * cell, Math.round(center.y / cell) * cell];
+    const grid = new GridHelper(n * cell, n, isDark ? "#59636e" : "#aab2bb", isDark ? "#353c44" : "#d5dae0");
+    grid.rotation.x = Math.PI / 2;
+    grid.position.set(x, y, low);
+    const floor = new Mesh(new PlaneGeometry(n * cell, n * cell), new ShadowMaterial({ opacity: isDark ? 0.45 : 0.16 }));
+    floor.position.set(x, y, low - 1e-4 * span);
+    floor.receiveShadow = true;
+    this.axes.scale.setScalar(1.4 * cell);
+    (this.axes.material as Material).depthTest = true;
+    this.ground = [grid, floor];
+    this.scene.add(grid, floor, this.axes);
+    this.scene.background = new Color(isDark ? "#14181d" : "#f7f8fa");
+    const at = low === 0 ? "" : `, ground at z = ${String(+low.toPrecision(3)).replace("-", "−")} m`;
+    this.legend.textContent = `grid ${+cell.toPrecision(3)} m${at}`;
+    this.sun.position.copy(center).add(new Vector3(0.5, -0.7, 1.6).multiplyScalar(1.5 * span));
+    this.sun.target.position.copy(center);
+    const shadow = this.sun.shadow.camera;
+    const half = 1.3 * Math.max(span, size.z);
+    Object.assign(shadow, { left: -half, right: half, top: half, bottom: -half, near: 0.05 * span, far: 8 * Math.max(span, size.z) });
+    shadow.updateProjectionMatrix();
+    this.sun.shadow.normalBias = 0.004 * span;
+  }
+
+  private light(): void {
+    this.scene.add(new HemisphereLight("#ffffff", "#8d939c", 1.5), this.sun, this.sun.target);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+  }
+
+  private place(): void {
+    const { session } = this;
+    for (const run of session.runs) this.bodies.get(run.id)?.place(run, session.t);
+    this.scene.updateMatrixWorld(true);
+    this.overlays.place(session.t);
+    if (session.follow && session.selected !== null) {
+      const now = this.main.position(session.selected);
+      const move = now.clone().sub(this.followed);
+      this.camera.position.add(move);
+      this.controls.target.add(move);
+      this.followed.copy(now);
+      this.controls.update();
+    }
+    this.isStale = true;
+  }
+
+  private listen(): void {
+    const { session } = this;
+    session.on("time", () => this.place());
+    session.on("frames", () => this.place());
+    session.on("runs", () => this.rebuild());
+    session.on("selection", () => {
+      this.main.highlight(session.selected, session.hovered);
+      this.overlays.rebuild(this.main);
+      if (session.selected !== null) this.followed.copy(this.main.position(session.selected));
+      this.place();
+    });
+    session.on("shown", () => {
+      for (const part of this.ground) part.visible = session.shown.grid;
+      this.axes.visible = session.shown.grid;
+      this.sun.castShadow = session.shown.shadows;
+      this.overlays.rebuild(this.main);
+      this.place();
+    });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.rebuild());
+    if (this.renderer) this.pick(this.renderer.domElement);
+  }
+
+  /** A click without a drag selects; hovering tells. */
+  private pick(canvas: HTMLCanvasElement): void {
+    const ray = new Raycaster();
+    const hit = (event: PointerEvent): number | null => {
+      const box = canvas.getBoundingClientRect();
+      const at = new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
+      ray.setFromCamera(at, this.camera);
+      const found = ray.intersectObjects(this.main.targets, false)[0];
+      return found ? (found.object.userData["object"] as number) : null;
+    };
+    let down: [number, number] = [0, 0];
+    canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
+    canvas.addEventListener("pointerup", (event) => {
+      if (Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4) this.session.select(hit(event));
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (event.buttons !== 0) return;
+      const object = hit(event);
+      if (object === this.session.hovered) return;
+      this.session.hovered = object;
+      canvas.title = object === null ? "" : (this.session.view.objects[object]?.path ?? "");
+      this.main.highlight(this.session.selected, object);
+      this.isStale = true;
+    });
+  }
+}
+
+function makeRenderer(): WebGLRenderer | null {
+  try {
+    const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = PCFShadowMap;
+    return renderer;
+  } catch {
+    return null;
+  }
+}

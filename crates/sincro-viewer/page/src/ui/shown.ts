@@ -1,0 +1,43 @@
+// What is drawn over the bodies, and the cameras.
+
+import { el } from "../format";
+import { SHOWN, type Session, type Shown } from "../session";
+import { CAMERAS, type Stage } from "../three/stage";
+
+export function shown(session: Session, stage: Stage): HTMLElement {
+  const toggles = (Object.keys(SHOWN) as Shown[]).filter((key) => key !== "forces").map((key) =>
+    el("label", { class: "sv-toggle" },
+      el("input", {
+        type: "checkbox", checked: session.shown[key], "data-shown": key,
+        onchange: (event) => {
+          session.shown[key] = (event.target as HTMLInputElement).checked;
+          session.tell("shown");
+        },
+      }), SHOWN[key].label),
+  );
+  const cameras = el("select", {
+    "aria-label": "camera", title: "camera (keys 1 to 4)",
+    onchange: (event) => stage.frame((event.target as HTMLSelectElement).value),
+  }, ...CAMERAS.map(([name]) => el("option", { value: name, text: name })));
+  const follow = el("label", { class: "sv-toggle" }, el("input", {
+    type: "checkbox", "data-shown": "follow",
+    onchange: (event) => {
+      session.follow = (event.target as HTMLInputElement).checked;
+      if (session.follow && session.selected === null) session.select(firstBody(session));
+      stage.frame(cameras.value);
+    },
+  }), "follow the selected");
+  session.on("shown", () => {
+    for (const input of menu.querySelectorAll<HTMLInputElement>("input[data-shown]")) {
+      const key = input.dataset["shown"] as Shown | "follow";
+      input.checked = key === "follow" ? session.follow : session.shown[key];
+    }
+  });
+  const menu = el("details", { class: "sv-menu" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles));
+  return menu;
+}
+
+export function firstBody(session: Session): number | null {
+  const k = session.view.objects.findIndex((o) => o.kind === "body" && o.mover !== null);
+  return k < 0 ? null : k;
+}

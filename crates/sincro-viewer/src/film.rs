@@ -1,0 +1,217 @@
+//! A film: everything that the page shows of finished runs, as one JSON text.
+//!
+//! `replay.json` of a run's folder, the data in `report.html` and what `sincro view RUN` sends are the same text. Numbers are little-endian bytes
+//! in base 64: frames in single precision ([`Tape`]), signals in double precision. A film that goes into a page is thinned to a size; what was left
+//! out is said (`every`), and `signals.csv` has it.
+
+use serde::Serialize;
+use sincro_sim::Loaded;
+use sincro_sim::check::Outcome;
+use sincro_sim::replay::{Property, SceneView, Tape, properties};
+use sincro_sim::results::Status;
+use sincro_sim::run::{Campaign, Done};
+use sincro_sim::table::Table;
+
+use crate::base64;
+
+/// What the page checks before it reads on.
+pub const FORMAT: &str = "sincro-film-1";
+
+/// Bytes that the frames of all runs in a film may have, before base 64.
+const MOST_FRAME_BYTES: usize = 600_000;
+/// Bytes that the signals of all runs in a film may have, before base 64.
+const MOST_SIGNAL_BYTES: usize = 600_000;
+
+/// The whole text.
+#[derive(Clone, Debug, Serialize)]
+pub struct Film {
+    /// [`FORMAT`].
+    pub format: &'static str,
+    /// Title of the experiment.
+    pub title: String,
+    /// What stands under it.
+    pub description: String,
+    /// Name of the scene's folder.
+    pub scene: String,
+    /// Base step `[s]`.
+    pub step: f64,
+    /// How long is simulated `[s]`.
+    pub duration: f64,
+    /// The scenes of the runs, each once.
+    pub views: Vec<SceneView>,
+    /// Every number of the files.
+    pub properties: Vec<Property>,
+    /// Titles and signals of the experiment's plots.
+    pub plots: Vec<(String, Vec<String>)>,
+    /// The diagram's drawing as SVG, if there is one.
+    pub diagram: Option<String>,
+    /// The runs, the main one first.
+    pub runs: Vec<Reel>,
+}
+
+/// One run of a film.
+#[derive(Clone, Debug, Serialize)]
+pub struct Reel {
+    /// `main`, or the variant's name.
+    pub name: String,
+    /// What is different about it.
+    pub about: String,
+    /// Index of its scene in [`Film::views`].
+    pub view: usize,
+    /// Why it ended early; empty if it did not.
+    pub stop: String,
+    /// Hash of its states.
+    pub trace: String,
+    /// Its frames.
+    pub frames: Frames,
+    /// Its signals.
+    pub signals: Signals,
+}
+
+/// Frames of a run.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Frames {
+    /// Numbers a frame.
+    pub width: usize,
+    /// Times `[s]`: doubles.
+    pub times: String,
+    /// Frames: singles.
+    pub numbers: String,
+}
+
+/// Recorded signals of a run.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Signals {
+    /// Every how many rows of `signals.csv` are here.
+    pub every: usize,
+    /// Names, units and error bars, `t` left out.
+    pub columns: Vec<(String, String, Option<f64>)>,
+    /// Times `[s]`: doubles.
+    pub times: String,
+    /// The columns, one after the other: doubles.
+    pub numbers: String,
+    /// What checks expect: signal, times and values.
+    pub references: Vec<(String, String, String)>,
+}
+
+impl Film {
+    /// Of a campaign; `diagram` is its drawing.
+    #[must_use]
+    pub fn of_campaign(loaded: &Loaded, campaign: &Campaign, diagram: Option<String>) -> Self {
+        let variants = campaign.variants.iter().map(|(v, done)| (v.name.as_str(), v.description.as_str(), done));
+        let all: Vec<(&str, &str, &Done)> = std::iter::once(("main", "", &campaign.main)).chain(variants).collect();
+        let share = 1.0 / all.len() as f64;
+        let mut views = Vec::new();
+        let runs = all.iter().map(|(name, about, done)| reel(name, about, done, share, &mut views)).collect();
+        Self {
+            format: FORMAT,
+            title: loaded.experiment.title.clone(),
+            description: loaded.experiment.description.clone(),
+            scene: campaign.report.scene.clone(),
+            step: loaded.experiment.step,
+            duration: loaded.experiment.duration,
+            views,
+            properties: properties(loaded, &[]),
+            plots: plots(loaded),
+            diagram,
+            runs,
+        }
+    }
+
+    /// As text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("plain data has a JSON form")
+    }
+}
+
+/// Titles and signals of the experiment's plots.
+pub(crate) fn plots(loaded: &Loaded) -> Vec<(String, Vec<String>)> {
+    let names = |p: &sincro_sim::experiment::Plot| p.signals.iter().map(|s| s.value.clone()).collect();
+    loaded.experiment.plots.iter().map(|p| (p.title.clone(), names(p))).collect()
+}
+
+fn reel(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneView>) -> Reel {
+    let view = match views.iter().position(|known| *known == done.view) {
+        Some(k) => k,
+        None => {
+            views.push(done.view.clone());
+            views.len() - 1
+        }
+    };
+    let run = &done.simulated;
+    let of_frames = (share * MOST_FRAME_BYTES as f64) as usize;
+    let of_signals = (share * MOST_SIGNAL_BYTES as f64) as usize;
+    let bars = done.columns.iter().skip(1).map(|c| c.error_bar).collect::<Vec<_>>();
+    Reel {
+        name: name.to_owned(),
+        about: about.to_owned(),
+        view,
+        stop: stop_words(&run.status),
+        trace: run.trace.to_string(),
+        frames: run.tape.as_ref().map(|tape| frames(tape, of_frames)).unwrap_or_default(),
+        signals: signals(&run.table, &bars, &done.outcomes, of_signals),
+    }
+}
+
+/// Why a run ended early; empty if it did not.
+pub(crate) fn stop_words(status: &Status) -> String {
+    match status {
+        Status::Completed => String::new(),
+        Status::Stopped { time, reason, .. } => format!("stopped at t = {time} s: {reason}"),
+        Status::Interrupted { time, .. } => format!("interrupted at t = {time} s"),
+    }
+}
+
+/// Indices of what is kept of `n`, every so many, the last one always.
+fn thinned(n: usize, every: usize) -> impl Iterator<Item = usize> + Clone {
+    (0..n).filter(move |k| k.is_multiple_of(every) || k + 1 == n)
+}
+
+/// A tape in at most so many bytes.
+pub(crate) fn frames(tape: &Tape, most_bytes: usize) -> Frames {
+    let bytes = tape.n_frames() * (8 + 4 * tape.layout.width());
+    let kept = thinned(tape.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1));
+    Frames {
+        width: tape.layout.width(),
+        times: base64::doubles(kept.clone().map(|k| tape.times[k])),
+        numbers: base64::singles(kept.flat_map(|k| tape.frame(k))),
+    }
+}
+
+/// A table and what the checks expect of it, in about so many bytes.
+pub(crate) fn signals(table: &Table, bars: &[Option<f64>], outcomes: &[Outcome], most_bytes: usize) -> Signals {
+    let series = outcomes.iter().filter_map(|o| Some((o.signal.as_deref()?, o.series.as_ref()?)));
+    let mut expected: Vec<(&str, &sincro_sim::check::Series)> = Vec::new();
+    for (signal, series) in series {
+        match expected.iter_mut().find(|(known, _)| *known == signal) {
+            Some((_, known)) if known.times.len() < series.times.len() => *known = series,
+            Some(_) => {}
+            None => expected.push((signal, series)),
+        }
+    }
+    let n_expected: usize = expected.iter().map(|(_, s)| 2 * s.times.len()).sum();
+    let bytes = 8 * (table.n_rows() * table.columns.len() + n_expected);
+    let every = bytes.div_ceil(most_bytes.max(1)).max(1);
+    let kept = thinned(table.n_rows(), every);
+    let column = |k: usize| table.columns[k].values.as_slice();
+    Signals {
+        every,
+        columns: (1..table.columns.len())
+            .map(|k| {
+                let c = &table.columns[k];
+                (c.name.clone(), c.unit.clone(), bars.get(k - 1).copied().flatten())
+            })
+            .collect(),
+        times: base64::doubles(kept.clone().map(|row| column(0)[row])),
+        numbers: base64::doubles((1..table.columns.len()).flat_map(|k| kept.clone().map(move |row| column(k)[row]))),
+        references: expected
+            .into_iter()
+            .map(|(signal, s)| {
+                let kept = thinned(s.times.len(), every);
+                let times = base64::doubles(kept.clone().map(|k| s.times[k]));
+                (signal.to_owned(), times, base64::doubles(kept.map(|k| s.values[k])))
+            })
+            .collect(),
+    }
+}
