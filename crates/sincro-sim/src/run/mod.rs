@@ -15,11 +15,13 @@ mod lockstep;
 mod refine;
 mod stop;
 mod trace;
+mod validity;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use sincro_dynamics::force::rotor::{MountedRotor, SpeedFrom};
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, Observation, World};
@@ -27,6 +29,7 @@ use sincro_dynamics::world::{Effort, MethodKind, Observation, World};
 pub use campaign::{Campaign, Done, Progress, run_campaign};
 pub use lockstep::{Halt, LockStep};
 pub use trace::{Trace, model_hash, plant_hash};
+pub use validity::Outside;
 
 use crate::diagram::Controller;
 use crate::experiment::{Experiment, Integrator};
@@ -61,6 +64,8 @@ pub struct Simulated {
     pub energy: EnergyReport,
     /// Sub-steps and events.
     pub effort: Effort,
+    /// Where rotors left what their theory holds for.
+    pub outside: Vec<Outside>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// How long it took `[s]`, recording included.
@@ -110,13 +115,14 @@ impl From<FileError> for RunError {
 pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec<String>) {
     let fastest = stiffest(&scene.model, &scene.initial);
     let product = fastest.map_or(0.0, |s| s.rate * experiment.step);
+    let of_lag = fastest_lag(scene).map_or(0.0, |(_, rate)| rate * experiment.step);
     let kind = match experiment.integrator {
         Integrator::SemiImplicitEuler => MethodKind::SemiImplicitEuler,
         Integrator::Rk4 => MethodKind::Rk4,
         Integrator::Implicit => MethodKind::Implicit,
         Integrator::DormandPrince => MethodKind::DormandPrince,
         Integrator::Stiff => MethodKind::Stiff,
-        Integrator::Auto if product > STIFF_FROM => MethodKind::Stiff,
+        Integrator::Auto if product > STIFF_FROM || of_lag > SLOW_FROM => MethodKind::Stiff,
         Integrator::Auto => MethodKind::DormandPrince,
     };
     let mut warnings = Vec::new();
@@ -138,7 +144,40 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
             ));
         }
     }
+    warnings.extend(warn_of_lag(scene, experiment, kind));
     (kind, warnings)
+}
+
+/// The rotor that follows its command fastest with a lag, and how fast [1/s].
+fn fastest_lag(scene: &Scene) -> Option<(usize, f64)> {
+    let rate = |(k, rotor): (usize, &MountedRotor<f64>)| match rotor.speed {
+        SpeedFrom::Lag { time_constant, .. } => Some((k, 1.0 / time_constant)),
+        _ => None,
+    };
+    scene.model.rotors().iter().enumerate().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// What there is to say about the lag of rotors under an explicit method.
+fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Option<String> {
+    let (k, rate) = fastest_lag(scene)?;
+    let product = rate * experiment.step;
+    let name = &scene.model.names().rotors[k];
+    match kind {
+        MethodKind::Rk4 if product > RK4_LIMIT => Some(format!(
+            "the lag of rotor `{name}` ({:.3e} s) is too short for `rk4` at a step of {} s, which is stable up to {:.2e} s: the run will \
+             diverge. Use integrator = \"implicit\" (same step) or \"auto\"",
+            1.0 / rate,
+            experiment.step,
+            RK4_LIMIT / rate
+        )),
+        MethodKind::DormandPrince if product > SLOW_FROM => Some(format!(
+            "the lag of rotor `{name}` ({:.3e} s) makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \
+             \"stiff\"",
+            1.0 / rate,
+            product / 3.3
+        )),
+        _ => None,
+    }
 }
 
 /// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest pole of the loop that
@@ -233,7 +272,7 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
 /// [`Simulated::status`].
 pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> Result<Simulated, RunError> {
     let Loaded { scene, experiment, controller, .. } = loaded;
-    let (method, warnings) = method_for(loaded);
+    let (method, mut warnings) = method_for(loaded);
     let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
     let mut recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
     let rows = experiment.n_steps / experiment.record_every + 1;
@@ -245,6 +284,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let mut lockstep = LockStep::new(loaded, method, manner.refined);
     let mut ledger = Ledger::start(lockstep.world());
     let mut trace = lockstep.trace();
+    let mut validity = validity::Register::new(&scene.model);
     let mut publish = |lockstep: &mut LockStep, t: f64, is_start: bool| -> Result<(), FileError> {
         let (seen, signals) = lockstep.observe(t);
         ledger.look(&seen);
@@ -269,6 +309,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
         }
         lockstep.add_to(&mut trace);
         let now = (tick + 1) as f64 * experiment.step;
+        validity.look(lockstep.world(), now);
         if (tick + 1) % experiment.record_every == 0 || advanced.is_err() {
             publish(&mut lockstep, now, false)?;
         }
@@ -290,7 +331,9 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let wall_time = clock.elapsed().as_secs_f64();
     let world = lockstep.world();
     let energy = ledger.close(world);
-    Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
+    let outside = validity.close(&scene.model, experiment.step);
+    warnings.extend(validity::words(&outside, experiment.n_steps));
+    Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), outside, warnings, wall_time })
 }
 
 /// Follows the balance of energy.
