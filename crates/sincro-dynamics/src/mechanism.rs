@@ -11,7 +11,7 @@ use sincro_math::Real;
 use crate::aba::{self, Held};
 use crate::attachment::Seen;
 use crate::drive::{Drive, DriveKind};
-use crate::force::rotor::SpeedFrom;
+use crate::force::rotor::{RotorLaw, SpeedFrom};
 use crate::force::{Instant, Motor, Push, damper, friction, joint_torques};
 use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
@@ -43,6 +43,8 @@ pub struct Mechanism<R> {
     pushes: Vec<Push<R>>,
     /// What drag elements take in the last evaluation `[W]`.
     air_dissipation: R,
+    /// The first rotor without a number for its load in the last evaluation.
+    without_load: Option<usize>,
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
 }
@@ -65,6 +67,7 @@ impl<R: Real> Mechanism<R> {
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             pushes: Vec::new(),
             air_dissipation: R::zero(),
+            without_load: None,
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             model,
@@ -288,6 +291,11 @@ impl<R: Real> Mechanism<R> {
         self.held_acceleration.fill(R::zero());
     }
 
+    /// The first rotor whose law gave what is not a number in the last evaluation.
+    pub(crate) fn rotor_without_load(&self) -> Option<usize> {
+        self.without_load
+    }
+
     /// What rotors and drag elements do; after kinematics.
     #[inline(always)]
     fn air_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
@@ -296,10 +304,14 @@ impl<R: Real> Mechanism<R> {
         }
         let air = self.model.wind.as_ref().map(|wind| wind.at(t));
         let at = |link: usize| (&self.scratch.links[link].v, &self.scratch.poses[link]);
-        for rotor in &self.model.rotors {
+        self.without_load = None;
+        for (k, rotor) in self.model.rotors.iter().enumerate() {
             let (twist, x_wl) = at(rotor.link);
             let speed = rotor.speed.value(v, &self.commands, rotors);
             let load = rotor.load(speed, rotors, &rotor.hub(twist, x_wl, air.as_ref()));
+            if matches!(rotor.law, RotorLaw::Printed(_)) && !(load.thrust.is_finite() && load.torque.is_finite()) {
+                self.without_load = self.without_load.or(Some(k));
+            }
             self.external[rotor.link] += rotor.wrench(&load);
         }
         self.air_dissipation = R::zero();

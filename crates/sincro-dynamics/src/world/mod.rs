@@ -315,6 +315,19 @@ impl World {
         Ok(())
     }
 
+    /// The first rotor whose law gave what is not a number in the last evaluation: only the printed script does.
+    #[must_use]
+    pub fn rotor_without_load(&self) -> Option<usize> {
+        self.mechanism.rotor_without_load()
+    }
+
+    /// Speed of a rotor in the present state [rad/s].
+    #[must_use]
+    pub fn rotor_speed(&self, rotor: usize) -> f64 {
+        let State { v, commands, rotors, .. } = &self.state;
+        self.model().rotors()[rotor].speed.value(v, commands, rotors)
+    }
+
     /// What each stock propeller throws during this tick.
     fn throw_particles(&mut self, h: f64) {
         for rotor in &self.mechanism.model.rotors {

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::check::{Outcome, Verdict};
 use crate::experiment::check::Sense;
+use crate::run::Outside;
 use crate::sweep::Sweep;
 use crate::table::Table;
 pub use file::{FileError, prepare};
@@ -48,6 +49,9 @@ pub struct RunReport {
     pub sweep: Option<SweepReport>,
     /// The same experiment with other settings.
     pub variants: Vec<VariantReport>,
+    /// Where rotors left what their theory holds for; left out if none did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside_theory: Vec<OutsideReport>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// How long it took `[s]`.
@@ -56,6 +60,30 @@ pub struct RunReport {
     /// Simulated time by wall time.
     #[serde(with = "number")]
     pub real_time_factor: f64,
+}
+
+/// One rotor outside what its theory holds for, for one reason.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OutsideReport {
+    /// Its path.
+    pub rotor: String,
+    /// Why, in words: `steep descent`.
+    pub reason: String,
+    /// Base steps that ended so.
+    pub steps: u64,
+    /// Their time in all `[s]`.
+    pub duration: f64,
+    /// End of the first such step `[s]`.
+    pub first: f64,
+    /// End of the last `[s]`.
+    pub last: f64,
+}
+
+impl From<&Outside> for OutsideReport {
+    fn from(o: &Outside) -> Self {
+        let (rotor, reason) = (o.rotor.clone(), o.reason.word().to_owned());
+        Self { rotor, reason, steps: o.steps, duration: o.duration, first: o.first, last: o.last }
+    }
 }
 
 /// How a run ended.
@@ -307,6 +335,9 @@ pub struct VariantReport {
     pub energy: Option<EnergyReport>,
     /// What must come out, and what did.
     pub checks: Vec<CheckReport>,
+    /// Where rotors left what their theory holds for; left out if none did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside_theory: Vec<OutsideReport>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// How long it took `[s]`.

@@ -63,6 +63,7 @@ fn report() -> RunReport {
         checks: vec![check()],
         sweep: None,
         variants: Vec::new(),
+        outside_theory: Vec::new(),
         warnings: vec!["the step is coarse".into()],
         wall_time_s: 0.25,
         real_time_factor: 12.0,
@@ -157,6 +158,7 @@ fn every_number_of_variants_and_sweep_is_looked_at() {
         columns: vec![column.clone()],
         energy: None,
         checks: vec![bad.clone()],
+        outside_theory: Vec::new(),
         warnings: Vec::new(),
         wall_time_s: 0.1,
     });

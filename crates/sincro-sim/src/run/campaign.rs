@@ -260,6 +260,7 @@ fn report(
         checks: main.outcomes.iter().map(CheckReport::from).collect(),
         sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
         variants: variants.iter().map(variant_report).collect(),
+        outside_theory: main.simulated.outside.iter().map(Into::into).collect(),
         warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
         wall_time_s: main.simulated.wall_time,
         real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
@@ -278,6 +279,7 @@ fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {
         columns: done.columns.clone(),
         energy: Some(done.simulated.energy),
         checks: done.outcomes.iter().map(CheckReport::from).collect(),
+        outside_theory: done.simulated.outside.iter().map(Into::into).collect(),
         warnings: done.simulated.warnings.clone(),
         wall_time_s: done.simulated.wall_time,
     }

@@ -111,6 +111,12 @@ impl LockStep {
         self.control.as_ref()
     }
 
+    /// Base step `[s]`.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
     /// Base steps done.
     #[must_use]
     pub fn tick(&self) -> u64 {

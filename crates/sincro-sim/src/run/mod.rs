@@ -16,10 +16,12 @@ mod recording;
 mod refine;
 mod stop;
 mod trace;
+mod validity;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use sincro_dynamics::force::rotor::{MountedRotor, SpeedFrom};
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, World};
@@ -28,6 +30,7 @@ pub use campaign::{Campaign, Done, Progress, run_campaign};
 pub use lockstep::{Halt, LockStep};
 pub(crate) use recording::Recording;
 pub use trace::{Trace, model_hash, plant_hash};
+pub use validity::Outside;
 
 use crate::experiment::{Experiment, Integrator};
 use crate::load::Loaded;
@@ -63,6 +66,8 @@ pub struct Simulated {
     pub energy: EnergyReport,
     /// Sub-steps and events.
     pub effort: Effort,
+    /// Where rotors left what their theory holds for.
+    pub outside: Vec<Outside>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// How long it took `[s]`, recording included.
@@ -114,13 +119,14 @@ impl From<FileError> for RunError {
 pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec<String>) {
     let fastest = stiffest(&scene.model, &scene.initial);
     let product = fastest.map_or(0.0, |s| s.rate * experiment.step);
+    let of_lag = fastest_lag(scene).map_or(0.0, |(_, rate)| rate * experiment.step);
     let kind = match experiment.integrator {
         Integrator::SemiImplicitEuler => MethodKind::SemiImplicitEuler,
         Integrator::Rk4 => MethodKind::Rk4,
         Integrator::Implicit => MethodKind::Implicit,
         Integrator::DormandPrince => MethodKind::DormandPrince,
         Integrator::Stiff => MethodKind::Stiff,
-        Integrator::Auto if product > STIFF_FROM => MethodKind::Stiff,
+        Integrator::Auto if product > STIFF_FROM || of_lag > SLOW_FROM => MethodKind::Stiff,
         Integrator::Auto => MethodKind::DormandPrince,
     };
     let mut warnings = Vec::new();
@@ -142,7 +148,40 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
             ));
         }
     }
+    warnings.extend(warn_of_lag(scene, experiment, kind));
     (kind, warnings)
+}
+
+/// The rotor that follows its command fastest with a lag, and how fast [1/s].
+fn fastest_lag(scene: &Scene) -> Option<(usize, f64)> {
+    let rate = |(k, rotor): (usize, &MountedRotor<f64>)| match rotor.speed {
+        SpeedFrom::Lag { time_constant, .. } => Some((k, 1.0 / time_constant)),
+        _ => None,
+    };
+    scene.model.rotors().iter().enumerate().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// What there is to say about the lag of rotors under an explicit method.
+fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Option<String> {
+    let (k, rate) = fastest_lag(scene)?;
+    let product = rate * experiment.step;
+    let name = &scene.model.names().rotors[k];
+    match kind {
+        MethodKind::Rk4 if product > RK4_LIMIT => Some(format!(
+            "the lag of rotor `{name}` ({:.3e} s) is too short for `rk4` at a step of {} s, which is stable up to {:.2e} s: the run will \
+             diverge. Use integrator = \"implicit\" (same step) or \"auto\"",
+            1.0 / rate,
+            experiment.step,
+            RK4_LIMIT / rate
+        )),
+        MethodKind::DormandPrince if product > SLOW_FROM => Some(format!(
+            "the lag of rotor `{name}` ({:.3e} s) makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \
+             \"stiff\"",
+            1.0 / rate,
+            product / 3.3
+        )),
+        _ => None,
+    }
 }
 
 /// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest pole of the loop that

@@ -6,7 +6,7 @@ use std::time::Instant;
 use sincro_dynamics::world::{MethodKind, Observation, World};
 
 use super::lockstep::LockStep;
-use super::{Manner, RunError, Simulated, Trace};
+use super::{Manner, RunError, Simulated, Trace, validity};
 use crate::diagram::Controller;
 use crate::load::Loaded;
 use crate::record::Recorder;
@@ -20,6 +20,7 @@ pub(crate) struct Recording {
     table: Table,
     csv: Option<CsvWriter>,
     tape: Option<Tape>,
+    validity: validity::Register,
     ledger: Ledger,
     trace: Trace,
     record_every: u64,
@@ -43,10 +44,11 @@ impl Recording {
         let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
         let csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
         let tape = manner.films.then(|| Tape::new(&scene.model, experiment));
+        let validity = validity::Register::new(&scene.model);
         let clock = Instant::now();
         let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
-        Ok(Self { recorder, table, csv, tape, ledger, trace, record_every, last_tick, clock })
+        Ok(Self { recorder, table, csv, tape, validity, ledger, trace, record_every, last_tick, clock })
     }
 
     /// Hash of the states so far.
@@ -72,7 +74,8 @@ impl Recording {
     /// The CSV file cannot be written.
     pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<(), FileError> {
         lockstep.add_to(&mut self.trace);
-        let tick = lockstep.tick();
+        let (tick, t) = (lockstep.tick(), lockstep.t());
+        self.validity.look(lockstep.world(), t);
         if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
             self.publish(lockstep, false)?;
         }
@@ -106,14 +109,17 @@ impl Recording {
         lockstep: &mut LockStep,
         status: Status,
         method: MethodKind,
-        warnings: Vec<String>,
+        mut warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
-        let Self { table, csv, tape, ledger, trace, clock, .. } = self;
+        let Self { table, csv, tape, validity, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let wall_time = clock.elapsed().as_secs_f64();
+        let (step, n_steps) = (lockstep.step(), lockstep.tick());
         let world = lockstep.world();
-        let energy = ledger.close(world);
-        Ok(Simulated { table, status, method, trace, tape, energy, effort: world.effort(), warnings, wall_time })
+        let (energy, effort) = (ledger.close(world), world.effort());
+        let outside = validity.close(world.model(), step);
+        warnings.extend(validity::words(&outside, n_steps));
+        Ok(Simulated { table, status, method, trace, tape, energy, effort, outside, warnings, wall_time })
     }
 }
 

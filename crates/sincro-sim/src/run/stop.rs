@@ -56,6 +56,15 @@ fn explain(
         }
         Stop::Chatter { .. } => "a limited motor or a friction changed too often within one step".to_owned(),
     };
+    if let Some(rotor) = world.rotor_without_load() {
+        let name = &world.model().names().rotors[rotor];
+        let reason = format!(
+            "rotor `{name}`, the script as printed, gave what is not a number in tick {tick} at t = {time:.6} s, at {} rad/s",
+            number(&world.rotor_speed(rotor))
+        );
+        let help = "its closed form has no root there; take `blade` in place of `printed`: the corrected model is finite everywhere";
+        return Status::Stopped { tick, time, reason, help: help.to_owned() };
+    }
     let suspect = suspect(world);
     let reason = format!("{what} in tick {tick} at t = {time:.6} s; {}", suspect.0);
     let help = help(world, experiment, method).unwrap_or(suspect.1);

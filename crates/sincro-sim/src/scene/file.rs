@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
+use super::rotor::RotorFile;
 use super::signal_file::SignalFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
@@ -348,76 +349,6 @@ pub(crate) struct ForceFile {
     pub input: bool,
 }
 
-/// A rotor: thrust along z of its own frame, and the reaction of its torque, at a given speed.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend(
-    "oneOf" = [{"required": ["blade"]}, {"required": ["constant"]}],
-    "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
-))]
-pub(crate) struct RotorFile {
-    /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
-    pub name: String,
-    /// Path of the body or frame that carries it.
-    pub parent: String,
-    /// Hub in the parent frame [m].
-    #[serde(default)]
-    pub position: [f64; 3],
-    /// Roll, pitch and yaw in the parent: R = Rz(yaw)·Ry(pitch)·Rx(roll) [deg].
-    pub rotation_deg: Option<[f64; 3]>,
-    /// Rotation in the parent as a quaternion (w, x, y, z), of any length but zero.
-    pub quaternion_wxyz: Option<[f64; 4]>,
-    /// Which way it turns at positive speed, seen from above.
-    pub spin: SpinFile,
-    /// Blade elements in the flow of momentum theory.
-    pub blade: Option<BladeFile>,
-    /// T = thrust·Ω², Q = torque·Ω².
-    pub constant: Option<ConstantRotorFile>,
-    /// Speed over time; a diagram may give it through the port PATH [rad/s].
-    #[serde(default = "no_signal")]
-    pub speed: SignalFile,
-}
-
-/// Which way a rotor turns, seen from above (against the thrust).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum SpinFile {
-    /// Counter-clockwise.
-    Ccw,
-    /// Clockwise.
-    Cw,
-}
-
-/// Blades of a rotor, untwisted and of one chord.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct BladeFile {
-    /// Radius of the disc [m].
-    pub radius: f64,
-    /// Chord of a blade [m].
-    pub chord: f64,
-    /// Number of blades.
-    pub n_blades: u32,
-    /// Slope of the lift coefficient [1/rad].
-    pub lift_slope: f64,
-    /// Collective pitch [rad].
-    pub collective_pitch: f64,
-    /// Drag coefficient at zero incidence: c_d = cd0 + k_cd·α².
-    pub cd0: f64,
-    /// Growth of the drag coefficient with the incidence squared [1/rad²].
-    pub k_cd: f64,
-}
-
-/// Constant coefficients of a rotor.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConstantRotorFile {
-    /// Thrust over speed squared [N·s²/rad²].
-    pub thrust: f64,
-    /// Torque over speed squared [N·m·s²/rad²].
-    pub torque: f64,
-}
-
 /// Whose axes components are along.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -435,10 +366,6 @@ pub(crate) fn standard_gravity() -> [f64; 3] {
 
 fn world() -> String {
     "/".into()
-}
-
-fn no_signal() -> SignalFile {
-    SignalFile::Number(0.0)
 }
 
 fn sea_level() -> f64 {

@@ -18,7 +18,7 @@ mod tree;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId, RotorSpec};
+use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
@@ -63,7 +63,7 @@ enum Spec {
     Body(BodySpec, Vec<ShapeInstance>),
     Frame,
     Force(ForceSpec),
-    Rotor(RotorSpec, Signal),
+    Rotor(Box<rotor::RotorMade>, Signal),
     Drag(DragSpec),
 }
 
@@ -76,6 +76,13 @@ pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result
     let order = tree::order(&entries, document, &mut problems);
     let mut maker = Maker { document, folder, air_density: file.air_density, problems: &mut problems };
     let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
+    let joints: Vec<&str> =
+        entries.iter().filter(|e| matches!(e.file, tree::AnyFile::Joint(_))).map(|e| e.path.as_str()).collect();
+    for entry in &entries {
+        if let tree::AnyFile::Rotor(file) = entry.file {
+            rotor::check_joint(file, &entry.pointer, &joints, &mut maker.signals());
+        }
+    }
     let wind = file.wind.as_ref().and_then(|wind| air::wind(wind, seed, document, &mut problems));
     if problems.any_error() {
         return Err(problems.sorted());
@@ -185,8 +192,10 @@ impl Assembly {
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
             Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
-            Spec::Rotor(spec, speed) => {
+            Spec::Rotor(made, speed) => {
                 self.commands.insert(self.objects.len(), speed);
+                let joint = made.joint.as_ref().and_then(|path| self.objects.iter().position(|o| o.path == *path));
+                let spec = made.spec(joint.map(|k| self.nodes[k]));
                 (self.builder.rotor(&path, parent, pose, spec), ObjectKind::Rotor)
             }
         };

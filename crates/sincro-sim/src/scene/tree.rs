@@ -6,8 +6,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::air::DragFile;
-use super::file::{BodyFile, ForceFile, FrameFile, JointFile, RotorFile, SceneFile};
+use super::file::{BodyFile, ForceFile, FrameFile, JointFile, SceneFile};
 use super::placement::Placement;
+use super::rotor::RotorFile;
 use crate::document::Document;
 use crate::problem::{Problem, Problems};
 use crate::suggest;
@@ -179,6 +180,8 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
             let problem = Problem::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
             problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));
         }
+        // a rotor may hang on the joint that turns it
+        (AnyFile::Rotor(_), Some(AnyFile::Joint(_))) => {}
         (AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_), None | Some(AnyFile::Joint(_))) => {
             let word = entry.file.word();
             let message = format!("{word} `{}` acts on `{}`, which is no body and no frame", entry.path, entry.parent);
