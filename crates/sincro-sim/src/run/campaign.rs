@@ -117,7 +117,7 @@ fn one_run(
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
     let mut watch = Watch { interrupt, progress: &mut tell };
-    let simulated = simulate(loaded, Manner { csv, refined: false }, &mut watch)?;
+    let simulated = simulate(loaded, Manner { csv, variant, refined: false }, &mut watch)?;
     let columns = match simulated.status {
         Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
         _ => ColumnReport::of_table(&simulated.table),
@@ -203,6 +203,7 @@ fn run_sweep(
         match &run.status {
             Status::Completed => sweep.push(plan.values[k], &finals),
             Status::Stopped { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
+            Status::Ended { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
             Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
         }
     }

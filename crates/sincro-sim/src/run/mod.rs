@@ -29,6 +29,7 @@ pub use lockstep::{Halt, LockStep};
 pub use trace::{Trace, model_hash, plant_hash};
 
 use crate::diagram::Controller;
+use crate::experiment::stop::Bounds;
 use crate::experiment::{Experiment, Integrator};
 use crate::load::Loaded;
 use crate::problem::Problems;
@@ -82,6 +83,8 @@ pub struct Manner<'a> {
     pub csv: Option<&'a Path>,
     /// Whether it is the finer run of an error estimate.
     pub refined: bool,
+    /// The variant whose checks end it if they want a divergence; none: the main run.
+    pub variant: Option<&'a str>,
 }
 
 /// Why a run could not even be made.
@@ -233,11 +236,12 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
 /// [`Simulated::status`].
 pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> Result<Simulated, RunError> {
     let Loaded { scene, experiment, controller, .. } = loaded;
-    let (method, warnings) = method_for(loaded);
+    let (method, mut warnings) = method_for(loaded);
     let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
     let mut recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
     let rows = experiment.n_steps / experiment.record_every + 1;
     let mut table = Table::new(recorder.columns(), rows as usize);
+    let mut bounds = Bounds::new(experiment, manner.variant, &table);
     let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
     let mut csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
 
@@ -245,18 +249,21 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let mut lockstep = LockStep::new(loaded, method, manner.refined);
     let mut ledger = Ledger::start(lockstep.world());
     let mut trace = lockstep.trace();
-    let mut publish = |lockstep: &mut LockStep, t: f64, is_start: bool| -> Result<(), FileError> {
+    let mut publish = |lockstep: &mut LockStep, t: f64, is_start: bool| -> Result<Option<String>, FileError> {
         let (seen, signals) = lockstep.observe(t);
         ledger.look(&seen);
         let row = recorder.row(&seen, signals, t, is_start);
         table.push_row(row);
-        csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
+        csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
+        Ok(if manner.refined { None } else { bounds.reached(&table) })
     };
     let mut status = Status::Completed;
     let first = lockstep.start();
-    publish(&mut lockstep, 0.0, true)?;
+    let end = publish(&mut lockstep, 0.0, true)?;
     if let Err(halt) = first {
         status = halt.explain(&mut lockstep, experiment, method);
+    } else if let Some(reason) = end {
+        status = Status::Ended { tick: 0, time: 0.0, reason };
     }
     for tick in 0..experiment.n_steps {
         if status != Status::Completed {
@@ -269,11 +276,14 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
         }
         lockstep.add_to(&mut trace);
         let now = (tick + 1) as f64 * experiment.step;
-        if (tick + 1) % experiment.record_every == 0 || advanced.is_err() {
-            publish(&mut lockstep, now, false)?;
-        }
+        let is_row = (tick + 1) % experiment.record_every == 0 || advanced.is_err();
+        let end = if is_row { publish(&mut lockstep, now, false)? } else { None };
         if let Err(halt) = advanced {
             status = halt.explain(&mut lockstep, experiment, method);
+            break;
+        }
+        if let Some(reason) = end {
+            status = Status::Ended { tick: tick + 1, time: now, reason };
             break;
         }
         if watch.interrupt.load(Ordering::Relaxed) {
@@ -288,6 +298,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
         csv.finish()?;
     }
     let wall_time = clock.elapsed().as_secs_f64();
+    warnings.extend(lockstep.notices());
     let world = lockstep.world();
     let energy = ledger.close(world);
     Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })

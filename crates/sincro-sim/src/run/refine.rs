@@ -16,7 +16,7 @@ pub(super) fn columns(loaded: &Loaded, run: &Simulated, watch: &mut Watch<'_>) -
     if loaded.experiment.error_bar == ErrorBar::None {
         return Ok(columns);
     }
-    let finer = simulate(loaded, Manner { csv: None, refined: true }, watch)?;
+    let finer = simulate(loaded, Manner { refined: true, ..Manner::default() }, watch)?;
     let (factor, method) = estimate(run.method);
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
