@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use sincro_sim::load;
-use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
+use sincro_sim::results::{CheckReport, RunReport, VerdictReport};
 use sincro_sim::run::run_campaign;
 
 fn root() -> PathBuf {
@@ -39,7 +39,7 @@ fn every_scene_holds_its_checks_and_its_bits() {
     let mut traces = String::new();
     for folder in folders() {
         let report = run(&folder);
-        assert_eq!(report.status, Status::Completed, "{}", folder.display());
+        assert!(report.status.is_good(), "{}: {:?}", folder.display(), report.status);
         for check in all_checks(&report) {
             assert_eq!(check.verdict, VerdictReport::Holds, "{}: {check:?}", folder.display());
         }

@@ -146,6 +146,11 @@ pub trait Block: Clone + Debug + Send + Sync + 'static {
         f64::INFINITY
     }
 
+    /// What there is to say of it at the end of a run, from its memory: that it limited a signal, and when first.
+    fn notice(&self, _node: &Node, _memory: &[f64]) -> Option<String> {
+        None
+    }
+
     /// What stands in its box in a drawing, such as `2.5` or `1/s`; empty for the name of its kind.
     fn label(&self) -> String {
         String::new()

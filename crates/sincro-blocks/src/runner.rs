@@ -248,6 +248,16 @@ impl<R: Number> Runner<R> {
         }
     }
 
+    /// What blocks have to say of the run so far, each with its path.
+    #[must_use]
+    pub fn notices(&self) -> Vec<(&str, String)> {
+        let of_step = |step: &'_ Step| {
+            let memory: Vec<f64> = self.state.memory[step.memory.clone()].iter().map(|x| x.lane(0)).collect();
+            step.template.notice(&step.node, &memory)
+        };
+        self.program.steps.iter().filter_map(|step| Some((step.path.as_str(), of_step(step)?))).collect()
+    }
+
     /// The first block whose output is not finite, with the number of the component.
     #[must_use]
     pub fn not_finite(&self) -> Option<(&Step, usize)> {

@@ -121,7 +121,8 @@ fn a_delay_gives_back_every_sample_to_the_bit() {
     assert!((0..30).all(|k| y[k] == if k < 4 { 9.0 } else { u[k - 4] }));
     let one = block("delay", &[("samples", 1.0.into())]);
     assert_eq!(answer(&u, STEP, one), answer(&u, STEP, block("unit-delay", &[])));
-    assert!(faults("delay", &[("samples", 0.0.into())]).contains("it must be a whole number from 1 on"));
+    assert!(faults("delay", &[("samples", (-1.0).into())]).contains("it must be a whole number from 0 on"));
+    assert_eq!(answer(&[1.0, 2.0, 3.0], STEP, block("delay", &[("samples", 0.0.into())])), [1.0, 2.0, 3.0]);
     assert_eq!(block("delay", &[("samples", 12.0.into())]).label(), "z⁻¹²");
 }
 
@@ -237,4 +238,60 @@ fn vectors_keep_their_components_apart() {
             solo.advance();
         }
     }
+}
+
+#[test]
+fn a_discrete_low_pass_is_the_lag_at_its_samples_whatever_the_time_constant() {
+    // 63 % of a step after one time constant; a time constant far below the sample time follows at once
+    let step = answer(&[1.0; 40], STEP, block("discrete-low-pass", &[("time_constant", 0.1.into())]));
+    for (k, y) in step.iter().enumerate() {
+        let expected = 1.0 - sincro_math::elementary::exp(-0.1 * (k + 1) as f64).0;
+        assert!((y - expected).abs() < 1e-14, "{k}: {y} {expected}");
+    }
+    for time_constant in [0.0, 1e-6] {
+        let fast = block("discrete-low-pass", &[("time_constant", time_constant.into()), ("dc_gain", 2.0.into())]);
+        assert_eq!(answer(&[1.0, -3.0, 0.5], STEP, fast), [2.0, -6.0, 1.0]);
+    }
+    assert!(faults("discrete-low-pass", &[("time_constant", list(&[0.1, -1.0]))]).contains("is negative"));
+}
+
+/// y, y' and y'' of a command filter after `n` samples of a unit step.
+fn commanded(damping_ratio: f64, n: usize) -> [f64; 3] {
+    let parameters = [("natural_frequency", 2.0.into()), ("damping_ratio", damping_ratio.into())];
+    let mut d = driven(&[1.0], block("command-filter", &parameters));
+    add(&mut d, "all", block("mux", &[("inputs", 3.0.into())]));
+    d.wire("y.y", "all.u1").wire("y.rate", "all.u2").wire("y.acceleration", "all.u3");
+    let mut solo = Solo::new(&d, STEP).unwrap();
+    for _ in 0..n {
+        solo.advance();
+    }
+    let found = solo.output("all");
+    [found[0], found[1], found[2]]
+}
+
+#[test]
+fn a_command_filter_is_its_differential_equation_whatever_the_damping() {
+    use sincro_math::elementary::{exp, sin_cos};
+    let (w, n) = (2.0, 70);
+    let t = n as f64 * STEP;
+    // closed forms of a step response: 1 − e^(−ζωt)·(…)
+    let critical = 1.0 - exp(-w * t).0 * (1.0 + w * t);
+    let wd = w * (1.0f64 - 0.25).sqrt();
+    let (sin, cos) = sin_cos(wd * t);
+    let under = 1.0 - exp(-0.5 * w * t).0 * (cos + 0.5 * w / wd * sin);
+    let (slow, fast) = (w * (2.0 - 3f64.sqrt()), w * (2.0 + 3f64.sqrt()));
+    let over = 1.0 - (fast * exp(-slow * t).0 - slow * exp(-fast * t).0) / (fast - slow);
+    for (damping_ratio, expected) in [(1.0, critical), (0.5, under), (2.0, over)] {
+        let [y, rate, acceleration] = commanded(damping_ratio, n);
+        assert!((y - expected).abs() < 1e-13, "ζ = {damping_ratio}: {y} {expected}");
+        assert!((acceleration + w * w * (y - 1.0) + 2.0 * damping_ratio * w * rate).abs() < 1e-13);
+        let [before, after] = [commanded(damping_ratio, n - 1)[0], commanded(damping_ratio, n + 1)[0]];
+        // central difference: the third derivative times Ts²/6
+        assert!(((after - before) / (2.0 * STEP) - rate).abs() < 1e-3);
+    }
+    let [near, exact] = [1.0 + 1e-9, 1.0].map(|z| commanded(z, n)[0]);
+    assert!((near - exact).abs() < 1e-7, "no jump between the formulas: {near} {exact}");
+    assert!(faults("command-filter", &[("natural_frequency", 0.0.into())]).contains("not positive"));
+    let negative = [("natural_frequency", 1.0.into()), ("damping_ratio", (-0.1).into())];
+    assert!(faults("command-filter", &negative).contains("is negative"));
 }

@@ -80,6 +80,8 @@ fn examples() -> Vec<(&'static str, Parameters, Vec<usize>)> {
         ("discrete-state-space", linear(), vec![2]),
         ("discrete-pid", pid(vec![("method", "trapezoidal".into())]), vec![2, 1, 2]),
         ("discrete-pid", lagged(), vec![2, 2, 2]),
+        ("discrete-low-pass", vec![("time_constant", list(&[0.1, 0.0])), ("initial", 0.5.into())], vec![2]),
+        ("command-filter", vec![("natural_frequency", list(&[3.0, 4.0])), ("damping_ratio", 0.5.into())], vec![2]),
         ("fir-filter", vec![("coefficients", list(&[1.0, 2.0, 3.0]))], vec![2]),
         ("iir-filter", vec![("sections", list(&[1.0, 1.0, 0.0, 1.0, -0.5, 0.0]))], vec![2]),
         ("matrix-product", vec![("rows", 2.0.into()), ("transposed", true.into())], vec![6, 4]),
@@ -91,7 +93,7 @@ fn examples() -> Vec<(&'static str, Parameters, Vec<usize>)> {
             vec![("bound", 0.05.into()), ("weights", list(&[1.0, 2.0])), ("gain", list(&[800.0, 0.5]))],
             vec![2],
         ),
-        ("saturation", vec![("upper", 0.35.into())], vec![2]),
+        ("saturation", vec![("upper", 0.35.into()), ("report", true.into())], vec![2]),
         ("rate-limiter", vec![("rising", 1.0.into()), ("initial", 0.0.into())], vec![2]),
         ("dead-zone", vec![("lower", 0.0.into()), ("upper", 0.2.into())], vec![2]),
         ("quantizer", vec![("interval", 0.1.into())], vec![2]),
@@ -111,6 +113,7 @@ fn examples() -> Vec<(&'static str, Parameters, Vec<usize>)> {
         ("quaternion-conjugate", vec![], vec![4]),
         ("angular-velocity-to-quaternion-rate", vec![("world", true.into())], vec![4, 3]),
         ("euler-rates", convention(), vec![3, 3]),
+        ("euler-rates-to-angular-velocity", convention(), vec![3, 3]),
     ]
 }
 

@@ -2,7 +2,9 @@
 
 mod b_common;
 
-use b_common::{add, answer, block, faults, list, rows, value};
+use std::sync::Arc;
+
+use b_common::{Samples, add, answer, block, faults, list, rows, value};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::nonlinear::LookupTable;
@@ -154,4 +156,28 @@ fn a_table_on_dual_numbers_has_the_slope_of_its_line() {
     runner.evaluate(0, 0.0);
     let y = runner.signals()[2];
     assert_eq!((y.value, y.partials), (0.0, [-10.0]));
+}
+
+#[test]
+fn a_saturation_counts_and_tells_when_it_limits() {
+    let run = |samples: &[f64]| {
+        let limits = [("lower", 0.0.into()), ("upper", 4.0.into()), ("report", true.into())];
+        let mut d = Diagram::new();
+        d.block("u", Samples { values: samples.to_vec() });
+        add(&mut d, "limit", block("saturation", &limits));
+        d.wire("u", "limit");
+        let mut runner = Runner::<f64>::new(Arc::new(compile(&d, &Interface::new(0.5)).unwrap()));
+        for tick in 0..samples.len() as u64 {
+            runner.evaluate(tick, 0.5 * tick as f64);
+            runner.update(tick, 0.5 * tick as f64);
+        }
+        let notices = runner.notices();
+        notices.first().map(|(path, words)| format!("{path}: {words}"))
+    };
+    assert_eq!(run(&[0.0, 1.0, 4.0]), None, "a value at a limit is not limited");
+    let once = "limit: was limited to its least value once: at t = 0.500000 s, where y was to be -3, not 0";
+    assert_eq!(run(&[1.0, -3.0, 2.0]).unwrap(), once);
+    let often = "limit: was limited to its least value once: at t = 1.000000 s, where y was to be -1, not 0; was limited to its \
+                 greatest value in 2 samples: first at t = 0.500000 s, where y was to be 7, not 4, last at t = 2.000000 s";
+    assert_eq!(run(&[1.0, 7.0, -1.0, 2.0, 5.0, 2.0]).unwrap(), often);
 }

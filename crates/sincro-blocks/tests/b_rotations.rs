@@ -164,6 +164,27 @@ fn rates_are_the_slopes_of_angles_and_quaternions() {
 }
 
 #[test]
+fn the_matrices_of_euler_rates_are_inverse_and_transposed_to_each_other() {
+    let mut random = Random(25);
+    for convention in CONVENTIONS {
+        for _ in 0..10 {
+            let (e, w, torque) = (angles(&mut random), random.list(3), random.list(3));
+            let of = |kind: &str, transposed: bool, x: &[f64]| {
+                let parameters = [("convention", convention.into()), ("transposed", transposed.into())];
+                both(block(kind, &parameters), &e, x)
+            };
+            let (rates, back) = ("euler-rates", "euler-rates-to-angular-velocity");
+            assert!(close(&of(back, false, &of(rates, false, &w)), &w));
+            assert!(close(&of(back, true, &of(rates, true, &torque)), &torque));
+            // the same power about both sets of axes: (Eᵀτ)·rates = τ·(E·rates)
+            let power = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let (one, other) = (power(&of(back, true, &torque), &of(rates, false, &w)), power(&torque, &w));
+            assert!((one - other).abs() < 1e-9 * (1.0 + one.abs()), "{e:?}: {one} {other}");
+        }
+    }
+}
+
+#[test]
 fn a_vector_of_the_wrong_size_is_told() {
     let found = Solo::new(&b_common::driven(&[1.0, 2.0], block("quaternion-conjugate", &[])), 0.01).unwrap_err();
     assert!(found[0].message.contains("`u` has 4 components here, it gets 2"), "{}", found[0]);

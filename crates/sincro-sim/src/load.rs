@@ -163,6 +163,7 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         }
     }
     if let Some(experiment) = &experiment {
+        problems.merge(experiment::stop::check_recorded(experiment));
         problems.merge(too_large(experiment));
     }
     match (experiment, scene) {
@@ -259,7 +260,14 @@ fn with_scopes(mut experiment: Experiment, controller: &Controller, scene: &Scen
                 experiment.record.push(signal.clone());
             }
         }
-        experiment.plots.push(Plot { title, signals, reference: None, compares_variants: None, variants: None });
+        experiment.plots.push(Plot {
+            title,
+            is_path: false,
+            signals,
+            reference: None,
+            compares_variants: None,
+            variants: None,
+        });
     }
     experiment
 }

@@ -158,6 +158,7 @@ fn reel(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneV
 pub(crate) fn stop_words(status: &Status) -> String {
     match status {
         Status::Completed => String::new(),
+        Status::Ended { time, reason, .. } => format!("ended at t = {time} s: {reason}"),
         Status::Stopped { time, reason, .. } => format!("stopped at t = {time} s: {reason}"),
         Status::Interrupted { time, .. } => format!("interrupted at t = {time} s"),
     }

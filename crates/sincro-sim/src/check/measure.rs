@@ -11,6 +11,7 @@
 //! |---|---|
 //! | overshoot | the greatest (x − x_1)/h of a row, at least 0 |
 //! | rise time | from the first crossing of x_0 + 0.1·h to the first of x_0 + 0.9·h |
+//! | divergence | the first \|x\| that is greater than the target, which is the bound; the greatest if none is |
 //! | settling time | from the first row to the instant after which \|x − x_1\| stays at most band·\|h\| |
 //!
 //! A level that is not reached, or a response that has not settled in the last row, gives an infinite time, which never holds.
@@ -50,6 +51,12 @@ pub(super) fn measure(measure: Measure, shape: &StepShape, keys: &[f64], values:
         Measure::MaxAbs => {
             let sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
             let row = greatest(&sizes);
+            Ok(Measured { value: sizes[row], row: Some(row) })
+        }
+        Measure::Divergence => {
+            let sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+            let bound = shape.target.unwrap_or(f64::INFINITY);
+            let row = sizes.iter().position(|size| *size > bound).unwrap_or_else(|| greatest(&sizes));
             Ok(Measured { value: sizes[row], row: Some(row) })
         }
         Measure::TimeOfMin => Ok(Measured { value: key_of_row(least(values)), row: None }),

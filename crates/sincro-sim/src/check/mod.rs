@@ -149,6 +149,9 @@ fn verdict(check: &Check, deviation: f64) -> Verdict {
 
 fn compare(check: &Check, along: &Along) -> Result<Comparison, String> {
     let source = Source::new(check, along)?;
+    if check.measure == Measure::Divergence {
+        return divergence(check, along, &source);
+    }
     let rows = rows::select(check, along)?;
     let measured = source.measured(&rows.idxs)?;
     match check.measure {
@@ -158,6 +161,29 @@ fn compare(check: &Check, along: &Along) -> Result<Comparison, String> {
         }
         _ => compare_numbers(check, along, &source, &rows, &measured),
     }
+}
+
+/// The first row beyond the bound, from the start of the run on: that the run ended there is what is wanted. It must lie in the
+/// window.
+fn divergence(check: &Check, along: &Along, source: &Source) -> Result<Comparison, String> {
+    let Expected::Value(bound) = check.expected else { return Err("the bound is not a number".into()) };
+    let (from, to) = check.window.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    let n_rows = along.first_after(to);
+    let values = source.measured(&(0..n_rows).collect::<Vec<_>>())?;
+    if values.is_empty() {
+        return Err("nothing was recorded".into());
+    }
+    let shape = StepShape { target: Some(bound), band: check.band };
+    let Measured { value, row } = measure::measure(Measure::Divergence, &shape, along.keys(), &values)?;
+    let at = row.map(|row| along.keys()[row]);
+    if value > bound
+        && let Some(t) = at.filter(|t| *t < from - along.tolerance)
+    {
+        return Err(format!("it leaves the bound at {} already, before the window", along.place(t)));
+    }
+    // a bound that is met exactly has not been left
+    let deviation = if value > bound { 0.0 } else { (bound - value).max(f64::MIN_POSITIVE) };
+    Ok(Comparison { measured: value, expected: bound, deviation, at, n_rows })
 }
 
 /// The row that deviates most; the first of equals, and the first that is not a number before all others.

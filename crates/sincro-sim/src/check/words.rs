@@ -8,8 +8,12 @@ use crate::experiment::check::{Check, Expected, Measure, Sense, Subject};
 /// `greatest value of /shoulder.position against 0.2, from t = 1 s to 3 s`.
 pub(super) fn about(check: &Check, along: &Along) -> String {
     let what = subject(check);
+    if check.measure == Measure::Divergence {
+        let Expected::Value(bound) = check.expected else { return what };
+        return format!("{what} leaves the bound of {}{}", short(bound), place(check, along));
+    }
     let what = match check.measure {
-        Measure::Error => what,
+        Measure::Error | Measure::Divergence => what,
         Measure::Final => format!("last value of {what}"),
         Measure::Mean => format!("mean of {what}"),
         Measure::Min => format!("least value of {what}"),

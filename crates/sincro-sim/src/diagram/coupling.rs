@@ -283,6 +283,11 @@ impl Control<f64> {
         self.write_commands(&mut world.state.commands, true);
     }
 
+    /// The continuous commands as they were last evaluated; sampled ones are not seen before they act.
+    pub fn show(&self, commands: &mut [f64]) {
+        self.write_commands(commands, true);
+    }
+
     /// Latches the commands of the diagram, from this tick on.
     pub fn latch(&self, commands: &mut [f64]) {
         self.write_commands(commands, false);

@@ -134,6 +134,8 @@ pub enum Measure {
     RiseTime,
     /// Time `[s]` from the first row to the last instant at which the response enters the band around its target.
     SettlingTime,
+    /// The magnitude in the first row in which it is greater than the expected value, or its greatest if it never is.
+    Divergence,
 }
 
 impl Measure {
@@ -155,6 +157,7 @@ impl Measure {
             Self::Overshoot => "overshoot",
             Self::RiseTime => "rise-time",
             Self::SettlingTime => "settling-time",
+            Self::Divergence => "diverges",
         }
     }
 

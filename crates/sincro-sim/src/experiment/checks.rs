@@ -62,6 +62,8 @@ impl CheckReader<'_> {
         let expected = self.expected(file, pointer, &slots);
         let (sense, tolerance) = self.sense(file, pointer);
         let target = self.step_response(file, pointer);
+        self.divergence(file, pointer);
+        let measure = if file.diverges.is_some() { Measure::Divergence } else { Measure::from(file.measure) };
         self.times(file, pointer, "");
         if file.floor.is_some() && !file.relative {
             let at = self.document.key_at(&format!("{pointer}/floor"));
@@ -75,7 +77,7 @@ impl CheckReader<'_> {
             parameters: self.parameters.clone(),
             expected: expected?,
             sense,
-            measure: Measure::from(file.measure),
+            measure,
             target,
             band: file.band.unwrap_or(0.02),
             at: file.at,
@@ -133,6 +135,9 @@ impl CheckReader<'_> {
     }
 
     fn expected(&mut self, file: &CheckFile, pointer: &str, slots: &[String]) -> Option<Expected> {
+        if let Some(bound) = &file.diverges {
+            return self.of_parameters(bound, &format!("{pointer}/diverges")).map(Expected::Value);
+        }
         if let Some(reference) = &file.reference {
             return self.reference(reference, &format!("{pointer}/reference")).map(Expected::Reference);
         }
@@ -151,6 +156,7 @@ impl CheckReader<'_> {
         let bound = match (&file.at_most, &file.at_least) {
             (Some(_), _) => Some((Sense::AtMost, "at_most")),
             (None, Some(_)) => Some((Sense::AtLeast, "at_least")),
+            (None, None) if file.diverges.is_some() => Some((Sense::AtLeast, "diverges")),
             (None, None) => None,
         };
         let Some((sense, key)) = bound else {
@@ -182,15 +188,45 @@ impl CheckReader<'_> {
             let problem = Problem::error(&at, format!("`{key}` has no meaning for the measure `{}`", measure.word()));
             self.problems.push(problem.with_help(format!("it belongs to {owners}")));
         }
-        match file.target.as_ref()? {
+        self.of_parameters(file.target.as_ref()?, &format!("{pointer}/target"))
+    }
+
+    /// A number, or a formula of the parameters alone.
+    pub fn of_parameters(&mut self, given: &NumberOrFormula, pointer: &str) -> Option<f64> {
+        match given {
             NumberOrFormula::Number(x) => Some(*x),
             NumberOrFormula::Formula(text) => {
                 let parameters = self.parameters.clone();
                 let names: Vec<String> = parameters.iter().map(|(name, _)| name.clone()).collect();
-                let formula = self.formula(text, &format!("{pointer}/target"), &names)?;
+                let formula = self.formula(text, pointer, &names)?;
                 let values: Vec<f64> = parameters.iter().map(|(_, x)| *x).collect();
                 Some(formula.eval(&values, &mut formula.scratch()))
             }
+        }
+    }
+
+    /// Refuses what has no meaning for a divergence: it is the first passage of one signal's magnitude through a number.
+    fn divergence(&mut self, file: &CheckFile, pointer: &str) {
+        let Some(bound) = &file.diverges else { return };
+        let mut refuse = |key: &str, message: &str, help: &str| {
+            let at = self.document.key_at(&format!("{pointer}/{key}"));
+            self.problems.push(Problem::error(&at, message).with_help(help));
+        };
+        if matches!(self.keys, Keys::Sweep(_)) {
+            let help = "a sweep compares final values; let a `variant` diverge";
+            refuse("diverges", "`diverges` has no meaning in a sweep", help);
+        }
+        if file.signals.is_some() {
+            refuse("signals", "`diverges` looks at one signal", "give signal = \"…\", which is recorded");
+        }
+        if file.at.is_some() {
+            refuse("at", "`at` has no meaning with `diverges`", "give a `window` in which it must leave the bound");
+        }
+        if self.document.get(&format!("{pointer}/measure")).is_some() {
+            refuse("measure", "`measure` has no meaning with `diverges`", "leave it out");
+        }
+        if matches!(bound, NumberOrFormula::Number(x) if *x < 0.0) {
+            refuse("diverges", "a magnitude is always beyond a negative bound", "give a bound of 0 or more");
         }
     }
 

@@ -61,6 +61,9 @@ pub(crate) struct ExperimentFile {
     /// The same experiment with other settings.
     #[serde(default)]
     pub variant: Vec<VariantFile>,
+    /// Bounds at which the run ends: no failure, but nothing more to be seen.
+    #[serde(default)]
+    pub stop_when: Vec<StopFile>,
     /// Plots of the report; one for each recorded unit if none is given.
     #[serde(default)]
     pub plot: Vec<PlotFile>,
@@ -102,7 +105,8 @@ pub(crate) enum ErrorBarFile {
 #[schemars(extend("allOf" = [
     {"oneOf": [{"required": ["signal"]}, {"required": ["signals"]}]},
     {"oneOf": [
-        {"required": ["value"]}, {"required": ["reference"]}, {"required": ["at_most"]}, {"required": ["at_least"]}
+        {"required": ["value"]}, {"required": ["reference"]}, {"required": ["at_most"]}, {"required": ["at_least"]},
+        {"required": ["diverges"]}
     ]},
     {"not": {"required": ["at", "window"]}}
 ]))]
@@ -123,6 +127,9 @@ pub(crate) struct CheckFile {
     pub at_most: Option<NumberOrFormula>,
     /// What it must not fall below: a number or a formula.
     pub at_least: Option<NumberOrFormula>,
+    /// Holds if the signal leaves a bound: its magnitude becomes greater than this number, or formula of the parameters, and within the
+    /// `window` for the first time. The run ends there.
+    pub diverges: Option<NumberOrFormula>,
     /// What of the series is compared.
     #[serde(default)]
     pub measure: MeasureFile,
@@ -234,6 +241,21 @@ impl From<MeasureFile> for Measure {
     }
 }
 
+/// A bound at which the run ends. Recorded rows are looked at.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{"required": ["above"]}, {"required": ["below"]}, {"required": ["beyond"]}]))]
+pub(crate) struct StopFile {
+    /// The recorded signal.
+    pub signal: String,
+    /// The run ends when the signal is greater than this number, or formula of the parameters.
+    pub above: Option<NumberOrFormula>,
+    /// The run ends when the signal is less.
+    pub below: Option<NumberOrFormula>,
+    /// The run ends when the magnitude of the signal is greater.
+    pub beyond: Option<NumberOrFormula>,
+}
+
 /// Repeats the run over a parameter and records final values.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -292,7 +314,11 @@ pub(crate) struct VariantFile {
 pub(crate) struct PlotFile {
     /// Title of the plot.
     pub title: String,
-    /// Recorded signals, one line each, with the variants over them; `NAME:SIGNAL` is that of one variant.
+    /// What is drawn: lines over time, or paths in space.
+    #[serde(default)]
+    pub kind: PlotKindFile,
+    /// Recorded signals, one line each, with the variants over them; `NAME:SIGNAL` is that of one variant. Of a path, the vector whose
+    /// three components are recorded, such as `/drone.position`.
     #[schemars(length(min = 1))]
     pub signals: Vec<String>,
     /// Drawn over the first signal; default what the checks compare it with.
@@ -302,6 +328,17 @@ pub(crate) struct PlotFile {
     pub difference: Option<DifferenceFile>,
     /// Names of the variants that are drawn; default all.
     pub variants: Option<Vec<String>>,
+}
+
+/// What a plot draws.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum PlotKindFile {
+    /// Signals over time.
+    #[default]
+    Lines,
+    /// Positions in space, in parallel projection, with their shadows on the floor.
+    Path,
 }
 
 /// Difference from what.

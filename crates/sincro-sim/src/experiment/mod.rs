@@ -7,6 +7,7 @@ mod checks;
 mod file;
 mod grid;
 mod resolve;
+pub mod stop;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -17,6 +18,7 @@ pub(crate) use resolve::resolve;
 use crate::overrides::Override;
 use crate::problem::{Located, Location};
 use check::{Check, Reference};
+use stop::StopWhen;
 
 /// An experiment: everything about a run but the scene.
 #[derive(Clone, Debug)]
@@ -47,6 +49,8 @@ pub struct Experiment {
     pub record: Vec<Located<String>>,
     /// Names and numbers for formulas.
     pub parameters: BTreeMap<String, f64>,
+    /// Where the run ends before its duration.
+    pub stops: Vec<StopWhen>,
     /// What must come out of the run.
     pub checks: Vec<Check>,
     /// Repeats the run over a parameter.
@@ -145,6 +149,8 @@ pub struct Variant {
 pub struct Plot {
     /// Its title.
     pub title: String,
+    /// Whether it shows paths in space: its signals are then vectors, see [`path_components`].
+    pub is_path: bool,
     /// Recorded signals, one line each; at least one.
     pub signals: Vec<Located<String>>,
     /// Drawn over the first signal; if none is given, what the checks compare that signal with.
@@ -153,4 +159,10 @@ pub struct Plot {
     pub compares_variants: Option<bool>,
     /// Names of the variants that are drawn; none: all.
     pub variants: Option<Vec<String>>,
+}
+
+/// Names that the components of a vector in space may be recorded under: `/drone.position.x` …, or `block[0]` ….
+#[must_use]
+pub fn path_components(vector: &str) -> [[String; 3]; 2] {
+    [["x", "y", "z"].map(|a| format!("{vector}.{a}")), ["0", "1", "2"].map(|k| format!("{vector}[{k}]"))]
 }

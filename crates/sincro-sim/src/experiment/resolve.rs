@@ -6,9 +6,13 @@ use std::sync::Arc;
 use sincro_math::expression::is_name;
 
 use super::checks::{CheckReader, Keys};
-use super::file::{DifferenceFile, ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, RangeFile, SweepFile};
+use super::file::{
+    DifferenceFile, ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, PlotKindFile, RangeFile, StopFile,
+    SweepFile,
+};
 use super::grid::Grid;
-use super::{ErrorBar, Experiment, Integrator, Plot, Sweep, Variant};
+use super::stop::{Side, StopWhen};
+use super::{ErrorBar, Experiment, Integrator, Plot, Sweep, Variant, path_components};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
 use crate::overrides::Override;
@@ -49,6 +53,7 @@ impl Resolver<'_> {
         let record = self.record();
         let parameters: Arc<[(String, f64)]> = file.parameters.iter().map(|(k, x)| (k.clone(), *x)).collect();
         let checks = self.reader(&parameters, Keys::Run(grid)).list(&file.check, "");
+        let stops = self.stops(&parameters, grid);
         let sweep = file.sweep.as_ref().map(|sweep| self.sweep(sweep, &parameters));
         let variants = self.variants(&parameters, grid);
         let plots = self.plots(&parameters, grid);
@@ -67,6 +72,7 @@ impl Resolver<'_> {
             seed: file.seed,
             record,
             parameters: file.parameters.clone(),
+            stops,
             checks,
             sweep,
             variants,
@@ -140,6 +146,27 @@ impl Resolver<'_> {
             }
         }
         record
+    }
+
+    fn stops(&mut self, parameters: &Arc<[(String, f64)]>, grid: Grid) -> Vec<StopWhen> {
+        let file = self.file;
+        let mut stops = Vec::new();
+        for (k, StopFile { signal, above, below, beyond }) in file.stop_when.iter().enumerate() {
+            let pointer = format!("/stop_when/{k}");
+            let sides =
+                [("above", above, Side::Above), ("below", below, Side::Below), ("beyond", beyond, Side::Beyond)];
+            for (key, bound, side) in sides {
+                let Some(bound) = bound else { continue };
+                let at = format!("{pointer}/{key}");
+                let Some(bound) = self.reader(parameters, Keys::Run(grid)).of_parameters(bound, &at) else { continue };
+                if side == Side::Beyond && bound < 0.0 {
+                    self.error(&at, format!("a magnitude is always beyond {bound}"), "give a bound of 0 or more");
+                }
+                let signal = Located { value: signal.clone(), at: self.document.at(&format!("{pointer}/signal")) };
+                stops.push(StopWhen { signal, side, bound });
+            }
+        }
+        stops
     }
 
     fn sweep(&mut self, file: &SweepFile, parameters: &Arc<[(String, f64)]>) -> Sweep {
@@ -229,10 +256,41 @@ impl Resolver<'_> {
         }
     }
 
+    /// Refuses a path whose components are not recorded, and what it cannot show.
+    fn path(&mut self, k: usize, signals: &[String]) {
+        let recorded = |name: &String| self.file.record.contains(name);
+        let missing: Vec<usize> = (0..signals.len())
+            .filter(|i| {
+                let vector = signals[*i].rsplit(':').next().unwrap_or("");
+                !path_components(vector).iter().any(|names| names.iter().all(recorded))
+            })
+            .collect();
+        for i in missing {
+            let name = &signals[i];
+            let message =
+                format!("the three components of `{name}` are not recorded, so that its path cannot be drawn");
+            let help = format!("add `{name}.x`, `{name}.y` and `{name}.z` to `record`");
+            self.error(&format!("/plot/{k}/signals/{i}"), message, help);
+        }
+        for key in ["reference", "difference"] {
+            let pointer = format!("/plot/{k}/{key}");
+            if self.document.get(&pointer).is_some() {
+                let at = self.document.key_at(&pointer);
+                let problem = Problem::error(&at, format!("`{key}` has no meaning in a plot of kind `path`"));
+                self.problems.push(problem.with_help("leave it out, or draw lines over time"));
+            }
+        }
+    }
+
     fn plots(&mut self, parameters: &Arc<[(String, f64)]>, grid: Grid) -> Vec<Plot> {
         let mut plots = Vec::new();
-        for (k, PlotFile { title, signals, reference, difference, variants }) in self.file.plot.iter().enumerate() {
+        for (k, PlotFile { title, kind, signals, reference, difference, variants }) in self.file.plot.iter().enumerate()
+        {
             let pointer = format!("/plot/{k}");
+            let is_path = *kind == PlotKindFile::Path;
+            if is_path {
+                self.path(k, signals);
+            }
             let located = |(i, name): (usize, &String)| Located {
                 value: name.clone(),
                 at: self.document.at(&format!("{pointer}/signals/{i}")),
@@ -250,6 +308,7 @@ impl Resolver<'_> {
             }
             plots.push(Plot {
                 title: title.clone(),
+                is_path,
                 signals,
                 reference,
                 compares_variants,

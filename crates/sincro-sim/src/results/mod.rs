@@ -92,6 +92,15 @@ impl From<&Outside> for OutsideReport {
 pub enum Status {
     /// It lasted its duration.
     Completed,
+    /// It came to a bound at which it was to end: of `stop_when`, or of a check that wants a divergence.
+    Ended {
+        /// The tick.
+        tick: u64,
+        /// Its time `[s]`.
+        time: f64,
+        /// Which signal left which bound.
+        reason: String,
+    },
     /// It could not go on.
     Stopped {
         /// The last good tick.
@@ -118,8 +127,14 @@ impl Status {
     pub fn stopped_at(&self) -> Option<f64> {
         match self {
             Self::Completed => None,
-            Self::Stopped { time, .. } | Self::Interrupted { time, .. } => Some(*time),
+            Self::Ended { time, .. } | Self::Stopped { time, .. } | Self::Interrupted { time, .. } => Some(*time),
         }
+    }
+
+    /// Whether it came to its end, or to a bound at which it was to end.
+    #[must_use]
+    pub fn is_good(&self) -> bool {
+        matches!(self, Self::Completed | Self::Ended { .. })
     }
 }
 

@@ -120,7 +120,7 @@ fn one_run(
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
     let mut watch = Watch { interrupt, progress: &mut tell };
-    let simulated = simulate(loaded, Manner { csv, refined: false, films: true }, &mut watch)?;
+    let simulated = simulate(loaded, Manner { csv, variant, refined: false, films: true }, &mut watch)?;
     let columns = match simulated.status {
         Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
         _ => ColumnReport::of_table(&simulated.table),
@@ -207,6 +207,7 @@ fn run_sweep(
         match &run.status {
             Status::Completed => sweep.push(plan.values[k], &finals),
             Status::Stopped { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
+            Status::Ended { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
             Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
         }
     }

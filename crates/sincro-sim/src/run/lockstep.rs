@@ -129,13 +129,18 @@ impl LockStep {
         self.tick as f64 * self.step
     }
 
-    /// Evaluates the diagram for the first time.
+    /// Evaluates the diagram for the first time. Its continuous commands are seen from then on: the speed of a rotor that lags, the
+    /// torque of a continuous controller.
     ///
     /// # Errors
     ///
     /// If a block gives what is not a finite number.
     pub fn start(&mut self) -> Result<(), Halt> {
-        self.look()
+        self.look()?;
+        if let Some(control) = self.control.as_ref().filter(|c| c.is_continuous()) {
+            control.show(&mut self.world.state.commands);
+        }
+        Ok(())
     }
 
     /// One base step: hold, advance, measure, ask.
@@ -236,6 +241,13 @@ impl LockStep {
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
             control.resume(state.clone(), &snapshot.state);
         }
+    }
+
+    /// What blocks of the diagram have to say of the run so far.
+    #[must_use]
+    pub fn notices(&self) -> Vec<String> {
+        let notices = self.control.iter().flat_map(|control| control.runner.notices());
+        notices.map(|(path, words)| format!("block `{path}` {words}")).collect()
     }
 
     /// Continuous states of the diagram: part of what is integrated.

@@ -91,6 +91,8 @@ pub struct Manner<'a> {
     pub refined: bool,
     /// Whether frames are taken to show it again.
     pub films: bool,
+    /// The variant whose checks end it if they want a divergence; none: the main run.
+    pub variant: Option<&'a str>,
 }
 
 /// Why a run could not even be made.
@@ -281,9 +283,11 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let mut recording = Recording::new(loaded, &mut lockstep, manner)?;
     let mut status = Status::Completed;
     let first = lockstep.start();
-    recording.start(&mut lockstep)?;
+    let end = recording.start(&mut lockstep)?;
     if let Err(halt) = first {
         status = halt.explain(&mut lockstep, experiment, method);
+    } else if let Some(reason) = end {
+        status = Status::Ended { tick: 0, time: 0.0, reason };
     }
     for tick in 0..experiment.n_steps {
         if status != Status::Completed {
@@ -294,9 +298,13 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             status = halt.explain(&mut lockstep, experiment, method);
             break;
         }
-        recording.tick(&mut lockstep, advanced.is_err())?;
+        let end = recording.tick(&mut lockstep, advanced.is_err())?;
         if let Err(halt) = advanced {
             status = halt.explain(&mut lockstep, experiment, method);
+            break;
+        }
+        if let Some(reason) = end {
+            status = Status::Ended { tick: tick + 1, time: lockstep.t(), reason };
             break;
         }
         if watch.interrupt.load(Ordering::Relaxed) {

@@ -8,6 +8,7 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 use super::lockstep::LockStep;
 use super::{Manner, RunError, Simulated, Trace, validity};
 use crate::diagram::Controller;
+use crate::experiment::stop::Bounds;
 use crate::load::Loaded;
 use crate::record::Recorder;
 use crate::replay::Tape;
@@ -18,6 +19,8 @@ use crate::table::{CsvWriter, Table};
 pub(crate) struct Recording {
     recorder: Recorder,
     table: Table,
+    /// What ends the run; none in the finer run of an error estimate, which goes as far as the first one.
+    bounds: Option<Bounds>,
     csv: Option<CsvWriter>,
     tape: Option<Tape>,
     validity: validity::Register,
@@ -41,6 +44,7 @@ impl Recording {
         let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
         let rows = experiment.n_steps / experiment.record_every + 1;
         let table = Table::new(recorder.columns(), rows as usize);
+        let bounds = (!manner.refined).then(|| Bounds::new(experiment, manner.variant, &table));
         let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
         let csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
         let tape = manner.films.then(|| Tape::new(&scene.model, experiment));
@@ -48,7 +52,7 @@ impl Recording {
         let clock = Instant::now();
         let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
-        Ok(Self { recorder, table, csv, tape, validity, ledger, trace, record_every, last_tick, clock })
+        Ok(Self { recorder, table, bounds, csv, tape, validity, ledger, trace, record_every, last_tick, clock })
     }
 
     /// Hash of the states so far.
@@ -56,31 +60,33 @@ impl Recording {
         self.trace
     }
 
-    /// The state before the first tick, the controllers having looked at it once.
+    /// The state before the first tick, the controllers having looked at it once. A text says why the run ends here.
     ///
     /// # Errors
     ///
     /// The CSV file cannot be written.
-    pub fn start(&mut self, lockstep: &mut LockStep) -> Result<(), FileError> {
-        self.publish(lockstep, true)?;
+    pub fn start(&mut self, lockstep: &mut LockStep) -> Result<Option<String>, FileError> {
+        let end = self.publish(lockstep, true)?;
         self.film(lockstep, false);
-        Ok(())
+        Ok(end)
     }
 
-    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be.
+    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be. A text says
+    /// why the run ends here.
     ///
     /// # Errors
     ///
     /// The CSV file cannot be written.
-    pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<(), FileError> {
+    pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<Option<String>, FileError> {
+        let mut end = None;
         lockstep.add_to(&mut self.trace);
         let (tick, t) = (lockstep.tick(), lockstep.t());
         self.validity.look(lockstep.world(), t);
         if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
-            self.publish(lockstep, false)?;
+            end = self.publish(lockstep, false)?;
         }
-        self.film(lockstep, is_last || tick == self.last_tick);
-        Ok(())
+        self.film(lockstep, is_last || end.is_some() || tick == self.last_tick);
+        Ok(end)
     }
 
     fn film(&mut self, lockstep: &mut LockStep, is_last: bool) {
@@ -90,13 +96,14 @@ impl Recording {
         }
     }
 
-    fn publish(&mut self, lockstep: &mut LockStep, is_start: bool) -> Result<(), FileError> {
+    fn publish(&mut self, lockstep: &mut LockStep, is_start: bool) -> Result<Option<String>, FileError> {
         let t = lockstep.t();
         let (seen, signals) = lockstep.observe(t);
         self.ledger.look(&seen);
         let row = self.recorder.row(&seen, signals, t, is_start);
         self.table.push_row(row);
-        self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
+        self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
+        Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
     }
 
     /// The run is over.
@@ -115,6 +122,7 @@ impl Recording {
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let wall_time = clock.elapsed().as_secs_f64();
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
+        warnings.extend(lockstep.notices());
         let world = lockstep.world();
         let (energy, effort) = (ledger.close(world), world.effort());
         let outside = validity.close(world.model(), step);

@@ -45,6 +45,7 @@ pub(super) fn default_experiment(step: f64, duration: f64) -> Experiment {
         seed: 0,
         record: Vec::new(),
         parameters: Default::default(),
+        stops: Vec::new(),
         checks: Vec::new(),
         sweep: None,
         variants: Vec::new(),

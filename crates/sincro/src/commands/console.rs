@@ -111,6 +111,7 @@ pub(crate) fn degrees(n: usize) -> String {
 fn print_status(indent: &str, status: &Status) {
     match status {
         Status::Completed => {}
+        Status::Ended { time, reason, .. } => say!("{indent}ended at t = {} s: {reason}", short(*time)),
         Status::Stopped { reason, help, .. } => {
             say!("{indent}stopped: {reason}");
             if !help.is_empty() {

@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 use clap::Args;
 use sincro_sim::overrides::Override;
 use sincro_sim::problem::Problems;
-use sincro_sim::results::{self, Override as Setting, Status, VerdictReport};
+use sincro_sim::results::{self, Override as Setting, VerdictReport};
 use sincro_sim::run::{Campaign, run_campaign};
 use sincro_sim::{Loaded, load};
 
@@ -158,7 +158,7 @@ pub(crate) fn verdict(campaign: &Campaign) -> Exit {
     let report = &campaign.report;
     let statuses = [&report.status].into_iter().chain(report.variants.iter().map(|v| &v.status));
     let sweep_stopped = report.sweep.as_ref().is_some_and(|s| !s.stops.is_empty());
-    if statuses.into_iter().any(|s| *s != Status::Completed) || sweep_stopped {
+    if statuses.into_iter().any(|s| !s.is_good()) || sweep_stopped {
         return Exit::Stopped;
     }
     let mut checks = report

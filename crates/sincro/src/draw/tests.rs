@@ -49,6 +49,9 @@ impl Template for Sham {
     fn next_corner(&self, _: f64) -> f64 {
         f64::INFINITY
     }
+    fn notice(&self, _: &Node, _: &[f64]) -> Option<String> {
+        None
+    }
     fn label(&self) -> String {
         self.label.into()
     }

@@ -45,7 +45,7 @@ pub(super) fn bode(analysis: &Analysis, channel: &Channel) -> Figure {
     phase.series.push(curve(&bode.phase_deg));
     add_margins(&mut magnitude, &mut phase, channel);
     let x = Axis { log: true, ..Axis::new("angular frequency", "rad/s") };
-    Figure { title: format!("Bode diagram {}", analysis.name(channel)), x, panels: vec![magnitude, phase] }
+    Figure { title: format!("Bode diagram {}", analysis.name(channel)), x, panels: vec![magnitude, phase], space: None }
 }
 
 /// The gain margin from the curve up to 0 dB, the phase margin from −180° up to the curve, dotted lines at the crossovers.
@@ -107,7 +107,7 @@ pub(super) fn map(analysis: &Analysis, channel: Option<&Channel>) -> Figure {
         Some(channel) => format!("Poles and zeros {}", analysis.name(channel)),
         None => "Poles".to_owned(),
     };
-    Figure { title, x: Axis { range: Some(width), ..Axis::new("real part", unit) }, panels: vec![panel] }
+    Figure { title, x: Axis { range: Some(width), ..Axis::new("real part", unit) }, panels: vec![panel], space: None }
 }
 
 /// What the map shows across and up: all points with air, the axes through zero, the same scale on both where that wastes little.
@@ -186,5 +186,5 @@ pub(super) fn step(analysis: &Analysis, channel: &Channel) -> Figure {
     }
     let unit = if input.unit.is_empty() { String::new() } else { format!(" {}", input.unit) };
     let title = format!("Step of 1{unit} {}", analysis.name(channel));
-    Figure { title, x: Axis::time(), panels: vec![panel] }
+    Figure { title, x: Axis::time(), panels: vec![panel], space: None }
 }

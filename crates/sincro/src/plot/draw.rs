@@ -29,6 +29,9 @@ pub(super) struct Context {
 
 /// Draws the figure.
 pub(super) fn picture(figure: &Figure, size: Size, kind: Kind) -> String {
+    if let Some(space) = &figure.space {
+        return super::space::picture(figure, space, size, kind);
+    }
     let fonts = if kind == Kind::Thumbnail { Fonts::THUMBNAIL } else { Fonts::FULL };
     let layout = Layout::new(figure, size, fonts);
     let context = context(figure);
@@ -79,7 +82,7 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    fn open(title: &str, size: Size, kind: Kind) -> Self {
+    pub(super) fn open(title: &str, size: Size, kind: Kind) -> Self {
         let (width, height) = (coordinate(size.width), coordinate(size.height));
         let title = escape(title);
         let mut text = String::new();
@@ -105,7 +108,7 @@ impl Canvas {
         Self { text }
     }
 
-    fn close(mut self) -> String {
+    pub(super) fn close(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
@@ -125,7 +128,7 @@ impl Canvas {
         self.write_text(at, &format!("{anchor}{class}"), font_size, text);
     }
 
-    fn bold_text(&mut self, at: (f64, f64), font_size: f64, text: &str) {
+    pub(super) fn bold_text(&mut self, at: (f64, f64), font_size: f64, text: &str) {
         self.write_text(at, r#" font-weight="600""#, font_size, text);
     }
 

@@ -15,9 +15,11 @@ mod draw;
 mod layout;
 pub(crate) mod number;
 mod panel;
+mod space;
 mod style;
 mod text;
 
+pub(crate) use space::{Space, Track};
 pub(crate) use style::{PAGE_CSS, with_light_colors};
 pub(crate) use text::{escape, escape_raised, rich, width as text_width};
 
@@ -30,6 +32,8 @@ pub(crate) struct Figure {
     pub(crate) x: Axis,
     /// From top to bottom; usually one, or two where the second shows the error.
     pub(crate) panels: Vec<Panel>,
+    /// Curves in space instead of panels.
+    pub(crate) space: Option<Space>,
 }
 
 /// What an axis is called, its unit, and how it is divided.
@@ -225,12 +229,14 @@ impl Series {
 impl Size {
     /// The size at which a figure reads well on a screen: 880 px wide, higher if it has more than one panel.
     pub(crate) fn wide(figure: &Figure) -> Self {
-        Self { width: 880.0, height: 130.0 + 280.0 * total_share(figure) }
+        let height = if figure.space.is_some() { 560.0 } else { 130.0 + 280.0 * total_share(figure) };
+        Self { width: 880.0, height }
     }
 
     /// The size for a phone.
     pub(crate) fn narrow(figure: &Figure) -> Self {
-        Self { width: 400.0, height: 150.0 + 210.0 * total_share(figure) }
+        let height = if figure.space.is_some() { 400.0 } else { 150.0 + 210.0 * total_share(figure) };
+        Self { width: 400.0, height }
     }
 }
 

@@ -23,14 +23,14 @@ fn oscillation(n: usize) -> Figure {
     let mut error_panel = Panel::error("rad");
     error_panel.series.push(Series::new("", Role::Simulated, t, error));
     error_panel.limits.extend([1e-6, -1e-6].map(|value| Limit { name: "tolerance".into(), value }));
-    Figure { title: "Angle".into(), x: Axis::time(), panels: vec![main, error_panel] }
+    Figure { title: "Angle".into(), x: Axis::time(), panels: vec![main, error_panel], space: None }
 }
 
 fn of_values(y: Vec<f64>) -> Figure {
     let x = (0..y.len()).map(|i| i as f64).collect();
     let mut panel = Panel::new(Axis::new("y", "m"));
     panel.series.push(Series::new("y", Role::Simulated, x, y));
-    Figure { title: "t".into(), x: Axis::time(), panels: vec![panel] }
+    Figure { title: "t".into(), x: Axis::time(), panels: vec![panel], space: None }
 }
 
 fn drawn(figure: &Figure) -> String {

@@ -5,11 +5,11 @@
 
 use sincro_sim::Loaded;
 use sincro_sim::check::{Outcome, Series as Expected};
-use sincro_sim::experiment::{Plot, Variant};
+use sincro_sim::experiment::{Plot, Variant, path_components};
 use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::{Column, Table};
 
-use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Stroke};
+use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Space, Stroke, Track};
 
 /// Most signals in a figure that nobody asked for.
 const MOST_SIGNALS: usize = 4;
@@ -32,9 +32,44 @@ pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
 }
 
 fn asked_for(plot: &Plot, campaign: &Campaign) -> Figure {
+    if plot.is_path {
+        return path(plot, campaign);
+    }
     let names: Vec<&str> = plot.signals.iter().map(|s| s.value.as_str()).collect();
     let reference = plot.reference.as_ref().map(|r| Expected { times: r.keys.to_vec(), values: r.values.to_vec() });
     figure(&plot.title, &names, reference, Below::of(plot), campaign)
+}
+
+/// Paths in space, each with those of the variants.
+fn path(plot: &Plot, campaign: &Campaign) -> Figure {
+    let wanted = Below::of(plot);
+    let mut space = Space::default();
+    let mut add = |name: &str, role: Role, signal: usize, vector: &str, table: &Table| {
+        let columns = path_components(vector).into_iter().find_map(|names| {
+            let [x, y, z] = names.map(|name| table.column(&name));
+            Some([x?, y?, z?])
+        });
+        let Some([x, y, z]) = columns else { return };
+        let points = (0..table.n_rows()).map(|k| [x.values[k], y.values[k], z.values[k]]).collect();
+        space.unit.clone_from(&x.unit);
+        space.tracks.push(Track { name: name.to_owned(), role, signal, points });
+    };
+    for (k, signal) in plot.signals.iter().enumerate() {
+        let of_variant = signal.value.split_once(':').and_then(|(of, vector)| {
+            let (_, done) = campaign.variants.iter().find(|(variant, _)| variant.name == of)?;
+            Some((vector, done))
+        });
+        if let Some((vector, done)) = of_variant {
+            add(&signal.value, Role::Simulated, k, vector, &done.simulated.table);
+            continue;
+        }
+        add(&signal.value, Role::Simulated, k, &signal.value, &campaign.main.simulated.table);
+        for (v, (variant, done)) in campaign.variants.iter().enumerate().filter(|(_, (v, _))| wanted.draws(v)) {
+            let name = if k == 0 { variant.name.as_str() } else { "" };
+            add(name, Role::Variant(v), k, &signal.value, &done.simulated.table);
+        }
+    }
+    Figure { title: plot.title.clone(), space: Some(space), ..Figure::default() }
 }
 
 /// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together.
@@ -122,7 +157,7 @@ fn figure(title: &str, names: &[&str], reference: Option<Expected>, wanted: Belo
         None => error,
     };
     let panels = if below.series.is_empty() { vec![panel] } else { vec![panel, below] };
-    Figure { title: title.to_owned(), x: Axis::time(), panels }
+    Figure { title: title.to_owned(), x: Axis::time(), panels, space: None }
 }
 
 /// How the variants differ from the main run, where they have rows at the same times.
@@ -248,7 +283,7 @@ fn sweep_figures(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
         let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };
         let parameter = plan.parameter.value.rsplit('.').next().unwrap_or("parameter");
         let title = format!("Final {} over {}", quantity(&column.name), plan.parameter.value);
-        Figure { title, x: Axis::new(parameter, sweep.unit.as_str()), panels }
+        Figure { title, x: Axis::new(parameter, sweep.unit.as_str()), panels, space: None }
     };
     chosen.iter().map(one).collect()
 }

@@ -140,11 +140,15 @@ fn notes(campaign: &Campaign) -> Vec<String> {
 fn stop(status: &Status) -> Option<Stop> {
     match status {
         Status::Completed => None,
+        Status::Ended { time, reason, .. } => {
+            let reason = format!("The run ended at t = {time} s as it was to: {reason}.");
+            Some(Stop { time: *time, reason, help: String::new(), is_good: true })
+        }
         Status::Stopped { time, reason, help, .. } => {
-            Some(Stop { time: *time, reason: reason.clone(), help: help.clone() })
+            Some(Stop { time: *time, reason: reason.clone(), help: help.clone(), is_good: false })
         }
         Status::Interrupted { time, .. } => {
-            Some(Stop { time: *time, reason: "it was interrupted".into(), help: String::new() })
+            Some(Stop { time: *time, reason: "it was interrupted".into(), ..Stop::default() })
         }
     }
 }

@@ -55,6 +55,8 @@ pub(crate) struct Stop {
     pub(crate) reason: String,
     /// The setting that mends it; may be empty.
     pub(crate) help: String,
+    /// Whether it was to end there.
+    pub(crate) is_good: bool,
 }
 
 /// One check, judged. The deviation is given, not derived: for a check over a window it is the worst one.

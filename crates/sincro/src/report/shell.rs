@@ -37,7 +37,7 @@ impl Outcome {
     /// Judges a run.
     pub(super) fn of(checks: &[CheckRow], stop: Option<&Stop>) -> Self {
         let failed = checks.iter().filter(|check| check.verdict != CheckVerdict::Holds).count();
-        match (stop, failed, checks.len()) {
+        match (stop.filter(|stop| !stop.is_good), failed, checks.len()) {
             (Some(stop), _, _) => Self::Stopped(stop.time),
             (None, 0, 0) => Self::Unchecked,
             (None, 0, total) => Self::Holds(total),

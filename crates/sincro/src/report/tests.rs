@@ -23,7 +23,7 @@ fn figure() -> Figure {
     let x: Vec<f64> = (0..50).map(f64::from).collect();
     let mut panel = Panel::new(Axis::new("angle", "rad"));
     panel.series.push(Series::new("simulated", Role::Simulated, x.clone(), x));
-    Figure { title: "Angle".into(), x: Axis::time(), panels: vec![panel] }
+    Figure { title: "Angle".into(), x: Axis::time(), panels: vec![panel], space: None }
 }
 
 fn page() -> Page {
@@ -51,7 +51,7 @@ fn the_banner_follows_the_checks() {
     assert!(html(&page).contains("1 of 3 checks fails"));
     page.checks.push(check("four", 0.0, CheckVerdict::NotMade));
     assert!(html(&page).contains("2 of 4 checks fail"));
-    page.stop = Some(Stop { time: 1.25, reason: "not finite".into(), help: String::new() });
+    page.stop = Some(Stop { time: 1.25, reason: "not finite".into(), help: String::new(), is_good: false });
     assert!(html(&page).contains("the run stopped at t = 1.25 s"));
     assert!(html(&Page::default()).contains("it has no checks"));
 }
@@ -73,7 +73,7 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     page.title = evil.into();
     page.description = evil.into();
     page.up = Some((evil.into(), evil.into()));
-    page.stop = Some(Stop { time: 0.0, reason: evil.into(), help: evil.into() });
+    page.stop = Some(Stop { time: 0.0, reason: evil.into(), help: evil.into(), is_good: false });
     page.warnings = vec![evil.into()];
     page.notes = vec![evil.into()];
     page.settings = vec![(evil.into(), evil.into())];

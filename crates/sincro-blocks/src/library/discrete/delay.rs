@@ -1,6 +1,7 @@
 //! `y[k] = u[k−samples]`.
 //!
-//! The input of sample k stands in slot k mod `samples` of a ring.
+//! The input of sample k stands in slot k mod `samples` of a ring. With no sample it is a piece of wire, so that a latency can be set to
+//! nothing.
 
 use sincro_math::Real;
 
@@ -12,7 +13,7 @@ use crate::unit::Unit;
 /// The input of some samples before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Delay {
-    /// How many; at least 1.
+    /// How many; with 0 it feeds through.
     pub samples: usize,
     /// Output until the first input has arrived, one for all components or one for each.
     pub initial: Vec<f64>,
@@ -20,13 +21,8 @@ pub struct Delay {
 
 impl Delay {
     /// With zero until the first input has arrived.
-    ///
-    /// # Panics
-    ///
-    /// If `samples` is 0.
     #[must_use]
     pub fn new(samples: usize) -> Self {
-        assert!(samples > 0, "a delay of at least one sample");
         Self { samples, initial: vec![0.0] }
     }
 
@@ -42,13 +38,13 @@ impl Described for Delay {
         summary: "The input of some samples before.",
         equation: "y[k] = u[k−samples], y[k] = initial for k < samples",
         parameters: &[
-            Parameter::required("samples", Takes::Count, "how many samples before, 1 or more"),
+            Parameter::required("samples", Takes::Count, "how many samples before; 0 for none, it then feeds through"),
             Parameter::optional("initial", Takes::Numbers, "y until the first input has arrived", "0"),
         ],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
-        let samples = p.positive_count("samples");
+        let samples = p.count("samples");
         Self { samples, initial: p.numbers("initial") }
     }
 }
@@ -73,7 +69,7 @@ impl Block for Delay {
     }
 
     fn feeds_through(&self, _: usize) -> bool {
-        false
+        self.samples == 0
     }
 
     fn memory(&self, node: &Node) -> Memory {
@@ -89,11 +85,20 @@ impl Block for Delay {
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        if self.samples == 0 {
+            for (i, y) in y.iter_mut().enumerate() {
+                *y = at.component(0, i);
+            }
+            return;
+        }
         let slot = self.slot(at);
         y.copy_from_slice(&at.memory[slot..slot + y.len()]);
     }
 
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
+        if self.samples == 0 {
+            return;
+        }
         let slot = self.slot(at);
         for i in 0..at.node.n_out() {
             memory[slot + i] = at.component(0, i);
@@ -101,6 +106,6 @@ impl Block for Delay {
     }
 
     fn label(&self) -> String {
-        super::power_of_delay(self.samples)
+        if self.samples == 0 { "no delay".into() } else { super::power_of_delay(self.samples) }
     }
 }

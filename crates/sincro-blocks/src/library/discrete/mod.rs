@@ -1,8 +1,10 @@
 //! Discrete: memory that changes at ticks.
 
+mod command_filter;
 mod delay;
 mod discrete_derivative;
 mod discrete_integrator;
+mod discrete_low_pass;
 mod discrete_pid;
 mod discrete_state_space;
 mod discrete_transfer_function;
@@ -13,9 +15,11 @@ mod rate_transition;
 mod unit_delay;
 mod zero_order_hold;
 
+pub use command_filter::CommandFilter;
 pub use delay::Delay;
 pub use discrete_derivative::DiscreteDerivative;
 pub use discrete_integrator::DiscreteIntegrator;
+pub use discrete_low_pass::DiscreteLowPass;
 pub use discrete_pid::DiscretePid;
 pub use discrete_state_space::DiscreteStateSpace;
 pub use discrete_transfer_function::DiscreteTransferFunction;
@@ -38,6 +42,8 @@ pub(super) const SHELF: &[Item] = &[
     item::<DiscreteDerivative>(),
     item::<DiscreteTransferFunction>(),
     item::<DiscreteStateSpace>(),
+    item::<DiscreteLowPass>(),
+    item::<CommandFilter>(),
     item::<DiscretePid>(),
     item::<FirFilter>(),
     item::<IirFilter>(),

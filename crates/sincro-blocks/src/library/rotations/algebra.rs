@@ -195,3 +195,52 @@ pub(super) fn euler_rates<R: Real>(angles: Angles<R>, w: [R; 3], convention: Con
         }
     }
 }
+
+/// E(angles)·rates: the angular velocity in the axes of the body.
+#[inline(always)]
+pub(super) fn angular_velocity<R: Real>(angles: Angles<R>, rates: [R; 3], convention: Convention) -> [R; 3] {
+    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    match convention {
+        Convention::Zyx => {
+            let yaw = cy * rates[2];
+            [rates[0] - sy * rates[2], cx * rates[1] + sx * yaw, cx * yaw - sx * rates[1]]
+        }
+        Convention::Xyz => {
+            let first = cy * rates[0];
+            [cz * first + sz * rates[1], cz * rates[1] - sz * first, rates[2] + sy * rates[0]]
+        }
+    }
+}
+
+/// E⁻ᵀ(angles)·w: the torque about the axes of the body with the power of torques `w` about the angles' axes; not finite where the
+/// middle angle is ±π/2.
+#[inline(always)]
+pub(super) fn body_torque<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> [R; 3] {
+    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    match convention {
+        Convention::Zyx => {
+            let yaw = (w[2] + sy * w[0]) / cy;
+            [w[0], cx * w[1] + sx * yaw, cx * yaw - sx * w[1]]
+        }
+        Convention::Xyz => {
+            let first = (w[0] - sy * w[2]) / cy;
+            [cz * first + sz * w[1], cz * w[1] - sz * first, w[2]]
+        }
+    }
+}
+
+/// Eᵀ(angles)·torque: the inverse of [`body_torque`].
+#[inline(always)]
+pub(super) fn euler_torque<R: Real>(angles: Angles<R>, torque: [R; 3], convention: Convention) -> [R; 3] {
+    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    match convention {
+        Convention::Zyx => {
+            let yaw = sx * torque[1] + cx * torque[2];
+            [torque[0], cx * torque[1] - sx * torque[2], cy * yaw - sy * torque[0]]
+        }
+        Convention::Xyz => {
+            let first = cz * torque[0] - sz * torque[1];
+            [cy * first + sy * torque[2], sz * torque[0] + cz * torque[1], torque[2]]
+        }
+    }
+}

@@ -3,6 +3,7 @@
 mod algebra;
 mod angular_velocity_to_quaternion_rate;
 mod euler_rates;
+mod euler_rates_to_angular_velocity;
 mod euler_to_matrix;
 mod euler_to_quaternion;
 mod matrix_to_euler;
@@ -16,6 +17,7 @@ mod rotate_vector;
 pub use algebra::Convention;
 pub use angular_velocity_to_quaternion_rate::AngularVelocityToQuaternionRate;
 pub use euler_rates::EulerRates;
+pub use euler_rates_to_angular_velocity::EulerRatesToAngularVelocity;
 pub use euler_to_matrix::EulerToMatrix;
 pub use euler_to_quaternion::EulerToQuaternion;
 pub use matrix_to_euler::MatrixToEuler;
@@ -43,6 +45,7 @@ pub(super) const SHELF: &[Item] = &[
     item::<QuaternionConjugate>(),
     item::<AngularVelocityToQuaternionRate>(),
     item::<EulerRates>(),
+    item::<EulerRatesToAngularVelocity>(),
 ];
 
 /// One output of width `output`, if all inputs have the widths that are expected of them.

@@ -1,0 +1,143 @@
+//! A smooth reference with its first two derivatives: a second-order filter, exact for an input that is held.
+//!
+//! With e = y − u, ω = natural_frequency, ζ = damping_ratio and the input u held over a sample of length T:
+//!
+//! ```text
+//! y'' = −ω²·(y − u) − 2ζω·y'
+//! y[k+1]  = u + x·( c·e + s·(y' + ζω·e) ),   x = e^(−ζωT)
+//! y'[k+1] =     x·( c·y' − s·(ω²·e + ζω·y') )
+//! ζ < 1: c = cos(ω_d·T),  s = sin(ω_d·T)/ω_d,    ω_d = ω·√(1 − ζ²)
+//! ζ = 1: c = 1,           s = T
+//! ζ > 1: c = cosh(ω_d·T), s = sinh(ω_d·T)/ω_d,   ω_d = ω·√(ζ² − 1)
+//! ```
+//!
+//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference (Farrell, Polycarpou,
+//! Sharma, Dong 2009).
+
+use sincro_math::{Real, elementary};
+
+use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
+use crate::kind::{Described, Group, Kind, Parameter, Takes};
+use crate::reader::Reader;
+
+/// A second-order reference filter at a sample time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CommandFilter {
+    /// ω `[rad/s]`, one for all components or one for each.
+    pub natural_frequency: Vec<f64>,
+    /// ζ.
+    pub damping_ratio: Vec<f64>,
+    /// Output at the start, at rest.
+    pub initial: Vec<f64>,
+}
+
+impl CommandFilter {
+    /// Critically damped, from zero.
+    #[must_use]
+    pub fn new(natural_frequency: f64) -> Self {
+        Self { natural_frequency: vec![natural_frequency], damping_ratio: vec![1.0], initial: vec![0.0] }
+    }
+
+    /// `(x, c, s)` of the head of this file for component `i`.
+    fn transition(&self, i: usize, t: f64) -> (f64, f64, f64) {
+        let (w, z) = (of(&self.natural_frequency, i), of(&self.damping_ratio, i));
+        let x = elementary::exp(-z * w * t).0;
+        let wd = w * (1.0 - z * z).abs().sqrt();
+        let a = wd * t;
+        if a == 0.0 {
+            (x, 1.0, t)
+        } else if z < 1.0 {
+            let (sin, cos) = elementary::sin_cos(a);
+            (x, cos, sin / wd)
+        } else {
+            // together with x, so that neither overflows
+            let (slow, fast) = (elementary::exp(a - z * w * t).0, elementary::exp(-a - z * w * t).0);
+            (1.0, 0.5 * (slow + fast), 0.5 * (slow - fast) / wd)
+        }
+    }
+}
+
+impl Described for CommandFilter {
+    const KIND: &'static Kind = &Kind {
+        name: "command-filter",
+        group: Group::Discrete,
+        summary: "Makes a reference smooth and gives its first two derivatives; discretised exactly.",
+        equation: "y'' = −ω²·(y − u) − 2ζω·y', u held over a sample; outputs y, rate = y', acceleration = y''",
+        parameters: &[
+            Parameter::required("natural_frequency", Takes::Numbers, "ω [rad/s]"),
+            Parameter::optional("damping_ratio", Takes::Numbers, "ζ; at 1 or more nothing overshoots", "1"),
+            Parameter::optional("initial", Takes::Numbers, "y at the start, at rest", "0"),
+        ],
+    };
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let natural_frequency = p.numbers("natural_frequency");
+        let damping_ratio = p.numbers("damping_ratio");
+        if natural_frequency.iter().any(|w| *w <= 0.0) {
+            p.fault("natural_frequency", "a natural frequency is not positive", "it must be greater than 0");
+        }
+        if damping_ratio.iter().any(|z| *z < 0.0) {
+            p.fault("damping_ratio", "a damping ratio is negative", "it must be 0 or more; 1 is critically damped");
+        }
+        Self { natural_frequency, damping_ratio, initial: p.numbers("initial") }
+    }
+}
+
+impl Block for CommandFilter {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        Ports::new(&["u"], &["y", "rate", "acceleration"])
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        let parameters = [
+            ("natural_frequency", self.natural_frequency.len()),
+            ("damping_ratio", self.damping_ratio.len()),
+            ("initial", self.initial.len()),
+        ];
+        Ok(vec![elementwise(inputs, &parameters)?; 3])
+    }
+
+    fn pace(&self) -> Pace {
+        Pace::Sampled
+    }
+
+    fn memory(&self, node: &Node) -> Memory {
+        Memory { continuous: 0, discrete: 2 * node.outputs[0] }
+    }
+
+    fn start<R: Real>(&self, node: &Node, _: &mut [R], memory: &mut [R]) {
+        for i in 0..node.outputs[0] {
+            memory[i] = R::splat(of(&self.initial, i));
+        }
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        let n = at.node.outputs[0];
+        for i in 0..n {
+            let (w, z) = (of(&self.natural_frequency, i), of(&self.damping_ratio, i));
+            let (position, rate) = (at.memory[i], at.memory[n + i]);
+            y[i] = position;
+            y[n + i] = rate;
+            y[2 * n + i] = R::splat(-w * w) * (position - at.component(0, i)) - R::splat(2.0 * z * w) * rate;
+        }
+    }
+
+    fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
+        let n = at.node.outputs[0];
+        for i in 0..n {
+            let (w, z) = (of(&self.natural_frequency, i), of(&self.damping_ratio, i));
+            let (x, c, s) = self.transition(i, at.node.period());
+            let (x, c, s) = (R::splat(x), R::splat(c), R::splat(s));
+            let (u, rate) = (at.component(0, i), at.memory[n + i]);
+            let e = at.memory[i] - u;
+            memory[i] = u + x * (c * e + s * (rate + R::splat(z * w) * e));
+            memory[n + i] = x * (c * rate - s * (R::splat(w * w) * e + R::splat(z * w) * rate));
+        }
+    }
+
+    fn label(&self) -> String {
+        "y, y', y''".into()
+    }
+}

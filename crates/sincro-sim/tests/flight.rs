@@ -1,0 +1,136 @@
+//! The flight tests of the quadrotor: what must hold whatever the reference files say, and how a run ends at a bound.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use sincro_sim::load;
+use sincro_sim::overrides::Override;
+use sincro_sim::results::Status;
+use sincro_sim::run::{Manner, Simulated, Watch, run_campaign, simulate};
+
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
+}
+
+fn settings(set: &[(&str, &str)]) -> Vec<Override> {
+    set.iter().map(|(path, value)| Override::new(path, value)).collect()
+}
+
+/// The main run of a scene.
+fn flown(name: &str, set: &[(&str, &str)]) -> Simulated {
+    let loaded = load(&scene(name), &settings(set)).unwrap_or_else(|problems| panic!("{problems}"));
+    let interrupt = AtomicBool::new(false);
+    simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+}
+
+fn column<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {
+    &run.table.column(name).unwrap_or_else(|| panic!("`{name}` is recorded")).values
+}
+
+const POSITION: [&str; 3] = ["/air/quadrotor.position.x", "/air/quadrotor.position.y", "/air/quadrotor.position.z"];
+
+/// The vehicle and its controller are the same along x and y.
+#[test]
+fn a_step_to_the_side_is_a_step_forward() {
+    let (side, forward) = (flown("quadrotor-flight-1", &[]), flown("quadrotor-flight-2", &[]));
+    let (y, x) = (column(&side, POSITION[1]), column(&forward, POSITION[0]));
+    for (k, t) in side.table.times().iter().enumerate().filter(|(_, t)| (20.0..40.0).contains(*t)) {
+        assert!((x[k] - y[k]).abs() < 1e-9, "at {t} s: {} {}", x[k], y[k]);
+    }
+    assert!(x[790] > 0.09, "the step is in the window");
+}
+
+/// What the diagram computes with its own reference filter, loops and mixer does not depend on the pace of recording.
+#[test]
+fn a_controller_at_its_sample_time_does_not_see_the_base_step() {
+    let short = ("duration", "24.0");
+    let coarse = flown("quadrotor-flight-1", &[short]);
+    let fine = flown("quadrotor-flight-1", &[short, ("step", "0.01"), ("record_every", "5")]);
+    for name in POSITION {
+        let worst =
+            column(&coarse, name).iter().zip(column(&fine, name)).fold(0.0_f64, |w, (a, b)| w.max((a - b).abs()));
+        // two runs with error control at 1e-9
+        assert!(worst < 1e-8, "{name}: {worst}");
+    }
+}
+
+/// dL/dt about the centre of mass is the torque: without any, the angular momentum in the world stays.
+#[test]
+fn without_torque_the_angular_momentum_stays() {
+    // in air that is hardly there the rotors give neither thrust nor torque: the body is left alone
+    let run = flown(
+        "quadrotor-flight-1",
+        &[
+            ("air_density", "1e-12"),
+            ("/air.initial", "{ velocity = [0.3, -0.2, 0.5, 0.0, 0.0, 0.0] }"),
+            ("attitude_loop.ixx", "0.0"),
+            ("attitude_loop.izz", "0.0"),
+            ("duration", "2.0"),
+        ],
+    );
+    let inertia = [0.0251085, 0.0251085, 0.144875];
+    let momentum = |k: usize| {
+        let w = ["x", "y", "z"].map(|a| column(&run, &format!("/air.angular_velocity.{a}"))[k]);
+        let [qw, x, y, z] = ["w", "x", "y", "z"].map(|a| column(&run, &format!("/air.quaternion.{a}"))[k]);
+        let l: [f64; 3] = core::array::from_fn(|i| inertia[i] * w[i]);
+        let t = [y * l[2] - z * l[1], z * l[0] - x * l[2], x * l[1] - y * l[0]].map(|c| 2.0 * c);
+        [
+            l[0] + qw * t[0] + y * t[2] - z * t[1],
+            l[1] + qw * t[1] + z * t[0] - x * t[2],
+            l[2] + qw * t[2] + x * t[1] - y * t[0],
+        ]
+    };
+    let (start, last) = (momentum(0), run.table.n_rows() - 1);
+    for k in 0..=last {
+        let now = momentum(k);
+        for i in 0..3 {
+            // error control at 1e-9, torques of 1e-12 of the usual ones
+            assert!((now[i] - start[i]).abs() < 1e-9, "row {k}: {now:?} {start:?}");
+        }
+    }
+}
+
+/// Peaks of the roll grow by the spectral radius of the sampled loop, 1.057 a sample.
+#[test]
+fn one_sample_late_the_roll_grows_as_its_linearisation_says() {
+    let run = flown("quadrotor-latency", &[]);
+    let Status::Ended { time, ref reason, .. } = run.status else { panic!("{:?}", run.status) };
+    assert!((20.0..30.0).contains(&time) && reason.contains("/air/quadrotor.roll"), "{time}: {reason}");
+    assert_eq!(*run.table.times().last().unwrap(), time, "the row that left the bound is the last");
+    let roll = column(&run, "/air/quadrotor.roll");
+    // over whole seconds of the linear range: 60 samples before the roll is large
+    let peak = |from: usize| roll[from..from + 20].iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
+    let end = roll.len() - 40;
+    let growth = sincro_math::elementary::pow(peak(end) / peak(end - 60), 1.0 / 60.0).0;
+    assert!((1.05..1.065).contains(&growth), "{growth}");
+}
+
+/// A bound of the experiment ends any run of it, and the checks that look at the whole run are not made.
+#[test]
+fn a_bound_of_the_experiment_ends_the_run() {
+    let set = settings(&[("stop_when", "[{ signal = \"/air/quadrotor.position.z\", above = 0.5 }]")]);
+    let loaded = load(&scene("quadrotor-flight-1"), &set).unwrap_or_else(|problems| panic!("{problems}"));
+    let interrupt = AtomicBool::new(false);
+    let campaign = run_campaign(&scene("quadrotor-flight-1"), &set, &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
+    let report = &campaign.report;
+    let Status::Ended { reason, .. } = &report.status else { panic!("{:?}", report.status) };
+    assert!(reason.starts_with("`/air/quadrotor.position.z` is 0.5"), "{reason}");
+    assert!(report.variants.iter().all(|v| matches!(v.status, Status::Ended { .. })), "variants end there too");
+    assert!(report.checks.iter().all(|c| c.measured.is_none() || c.n_rows > 0));
+}
+
+#[test]
+fn what_the_mixer_cannot_give_is_told() {
+    let run = flown("quadrotor-flight-1", &[("mixer.most", "722.0"), ("duration", "1.0")]);
+    let told: Vec<&String> = run.warnings.iter().filter(|w| w.contains("mixer/possible")).collect();
+    assert_eq!(told.len(), 1, "{:?}", run.warnings);
+    assert!(told[0].contains("to its greatest value in") && told[0].contains("first at t = 0.000000 s"), "{}", told[0]);
+    let hasty = [("omega_r", "8.0"), ("y1", "20.0")].map(|(name, x)| (format!("parameters.{name}"), x));
+    let hasty: Vec<(&str, &str)> = hasty.iter().map(|(path, x)| (path.as_str(), *x)).collect();
+    let negative = flown("quadrotor-flight-1", &[&hasty[..], &[("duration", "22.0")]].concat());
+    assert!(
+        negative.warnings.iter().any(|w| w.contains("least value") && w.contains("mixer/possible")),
+        "{:?}",
+        negative.warnings
+    );
+}
