@@ -21,6 +21,7 @@ pub mod run;
 pub mod scene;
 pub mod schema;
 mod series;
+pub mod session;
 pub mod snapshot;
 mod suggest;
 pub mod sweep;
