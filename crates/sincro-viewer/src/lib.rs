@@ -1,8 +1,11 @@
 //! A door: browsers look at a scene or a run, and may press play.
 //!
-//! [`film`] gathers what there is to see of finished runs; [`embed`] puts it into a page that opens without a server. The page itself stands in
-//! `page/` (TypeScript, three.js, uPlot), and its bundle is committed, so that building this crate needs no Node.
+//! [`film`] gathers what there is to see of finished runs; [`embed`] puts it into a page that opens without a server; [`live`] runs a scene and
+//! [`server`] shows either to browsers. The page itself stands in `page/` (TypeScript, three.js, uPlot), and its bundle is committed, so that building this crate needs no Node.
 
 mod base64;
 pub mod embed;
 pub mod film;
+pub mod live;
+mod save;
+pub mod server;

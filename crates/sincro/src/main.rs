@@ -36,6 +36,10 @@ enum Command {
     Linearize(commands::linearize::Arguments),
     /// Find where a scene stays as it is
     Trim(commands::trim::Arguments),
+    /// Show a scene live, or a finished run again, in the browser: 3-D, plots, transport, numbers to change
+    View(commands::view::Arguments),
+    /// Show a finished run in the browser
+    Replay(commands::view::ReplayArguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
@@ -75,6 +79,8 @@ fn main() -> ExitCode {
         Command::Draw(arguments) => commands::draw::run(&arguments),
         Command::Linearize(arguments) => commands::linearize::run(&arguments),
         Command::Trim(arguments) => commands::trim::run(&arguments),
+        Command::View(arguments) => commands::view::run(&arguments),
+        Command::Replay(arguments) => commands::view::replay(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match bench::run(&options) {

@@ -7,6 +7,6 @@ mod properties;
 mod scene;
 mod tape;
 
-pub use properties::{Property, properties};
+pub use properties::{Property, edited, properties};
 pub use scene::{JointView, ObjectView, RotorView, SceneView, ShapeView};
 pub use tape::{Layout, Tape};

@@ -3,12 +3,17 @@
 //! What the viewer offers for editing is what `--set` takes: one list, from the documents themselves, so that a key that is added to the format is
 //! there without a word here.
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::document::Document;
+use crate::document::{Document, escape};
 use crate::load::Loaded;
 use crate::overrides::{Override, Target, apply_all};
+use crate::problem::{Location, SourceText};
 use crate::schema::{alternatives, description, experiment_schema, property, scene_schema, units};
 use crate::tree;
 
@@ -27,6 +32,9 @@ pub struct Property {
     pub unit: String,
     /// What it is; may be empty.
     pub about: String,
+    /// Where it stands.
+    #[serde(skip)]
+    pub at: Location,
 }
 
 /// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment, diagram.
@@ -52,16 +60,50 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     found
 }
 
+/// The texts of the files with settings written into them, by their paths; only the numbers change, comments and order stay.
+///
+/// # Errors
+///
+/// A sentence for each setting of what is no number that stands in a file.
+pub fn edited(loaded: &Loaded, settings: &[Override]) -> Result<BTreeMap<PathBuf, String>, Vec<String>> {
+    let known = properties(loaded, &[]);
+    // the last setting of a path wins; keyed by file and place
+    let mut edits: BTreeMap<(PathBuf, usize), (Arc<SourceText>, std::ops::Range<usize>, &str)> = BTreeMap::new();
+    let mut refused = Vec::new();
+    for setting in settings {
+        let (path, value) = (setting.path.value.as_str(), setting.value.value.as_str());
+        let flat = path.replace('[', ".").replace(']', "");
+        let property = known.iter().find(|p| p.path == flat || p.path.strip_prefix("diagram.") == Some(&flat));
+        match (property, value.parse::<f64>()) {
+            (Some(property), Ok(_)) => {
+                let (source, span) = (&property.at.source, &property.at.span);
+                edits.insert((source.path.clone(), span.start), (source.clone(), span.clone(), value));
+            }
+            (None, _) => refused.push(format!("`{path}` does not stand in a file as a number: write it there by hand")),
+            (_, Err(_)) => refused.push(format!("`{path}` takes a number: `{value}` is none")),
+        }
+    }
+    if !refused.is_empty() {
+        return Err(refused);
+    }
+    let mut texts = BTreeMap::new();
+    // from the end on, so that places before stay where they are
+    for ((path, _), (source, span, value)) in edits.into_iter().rev() {
+        texts.entry(path).or_insert_with(|| source.text.clone()).replace_range(span, value);
+    }
+    Ok(texts)
+}
+
 fn base_name(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
 fn of_scene(document: &Document, found: &mut Vec<Property>) {
     let schema = scene_schema();
-    let mut world = Walk { root: schema, owner: "/", prefix: "", second_unit: false, found };
+    let mut world = Walk { document, root: schema, owner: "/", prefix: "", second_unit: false, found };
     for key in ["gravity", "air_density"] {
         if let Some(value) = document.root.get(key) {
-            world.value(value, property_of(schema, schema, key), key);
+            world.value(value, property_of(schema, schema, key), key, &format!("/{key}"));
         }
     }
     for object in tree::raw_objects(document) {
@@ -72,31 +114,32 @@ fn of_scene(document: &Document, found: &mut Vec<Property>) {
         };
         let prefix = format!("{}.", object.path);
         let slides = table.get("kind").and_then(Value::as_str) == Some("prismatic");
-        let mut walk = Walk { root: schema, owner: &object.path, prefix: &prefix, second_unit: slides, found };
+        let mut walk =
+            Walk { document, root: schema, owner: &object.path, prefix: &prefix, second_unit: slides, found };
         for (key, value) in table {
-            walk.value(value, property_of(schema, items, key), key);
+            walk.value(value, property_of(schema, items, key), key, &format!("{}/{}", object.pointer, escape(key)));
         }
     }
 }
 
 fn of_experiment(document: &Document, found: &mut Vec<Property>) {
     let schema = experiment_schema();
-    let mut walk = Walk { root: schema, owner: "experiment", prefix: "", second_unit: false, found };
+    let mut walk = Walk { document, root: schema, owner: "experiment", prefix: "", second_unit: false, found };
     for key in ["duration", "step", "accuracy", "parameters"] {
         if let Some(value) = document.root.get(key) {
-            walk.value(value, property_of(schema, schema, key), key);
+            walk.value(value, property_of(schema, schema, key), key, &format!("/{key}"));
         }
     }
 }
 
 fn of_diagram(document: &Document, found: &mut Vec<Property>) {
     let blocks = document.root.get("block").and_then(Value::as_array);
-    for block in blocks.into_iter().flatten() {
+    for (k, block) in blocks.into_iter().flatten().enumerate() {
         let (Some(name), Value::Object(table)) = (block.get("name").and_then(Value::as_str), block) else { continue };
         let (owner, prefix) = (format!("diagram/{name}"), format!("diagram.{name}."));
-        let mut walk = Walk { root: &Value::Null, owner: &owner, prefix: &prefix, second_unit: false, found };
+        let mut walk = Walk { document, root: &Value::Null, owner: &owner, prefix: &prefix, second_unit: false, found };
         for (key, value) in table {
-            walk.value(value, None, key);
+            walk.value(value, None, key, &format!("/block/{k}/{}", escape(key)));
         }
     }
 }
@@ -108,6 +151,7 @@ fn property_of<'s>(root: &'s Value, schema: &'s Value, key: &str) -> Option<&'s 
 
 /// A walk through the values of one owner.
 struct Walk<'a> {
+    document: &'a Document,
     root: &'a Value,
     owner: &'a str,
     /// What stands before the key in a path.
@@ -118,9 +162,9 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    fn value(&mut self, value: &Value, schema: Option<&Value>, key: &str) {
+    fn value(&mut self, value: &Value, schema: Option<&Value>, key: &str, pointer: &str) {
         match value {
-            Value::Number(number) => self.number(number.as_f64().unwrap_or(f64::NAN), schema, key),
+            Value::Number(number) => self.number(number.as_f64().unwrap_or(f64::NAN), schema, key, pointer),
             Value::Array(list) => {
                 for (k, entry) in list.iter().enumerate() {
                     // the description of a list says what its entries are
@@ -128,20 +172,20 @@ impl Walk<'_> {
                         let choices = alternatives(self.root, s).into_iter();
                         choices.filter_map(|choice| choice.get("items")).find(|items| items.get("$ref").is_some())
                     });
-                    self.value(entry, inner.or(schema), &format!("{key}.{k}"));
+                    self.value(entry, inner.or(schema), &format!("{key}.{k}"), &format!("{pointer}/{k}"));
                 }
             }
             Value::Object(table) => {
                 for (name, entry) in table {
                     let inner = schema.and_then(|s| property_of(self.root, s, name));
-                    self.value(entry, inner, &format!("{key}.{name}"));
+                    self.value(entry, inner, &format!("{key}.{name}"), &format!("{pointer}/{}", escape(name)));
                 }
             }
             _ => {}
         }
     }
 
-    fn number(&mut self, value: f64, schema: Option<&Value>, key: &str) {
+    fn number(&mut self, value: f64, schema: Option<&Value>, key: &str, pointer: &str) {
         let about = schema.map_or("", |schema| description(self.root, schema));
         let units = units(about);
         let unit = units.get(usize::from(self.second_unit)).or(units.first()).copied().unwrap_or("");
@@ -152,6 +196,7 @@ impl Walk<'_> {
             value,
             unit: unit.to_owned(),
             about: about.to_owned(),
+            at: self.document.at(pointer),
         });
     }
 }
@@ -172,7 +217,9 @@ mod tests {
             for one in &all {
                 let same = Override::new(&one.path, &format!("{:?}", one.value));
                 let loaded = load(&folder, std::slice::from_ref(&same)).unwrap_or_else(|p| panic!("{}: {p}", one.path));
-                assert_eq!(properties(&loaded, &[same]), all, "{}", one.path);
+                let again = properties(&loaded, &[same]);
+                let numbers = |list: &[Property]| list.iter().map(|p| (p.path.clone(), p.value)).collect::<Vec<_>>();
+                assert_eq!(numbers(&again), numbers(&all), "{}", one.path);
             }
         }
     }
@@ -187,5 +234,19 @@ mod tests {
         assert_eq!(unit("/air/quadrotor/rotor1.blade.radius"), Some("m"));
         assert_eq!(unit("gravity.2"), Some("m/s²"));
         assert_eq!(unit("step"), Some("s"));
+    }
+
+    #[test]
+    fn saving_changes_the_numbers_and_nothing_else() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/quadrotor-open-loop");
+        let loaded = load(&folder, &[]).unwrap();
+        let set = [Override::new("/air/quadrotor.mass", "12.5"), Override::new("gravity[2]", "-1.62")];
+        let texts = edited(&loaded, &set).unwrap();
+        let (path, text) = texts.iter().next().unwrap();
+        assert!(texts.len() == 1 && path.ends_with("scene.toml"));
+        let before = std::fs::read_to_string(folder.join("scene.toml")).unwrap();
+        assert_eq!(*text, before.replace("mass = 10.305 ", "mass = 12.5 ").replace("-9.81]", "-1.62]"));
+        assert!(text.contains("# [kg] [T]"), "comments stay");
+        assert_eq!(edited(&loaded, &[Override::new("scene", "constant.toml")]).unwrap_err().len(), 1);
     }
 }

@@ -16,3 +16,4 @@ pub(crate) mod linearize;
 pub(crate) mod reproduce;
 pub(crate) mod run;
 pub(crate) mod trim;
+pub(crate) mod view;

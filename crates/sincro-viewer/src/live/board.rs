@@ -1,0 +1,121 @@
+//! What viewers may read: the scene, the runs so far, how the engine stands, what it has said.
+
+use std::sync::{Mutex, MutexGuard};
+
+use serde::Serialize;
+use tokio::sync::watch;
+
+/// Words that are kept for viewers; older ones have been read or never will be.
+const MOST_WORDS: usize = 200;
+
+/// The board.
+#[derive(Debug)]
+pub struct Board {
+    content: Mutex<Content>,
+    changed: watch::Sender<u64>,
+}
+
+/// What stands on it.
+#[derive(Debug, Default)]
+pub struct Content {
+    /// The scene and everything that does not change, as JSON.
+    pub film: String,
+    /// The runs, in the order of their numbers.
+    pub runs: Vec<RunLog>,
+    /// How the engine stands.
+    pub standing: Standing,
+    /// What it has said, as JSON, with running numbers.
+    pub words: Vec<(u64, String)>,
+    n_words: u64,
+}
+
+/// A run as viewers get it.
+#[derive(Clone, Debug, Default)]
+pub struct RunLog {
+    /// Its description as JSON.
+    pub header: String,
+    /// Times `[s]`.
+    pub times: Vec<f64>,
+    /// Recorded signals, row by row.
+    pub rows: Vec<f64>,
+    /// Signals a row.
+    pub n_columns: usize,
+    /// Frames, one after the other.
+    pub frames: Vec<f32>,
+    /// Numbers a frame.
+    pub width: usize,
+}
+
+/// How the engine stands.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Standing {
+    /// Number of the run that goes on.
+    pub run: usize,
+    /// Whether it does so now.
+    pub playing: bool,
+    /// Simulated seconds a second that are aimed at; none: as fast as it goes.
+    pub speed: Option<f64>,
+    /// Simulated seconds a second that come out, while it plays.
+    pub factor: Option<f64>,
+    /// Why the run ended early; empty if it did not.
+    pub stop: String,
+    /// Whether it has come to its end.
+    pub done: bool,
+    /// Hash of its states.
+    pub trace: String,
+}
+
+impl Board {
+    /// An empty one.
+    #[must_use]
+    pub fn new(film: String) -> Self {
+        let content = Content { film, ..Content::default() };
+        Self { content: Mutex::new(content), changed: watch::Sender::new(0) }
+    }
+
+    /// The content, to be read and let go of at once.
+    ///
+    /// # Panics
+    ///
+    /// If a thread panicked while it wrote.
+    pub fn read(&self) -> MutexGuard<'_, Content> {
+        self.content.lock().expect("no thread panics while it writes to the board")
+    }
+
+    /// Changes the content and tells the viewers.
+    pub(crate) fn write(&self, change: impl FnOnce(&mut Content)) {
+        change(&mut self.read());
+        self.changed.send_modify(|n| *n += 1);
+    }
+
+    /// Says something to all viewers: `refused` or `saved`.
+    pub(crate) fn say(&self, kind: &str, message: &str) {
+        let text = words(kind, message);
+        self.write(|content| {
+            content.n_words += 1;
+            content.words.push((content.n_words, text));
+            if content.words.len() > MOST_WORDS {
+                content.words.remove(0);
+            }
+        });
+    }
+
+    /// Told at each change.
+    #[must_use]
+    pub fn watch(&self) -> watch::Receiver<u64> {
+        self.changed.subscribe()
+    }
+}
+
+impl Content {
+    /// Number of the last words.
+    #[must_use]
+    pub fn last_words(&self) -> u64 {
+        self.n_words
+    }
+}
+
+/// A message in words as JSON.
+pub(crate) fn words(kind: &str, message: &str) -> String {
+    serde_json::json!({ "type": kind, "message": message }).to_string()
+}

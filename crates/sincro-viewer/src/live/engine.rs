@@ -1,0 +1,304 @@
+//! The engine: advances the present run by the wall clock, does what viewers ask, and writes to the board.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
+use std::time::{Duration, Instant};
+
+use sincro_sim::diagram::Controller;
+use sincro_sim::experiment::check::{Expected, Subject};
+use sincro_sim::load;
+use sincro_sim::overrides::Override;
+use sincro_sim::problem::Problems;
+use sincro_sim::replay::{SceneView, properties};
+
+use super::board::{Board, RunLog};
+use super::command::Command;
+use super::track::{Taken, Track};
+use crate::film::{FORMAT, Film, plots};
+use crate::save::save_scene;
+
+/// Commands that may wait.
+const MOST_WAITING: usize = 64;
+/// How long it computes at a stretch before it looks for commands.
+const STRETCH: Duration = Duration::from_millis(8);
+/// How long it sleeps when it is ahead of the clock.
+const NAP: Duration = Duration::from_millis(4);
+
+/// What is to be run.
+pub struct Source {
+    /// The scene's folder.
+    pub folder: PathBuf,
+    /// What is set against its files.
+    pub settings: Vec<Override>,
+    /// Makes the drawing of a diagram.
+    pub draw: Box<dyn Fn(&Controller) -> String + Send>,
+}
+
+/// A live scene with its runs.
+pub struct Engine {
+    source: Source,
+    board: Arc<Board>,
+    tracks: Vec<Track>,
+    playing: bool,
+    speed: Option<f64>,
+    /// Wall clock and simulated time when it last began to play or changed its speed.
+    since: (Instant, f64),
+}
+
+impl Engine {
+    /// Loads a scene, stopped at its start.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the scene.
+    pub fn open(source: Source) -> Result<Self, Problems> {
+        let loaded = load(&source.folder, &source.settings)?;
+        let film = Film {
+            format: FORMAT,
+            title: loaded.experiment.title.clone(),
+            description: loaded.experiment.description.clone(),
+            scene: source.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+            step: loaded.experiment.step,
+            duration: loaded.experiment.duration,
+            views: Vec::new(),
+            properties: Vec::new(),
+            plots: plots(&loaded),
+            diagram: loaded.controller.as_ref().map(|c| (source.draw)(c)),
+            runs: Vec::new(),
+        };
+        let board = Arc::new(Board::new(film.to_json()));
+        let first = Track::new(loaded, source.settings.clone())?;
+        let since = (Instant::now(), 0.0);
+        let mut engine = Self { source, board, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
+        engine.begin(first, "main", "");
+        Ok(engine)
+    }
+
+    /// What viewers read.
+    #[must_use]
+    pub fn board(&self) -> Arc<Board> {
+        self.board.clone()
+    }
+
+    /// Starts the engine's thread; it ends when the last sender is gone.
+    #[must_use]
+    pub fn start(mut self) -> SyncSender<Command> {
+        let (sender, receiver) = sync_channel(MOST_WAITING);
+        std::thread::spawn(move || self.run(&receiver));
+        sender
+    }
+
+    fn run(&mut self, commands: &Receiver<Command>) {
+        loop {
+            let waits = !self.playing;
+            let next = if waits {
+                commands.recv().map_err(|_| TryRecvError::Disconnected)
+            } else {
+                match commands.recv_timeout(self.play()) {
+                    Ok(command) => Ok(command),
+                    Err(RecvTimeoutError::Timeout) => Err(TryRecvError::Empty),
+                    Err(RecvTimeoutError::Disconnected) => Err(TryRecvError::Disconnected),
+                }
+            };
+            match next {
+                Ok(command) => self.obey(command),
+                Err(TryRecvError::Empty) => {}
+                Err(TryRecvError::Disconnected) => return,
+            }
+        }
+    }
+
+    /// Computes until the clock is reached or the stretch is over; how long there is nothing to do then.
+    fn play(&mut self) -> Duration {
+        let begin = Instant::now();
+        let target = self.speed.map(|speed| self.since.1 + (begin - self.since.0).as_secs_f64() * speed);
+        loop {
+            let track = self.tracks.last_mut().expect("there is a run from the start on");
+            if track.is_done() {
+                self.halt();
+                return Duration::ZERO;
+            }
+            if target.is_some_and(|target| track.lockstep.t() >= target) {
+                return NAP;
+            }
+            if track.advance() {
+                let taken = track.take(false);
+                self.publish(taken);
+            }
+            if begin.elapsed() > STRETCH {
+                return Duration::ZERO;
+            }
+        }
+    }
+
+    /// Does what a viewer asks; refusals go to all viewers.
+    fn obey(&mut self, command: Command) {
+        let done = match command {
+            Command::Play => {
+                self.go();
+                Ok(())
+            }
+            Command::Pause => {
+                self.halt();
+                Ok(())
+            }
+            Command::Step => {
+                self.step();
+                Ok(())
+            }
+            Command::Speed { speed } => {
+                self.speed = speed;
+                self.since = (Instant::now(), self.present().lockstep.t());
+                self.stand();
+                Ok(())
+            }
+            Command::Restart => self.restart(),
+            Command::Branch { run, t, set, joints, play } => self.branch((run, t), &set, &joints, play),
+            Command::Push { object, point, force } => {
+                self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(Some((object, point, force))))
+            }
+            Command::Release => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
+            Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set))
+                .map(|folder| self.board.say("saved", &format!("saved as {}", folder.display()))),
+        };
+        if let Err(message) = done {
+            self.board.say("refused", &message);
+        }
+    }
+
+    fn present(&self) -> &Track {
+        self.tracks.last().expect("there is a run from the start on")
+    }
+
+    fn go(&mut self) {
+        self.playing = !self.present().is_done();
+        self.since = (Instant::now(), self.present().lockstep.t());
+        self.stand();
+    }
+
+    fn halt(&mut self) {
+        self.playing = false;
+        self.take_if_new();
+        self.stand();
+    }
+
+    fn step(&mut self) {
+        self.playing = false;
+        let track = self.tracks.last_mut().expect("there is a run from the start on");
+        if !track.is_done() {
+            track.advance();
+        }
+        self.take_if_new();
+        self.stand();
+    }
+
+    /// A frame of where it stands, unless there is one.
+    fn take_if_new(&mut self) {
+        let track = self.tracks.last_mut().expect("there is a run from the start on");
+        let t = track.lockstep.t();
+        let is_new = self.board.read().runs.last().is_none_or(|run| run.times.last().is_none_or(|last| *last < t));
+        if is_new {
+            let taken = track.take(false);
+            self.publish(taken);
+        }
+    }
+
+    fn restart(&mut self) -> Result<(), String> {
+        let settings = self.present().settings.clone();
+        let loaded = load(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
+        let track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
+        self.begin_next(track, "from the start");
+        Ok(())
+    }
+
+    fn settings(&self, set: &[(String, String)]) -> Vec<Override> {
+        let new = set.iter().map(|(path, value)| Override::new(path, value));
+        self.source.settings.iter().cloned().chain(new).collect()
+    }
+
+    fn branch(
+        &mut self,
+        (run, t): (usize, f64),
+        set: &[(String, String)],
+        joints: &[(usize, f64)],
+        play: bool,
+    ) -> Result<(), String> {
+        let from = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
+        let settings = self.settings(set);
+        let snapshot = from.snapshot_at(t).filter(|s| s.state.tick > 0 || !joints.is_empty()).cloned();
+        let loaded = load(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
+        let mut track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
+        if let Some(snapshot) = &snapshot {
+            track = track.from(snapshot, joints)?;
+        }
+        let mut words: Vec<String> = set.iter().map(|(path, value)| format!("{path} = {value}")).collect();
+        let start = track.lockstep.t();
+        words.push(format!("from {start:.4} s of run {run}"));
+        self.begin_next(track, &words.join(", "));
+        if play {
+            self.go();
+        }
+        Ok(())
+    }
+
+    fn begin_next(&mut self, track: Track, about: &str) {
+        self.playing = false;
+        let name = format!("run {}", self.tracks.len());
+        self.begin(track, &name, about);
+    }
+
+    /// Puts a new run on the board.
+    fn begin(&mut self, mut track: Track, name: &str, about: &str) {
+        let header = header(&track, self.tracks.len(), name, about);
+        let log = RunLog { header, n_columns: track.columns.len(), width: track.layout.width(), ..RunLog::default() };
+        let taken = track.take(true);
+        self.tracks.push(track);
+        self.board.write(|content| content.runs.push(log));
+        self.publish(taken);
+        self.stand();
+    }
+
+    fn publish(&mut self, taken: Taken) {
+        self.board.write(|content| {
+            let run = content.runs.last_mut().expect("the run stands on the board");
+            run.times.push(taken.t);
+            run.rows.extend(taken.row);
+            run.frames.extend(taken.frame);
+        });
+        let factor = self.factor(taken.t);
+        // told ten times a second is enough
+        self.board.read().standing.factor = factor;
+    }
+
+    fn factor(&self, t: f64) -> Option<f64> {
+        let wall = self.since.0.elapsed().as_secs_f64();
+        (self.playing && wall > 0.05).then(|| (t - self.since.1) / wall)
+    }
+
+    /// Tells how it stands.
+    fn stand(&mut self) {
+        let track = self.present();
+        let (stop, done, trace) = (track.stop.clone(), track.is_done(), track.trace.to_string());
+        let factor = self.factor(track.lockstep.t());
+        let (run, playing, speed) = (self.tracks.len() - 1, self.playing, self.speed);
+        self.board.write(|content| {
+            content.standing = super::board::Standing { run, playing, speed, factor, stop, done, trace };
+        });
+    }
+}
+
+/// A run's description.
+fn header(track: &Track, id: usize, name: &str, about: &str) -> String {
+    let checks = &track.loaded.experiment.checks;
+    let references = checks.iter().filter_map(|check| match (&check.what, &check.expected) {
+        (Subject::Signal(signal), Expected::Reference(r)) => Some((signal.value.as_str(), &*r.keys, &*r.values)),
+        _ => None,
+    });
+    let view: &SceneView = &track.view;
+    serde_json::json!({
+        "type": "run", "id": id, "name": name, "about": about, "view": view, "columns": track.columns,
+        "references": references.collect::<Vec<_>>(), "properties": properties(&track.loaded, &track.settings),
+    })
+    .to_string()
+}

@@ -1,0 +1,187 @@
+//! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start there.
+
+use sincro_dynamics::force::Push;
+use sincro_dynamics::spatial::Vec3;
+use sincro_sim::Loaded;
+use sincro_sim::diagram::Controller;
+use sincro_sim::overrides::Override;
+use sincro_sim::problem::{Located, Problems};
+use sincro_sim::record::{Recorder, catalogue};
+use sincro_sim::replay::{Layout, SceneView, Tape};
+use sincro_sim::run::{LockStep, Trace, method_for};
+use sincro_sim::snapshot::Snapshot;
+
+use crate::film::stop_words;
+
+/// Signals beyond which the catalogue is not offered whole: what is recorded and the diagram's remain.
+const MOST_SIGNALS: usize = 400;
+
+/// A run under way.
+pub(super) struct Track {
+    pub loaded: Loaded,
+    pub settings: Vec<Override>,
+    pub lockstep: LockStep,
+    pub trace: Trace,
+    pub view: SceneView,
+    pub layout: Layout,
+    /// Names and units of what is recorded, `t` left out.
+    pub columns: Vec<(String, String)>,
+    /// Why it cannot go on; empty if it can.
+    pub stop: String,
+    recorder: Recorder,
+    method: sincro_dynamics::world::MethodKind,
+    every: u64,
+    /// Base steps done at each frame, and the state.
+    snapshots: Vec<Snapshot>,
+    push: Option<(usize, [f64; 3], [f64; 3])>,
+}
+
+/// What a frame adds to the board.
+pub(super) struct Taken {
+    pub t: f64,
+    pub row: Vec<f64>,
+    pub frame: Vec<f32>,
+}
+
+impl Track {
+    /// From the start.
+    pub fn new(loaded: Loaded, settings: Vec<Override>) -> Result<Self, Problems> {
+        let (method, _) = method_for(&loaded);
+        let lockstep = LockStep::new(&loaded, method, false);
+        let (recorder, columns) = recorder(&loaded)?;
+        let model = &loaded.scene.model;
+        let tape = Tape::new(model, &loaded.experiment);
+        let (view, layout, every) = (SceneView::new(&loaded.scene), tape.layout, tape.every);
+        let trace = lockstep.trace();
+        let mut new = Self {
+            settings,
+            lockstep,
+            trace,
+            view,
+            layout,
+            columns,
+            stop: String::new(),
+            recorder,
+            method,
+            every,
+            snapshots: Vec::new(),
+            push: None,
+            loaded,
+        };
+        new.look();
+        Ok(new)
+    }
+
+    /// From a frame of another run. `joints` are put elsewhere, everything at rest.
+    pub fn from(mut self, snapshot: &Snapshot, joints: &[(usize, f64)]) -> Result<Self, String> {
+        let own = self.lockstep.snapshot(self.trace);
+        let lengths = |s: &Snapshot| {
+            let (state, diagram) = (&s.state, s.diagram.as_ref());
+            let of_state = [&state.q, &state.v, &state.commands, &state.drives, &state.totals].map(Vec::len);
+            (of_state, diagram.map(|d| [d.signals.len(), d.continuous.len(), d.memory.len()]))
+        };
+        if lengths(&own) != lengths(snapshot) {
+            return Err("this change alters what the scene consists of: run it from 0 s".into());
+        }
+        self.lockstep.restore(snapshot);
+        self.trace = snapshot.trace;
+        if let Some((index, _)) = joints.iter().find(|(index, _)| *index >= snapshot.state.q.len()) {
+            return Err(format!("there is no coordinate {index}"));
+        }
+        if !joints.is_empty() {
+            let mut state = self.lockstep.state().clone();
+            joints.iter().for_each(|(index, value)| state.q[*index] = *value);
+            self.lockstep.place(state, &[]);
+            self.lockstep.stop();
+        }
+        self.stop.clear();
+        self.look();
+        Ok(self)
+    }
+
+    /// Evaluates the diagram at the present state.
+    fn look(&mut self) {
+        if let Err(halt) = self.lockstep.start() {
+            self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
+        }
+    }
+
+    pub fn is_done(&self) -> bool {
+        !self.stop.is_empty() || self.lockstep.tick() >= self.loaded.experiment.n_steps
+    }
+
+    /// One base step; whether a frame is due then.
+    pub fn advance(&mut self) -> bool {
+        self.apply_push();
+        let advanced = self.lockstep.advance();
+        self.lockstep.world().release();
+        let is_world_halt = matches!(advanced, Err(sincro_sim::run::Halt::World { .. }));
+        if !is_world_halt {
+            self.lockstep.add_to(&mut self.trace);
+        }
+        if let Err(halt) = advanced {
+            self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
+        }
+        !is_world_halt && (self.lockstep.tick().is_multiple_of(self.every) || self.is_done())
+    }
+
+    /// Everything that viewers see of the present state.
+    pub fn take(&mut self, is_start: bool) -> Taken {
+        let t = self.lockstep.t();
+        let snapshot = self.lockstep.snapshot(self.trace);
+        self.snapshots.push(snapshot);
+        let mut frame = Vec::with_capacity(self.layout.width());
+        let (seen, signals) = self.lockstep.observe(t);
+        let row = self.recorder.row(&seen, signals, t, is_start)[1..].to_vec();
+        self.layout.write(&seen, t, &mut frame);
+        Taken { t, row, frame }
+    }
+
+    /// The state at the last frame up to `t` `[s]`; none before the first.
+    pub fn snapshot_at(&self, t: f64) -> Option<&Snapshot> {
+        let step = self.loaded.experiment.step;
+        let n = self.snapshots.partition_point(|s| s.state.tick as f64 * step <= t + 1e-9 * step.max(t));
+        n.checked_sub(1).map(|k| &self.snapshots[k])
+    }
+
+    pub fn set_push(&mut self, push: Option<(usize, [f64; 3], [f64; 3])>) -> Result<(), String> {
+        if let Some((object, ..)) = push {
+            let found = self.view.objects.get(object).ok_or_else(|| format!("there is no object {object}"))?;
+            if found.mover.is_none() {
+                return Err(format!("`{}` is fixed in the world: no force moves it", found.path));
+            }
+        }
+        self.push = push;
+        Ok(())
+    }
+
+    /// The force of a viewer's hand, for one step.
+    fn apply_push(&mut self) {
+        let Some((object, point, force)) = self.push else { return };
+        let Some(mover) = self.view.objects[object].mover else { return };
+        let link = self.layout.links()[mover];
+        let t = self.lockstep.t();
+        let x_wl = self.lockstep.observe(t).0.scratch().link_poses()[link];
+        let point = x_wl.inverse().point(Vec3(point));
+        self.lockstep.world().push(Push { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
+    }
+}
+
+/// Everything that can be looked at, as far as it is not too much.
+fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Problems> {
+    let (experiment, model) = (&loaded.experiment, &loaded.scene.model);
+    let entries = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+    let all = catalogue(model);
+    let mut names: Vec<String> = experiment.record.iter().map(|r| r.value.clone()).collect();
+    let offered = entries.iter().chain(all.iter().filter(|_| all.len() <= MOST_SIGNALS));
+    for entry in offered {
+        if !names.contains(&entry.name) {
+            names.push(entry.name.clone());
+        }
+    }
+    let at = experiment.record[0].at.clone();
+    let located: Vec<Located<String>> = names.into_iter().map(|value| Located { value, at: at.clone() }).collect();
+    let recorder = Recorder::new(&located, model, &entries)?;
+    let columns = recorder.columns().skip(1).map(|(name, unit)| (name.to_owned(), unit.to_owned())).collect();
+    Ok((recorder, columns))
+}

@@ -1,0 +1,67 @@
+//! Saving a scene with changed numbers: a copy of its folder in which those numbers stand, comments and all.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sincro_sim::load;
+use sincro_sim::overrides::Override;
+use sincro_sim::replay::edited;
+
+/// Files of a folder that are copied; more are no scene.
+const MOST_FILES: usize = 500;
+
+/// Writes the scene with `settings` into a folder beside it; the folder's path.
+///
+/// # Errors
+///
+/// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then lack.
+pub(crate) fn save_scene(folder: &Path, settings: &[Override]) -> Result<PathBuf, String> {
+    let folder = if folder.is_file() { folder.parent().unwrap_or(folder) } else { folder };
+    let loaded = load(folder, &[]).map_err(|problems| problems.to_string())?;
+    let texts = edited(&loaded, settings).map_err(|refused| refused.join("\n"))?;
+    let files = files(folder)?;
+    let target = free_name(folder);
+    for file in &files {
+        let inner = file.strip_prefix(folder).map_err(|_| format!("`{}` is not in the folder", file.display()))?;
+        let to = target.join(inner);
+        let made = to.parent().map_or(Ok(()), fs::create_dir_all);
+        let written = made.and_then(|()| match texts.iter().find(|(path, _)| *path == file) {
+            Some((_, text)) => fs::write(&to, text),
+            None => fs::copy(file, &to).map(|_| ()),
+        });
+        written.map_err(|e| format!("`{}` cannot be written: {e}", to.display()))?;
+    }
+    load(&target, &[])
+        .map_err(|problems| format!("saved as `{}`, which does not load: {problems}", target.display()))?;
+    Ok(target)
+}
+
+/// `arm-edited`, `arm-edited-2` …: the first one that is not there.
+fn free_name(folder: &Path) -> PathBuf {
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    let name = whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned());
+    let beside =
+        |k: usize| whole.with_file_name(if k == 1 { format!("{name}-edited") } else { format!("{name}-edited-{k}") });
+    (1..).map(beside).find(|path| !path.exists()).expect("there is always a next number")
+}
+
+/// The files of a folder and of those in it; links are left out.
+fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let (mut found, mut stack) = (Vec::new(), vec![folder.to_path_buf()]);
+    while let Some(at) = stack.pop() {
+        let entries = fs::read_dir(&at).map_err(|e| format!("`{}` cannot be read: {e}", at.display()))?;
+        for entry in entries.flatten() {
+            let Ok(kind) = entry.file_type() else { continue };
+            if kind.is_dir() {
+                stack.push(entry.path());
+            } else if kind.is_file() {
+                found.push(entry.path());
+            }
+        }
+        if found.len() > MOST_FILES {
+            return Err(format!("`{}` has more than {MOST_FILES} files: copy it by hand", folder.display()));
+        }
+    }
+    found.sort();
+    Ok(found)
+}

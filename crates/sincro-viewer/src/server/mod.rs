@@ -1,0 +1,162 @@
+//! The server: a page, a film or a live line, and nothing else.
+//!
+//! | path | what |
+//! |---|---|
+//! | `/` | the page |
+//! | `/viewer.js`, `/viewer.css` | its program and style, from this binary |
+//! | `/film.json` | the film of finished runs, if that is what is shown |
+//! | `/live` | the line to a live run (WebSocket), if that is what is shown |
+//!
+//! No path leads to a file. Every request must name this server in `Host`, and come from its own page if it names an `Origin`
+//! (a page of another site cannot look or command, nor can a name that was pointed at this machine); a server that other machines can
+//! reach also wants its token in every address.
+
+mod guard;
+mod socket;
+
+use std::io;
+use std::net::{SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::sync::mpsc::SyncSender;
+
+use axum::Router;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::{Request, State};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::{Html, IntoResponse, Response};
+use axum::routing::get;
+
+pub use guard::Guard;
+
+use crate::embed::{SCRIPT, STYLE};
+use crate::live::{Board, Command};
+
+/// Largest message of a viewer [bytes].
+const MOST_BYTES: usize = 1 << 18;
+
+/// What is shown.
+#[derive(Clone)]
+pub enum Show {
+    /// Finished runs, as JSON.
+    Film(Arc<str>),
+    /// A live run.
+    Live(Arc<Board>, SyncSender<Command>),
+}
+
+#[derive(Clone)]
+struct Shared {
+    show: Show,
+    guard: Arc<Guard>,
+}
+
+/// A server that has its address already and serves as soon as it runs.
+pub struct Server {
+    listener: TcpListener,
+    guard: Arc<Guard>,
+    show: Show,
+}
+
+impl Server {
+    /// Takes an address; port 0 is any free one. An address that other machines can reach gets a token.
+    ///
+    /// # Errors
+    ///
+    /// The address cannot be had.
+    pub fn bind(address: SocketAddr, show: Show) -> io::Result<Self> {
+        let listener = TcpListener::bind(address)?;
+        listener.set_nonblocking(true)?;
+        let guard = Arc::new(Guard::new(listener.local_addr()?));
+        Ok(Self { listener, guard, show })
+    }
+
+    /// Address of the page, with its token if it has one.
+    #[must_use]
+    pub fn url(&self) -> String {
+        self.guard.url()
+    }
+
+    /// Serves until the process ends.
+    ///
+    /// # Errors
+    ///
+    /// The network fails.
+    pub fn run(self) -> io::Result<()> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        runtime.block_on(async {
+            let listener = tokio::net::TcpListener::from_std(self.listener)?;
+            let shared = Shared { show: self.show, guard: self.guard };
+            axum::serve(listener, router(shared)).await
+        })
+    }
+}
+
+fn router(shared: Shared) -> Router {
+    let script = |content: &'static str, kind: &'static str| {
+        get(move || async move { ([(header::CONTENT_TYPE, kind)], content).into_response() })
+    };
+    Router::new()
+        .route("/", get(page))
+        .route("/viewer.js", script(SCRIPT, "text/javascript; charset=utf-8"))
+        .route("/viewer.css", script(STYLE, "text/css; charset=utf-8"))
+        .route("/film.json", get(film))
+        .route("/live", get(live))
+        .layer(middleware::from_fn_with_state(shared.clone(), admit))
+        .with_state(shared)
+}
+
+/// Lets in who may come in, and sets the headers that every answer has.
+async fn admit(State(shared): State<Shared>, request: Request, next: Next) -> Response {
+    if let Err(reason) = may_enter(&shared.guard, &request) {
+        return (StatusCode::FORBIDDEN, reason).into_response();
+    }
+    let mut response = next.run(request).await;
+    let headers = response.headers_mut();
+    let policy = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
+                  base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    headers.insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(policy));
+    headers.insert(header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
+    headers.insert(header::REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    response
+}
+
+fn may_enter(guard: &Guard, request: &Request) -> Result<(), String> {
+    let text = |name: header::HeaderName| request.headers().get(name).map(|value| value.to_str().unwrap_or("?"));
+    let (host, origin) = (text(header::HOST), text(header::ORIGIN));
+    // the page's own program and style carry no secrets, and are asked for without a token
+    let is_static = matches!(request.uri().path(), "/viewer.js" | "/viewer.css");
+    let query = if is_static { guard.token_query() } else { request.uri().query().map(str::to_owned) };
+    guard.check(host, origin, query.as_deref())
+}
+
+async fn page(State(shared): State<Shared>) -> Html<String> {
+    let source = match shared.show {
+        Show::Film(_) => "film",
+        Show::Live(..) => "live",
+    };
+    Html(format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+         content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<title>sincro</title>\n\
+         <link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"viewer.css\">\n</head>\n<body>\n\
+         <div id=\"sincro-viewer\" data-source=\"{source}\"><p class=\"sv-failed\">loading …</p></div>\n\
+         <script src=\"viewer.js\"></script>\n</body>\n</html>\n"
+    ))
+}
+
+async fn film(State(shared): State<Shared>) -> Response {
+    match shared.show {
+        Show::Film(film) => ([(header::CONTENT_TYPE, "application/json")], film.to_string()).into_response(),
+        Show::Live(..) => (StatusCode::NOT_FOUND, "this is a live run").into_response(),
+    }
+}
+
+async fn live(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+    match shared.show {
+        Show::Film(_) => (StatusCode::NOT_FOUND, "these are finished runs").into_response(),
+        Show::Live(board, commands) => upgrade
+            .max_message_size(MOST_BYTES)
+            .max_frame_size(MOST_BYTES)
+            .on_upgrade(move |socket| socket::attend(socket, board, commands)),
+    }
+}

@@ -1,0 +1,151 @@
+//! One viewer's line: everything that is on the board and that it has not seen, at its own pace.
+//!
+//! A frame message is, little endian: `u32` 1, run, number of frames n, number of signals m; n times `[s]` as `f64`; n·m signals as `f64`;
+//! n frames as `f32`. All else is JSON.
+
+use std::sync::Arc;
+use std::sync::mpsc::{SyncSender, TrySendError};
+use std::time::Duration;
+
+use axum::extract::ws::{Message, WebSocket};
+use tokio::time::{Instant, sleep_until};
+
+use crate::live::{Board, Command};
+
+/// Least time between two messages of frames.
+const PAUSE: Duration = Duration::from_millis(16);
+/// Frames in one message at most.
+const MOST_FRAMES: usize = 1000;
+
+/// What one viewer has seen.
+struct Seen {
+    /// Frames of each run.
+    frames: Vec<usize>,
+    words: u64,
+    standing: String,
+}
+
+/// Serves one viewer until it goes.
+pub(super) async fn attend(mut socket: WebSocket, board: Arc<Board>, commands: SyncSender<Command>) {
+    let mut changes = board.watch();
+    let (film, words) = {
+        let content = board.read();
+        (content.film.clone(), content.last_words())
+    };
+    if socket.send(Message::text(film)).await.is_err() {
+        return;
+    }
+    let mut seen = Seen { frames: Vec::new(), words, standing: String::new() };
+    let mut has_complained = false;
+    loop {
+        let started = Instant::now();
+        changes.mark_unchanged();
+        loop {
+            let news = seen.news(&board);
+            if news.is_empty() {
+                break;
+            }
+            for message in news {
+                // a viewer that does not read waits here, and nobody else
+                if socket.send(message).await.is_err() {
+                    return;
+                }
+            }
+        }
+        // until something is new and the least pause is over; messages are taken meanwhile
+        let mut is_new = false;
+        while !(is_new && started.elapsed() >= PAUSE) {
+            tokio::select! {
+                changed = changes.changed(), if !is_new => match changed {
+                    Ok(()) => is_new = true,
+                    Err(_) => return,
+                },
+                () = sleep_until(started + PAUSE), if is_new => {}
+                message = socket.recv() => match message {
+                    Some(Ok(Message::Text(text))) => {
+                        if let Some(reply) = take(&text, &commands, &mut has_complained)
+                            && socket.send(Message::text(reply)).await.is_err()
+                        {
+                            return;
+                        }
+                    }
+                    Some(Ok(Message::Binary(_))) => {
+                        let reply = refuse("messages are text", &mut has_complained);
+                        if socket.send(Message::text(reply)).await.is_err() {
+                            return;
+                        }
+                    }
+                    Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                    Some(Ok(_)) => {}
+                },
+            }
+        }
+    }
+}
+
+/// Hands a message on; what to answer if it is refused.
+fn take(text: &str, commands: &SyncSender<Command>, has_complained: &mut bool) -> Option<String> {
+    let command = match Command::parse(text) {
+        Ok(command) => command,
+        Err(reason) => return Some(refuse(&reason, has_complained)),
+    };
+    match commands.try_send(command) {
+        Ok(()) => None,
+        Err(TrySendError::Full(_)) => Some(refuse("too many messages at once", has_complained)),
+        Err(TrySendError::Disconnected(_)) => Some(refuse("the simulation has ended", has_complained)),
+    }
+}
+
+/// The answer to a message that is refused; the first one of a viewer is logged.
+fn refuse(reason: &str, has_complained: &mut bool) -> String {
+    if !*has_complained {
+        eprintln!("a viewer's message was refused: {reason}");
+        *has_complained = true;
+    }
+    crate::live::refusal(reason)
+}
+
+impl Seen {
+    /// What is on the board and was not sent, a bounded piece of it.
+    fn news(&mut self, board: &Board) -> Vec<Message> {
+        let content = board.read();
+        let mut news = Vec::new();
+        for (id, run) in content.runs.iter().enumerate() {
+            if id == self.frames.len() {
+                news.push(Message::text(run.header.clone()));
+                self.frames.push(0);
+            }
+            let from = self.frames[id];
+            let to = run.times.len().min(from + MOST_FRAMES);
+            if from < to {
+                self.frames[id] = to;
+                news.push(Message::binary(frames(id, run, from, to)));
+            }
+        }
+        let known = self.words;
+        for (number, text) in content.words.iter().filter(|(number, _)| *number > known) {
+            self.words = *number;
+            news.push(Message::text(text.clone()));
+        }
+        let mut standing = serde_json::to_value(&content.standing).expect("plain data has a JSON form");
+        standing["type"] = "state".into();
+        let standing = standing.to_string();
+        if standing != self.standing {
+            self.standing.clone_from(&standing);
+            news.push(Message::text(standing));
+        }
+        news
+    }
+}
+
+fn frames(id: usize, run: &crate::live::RunLog, from: usize, to: usize) -> Vec<u8> {
+    let n = to - from;
+    let mut bytes = Vec::with_capacity(16 + n * (8 + 8 * run.n_columns + 4 * run.width));
+    for number in [1, id, n, run.n_columns] {
+        bytes.extend(u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes());
+    }
+    run.times[from..to].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    run.rows[from * run.n_columns..to * run.n_columns].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    run.frames[from * run.width..to * run.width].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    bytes
+}

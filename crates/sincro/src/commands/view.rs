@@ -1,0 +1,113 @@
+//! `sincro view`: a scene or a finished run in the browser.
+
+use std::io::IsTerminal;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use sincro_viewer::live::{Engine, Source};
+use sincro_viewer::server::{Server, Show};
+
+use super::run::{parse_settings, scene_name};
+use crate::{Exit, diagnostics};
+
+/// What `view` takes.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folder of a scene, to run it live, or of a finished run, to look at it again
+    what: PathBuf,
+    /// Set a number first, as in `run`; may be repeated
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Port to listen at [default: any free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    port: u16,
+    /// Address to listen at; beyond this machine the page's address has a token
+    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    bind: IpAddr,
+    /// Print the address and open no browser
+    #[arg(long)]
+    no_browser: bool,
+}
+
+/// What `replay` takes.
+#[derive(Debug, Args)]
+pub(crate) struct ReplayArguments {
+    /// Folder of a finished run
+    run: PathBuf,
+    /// Port to listen at [default: any free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    port: u16,
+    /// Print the address and open no browser
+    #[arg(long)]
+    no_browser: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &Arguments) -> Exit {
+    let is_run = arguments.what.join("replay.json").is_file() && !arguments.what.join("experiment.toml").is_file();
+    let show = if is_run { replay_of(&arguments.what) } else { live(arguments) };
+    match show {
+        Ok(show) => serve(show, SocketAddr::new(arguments.bind, arguments.port), arguments.no_browser),
+        Err(exit) => exit,
+    }
+}
+
+/// Shows a finished run.
+pub(crate) fn replay(arguments: &ReplayArguments) -> Exit {
+    match replay_of(&arguments.run) {
+        Ok(show) => serve(show, SocketAddr::from((Ipv4Addr::LOCALHOST, arguments.port)), arguments.no_browser),
+        Err(exit) => exit,
+    }
+}
+
+fn replay_of(run: &Path) -> Result<Show, Exit> {
+    let file = run.join("replay.json");
+    let text = std::fs::read_to_string(&file).map_err(|e| {
+        let message = format!("`{}` cannot be read: {e}", file.display());
+        diagnostics::refuse(&message, Some("name the folder that `sincro run` wrote, such as results/SCENE"))
+    })?;
+    if !text.starts_with("{\"format\":\"sincro-film-") {
+        let message = format!("`{}` is no replay of sincro", file.display());
+        return Err(diagnostics::refuse(&message, Some("run the scene again with this version")));
+    }
+    Ok(Show::Film(text.into()))
+}
+
+fn live(arguments: &Arguments) -> Result<Show, Exit> {
+    let settings = parse_settings(&arguments.set).map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    let world = scene_name(&arguments.what);
+    let draw = Box::new(move |controller: &_| super::draw::drawing(controller, "", &world, true));
+    let engine = Engine::open(Source { folder: arguments.what.clone(), settings, draw })
+        .map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    let board = engine.board();
+    Ok(Show::Live(board, engine.start()))
+}
+
+fn serve(show: Show, address: SocketAddr, no_browser: bool) -> Exit {
+    let server = match Server::bind(address, show) {
+        Ok(server) => server,
+        Err(error) => {
+            let message = format!("cannot listen at {address}: {error}");
+            return diagnostics::refuse(&message, Some("take another --port, or leave it out for any free one"));
+        }
+    };
+    say!("{}", server.url());
+    if std::io::stdout().is_terminal() {
+        eprintln!("Ctrl-C ends it");
+        if !no_browser {
+            open_browser(&server.url());
+        }
+    }
+    match server.run() {
+        Ok(()) => Exit::Holds,
+        Err(error) => diagnostics::refuse(&format!("the server failed: {error}"), None),
+    }
+}
+
+/// Asks the desktop to show an address; who has none reads it on the terminal.
+fn open_browser(url: &str) {
+    let opener = if cfg!(target_os = "macos") { "open" } else { "xdg-open" };
+    let quiet = std::process::Stdio::null;
+    let _ = std::process::Command::new(opener).arg(url).stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn();
+}
