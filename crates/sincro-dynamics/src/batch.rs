@@ -77,7 +77,7 @@ pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<()
 fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     let end = settings.h * f64::from(settings.n_steps);
     let unlimited = world.model.drives.iter().all(|d| d.limit(&world.model).is_none());
-    unlimited && world.model.next_corner(-1.0) >= end
+    unlimited && world.model.constraints().is_empty() && world.model.next_corner(-1.0) >= end
 }
 
 /// One world by itself.

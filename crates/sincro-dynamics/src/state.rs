@@ -14,6 +14,7 @@ use crate::spatial::{Quat, Vec3};
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
 /// | `commands` | latched commands: of motors, then six of each external force that takes them | motors + 6 × inputs |
 /// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
+/// | `contacts` | what the constraint solver starts from: forces and grip of each limit and contact ([`crate::constraint::SLOT`] numbers) | 7 × slots |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
 /// | `tick` | base steps done | |
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +27,8 @@ pub struct State<R> {
     pub commands: Vec<R>,
     /// State of each set-valued drive.
     pub drives: Vec<R>,
+    /// Warm start of the constraint solver.
+    pub contacts: Vec<R>,
     /// Integrated work `[J]`, dissipation `[J]`, and impulse of each motor [N·m·s].
     pub totals: Vec<R>,
     /// Base steps since the start.
@@ -49,6 +52,7 @@ impl<R: Real> State<R> {
             v: vec![R::zero(); model.n_v()],
             commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
+            contacts: vec![R::zero(); crate::constraint::SLOT * model.constraints().n_slots()],
             totals: vec![R::zero(); 2 + model.motors().len()],
             tick: 0,
         }
@@ -57,7 +61,7 @@ impl<R: Real> State<R> {
     /// Bytes on the heap.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        let n = self.q.len() + self.v.len() + self.commands.len() + self.drives.len() + self.totals.len();
+        let n = self.q.len() + self.v.len() + self.commands.len() + self.drives.len() + self.contacts.len() + self.totals.len();
         n * size_of::<R>()
     }
 }

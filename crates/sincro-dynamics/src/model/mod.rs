@@ -19,13 +19,14 @@ use std::sync::Arc;
 
 use sincro_math::Real;
 
-pub use builder::{BodySpec, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorSpec};
+pub use builder::{BodySpec, ClosureSpec, CouplingSpec, REST_SPEED, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorSpec};
 pub use mass::MassProperties;
 pub use names::{FrameInfo, JointInfo, Names};
 pub use pack::PackError;
 pub use problem::{Problem, Severity};
 pub use shape::Shape;
 
+use crate::constraint::ConstraintSet;
 use crate::drive::Drive;
 use crate::force::rotor::MountedRotor;
 use crate::force::{AppliedTorque, AppliedWrench, Motor};
@@ -138,6 +139,7 @@ pub struct Model<R> {
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
     pub(crate) rotors: Vec<MountedRotor<R>>,
     pub(crate) drives: Vec<Drive>,
+    pub(crate) constraints: Arc<ConstraintSet>,
     pub(crate) n_q: usize,
     pub(crate) names: Arc<Names>,
 }
@@ -195,6 +197,12 @@ impl<R: Real> Model<R> {
     #[must_use]
     pub fn drives(&self) -> &[Drive] {
         &self.drives
+    }
+
+    /// Closures, couplings, limits and contacts.
+    #[must_use]
+    pub fn constraints(&self) -> &ConstraintSet {
+        &self.constraints
     }
 
     /// Number of drives.
