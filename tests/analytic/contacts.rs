@@ -84,7 +84,8 @@ fn a_block_sticks_just_below_the_critical_angle_and_slides_just_above() {
             let mut world = World::new(model, x, kind, 1e-10, 1e-3);
             world.settle_start(0.0);
             run(&mut world, 0.01, 100);
-            let moved: f64 = (0..3).map(|k| (world.state.q[k] - start[k]) * (world.state.q[k] - start[k])).sum::<f64>().sqrt();
+            let moved: f64 =
+                (0..3).map(|k| (world.state.q[k] - start[k]) * (world.state.q[k] - start[k])).sum::<f64>().sqrt();
             if slides {
                 let a = G * (libm::sin(tilt) - mu * libm::cos(tilt));
                 assert!((moved - 0.5 * a).abs() < 1e-9, "{kind:?} {tilt}: {moved:e} {:e}", 0.5 * a);
@@ -99,17 +100,25 @@ fn a_block_sticks_just_below_the_critical_angle_and_slides_just_above() {
 fn a_ball_slips_then_rolls() {
     // v0 = 1, no spin: rolls from t = 2 v0/(7 μ g) with 5/7 v0
     let (r, mu, v0) = (0.05, 0.2, 1.0);
-    for kind in LOCATING {
+    let error = |kind: MethodKind, n: u32| {
         let model = on_a_plane(Shape::Sphere { radius: r }, 0.0, material(mu, 0.0), material(mu, 0.0));
         let mut x = placed(&model, 0.0, r);
         x.v[3] = v0;
         let mut world = World::new(model, x, kind, 1e-10, 1e-3);
         world.settle_start(0.0);
         let t = 2.0 * v0 / (7.0 * mu * G);
-        run(&mut world, 0.005, 100);
+        run(&mut world, 0.5 / f64::from(n), n);
         let slipped = v0 * t - 0.5 * mu * G * t * t;
-        let expected = slipped + 5.0 / 7.0 * v0 * (0.5 - t);
-        assert!((world.state.q[0] - expected).abs() < 1e-9, "{kind:?} {:e}", world.state.q[0] - expected);
         assert!((world.state.q[2] - r).abs() < 1e-11, "{kind:?}");
+        assert_eq!(world.effort().events, 1, "{kind:?}");
+        (world.state.q[0] - slipped - 5.0 / 7.0 * v0 * (0.5 - t)).abs()
+    };
+    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+        assert!(error(kind, 100) < 1e-9, "{kind:?}");
+    }
+    // the order of the method survives the transition
+    for (kind, order) in [(MethodKind::Rk4, 4.0), (MethodKind::Implicit, 2.0)] {
+        let measured = libm::log2(error(kind, 100) / error(kind, 200));
+        assert!((measured - order).abs() < 0.2, "{kind:?} {measured}");
     }
 }

@@ -61,7 +61,12 @@ impl<R: Real> State<R> {
     /// Bytes on the heap.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        let n = self.q.len() + self.v.len() + self.commands.len() + self.drives.len() + self.contacts.len() + self.totals.len();
+        let n = self.q.len()
+            + self.v.len()
+            + self.commands.len()
+            + self.drives.len()
+            + self.contacts.len()
+            + self.totals.len();
         n * size_of::<R>()
     }
 }

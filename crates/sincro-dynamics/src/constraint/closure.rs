@@ -157,12 +157,7 @@ impl Closure {
 
 /// A row along `n` between two points that may lie apart.
 fn along<R: Real>(a: &End<R>, b: &End<R>, n: Vec3<R>, n_dot: Vec3<R>) -> Row<R> {
-    let mut row = Row::between(
-        a.link,
-        b.link,
-        force_at(a.pose.pos, n),
-        force_rate(a.pose.pos, n, a.p_dot, n_dot),
-    );
+    let mut row = Row::between(a.link, b.link, force_at(a.pose.pos, n), force_rate(a.pose.pos, n, a.p_dot, n_dot));
     row.wb = force_at(b.pose.pos, n);
     row.wb_dot = force_rate(b.pose.pos, n, b.p_dot, n_dot);
     row

@@ -24,6 +24,17 @@ pub(crate) struct Group<R> {
     pub grip: Grip,
     /// Direction of its force, if it slips.
     pub direction: [R; 2],
+    /// Of a group that slides so slowly that friction could turn its velocity within the step: how much acceleration across the direction of
+    /// sliding a unit of force across it comes with, so that the force is that of the end of the step. Else friction that turns
+    /// with a small velocity would be stiff without bound.
+    pub give: Option<R>,
+}
+
+impl<R> Group<R> {
+    /// Whether its second row is solved for although it slides.
+    pub fn is_slow(&self) -> bool {
+        self.give.is_some()
+    }
 }
 
 /// A unilateral constraint.

@@ -2,8 +2,8 @@
 
 use super::Constraints;
 use crate::aba::{self, Held};
-use crate::contact::feature::{Gap, Spot, tangents};
 use crate::contact::Pair;
+use crate::contact::feature::{Gap, Spot, tangents};
 use crate::integrate::System;
 use crate::kinematics;
 use crate::mechanism::Mechanism;
@@ -127,8 +127,8 @@ impl Mechanism<f64> {
             *d = dof.armature;
         }
         self.held_acceleration.fill(0.0);
-        let held = (!self.drives.is_empty())
-            .then_some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration });
+        let held =
+            (!self.drives.is_empty()).then_some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration });
         let q = if q_is_base { &self.base } else { &self.q };
         let input = aba::Input {
             q,

@@ -21,6 +21,8 @@ pub(crate) struct Memory<R> {
     /// Codes at the start of a sub-step: who changes is an event.
     start: Vec<f64>,
     start_directions: Vec<[[R; 2]; 3]>,
+    /// Groups that slide against the direction they had at the start.
+    reversed: Vec<[bool; 3]>,
 }
 
 impl<R: Real> Memory<R> {
@@ -32,6 +34,7 @@ impl<R: Real> Memory<R> {
             directions: vec![[[R::zero(); 2]; 3]; n_slots],
             start: vec![0.0; n_slots],
             start_directions: vec![[[R::zero(); 2]; 3]; n_slots],
+            reversed: vec![[false; 3]; n_slots],
         }
     }
 
@@ -47,14 +50,22 @@ impl<R: Real> Memory<R> {
         self.directions[slot][group]
     }
 
-    pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2]) {
+    /// Takes the direction of a sliding group's friction. Within a sub-step it does not turn round: the force goes on smoothly until the
+    /// instant of reversal has been located.
+    pub fn steer(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
+        let start = self.start_directions[slot][group];
+        let turned = (direction[0] * start[0] + direction[1] * start[1]).lane(0) < 0.0;
+        self.reversed[slot][group] = turned;
+        let direction = if turned { direction.map(|x| -x) } else { direction };
         self.directions[slot][group] = direction;
+        direction
     }
 
     /// Classifies a slot; what is not closed is forgotten.
     pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
         self.closed[slot] = closed;
         self.slides[slot] = slides;
+        self.start_directions[slot] = [[R::zero(); 2]; 3];
         if !closed {
             self.numbers[slot * SLOT..(slot + 1) * SLOT].fill(R::zero());
         }
@@ -127,10 +138,7 @@ impl<R: Real> Memory<R> {
 
     /// Whether a sliding group now slides the other way.
     fn has_reversed(&self, slot: usize) -> bool {
-        (0..3).any(|g| {
-            let (now, before) = (self.directions[slot][g], self.start_directions[slot][g]);
-            self.slides[slot][g] && (now[0] * before[0] + now[1] * before[1]).lane(0) < 0.0
-        })
+        (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
     }
 
     /// Forces of the last solution in a slot: normal, then friction.

@@ -155,6 +155,8 @@ pub(crate) struct Constraints<R> {
     kick: Vec<R>,
     before: Vec<R>,
     kept: Vec<usize>,
+    /// Length of the sub-step that is being made `[s]`; 0: none.
+    pub sub_step: f64,
     pub solver: Solver<R>,
 }
 
@@ -186,6 +188,7 @@ impl<R: Real> Constraints<R> {
             kick: n,
             before: Vec::new(),
             kept: Vec::new(),
+            sub_step: 0.0,
             solver: Solver::default(),
         };
         new.rows.reserve(set.n_bilateral() + 6 * set.n_slots().min(16));
@@ -319,12 +322,22 @@ impl<R: Real> Constraints<R> {
                 self.add(row, R::zero());
             }
             let slides = slides && self.memory.slides(slot, g);
-            let mut group =
-                Group { row: first, dim, coefficient, slides, grip: Grip::Stick, direction: [R::zero(); 2] };
+            let mut group = Group {
+                row: first,
+                dim,
+                coefficient,
+                slides,
+                grip: Grip::Stick,
+                direction: [R::zero(); 2],
+                give: None,
+            };
             if slides {
                 group.grip = Grip::Slip;
-                group.direction = self.against(first, dim, v, self.memory.direction(slot, g));
-                self.memory.set_direction(slot, g, group.direction);
+                let (direction, speed) = self.against(first, dim, v, self.memory.direction(slot, g));
+                group.direction = self.memory.steer(slot, g, direction);
+                if dim == 2 {
+                    self.align(&mut group, speed);
+                }
             }
             groups[g] = Some(group);
         }
@@ -337,17 +350,45 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Direction against the velocity of a group of rows; the last one where there is none.
-    fn against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> [R; 2] {
+    fn against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
         let mut u = [R::zero(); 2];
         for k in 0..dim {
             u[k] = self.motions.rate(&self.rows[first + k], v);
         }
         let square = u[0] * u[0] + u[1] * u[1];
         if square.lane(0) < 1e-28 {
-            return last;
+            return (last, R::zero());
         }
-        let inverse = R::one() / square.sqrt();
-        u.map(|x| -(x * inverse))
+        let speed = square.sqrt();
+        let inverse = R::one() / speed;
+        (u.map(|x| -(x * inverse)), speed)
+    }
+
+    /// Turns the two rows of a sliding group into one along the sliding and one across it; notes its speed.
+    fn align(&mut self, group: &mut Group<R>, speed: R) {
+        let (i, j) = (group.row, group.row + 1);
+        let (one, two, d) = (self.rows[i], self.rows[j], group.direction);
+        self.rows[i] = one.combined(&two, -d[0], -d[1]);
+        self.rows[j] = one.combined(&two, d[1], -d[0]);
+        group.direction = [-R::one(), R::zero()];
+        group.give = Some(speed);
+    }
+
+    /// Of the groups that slide, those that do so slowly: their speed becomes what the solver needs.
+    fn find_slow(&mut self) {
+        let m = self.rows.len();
+        let h = self.sub_step;
+        for block in &mut self.blocks {
+            let normal = self.lambda[block.row];
+            for group in block.groups.iter_mut().flatten() {
+                let Some(speed) = group.give else { continue };
+                let limit = R::splat(group.coefficient) * normal;
+                let across = group.row + 1;
+                let reach = R::splat(h) * limit * self.a[across * m + across];
+                let slow = normal.lane(0) > 0.0 && speed.lane(0) < reach.lane(0);
+                group.give = slow.then(|| speed / (R::splat(h) * limit));
+            }
+        }
     }
 
     /// Jacobian, responses and A of the rows.
@@ -374,6 +415,7 @@ impl<R: Real> Constraints<R> {
     }
 
     fn solve(&mut self) {
+        self.find_slow();
         self.solver.solve(&self.a, &self.b, self.n_free, &mut self.blocks, &mut self.lambda);
         self.memory.keep(&self.blocks, &self.lambda);
     }
@@ -417,7 +459,7 @@ impl Constraints<f64> {
         self.blocks.iter_mut().for_each(|b| b.open = false);
         for block in &mut self.blocks {
             for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.grip) = (false, Grip::Stick);
+                (group.slides, group.grip, group.give) = (false, Grip::Stick, None);
             }
             // what is compliant takes its time
             if block.given.is_some() {

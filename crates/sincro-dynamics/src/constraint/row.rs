@@ -36,6 +36,18 @@ impl<R: Real> Row<R> {
         Self { a, b, wa: w, wb: w, wa_dot: w_dot, wb_dot: w_dot, joints: [(WORLD, R::zero()); 2] }
     }
 
+    /// p of this row and q of another between the same links.
+    pub fn combined(&self, other: &Self, p: R, q: R) -> Self {
+        let of = |x: &Force<R>, y: &Force<R>| x.scale(p) + y.scale(q);
+        Self {
+            wa: of(&self.wa, &other.wa),
+            wb: of(&self.wb, &other.wb),
+            wa_dot: of(&self.wa_dot, &other.wa_dot),
+            wb_dot: of(&self.wb_dot, &other.wb_dot),
+            ..*self
+        }
+    }
+
     /// A row over joint rates.
     pub fn of_joints(joints: [(u32, R); 2]) -> Self {
         let o = Force::zero();

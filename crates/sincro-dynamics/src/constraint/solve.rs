@@ -2,7 +2,9 @@
 //!
 //! Who lets go, sticks or slips is guessed from the last solution; the forces then follow from one linear system, solved with its rank revealed
 //! ([`Dense`]), as a correction to the last ones, so that redundant contacts keep the share they had. If the forces fit the guess, that
-//! was all. If not, what does not fit is changed, a few times; then sweeps ([`super::cone`]) decide, and the linear system makes their result exact.
+//! was all. If not, and there are redundant contacts, the load is spread: among all forces that solve the system those are taken that are
+//! least in proportion to what each contact can bear, a few times with the limits found last, which is affine scaling towards the inside of the
+//! cones. If that does not help, what does not fit is changed, a few times; then sweeps ([`super::cone`]) decide, and the linear system makes their result exact.
 
 use sincro_math::Real;
 
@@ -11,6 +13,9 @@ use super::dense::Dense;
 
 /// Share of the largest force or rate that counts as zero in judging a guess.
 const SLACK: f64 = 1e-9;
+
+/// Times that a load is spread.
+const SPREADS: usize = 8;
 
 /// Changes of a guess before sweeps decide.
 const REPAIRS: usize = 16;
@@ -38,6 +43,9 @@ pub(crate) struct Solver<R> {
     flat_b: Vec<f64>,
     flat: Vec<f64>,
     blocks: Vec<Block<f64>>,
+    saved: Vec<Block<R>>,
+    weights: Vec<R>,
+    square: Vec<R>,
     pub report: SolverReport,
     /// Rows without bounds that the last linear system found redundant.
     pub redundant: usize,
@@ -47,9 +55,14 @@ impl<R: Real> Solver<R> {
     /// Finds λ, which holds the last solution (or zeros) before, and the state of the blocks.
     pub fn solve(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &mut [Block<R>], lambda: &mut [R]) {
         self.report.solved += 1;
-        for _ in 0..REPAIRS {
+        for k in 0..REPAIRS {
             self.correct(a, b, n_free, blocks, lambda);
+            self.saved.clear();
+            self.saved.extend_from_slice(blocks);
             if blocks.is_empty() || !repair(a, b, blocks, lambda) {
+                return;
+            }
+            if k == 0 && self.dense.rank < self.dense.n && self.spread(a, b, n_free, blocks, lambda) {
                 return;
             }
         }
@@ -70,9 +83,8 @@ impl<R: Real> Solver<R> {
         }
     }
 
-    /// The linear system of the guess.
-    pub fn correct(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &[Block<R>], lambda: &mut [R]) {
-        let m = b.len();
+    /// The rows that a guess solves for.
+    fn keep(&mut self, n_free: usize, blocks: &[Block<R>], lambda: &mut [R]) {
         self.kept.clear();
         self.kept.extend(0..n_free);
         for block in blocks {
@@ -86,7 +98,14 @@ impl<R: Real> Solver<R> {
             for group in block.groups.iter().flatten().filter(|g| g.grip == Grip::Stick) {
                 self.kept.extend(group.row..group.row + group.dim);
             }
+            self.kept.extend(block.groups.iter().flatten().filter(|g| g.is_slow()).map(|g| g.row + 1));
         }
+    }
+
+    /// The linear system of the guess.
+    pub fn correct(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &[Block<R>], lambda: &mut [R]) {
+        let m = b.len();
+        self.keep(n_free, blocks, lambda);
         let n = self.kept.len();
         self.dense.reset(n);
         for (i, &row) in self.kept.iter().enumerate() {
@@ -94,6 +113,13 @@ impl<R: Real> Solver<R> {
                 self.dense.set(i, j, a[row * m + column]);
             }
             self.dense.rhs[i] = -w(a, b, row, lambda);
+        }
+        for group in blocks.iter().flat_map(|b| b.groups.iter().flatten()) {
+            if let (Some(give), Some(i)) = (group.give, self.kept.iter().position(|k| *k == group.row + 1)) {
+                let row = group.row + 1;
+                self.dense.set(i, i, a[row * m + row] + give);
+                self.dense.rhs[i] -= give * lambda[row];
+            }
         }
         // a slipping group's force goes with its normal force
         for block in blocks.iter().filter(|b| !b.open && b.given.is_none()) {
@@ -124,6 +150,88 @@ impl<R: Real> Solver<R> {
         }
     }
 
+    /// Spreads the load of the guess before it was repaired; says whether that fits.
+    fn spread(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &mut [Block<R>], lambda: &mut [R]) -> bool {
+        // every contact is asked, and none is known to slip that does not slide
+        for block in self.saved.iter_mut().filter(|b| b.given.is_none()) {
+            block.open = false;
+            for group in block.groups.iter_mut().flatten().filter(|g| !g.slides) {
+                group.grip = Grip::Stick;
+            }
+        }
+        let guess = core::mem::take(&mut self.saved);
+        self.weights.clear();
+        self.weights.resize(b.len(), R::one());
+        let mut fits = false;
+        for _ in 0..SPREADS {
+            lambda.fill(R::zero());
+            self.weigh(a, b, n_free, &guess, lambda);
+            self.correct(a, b, n_free, &guess, lambda);
+            if !unfit(a, b, &guess, lambda) {
+                fits = true;
+                break;
+            }
+            self.set_weights(&guess, lambda);
+        }
+        // where it does not fit, what the spread load asks too much of is the better guess of what slips
+        blocks.copy_from_slice(&guess);
+        if !fits {
+            repair(a, b, blocks, lambda);
+        }
+        self.saved = guess;
+        fits
+    }
+
+    /// How much each force may be, from the normal forces found last: where all slide alike, friction in proportion to load.
+
+    fn set_weights(&mut self, blocks: &[Block<R>], lambda: &[R]) {
+        let largest = lambda.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
+        self.weights.fill(R::splat(largest));
+        for block in blocks {
+            let normal = lambda[block.row].lane(0).max(1e-3 * largest);
+            self.weights[block.row] = R::splat(normal);
+            for group in block.groups.iter().flatten() {
+                let limit = group.coefficient * normal;
+                self.weights[group.row..group.row + group.dim].fill(R::splat(limit));
+            }
+        }
+    }
+
+    /// λ = W Aᵀ (A W Aᵀ)⁺ (−b) over the rows of the guess.
+    fn weigh(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &[Block<R>], lambda: &mut [R]) {
+        let m = b.len();
+        self.keep(n_free, blocks, lambda);
+        let n = self.kept.len();
+        self.square.clear();
+        self.square.resize(n * n, R::zero());
+        for (i, &row) in self.kept.iter().enumerate() {
+            for (j, &column) in self.kept.iter().enumerate() {
+                self.square[i * n + j] = a[row * m + column];
+            }
+        }
+        self.dense.reset(n);
+        for i in 0..n {
+            for j in 0..n {
+                let mut sum = R::zero();
+                for (k, &row) in self.kept.iter().enumerate() {
+                    sum += self.square[i * n + k] * self.weights[row] * self.square[j * n + k];
+                }
+                self.dense.set(i, j, sum);
+            }
+            self.dense.rhs[i] = -w(a, b, self.kept[i], lambda);
+        }
+        self.delta.clear();
+        self.delta.resize(n, R::zero());
+        self.dense.solve(&mut self.delta);
+        for (k, &row) in self.kept.iter().enumerate() {
+            let mut sum = R::zero();
+            for i in 0..n {
+                sum += self.square[i * n + k] * self.delta[i];
+            }
+            lambda[row] += self.weights[row] * sum;
+        }
+    }
+
     fn sweep(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &mut [Block<R>], lambda: &mut [R]) {
         let fill = |into: &mut Vec<f64>, from: &[R]| {
             into.clear();
@@ -146,6 +254,7 @@ impl<R: Real> Solver<R> {
                     slides: g.slides,
                     grip: g.grip,
                     direction: g.direction.map(|x| x.lane(0)),
+                    give: g.give.map(|x| x.lane(0)),
                 })
             }),
         }));
@@ -194,6 +303,9 @@ fn impose<R: Real>(block: &Block<R>, lambda: &mut [R]) {
     }
     for group in block.groups.iter().flatten() {
         for k in 0..group.dim {
+            if k == 1 && group.is_slow() && !block.open {
+                continue;
+            }
             if block.open {
                 lambda[group.row + k] = R::zero();
             } else if group.grip == Grip::Slip {
@@ -207,6 +319,22 @@ fn impose<R: Real>(block: &Block<R>, lambda: &mut [R]) {
 fn scales<R: Real>(b: &[R], lambda: &[R]) -> (f64, f64) {
     let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
     (SLACK * largest(lambda) + f64::MIN_POSITIVE, SLACK * largest(b) + f64::MIN_POSITIVE)
+}
+
+/// Whether a guess does not fit its forces.
+fn unfit<R: Real>(a: &[R], b: &[R], blocks: &[Block<R>], lambda: &[R]) -> bool {
+    let (small_force, small_rate) = scales(b, lambda);
+    blocks.iter().any(|block| {
+        let normal = lambda[block.row].lane(0);
+        if block.open {
+            return w(a, b, block.row, lambda).lane(0) < -small_rate;
+        }
+        let beyond = |g: &super::cone::Group<R>| {
+            let square: f64 = lambda[g.row..g.row + g.dim].iter().map(|x| x.lane(0) * x.lane(0)).sum();
+            g.grip == Grip::Stick && square.sqrt() > g.coefficient * normal.max(0.0) + small_force
+        };
+        (block.given.is_none() && normal < -small_force) || block.groups.iter().flatten().any(beyond)
+    })
 }
 
 /// Changes what does not fit; says whether anything did not.
@@ -270,7 +398,8 @@ fn repair_group<R: Real>(
                 return true;
             }
             // turn the force against what it is about to do
-            let turned = norm([rate[0] + size * group.direction[0].lane(0), rate[1] + size * group.direction[1].lane(0)]);
+            let turned =
+                norm([rate[0] + size * group.direction[0].lane(0), rate[1] + size * group.direction[1].lane(0)]);
             if turned <= 1e-13 * size {
                 return false;
             }
@@ -288,7 +417,13 @@ fn misfit<R: Real>(a: &[R], b: &[R], n_free: usize, blocks: &[Block<R>], lambda:
     for block in blocks {
         let r = rate(block.row);
         let closed = block.given.is_none() && lambda[block.row].lane(0) > 0.0;
-        worst = worst.max(if closed { r.abs() } else if block.given.is_none() { (-r).max(0.0) } else { 0.0 });
+        worst = worst.max(if closed {
+            r.abs()
+        } else if block.given.is_none() {
+            (-r).max(0.0)
+        } else {
+            0.0
+        });
         for group in block.groups.iter().flatten().filter(|g| !g.slides && g.grip == Grip::Stick) {
             for k in 0..group.dim {
                 worst = worst.max(rate(group.row + k).abs());

@@ -123,9 +123,9 @@ fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f
         }
         _ => {
             let depth = |k: usize| half[k] - c[k].abs();
-            let k = (0..3).find(|k| outside(*k)).unwrap_or_else(|| {
-                (1..3).fold(0, |best, k| if depth(k) < depth(best) { k } else { best })
-            });
+            let k = (0..3)
+                .find(|k| outside(*k))
+                .unwrap_or_else(|| (1..3).fold(0, |best, k| if depth(k) < depth(best) { k } else { best }));
             let sign = if c[k] < 0.0 { -1.0 } else { 1.0 };
             Feature::Plane { origin: in_link(Vec3::along(k, side(k))), normal: b.pose.rot.col(k).scale(sign) }
         }

@@ -74,7 +74,13 @@ impl Spot {
                     return rim(height, (p, p_dot), (n, n_dot), (axis, axis_dot), radius);
                 }
                 let point = p - n.scale(radius);
-                Gap { gap: height - radius, point, normal: n, point_dot: p_dot - n_dot.scale(radius), normal_dot: n_dot }
+                Gap {
+                    gap: height - radius,
+                    point,
+                    normal: n,
+                    point_dot: p_dot - n_dot.scale(radius),
+                    normal_dot: n_dot,
+                }
             }
             Feature::Point { origin } => {
                 let o = x_b.point(Vec3::splat(origin.0));

@@ -19,7 +19,9 @@ use std::sync::Arc;
 
 use sincro_math::Real;
 
-pub use builder::{BodySpec, ClosureSpec, CouplingSpec, REST_SPEED, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorSpec};
+pub use builder::{
+    BodySpec, ClosureSpec, CouplingSpec, ForceSpec, JointSpec, ModelBuilder, NodeId, REST_SPEED, RotorSpec,
+};
 pub use mass::MassProperties;
 pub use names::{FrameInfo, JointInfo, Names};
 pub use pack::PackError;

@@ -105,7 +105,12 @@ impl World {
     }
 
     /// One step of semi-implicit Euler, contacts at velocity level; drives are as they are.
-    fn rough_step<A: Attachment<f64> + ?Sized>(&mut self, t: f64, h: f64, attachment: &mut A) -> Result<(), (f64, Stop)> {
+    fn rough_step<A: Attachment<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        attachment: &mut A,
+    ) -> Result<(), (f64, Stop)> {
         let n = self.model().n_v();
         self.effort.steps += 1;
         self.settle(t, attachment);

@@ -19,8 +19,8 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
-use contacts::MAX_CONTACT_EVENTS;
 use crate::state::State;
+use contacts::MAX_CONTACT_EVENTS;
 
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
@@ -443,6 +443,10 @@ impl World {
         h_max: f64,
         attachment: &mut A,
     ) -> Result<f64, Failure> {
+        let h = self.control().map_or(h_max, |c| c.h.min(h_max));
+        if let Some(constraints) = &mut self.mechanism.constraints {
+            constraints.sub_step = h;
+        }
         let system = &mut Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
         let y = &mut self.y;
         match &mut self.method {
