@@ -1,6 +1,7 @@
 //! Integrators, drives and force elements against closed forms and orders of convergence.
 
 mod air;
+mod contacts;
 mod drives;
 mod mechanisms;
 mod orders;

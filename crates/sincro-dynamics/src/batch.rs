@@ -80,7 +80,8 @@ fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     let unlimited = world.model.drives.iter().all(|d| d.limit(&world.model).is_none());
     // particles are counted for each world
     let counts = world.model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. }));
-    unlimited && !counts && world.model.next_corner(-1.0) >= end
+    let is_free = world.model.constraints().is_empty();
+    unlimited && is_free && !counts && world.model.next_corner(-1.0) >= end
 }
 
 /// One world by itself.

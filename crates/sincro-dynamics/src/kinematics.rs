@@ -30,7 +30,7 @@ impl<R: Real> StageVisitor for Place<'_, R> {
 }
 
 /// Poses of all link frames in the world into [`Scratch::link_poses`], joints taken as last configured by any recursion.
-fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
+pub(crate) fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
     for i in 0..model.links.len() {
         let link = &model.links[i];
         let x_pl = link.kind.dispatch(PoseInParent { link, this: &scratch.links[i] });

@@ -12,6 +12,8 @@
 //! | poses, velocities, Jacobians | [`kinematics`] |
 //! | energies and momentum | [`energy`] |
 //! | springs, dampers, friction, motors, rotors | [`force`] |
+//! | closed loops, limits of joints, one solver for all constraints | [`constraint`] |
+//! | what touches what | [`contact`] |
 //! | a world that advances | [`integrate`], [`world`] |
 //! | the air that moves | [`wind`] |
 //! | how stiff it is | [`stiffness`] |
@@ -24,6 +26,8 @@
 pub mod aba;
 pub mod attachment;
 pub mod batch;
+pub mod constraint;
+pub mod contact;
 pub mod crba;
 pub mod drive;
 pub mod energy;

@@ -10,6 +10,7 @@ use sincro_math::Real;
 
 use crate::aba::{self, Held};
 use crate::attachment::Seen;
+use crate::constraint::{Constraints, Level};
 use crate::drive::{Drive, DriveKind};
 use crate::force::rotor::{RotorLaw, SpeedFrom};
 use crate::force::{Instant, Motor, Push, damper, friction, joint_torques};
@@ -32,10 +33,10 @@ pub struct Mechanism<R> {
     /// Whether work, dissipation and motor impulses are integrated along.
     tracks_totals: bool,
     /// q₀ of the chart.
-    base: Vec<R>,
-    q: Vec<R>,
-    torque: Vec<R>,
-    diagonal: Vec<R>,
+    pub(crate) base: Vec<R>,
+    pub(crate) q: Vec<R>,
+    pub(crate) torque: Vec<R>,
+    pub(crate) diagonal: Vec<R>,
     pub(crate) held_mask: Vec<R>,
     pub(crate) held_acceleration: Vec<R>,
     external: Vec<Force<R>>,
@@ -47,6 +48,9 @@ pub struct Mechanism<R> {
     without_load: Option<usize>,
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
+    pub(crate) constraints: Option<Box<Constraints<R>>>,
+    /// Memory of projections and impacts.
+    pub(crate) constraint_change: Vec<R>,
 }
 
 impl<R: Real> Mechanism<R> {
@@ -63,13 +67,15 @@ impl<R: Real> Mechanism<R> {
             torque: zero.clone(),
             diagonal: zero.clone(),
             held_mask: zero.clone(),
-            held_acceleration: zero,
+            held_acceleration: zero.clone(),
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             pushes: Vec::new(),
             air_dissipation: R::zero(),
             without_load: None,
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
+            constraint_change: zero.clone(),
+            constraints: Constraints::new(&model),
             model,
         }
     }
@@ -106,6 +112,9 @@ impl<R: Real> Mechanism<R> {
         self.base.copy_from_slice(&x.q);
         self.commands.copy_from_slice(&x.commands);
         self.drives.copy_from_slice(&x.drives);
+        if let Some(constraints) = &mut self.constraints {
+            constraints.memory.numbers.copy_from_slice(&x.contacts);
+        }
         y[..n].fill(R::zero());
         y[n..2 * n].copy_from_slice(&x.v);
         if self.tracks_totals {
@@ -121,6 +130,9 @@ impl<R: Real> Mechanism<R> {
         x.q.copy_from_slice(&self.base);
         x.v.copy_from_slice(&y[n..2 * n]);
         x.drives.copy_from_slice(&self.drives);
+        if let Some(constraints) = &self.constraints {
+            x.contacts.copy_from_slice(&constraints.memory.numbers);
+        }
         if self.tracks_totals {
             let totals = 2 * n..2 * n + x.totals.len();
             x.totals.copy_from_slice(&y[totals]);
@@ -230,6 +242,15 @@ impl<R: Real> Mechanism<R> {
         let input =
             aba::Input { q: &self.q, v, torque: &self.torque, diagonal: &self.diagonal, held, external, gravity: true };
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
+        if let Some(constraints) = &mut self.constraints {
+            // a step of semi-implicit Euler is a step at velocity level
+            let level = match implicit {
+                Some((h, Implicit::Dampers)) => Level::Velocity(h),
+                _ => Level::Acceleration,
+            };
+            let has_drives = !self.drives.is_empty();
+            constraints.apply(&self.model, (&self.q, v), level, &mut self.scratch, v_dot, has_drives);
+        }
     }
 
     #[inline(always)]
@@ -366,6 +387,9 @@ impl<R: Real> Mechanism<R> {
         for (i, motor) in self.model.motors.iter().enumerate() {
             work += self.motor_torque[i] * v[motor.dof];
             rates[2 + i] = self.motor_torque[i];
+        }
+        if let Some(constraints) = &self.constraints {
+            dissipation += constraints.dissipation(v);
         }
         rates[0] = work;
         rates[1] = dissipation;

@@ -3,12 +3,18 @@
 use std::sync::Arc;
 
 use super::{MassProperties, Model, Problem, compile};
+use crate::constraint::ClosureKind;
+use crate::contact::{Material, Surface};
 use crate::force::Motor;
 use crate::force::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
 use crate::wind::Wind;
+
+/// Approach slower than this does not bounce, unless told otherwise [m/s]: a bounce from here is 5e-8 m high under gravity. Without it a
+/// ball would bounce infinitely often in finite time.
+pub const REST_SPEED: f64 = 1e-3;
 
 /// One object of the tree under construction; [`NodeId::WORLD`] is its root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -35,6 +41,10 @@ pub struct JointSpec {
     pub friction: Vec<f64>,
     /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
+    /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`, and the restitution of the stops.
+    pub limits: Vec<(f64, f64)>,
+    /// Speed of leaving a stop over speed of arriving, 0 to 1.
+    pub limit_restitution: f64,
     /// Motor, for a joint with one degree of freedom; its command is an input of the world.
     pub motor: Option<Motor<f64>>,
 }
@@ -50,6 +60,8 @@ impl JointSpec {
             damping: Vec::new(),
             friction: Vec::new(),
             torque: Vec::new(),
+            limits: Vec::new(),
+            limit_restitution: 0.0,
             motor: None,
         }
     }
@@ -124,6 +136,28 @@ pub(crate) enum NodeKind {
     Drag(Box<DragSpec>),
 }
 
+/// A closure to be added.
+#[derive(Clone, Debug)]
+pub struct ClosureSpec {
+    /// How the ends are kept together.
+    pub kind: ClosureKind,
+    /// The ends: bodies, frames, or the world.
+    pub ends: [NodeId; 2],
+    /// Frames in the ends that are kept together.
+    pub poses: [Pose<f64>; 2],
+}
+
+/// A coupling of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
+#[derive(Clone, Debug)]
+pub struct CouplingSpec {
+    /// The joints.
+    pub joints: [NodeId; 2],
+    /// Ratio of their rates.
+    pub ratio: f64,
+    /// `[rad]` or `[m]`.
+    pub offset: f64,
+}
+
 pub(crate) struct Node {
     pub(crate) name: String,
     pub(crate) parent: NodeId,
@@ -150,6 +184,10 @@ pub struct ModelBuilder {
     pub(crate) gravity: [f64; 3],
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) nodes: Vec<Node>,
+    pub(crate) colliders: Vec<(NodeId, Pose<f64>, Surface, Material)>,
+    pub(crate) closures: Vec<(String, ClosureSpec)>,
+    pub(crate) couplings: Vec<(String, CouplingSpec)>,
+    pub(crate) rest_speed: f64,
 }
 
 impl ModelBuilder {
@@ -157,7 +195,15 @@ impl ModelBuilder {
     #[must_use]
     pub fn new(gravity: [f64; 3]) -> Self {
         let world = Node { name: "/".into(), parent: NodeId::WORLD, pose: Pose::identity(), kind: NodeKind::World };
-        Self { gravity, wind: None, nodes: vec![world] }
+        Self {
+            gravity,
+            wind: None,
+            nodes: vec![world],
+            colliders: Vec::new(),
+            closures: Vec::new(),
+            couplings: Vec::new(),
+            rest_speed: REST_SPEED,
+        }
     }
 
     fn add(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, kind: NodeKind) -> NodeId {
@@ -199,6 +245,26 @@ impl ModelBuilder {
     /// Adds an external wrench that acts at the origin of `parent`.
     pub fn force(&mut self, name: &str, parent: NodeId, spec: ForceSpec) -> NodeId {
         self.add(name, parent, Pose::identity(), NodeKind::Force(Box::new(spec)))
+    }
+
+    /// Adds a surface that can touch others, at `pose` in a body or frame.
+    pub fn collider(&mut self, on: NodeId, pose: Pose<f64>, surface: Surface, material: Material) {
+        self.colliders.push((on, pose, surface, material));
+    }
+
+    /// Adds a closure of a loop.
+    pub fn closure(&mut self, name: &str, spec: ClosureSpec) {
+        self.closures.push((name.into(), spec));
+    }
+
+    /// Adds a coupling of two joints.
+    pub fn coupling(&mut self, name: &str, spec: CouplingSpec) {
+        self.couplings.push((name.into(), spec));
+    }
+
+    /// Approach slower than this does not bounce [m/s].
+    pub fn set_rest_speed(&mut self, speed: f64) {
+        self.rest_speed = speed;
     }
 
     /// Checks everything and compiles. The second part of the result are the warnings.

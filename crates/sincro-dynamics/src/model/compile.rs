@@ -9,6 +9,8 @@ use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive
 use super::names::{FrameInfo, JointInfo, Names};
 use super::problem::{Problem, Severity};
 use super::{Dof, Link, Model, Shift, WORLD, check};
+use crate::constraint::{Anchor, Closure, ConstraintSet, Coupling, Limit};
+use crate::contact::{self, Collider};
 use crate::force::rotor::{MountedRotor, RotorLaw, SpeedFrom};
 use crate::force::{AirDrag, AppliedTorque, AppliedWrench};
 use crate::joint::{JointKind, StageKind};
@@ -57,6 +59,7 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
             drags: Vec::new(),
             wind: builder.wind.clone(),
             drives: Vec::new(),
+            constraints: Arc::default(),
             n_q: 0,
             names: Arc::default(),
         },
@@ -65,7 +68,9 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
     for id in 0..builder.nodes.len() {
         compiler.node(id);
     }
+    let constraints = compiler.constraints(builder);
     let Compiler { mut model, names, .. } = compiler;
+    model.constraints = Arc::new(constraints);
     // commands of motors come first
     let n_motors = model.motors.len();
     for input in model.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
@@ -182,6 +187,61 @@ impl Compiler<'_> {
         let Attached { link, pose } = at.attached();
         let name = self.nodes[node.0 as usize].name.clone();
         self.names.frames.push(FrameInfo { name, node, link, pose, body });
+    }
+
+    /// Closures, couplings, limits and surfaces, with the links that carry them.
+    fn constraints(&self, builder: &ModelBuilder) -> ConstraintSet {
+        let anchor = |node: NodeId, pose: &Pose<f64>| {
+            let at = self.carriers[node.0 as usize];
+            Anchor { name: self.nodes[node.0 as usize].name.clone(), link: at.link, pose: at.pose.compose(pose) }
+        };
+        let closures = builder.closures.iter().map(|(name, spec)| Closure {
+            name: name.clone(),
+            kind: spec.kind,
+            a: anchor(spec.ends[0], &spec.poses[0]),
+            b: anchor(spec.ends[1], &spec.poses[1]),
+        });
+        let joint = |node: NodeId| self.names.joints.iter().find(|j| j.node == node);
+        let couplings = builder.couplings.iter().filter_map(|(name, spec)| {
+            let [one, two] = [joint(spec.joints[0])?, joint(spec.joints[1])?];
+            Some(Coupling {
+                name: name.clone(),
+                dofs: [one.v_idx, two.v_idx],
+                coordinates: [one.q_idx, two.q_idx],
+                ratio: spec.ratio,
+                offset: spec.offset,
+            })
+        });
+        let mut limits = Vec::new();
+        for info in &self.names.joints {
+            let NodeKind::Joint(spec) = &self.nodes[info.node.0 as usize].kind else { continue };
+            for (k, (lower, upper)) in spec.limits.iter().enumerate() {
+                for (sign, bound) in [(1.0, *lower), (-1.0, *upper)] {
+                    if bound.is_finite() {
+                        let (dof, coordinate) = (info.v_idx + k, info.q_idx + k);
+                        limits.push(Limit { dof, coordinate, sign, bound, restitution: spec.limit_restitution });
+                    }
+                }
+            }
+        }
+        let colliders: Vec<Collider> = builder
+            .colliders
+            .iter()
+            .map(|(node, pose, surface, material)| {
+                let Anchor { name, link, pose } = anchor(*node, pose);
+                Collider { name, link, pose, surface: surface.clone(), material: *material }
+            })
+            .collect();
+        let parent = |link: u32| self.model.links[link as usize].parent;
+        let pairs = contact::pairs(&colliders, |a, b| parent(a) == b || parent(b) == a);
+        ConstraintSet {
+            closures: closures.collect(),
+            couplings: couplings.collect(),
+            limits,
+            pairs,
+            colliders,
+            rest_speed: builder.rest_speed,
+        }
     }
 
     /// Adds the stages of a joint; returns what carries its child frame.

@@ -19,13 +19,17 @@ use std::sync::Arc;
 
 use sincro_math::Real;
 
-pub use builder::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorDrive, RotorSpec};
+pub use builder::{
+    BodySpec, ClosureSpec, CouplingSpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
+    RotorSpec,
+};
 pub use mass::MassProperties;
 pub use names::{FrameInfo, JointInfo, Names};
 pub use pack::PackError;
 pub use problem::{Problem, Severity};
 pub use shape::Shape;
 
+use crate::constraint::ConstraintSet;
 use crate::drive::Drive;
 use crate::force::rotor::MountedRotor;
 use crate::force::{AirDrag, AppliedTorque, AppliedWrench, Motor};
@@ -147,6 +151,7 @@ pub struct Model<R> {
     pub(crate) drags: Vec<AirDrag<R>>,
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) drives: Vec<Drive>,
+    pub(crate) constraints: Arc<ConstraintSet>,
     pub(crate) n_q: usize,
     pub(crate) names: Arc<Names>,
 }
@@ -228,6 +233,12 @@ impl<R: Real> Model<R> {
     #[must_use]
     pub fn drives(&self) -> &[Drive] {
         &self.drives
+    }
+
+    /// Closures, couplings, limits and contacts.
+    #[must_use]
+    pub fn constraints(&self) -> &ConstraintSet {
+        &self.constraints
     }
 
     /// Number of drives.

@@ -117,6 +117,7 @@ impl<R: Real> Model<R> {
         });
         Ok(Self {
             drives: first.drives.clone(),
+            constraints: Arc::clone(&first.constraints),
             links: links.collect(),
             dofs: dofs.collect(),
             gravity: vec3(&|m| m.gravity),
@@ -152,6 +153,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
         (a.wind == b.wind, "wind"),
+        (a.constraints == b.constraints, "closures, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

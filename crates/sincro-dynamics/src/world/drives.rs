@@ -18,7 +18,7 @@ impl World {
         }
     }
 
-    fn is_unlimited(&self, drive: usize) -> bool {
+    pub(super) fn is_unlimited(&self, drive: usize) -> bool {
         self.mechanism.model.drives[drive].limit(&self.mechanism.model).is_none()
     }
 
@@ -28,6 +28,11 @@ impl World {
             return;
         }
         self.jump();
+        if self.is_constrained() {
+            // the jump goes through closures and contacts too
+            self.collide();
+            self.touch();
+        }
         self.settle(t, attachment);
     }
 
@@ -165,6 +170,11 @@ impl World {
         });
         if crossed {
             return true;
+        }
+        if self.is_constrained() {
+            self.mechanism.mark_held();
+            self.find_slope(t, attachment);
+            return self.contact_is_violated() || (0..self.wanted.len()).any(|i| self.overload(i).is_some());
         }
         if self.mechanism.drives.iter().all(|pull| *pull != 0.0) {
             return false;

@@ -1,14 +1,17 @@
 //! One world that advances from tick to tick.
 //!
 //! [`World::advance`] is stage 4 of the step: commands are latched before it, and it takes the state from t to t + h, in as many
-//! sub-steps as the method and the events need. Two kinds of event end a sub-step: a corner of an input signal, known beforehand,
-//! and a drive that changes between holding and pulling, located by bisection.
+//! sub-steps as the method and the events need. Three kinds of event end a sub-step: a corner of an input signal, known beforehand,
+//! and, located by bisection, a drive that changes between holding and pulling, and a contact or limit that closes, opens, grips or slips.
 //!
 //! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
 
+mod contacts;
 mod drives;
 
 use crate::attachment::{Alone, Attachment, Coupled, Seen};
+use crate::constraint::SolverReport;
+use crate::constraint::events::Closing;
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
 use crate::force::rotor::{RotorLaw, SpeedFrom};
@@ -19,6 +22,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
 use crate::state::State;
+use contacts::MAX_CONTACT_EVENTS;
 
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
@@ -69,8 +73,12 @@ pub enum Stop {
 pub struct Effort {
     /// Sub-steps accepted.
     pub steps: u64,
-    /// Changes of drives located.
+    /// Changes of drives, limits and contacts located.
     pub events: u64,
+    /// Impacts.
+    pub impacts: u64,
+    /// Ticks that were finished at velocity level because events came too thick.
+    pub rough_ticks: u64,
 }
 
 /// A mechanism, its state and a method.
@@ -90,6 +98,7 @@ pub struct World {
     decay: Vec<f64>,
     attached_before: Vec<f64>,
     substeps: u32,
+    fallback: Option<SemiImplicitEuler<f64>>,
     effort: Effort,
 }
 
@@ -184,6 +193,7 @@ impl World {
             MethodKind::DormandPrince => Method::DormandPrince(DormandPrince::new(dim, control)),
             MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, 6, control)),
         };
+        let fallback = (!mechanism.model().constraints().is_empty()).then(|| SemiImplicitEuler::new(dim));
         let base_before = vec![0.0; mechanism.model().n_q()];
         let accelerations = vec![0.0; mechanism.model().n_v()];
         Self {
@@ -196,6 +206,7 @@ impl World {
             decay: vec![0.0; n_states],
             attached_before: vec![0.0; n_states],
             substeps: 1,
+            fallback,
             base_before,
             wanted: vec![0.0; n_drives],
             jumps: vec![false; n_drives],
@@ -214,6 +225,12 @@ impl World {
     #[must_use]
     pub fn effort(&self) -> Effort {
         self.effort
+    }
+
+    /// What the constraint solver did so far, if there is one.
+    #[must_use]
+    pub fn solver_report(&self) -> Option<SolverReport> {
+        self.mechanism.constraints.as_ref().map(|c| c.solver.report)
     }
 
     /// The error control of the method, none for fixed steps. Part of what a snapshot holds.
@@ -250,7 +267,9 @@ impl World {
     pub fn settle_start_with<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
         self.load(attachment);
         self.latch();
+        self.touch();
         self.settle(t, attachment);
+        self.settle_contacts(t, attachment);
         self.mechanism.store(&self.y, &mut self.state);
     }
 
@@ -341,6 +360,7 @@ impl World {
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);
+        self.mechanism.touch(&self.state.v, Closing::Touching);
         self.mechanism.mark_held();
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
@@ -417,10 +437,18 @@ impl World {
             let jump = attachment.next_corner(t);
             let corner = self.model().next_corner(t).min(jump).min(end);
             attachment.set_corner(if jump <= corner + SAME_INSTANT { corner } else { f64::INFINITY });
+            if self.is_constrained() && end - t < 1e-13 * span {
+                break;
+            }
             // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
             let h_max = if t == start && corner == end { span } else { corner - t };
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
-            let limited = self.has_limited_drives();
+            if self.is_constrained() {
+                self.touch();
+                self.settle(t, attachment);
+                self.settle_contacts(t, attachment);
+            }
+            let limited = self.has_limited_drives() || self.is_constrained();
             let control = if limited { self.control() } else { None };
             if limited {
                 self.keep();
@@ -442,7 +470,13 @@ impl World {
                 if events > MAX_EVENTS {
                     return Err((t, Stop::Chatter { t }));
                 }
+                self.project();
+                if self.is_constrained() && events > MAX_CONTACT_EVENTS {
+                    self.finish_roughly(t, end - t, attachment)?;
+                    t = end;
+                }
             } else {
+                self.project();
                 t = reached;
             }
         }
@@ -462,6 +496,10 @@ impl World {
         h_max: f64,
         attachment: &mut A,
     ) -> Result<f64, Failure> {
+        let h = self.control().map_or(h_max, |c| c.h.min(h_max));
+        if let Some(constraints) = &mut self.mechanism.constraints {
+            constraints.sub_step = h;
+        }
         let system = &mut Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
         let y = &mut self.y;
         match &mut self.method {
@@ -514,6 +552,8 @@ impl World {
         attachment: &mut A,
     ) -> Result<(), (f64, Stop)> {
         self.effort.steps += 1;
+        let n = self.model().n_v();
+        self.mechanism.touch(&self.y[n..2 * n], Closing::Within(h));
         self.keep();
         for _ in 0..2 * self.wanted.len() + 4 {
             self.mark_targets(h);
@@ -527,7 +567,7 @@ impl World {
             self.restore();
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
-        let n = self.model().n_v();
+        self.lift_out();
         for i in 0..self.wanted.len() {
             if self.mechanism.drives[i] == 0.0 {
                 self.y[n + self.mechanism.model.drives[i].dof] = self.wanted[i];

@@ -1,0 +1,164 @@
+//! Closures: what joins two links that the tree leaves apart, and couplings of joints.
+//!
+//! | kind | residual (world axes) | rows |
+//! |---|---|---|
+//! | point | pₐ − p_b | 3 |
+//! | hinge | the point's, and xₐ·z_b, yₐ·z_b | 5 |
+//! | weld | the point's, and xₐ·y_b, yₐ·z_b, zₐ·x_b | 6 |
+//! | distance | \|pₐ − p_b\| − length | 1 |
+//! | coupling | q₂ − ratio·q₁ − offset | 1 |
+
+use sincro_math::Real;
+
+use super::row::{Motions, Row, force_at, force_rate};
+use crate::model::WORLD;
+use crate::scratch::Scratch;
+use crate::spatial::{Force, Pose, Vec3};
+
+/// A frame fixed in a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anchor {
+    /// Name of the body or frame.
+    pub name: String,
+    /// The link, `WORLD` for none.
+    pub(crate) link: u32,
+    /// In the link, or the world.
+    pub pose: Pose<f64>,
+}
+
+/// How two anchors are kept together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClosureKind {
+    /// Their origins coincide.
+    Point,
+    /// Their origins coincide and their z axes agree.
+    Hinge,
+    /// They coincide.
+    Weld,
+    /// Their origins keep a distance `[m]`.
+    Distance(f64),
+}
+
+impl ClosureKind {
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(self) -> usize {
+        match self {
+            Self::Point => 3,
+            Self::Hinge => 5,
+            Self::Weld => 6,
+            Self::Distance(_) => 1,
+        }
+    }
+}
+
+/// A closure of a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Name given by the user.
+    pub name: String,
+    /// How.
+    pub kind: ClosureKind,
+    /// One end.
+    pub a: Anchor,
+    /// The other end.
+    pub b: Anchor,
+}
+
+/// Two coordinates that move together: q₂ = ratio·q₁ + offset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// Name given by the user.
+    pub name: String,
+    /// Degrees of freedom 1 and 2.
+    pub dofs: [usize; 2],
+    /// Coordinates in q of the two.
+    pub coordinates: [usize; 2],
+    /// Of the rates, v₂ over v₁.
+    pub ratio: f64,
+    /// `[rad]` or `[m]`.
+    pub offset: f64,
+}
+
+/// An anchor at one instant.
+struct End<R> {
+    link: u32,
+    pose: Pose<R>,
+    w: Vec3<R>,
+    p_dot: Vec3<R>,
+}
+
+fn end<R: Real>(anchor: &Anchor, scratch: &Scratch<R>, motions: &Motions<R>) -> End<R> {
+    let pose = Pose { rot: crate::spatial::Mat3::splat(anchor.pose.rot.0), pos: Vec3::splat(anchor.pose.pos.0) };
+    let pose = if anchor.link == WORLD { pose } else { scratch.poses[anchor.link as usize].compose(&pose) };
+    let w = motions.twist_of(anchor.link).ang;
+    End { link: anchor.link, p_dot: motions.velocity_of(anchor.link, pose.pos), pose, w }
+}
+
+impl Closure {
+    /// Adds the rows and residuals at the poses of `scratch` and the twists of `motions`.
+    pub(crate) fn rows<R: Real>(
+        &self,
+        scratch: &Scratch<R>,
+        motions: &Motions<R>,
+        rows: &mut Vec<Row<R>>,
+        residual: &mut Vec<R>,
+    ) {
+        let (a, b) = (end(&self.a, scratch, motions), end(&self.b, scratch, motions));
+        if let ClosureKind::Distance(length) = self.kind {
+            let d = a.pose.pos - b.pose.pos;
+            let size = d.norm();
+            let n = d.scale(R::one() / size);
+            let d_dot = a.p_dot - b.p_dot;
+            let n_dot = (d_dot - n.scale(n.dot(d_dot))).scale(R::one() / size);
+            rows.push(along(&a, &b, n, n_dot));
+            residual.push(size - R::splat(length));
+            return;
+        }
+        for k in 0..3 {
+            rows.push(along(&a, &b, Vec3::along(k, R::one()), Vec3::zero()));
+            residual.push(a.pose.pos[k] - b.pose.pos[k]);
+        }
+        let pairs: &[(usize, usize)] = match self.kind {
+            ClosureKind::Hinge => &[(0, 2), (1, 2)],
+            ClosureKind::Weld => &[(0, 1), (1, 2), (2, 0)],
+            _ => &[],
+        };
+        for &(i, j) in pairs {
+            // d/dt (u_a·w_b) = (ω_a − ω_b)·(u × w)
+            let (u, w) = (a.pose.rot.col(i), b.pose.rot.col(j));
+            let (u_dot, w_dot) = (a.w.cross(u), b.w.cross(w));
+            let m = Force { ang: u.cross(w), lin: Vec3::zero() };
+            let m_dot = Force { ang: u_dot.cross(w) + u.cross(w_dot), lin: Vec3::zero() };
+            rows.push(Row::between(a.link, b.link, m, m_dot));
+            residual.push(u.dot(w));
+        }
+    }
+
+    /// How far it is open `[m]`, and the angle between the axes that should agree `[rad]`.
+    pub(crate) fn opening(&self, scratch: &Scratch<f64>) -> (f64, f64) {
+        let pose = |x: &Anchor| {
+            if x.link == WORLD { x.pose } else { scratch.poses[x.link as usize].compose(&x.pose) }
+        };
+        let (a, b) = (pose(&self.a), pose(&self.b));
+        let distance = (a.pos - b.pos).norm();
+        let angle = |k: usize| {
+            let (u, w) = (a.rot.col(k), b.rot.col(k));
+            sincro_math::elementary::atan2(u.cross(w).norm(), u.dot(w)).0
+        };
+        match self.kind {
+            ClosureKind::Distance(length) => ((distance - length).abs(), 0.0),
+            ClosureKind::Point => (distance, 0.0),
+            ClosureKind::Hinge => (distance, angle(2)),
+            ClosureKind::Weld => (distance, angle(0).max(angle(1)).max(angle(2))),
+        }
+    }
+}
+
+/// A row along `n` between two points that may lie apart.
+fn along<R: Real>(a: &End<R>, b: &End<R>, n: Vec3<R>, n_dot: Vec3<R>) -> Row<R> {
+    let mut row = Row::between(a.link, b.link, force_at(a.pose.pos, n), force_rate(a.pose.pos, n, a.p_dot, n_dot));
+    row.wb = force_at(b.pose.pos, n);
+    row.wb_dot = force_rate(b.pose.pos, n, b.p_dot, n_dot);
+    row
+}

@@ -1,0 +1,144 @@
+//! A small dense system solved by elimination with complete pivoting: it tells the rank, and what is redundant gets nothing.
+
+use sincro_math::Real;
+
+/// Pivots smaller than this share of the largest are rounding: their rows depend on the others.
+const RANK_TOLERANCE: f64 = 1e-11;
+
+/// Matrix, right-hand side and orders of elimination; grows to the largest system it has seen.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Dense<R> {
+    pub n: usize,
+    a: Vec<R>,
+    pub rhs: Vec<R>,
+    columns: Vec<usize>,
+    rows: Vec<usize>,
+    /// Rank found by the last [`Dense::solve`].
+    pub rank: usize,
+}
+
+impl<R: Real> Dense<R> {
+    /// A system of `n` unknowns, all zero.
+    pub fn reset(&mut self, n: usize) {
+        self.n = n;
+        self.a.clear();
+        self.a.resize(n * n, R::zero());
+        self.rhs.clear();
+        self.rhs.resize(n, R::zero());
+        self.columns.clear();
+        self.columns.extend(0..n);
+        self.rows.clear();
+        self.rows.extend(0..n);
+    }
+
+    pub fn set(&mut self, i: usize, j: usize, x: R) {
+        self.a[i * self.n + j] = x;
+    }
+
+    /// Rows (in the order of elimination) that turned out to depend on others in the last solve.
+    pub fn redundant(&self) -> &[usize] {
+        &self.rows[self.rank..]
+    }
+
+    /// Solves; unknowns that nothing determines are zero. The matrix is spent.
+    pub fn solve(&mut self, out: &mut [R]) {
+        let n = self.n;
+        self.rank = n;
+        let mut largest = 0.0;
+        for k in 0..n {
+            let (p, q, size) = self.pivot(k);
+            if k == 0 {
+                largest = size;
+            }
+            // NaN must not look like a rank
+            if size <= RANK_TOLERANCE * largest {
+                self.rank = k;
+                break;
+            }
+            self.swap(k, p, q);
+            self.eliminate(k);
+        }
+        out[..n].fill(R::zero());
+        for k in (0..self.rank).rev() {
+            let mut sum = self.rhs[k];
+            for j in k + 1..self.rank {
+                sum -= self.a[k * n + j] * out[self.columns[j]];
+            }
+            out[self.columns[k]] = sum / self.a[k * n + k];
+        }
+    }
+
+    fn pivot(&self, k: usize) -> (usize, usize, f64) {
+        let (mut best, mut size) = ((k, k), -1.0);
+        for i in k..self.n {
+            for j in k..self.n {
+                let x = self.a[i * self.n + j].lane(0).abs();
+                if x > size {
+                    (best, size) = ((i, j), x);
+                }
+            }
+        }
+        (best.0, best.1, size)
+    }
+
+    fn swap(&mut self, k: usize, p: usize, q: usize) {
+        let n = self.n;
+        if p != k {
+            for j in 0..n {
+                self.a.swap(k * n + j, p * n + j);
+            }
+            self.rhs.swap(k, p);
+            self.rows.swap(k, p);
+        }
+        if q != k {
+            for i in 0..n {
+                self.a.swap(i * n + k, i * n + q);
+            }
+            self.columns.swap(k, q);
+        }
+    }
+
+    fn eliminate(&mut self, k: usize) {
+        let n = self.n;
+        let inverse = R::one() / self.a[k * n + k];
+        for i in k + 1..n {
+            let factor = self.a[i * n + k] * inverse;
+            if factor == R::zero() {
+                continue;
+            }
+            let (above, below) = self.a.split_at_mut(i * n);
+            for (x, p) in below[k + 1..n].iter_mut().zip(&above[k * n + k + 1..k * n + n]) {
+                *x -= factor * *p;
+            }
+            let of_pivot = self.rhs[k];
+            self.rhs[i] -= factor * of_pivot;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_regular_system_is_solved_and_a_redundant_row_is_told() {
+        let mut d = Dense::<f64>::default();
+        let a = [[2.0, 1.0, 3.0], [1.0, 4.0, 4.0], [3.0, 5.0, 7.0]];
+        d.reset(3);
+        for i in 0..3 {
+            for j in 0..3 {
+                d.set(i, j, a[i][j]);
+            }
+            // of x = (1, −2, 1)
+            d.rhs[i] = a[i][0] - 2.0 * a[i][1] + a[i][2];
+        }
+        let mut x = [9.0; 3];
+        d.solve(&mut x);
+        assert_eq!(d.rank, 2);
+        assert_eq!(d.redundant().len(), 1);
+        for i in 0..3 {
+            let r: f64 = (0..3).map(|j| a[i][j] * (x[j] - [1.0, -2.0, 1.0][j])).sum();
+            assert!(r.abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What the solver remembers of each slot from one evaluation to the next: forces, and who let go, stuck or slipped.
+//!
+//! | per slot | meaning | kept in the state |
+//! |---|---|---|
+//! | forces | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
+//! | code | 0 never seen, else 1 + 1·open + 2, 4, 8·slipping group | yes |
+//! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
+
+use sincro_math::Real;
+
+use super::SLOT;
+use super::cone::{Block, Grip};
+
+#[derive(Clone, Debug)]
+pub(crate) struct Memory<R> {
+    /// As in the state.
+    pub numbers: Vec<R>,
+    closed: Vec<bool>,
+    slides: Vec<[bool; 3]>,
+    directions: Vec<[[R; 2]; 3]>,
+    /// Codes at the start of a sub-step: who changes is an event.
+    start: Vec<f64>,
+    start_directions: Vec<[[R; 2]; 3]>,
+    /// Groups that slide against the direction they had at the start.
+    reversed: Vec<[bool; 3]>,
+}
+
+impl<R: Real> Memory<R> {
+    pub fn new(n_slots: usize) -> Self {
+        Self {
+            numbers: vec![R::zero(); SLOT * n_slots],
+            closed: vec![false; n_slots],
+            slides: vec![[false; 3]; n_slots],
+            directions: vec![[[R::zero(); 2]; 3]; n_slots],
+            start: vec![0.0; n_slots],
+            start_directions: vec![[[R::zero(); 2]; 3]; n_slots],
+            reversed: vec![[false; 3]; n_slots],
+        }
+    }
+
+    pub fn is_closed(&self, slot: usize) -> bool {
+        self.closed[slot]
+    }
+
+    pub fn slides(&self, slot: usize, group: usize) -> bool {
+        self.slides[slot][group]
+    }
+
+    pub fn direction(&self, slot: usize, group: usize) -> [R; 2] {
+        self.directions[slot][group]
+    }
+
+    /// Takes the direction of a sliding group's friction. Within a sub-step it does not turn round: the force goes on smoothly until the
+    /// instant of reversal has been located.
+    pub fn steer(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
+        let start = self.start_directions[slot][group];
+        let turned = (direction[0] * start[0] + direction[1] * start[1]).lane(0) < 0.0;
+        self.reversed[slot][group] = turned;
+        let direction = if turned { direction.map(|x| -x) } else { direction };
+        self.directions[slot][group] = direction;
+        direction
+    }
+
+    /// Classifies a slot; what is not closed is forgotten.
+    pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
+        self.closed[slot] = closed;
+        self.slides[slot] = slides;
+        self.start_directions[slot] = [[R::zero(); 2]; 3];
+        if !closed {
+            self.numbers[slot * SLOT..(slot + 1) * SLOT].fill(R::zero());
+        }
+    }
+
+    fn code(&self, slot: usize) -> u32 {
+        self.numbers[slot * SLOT + 6].lane(0) as u32
+    }
+
+    /// Gives the blocks what they did and the forces they had.
+    pub fn recall(&self, blocks: &mut [Block<R>], lambda: &mut [R]) {
+        for block in blocks {
+            let code = self.code(block.slot);
+            if code == 0 {
+                continue;
+            }
+            let kept = &self.numbers[block.slot * SLOT..];
+            lambda[block.row] = kept[0];
+            block.open = (code - 1) & 1 == 1 && block.given.is_none();
+            for (g, group) in block.groups.iter_mut().enumerate() {
+                let Some(group) = group else { continue };
+                let first = [1, 3, 5][g];
+                lambda[group.row..group.row + group.dim].copy_from_slice(&kept[first..first + group.dim]);
+                if group.slides || (code - 1) >> (g + 1) & 1 == 0 {
+                    continue;
+                }
+                let mut d = [R::zero(); 2];
+                d[..group.dim].copy_from_slice(&kept[first..first + group.dim]);
+                let square = d[0] * d[0] + d[1] * d[1];
+                if square.lane(0) > 0.0 {
+                    let inverse = R::one() / square.sqrt();
+                    group.grip = Grip::Slip;
+                    group.direction = d.map(|x| x * inverse);
+                }
+            }
+        }
+    }
+
+    /// Remembers a solution.
+    pub fn keep(&mut self, blocks: &[Block<R>], lambda: &[R]) {
+        for block in blocks {
+            let kept = &mut self.numbers[block.slot * SLOT..(block.slot + 1) * SLOT];
+            kept[0] = lambda[block.row];
+            let mut code = 1 + u32::from(block.open);
+            for (g, group) in block.groups.iter().enumerate() {
+                let Some(group) = group else { continue };
+                let first = [1, 3, 5][g];
+                kept[first..first + group.dim].copy_from_slice(&lambda[group.row..group.row + group.dim]);
+                if group.grip == Grip::Slip && !block.open {
+                    code += 2 << g;
+                }
+            }
+            kept[6] = R::splat(f64::from(code));
+        }
+    }
+
+    /// Notes who does what at the start of a sub-step.
+    pub fn mark_start(&mut self) {
+        for slot in 0..self.start.len() {
+            self.start[slot] = f64::from(self.code(slot));
+        }
+        self.start_directions.copy_from_slice(&self.directions);
+    }
+
+    /// Whether a closed slot does something else than at the start of the sub-step.
+    pub fn has_changed(&self) -> bool {
+        let closed = || (0..self.start.len()).filter(|slot| self.closed[*slot]);
+        closed().any(|slot| self.start[slot] as u32 != self.code(slot)) || closed().any(|slot| self.has_reversed(slot))
+    }
+
+    /// Whether a sliding group now slides the other way.
+    fn has_reversed(&self, slot: usize) -> bool {
+        (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
+    }
+
+    /// Forces of the last solution in a slot: normal, then friction.
+    #[cfg(test)]
+    pub fn forces(&self, slot: usize) -> &[R] {
+        &self.numbers[slot * SLOT..slot * SLOT + 6]
+    }
+}

@@ -1,0 +1,586 @@
+//! The one constraint solver: closed loops, couplings, limits of joints and contacts, over the reduced coordinates.
+//!
+//! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built column
+//! by column from responses of the articulated-body recursion ([`respond`]), so that held degrees of freedom (ideal motors, sticking joint
+//! friction) and the implicit terms of an integrator are in it for nothing. Nothing is soft: no gain, no penalty, no drift to tune. After each
+//! accepted sub-step the world projects positions and velocities in the metric of the mass matrix.
+//!
+//! | file | what |
+//! |---|---|
+//! | [`row`] | rows in world coordinates, their rates, their Jacobians |
+//! | [`closure`] | loops and couplings |
+//! | [`respond`] | M⁻¹ times a vector |
+//! | [`dense`] | elimination with rank |
+//! | [`cone`] | friction: blocks, sweeps |
+//! | [`solve`] | the problem of one instant |
+//! | [`memory`] | who does what |
+//! | [`events`] | what the world asks of a mechanism: touch, strike, project |
+//!
+//! Sources: keys `featherstone2008` (chapter 8, loops; section 11, contact), `acary2008` (chapters 3 and 13).
+
+pub mod closure;
+mod cone;
+mod dense;
+pub(crate) mod events;
+mod memory;
+mod respond;
+pub(crate) mod row;
+mod solve;
+
+use sincro_math::Real;
+
+pub use closure::{Anchor, Closure, ClosureKind, Coupling};
+pub use solve::SolverReport;
+
+use crate::contact::{Collider, Detector, Pair, feature::Spot, feature::tangents};
+use crate::kinematics;
+use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::spatial::{Force, Vec3};
+use cone::{Block, Grip, Group};
+use memory::Memory;
+use row::{Motions, Row, force_at, force_rate};
+use solve::Solver;
+
+/// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
+pub const SLOT: usize = 7;
+
+/// A limit of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// Degree of freedom.
+    pub dof: usize,
+    /// Its coordinate in q.
+    pub coordinate: usize,
+    /// +1 for a lower, −1 for an upper limit.
+    pub sign: f64,
+    /// `[rad]` or `[m]`.
+    pub bound: f64,
+    /// Speed of leaving over speed of arriving.
+    pub restitution: f64,
+}
+
+/// All constraints of a model; numbers are the same in every lane.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ConstraintSet {
+    /// Loops.
+    pub closures: Vec<Closure>,
+    /// Couplings of joints.
+    pub couplings: Vec<Coupling>,
+    /// Limits of joints: the first slots.
+    pub limits: Vec<Limit>,
+    /// Surfaces that can touch.
+    pub colliders: Vec<Collider>,
+    /// Pairs of them; their slots come after the limits'.
+    pub pairs: Vec<Pair>,
+    /// Approach slower than this does not bounce [m/s].
+    pub rest_speed: f64,
+}
+
+impl ConstraintSet {
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.closures.is_empty() && self.couplings.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
+    }
+
+    /// Number of slots of contacts.
+    #[must_use]
+    pub fn n_contacts(&self) -> usize {
+        self.pairs.last().map_or(0, |p| p.first + p.slots)
+    }
+
+    /// Number of slots: limits, then contacts.
+    #[must_use]
+    pub fn n_slots(&self) -> usize {
+        self.limits.len() + self.n_contacts()
+    }
+
+    /// Number of rows of closures and couplings.
+    #[must_use]
+    pub fn n_bilateral(&self) -> usize {
+        self.closures.iter().map(|c| c.kind.rows()).sum::<usize>() + self.couplings.len()
+    }
+}
+
+/// What the rows are asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Level {
+    /// Accelerations; contacts do as they are classified.
+    Acceleration,
+    /// Velocities at the end of a step of length h `[s]`, impacts included.
+    Velocity(f64),
+}
+
+/// A contact as it is now.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactPoint {
+    /// Index of the pair.
+    pub pair: usize,
+    /// Where `[m]`, world axes.
+    pub point: Vec3<f64>,
+    /// From the second surface to the first.
+    pub normal: Vec3<f64>,
+    /// On the first surface's body `[N]`, world axes.
+    pub force: Vec3<f64>,
+    /// Torque of rolling and spinning friction on it [N·m].
+    pub torque: Vec3<f64>,
+    /// Distance `[m]`.
+    pub gap: f64,
+}
+
+/// The constraints of one world and all they need.
+#[derive(Clone, Debug)]
+pub(crate) struct Constraints<R> {
+    /// What is where, and what it does.
+    pub memory: Memory<R>,
+    pub spots: Vec<Option<Spot>>,
+    /// Spots of a later instant, to look for what has touched.
+    pub later: Vec<Option<Spot>>,
+    pub detector: Detector,
+    pub motions: Motions<R>,
+    response: respond::Response<R>,
+    pub rows: Vec<Row<R>>,
+    /// How far each row's constraint is from holding: gaps, openings.
+    pub residual: Vec<R>,
+    pub n_free: usize,
+    pub blocks: Vec<Block<R>>,
+    jacobian: Vec<R>,
+    responses: Vec<R>,
+    a: Vec<R>,
+    b: Vec<R>,
+    pub lambda: Vec<R>,
+    torque: Vec<R>,
+    change: Vec<R>,
+    kick: Vec<R>,
+    before: Vec<R>,
+    kept: Vec<usize>,
+    /// Length of the sub-step that is being made `[s]`; 0: none.
+    pub sub_step: f64,
+    pub solver: Solver<R>,
+}
+
+impl<R: Real> Constraints<R> {
+    pub fn new(model: &Model<R>) -> Option<Box<Self>> {
+        let set = &model.constraints;
+        if set.is_empty() {
+            return None;
+        }
+        let n = vec![R::zero(); model.n_v()];
+        let mut new = Self {
+            memory: Memory::new(set.n_slots()),
+            spots: vec![None; set.n_contacts()],
+            later: vec![None; set.n_contacts()],
+            detector: Detector::new(&set.colliders, &set.pairs),
+            motions: Motions::new(model),
+            response: respond::Response::new(model),
+            rows: Vec::new(),
+            residual: Vec::new(),
+            n_free: 0,
+            blocks: Vec::new(),
+            jacobian: Vec::new(),
+            responses: Vec::new(),
+            a: Vec::new(),
+            b: Vec::new(),
+            lambda: Vec::new(),
+            torque: n.clone(),
+            change: n.clone(),
+            kick: n,
+            before: Vec::new(),
+            kept: Vec::new(),
+            sub_step: 0.0,
+            solver: Solver::default(),
+        };
+        new.rows.reserve(set.n_bilateral() + 6 * set.n_slots().min(16));
+        Some(Box::new(new))
+    }
+
+    /// Makes the accelerations that forward dynamics found obey the constraints.
+    #[allow(clippy::too_many_arguments)]
+    pub fn apply(
+        &mut self,
+        model: &Model<R>,
+        (q, v): (&[R], &[R]),
+        level: Level,
+        scratch: &mut Scratch<R>,
+        v_dot: &mut [R],
+        has_drives: bool,
+    ) {
+        kinematics::chain_poses(model, scratch);
+        self.motions.place(model, scratch, v);
+        self.assemble(model, q, v, scratch, level == Level::Acceleration);
+        if self.rows.is_empty() {
+            return;
+        }
+        self.respond(model, scratch);
+        self.b.clear();
+        match level {
+            Level::Acceleration => {
+                self.motions.accelerate(model, scratch);
+                self.b.extend(self.rows.iter().map(|row| self.motions.acceleration(row, v_dot)));
+            }
+            Level::Velocity(h) => self.ask_velocities(model, h, v, v_dot),
+        }
+        self.solve();
+        self.push(model, scratch, v_dot, has_drives);
+    }
+
+    /// b of a step at velocity level: (J v)/h + J v̇, room left to what is not there yet, bounce for what arrives.
+    fn ask_velocities(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
+        let n = model.n_v();
+        let per_h = R::splat(1.0 / h);
+        for i in 0..self.rows.len() {
+            let row = &self.jacobian[i * n..(i + 1) * n];
+            let mut sum = R::zero();
+            for k in 0..n {
+                sum += row[k] * (v[k] * per_h + v_dot[k]);
+            }
+            self.b.push(sum);
+        }
+        let rest_speed = model.constraints.rest_speed;
+        for block in &self.blocks {
+            let i = block.row;
+            let row = &self.jacobian[i * n..(i + 1) * n];
+            let speed = dot(row, v);
+            if self.residual[i].lane(0) > 0.0 {
+                self.b[i] += self.residual[i] * per_h * per_h;
+            } else if speed.lane(0) < -rest_speed {
+                self.b[i] += speed * per_h * R::splat(restitution(model, block.slot));
+            }
+        }
+    }
+
+    /// Rows, residuals and blocks of what is closed, at the poses of `scratch` and the twists of `motions`.
+    pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, slides: bool) {
+        let set = &*model.constraints;
+        self.rows.clear();
+        self.residual.clear();
+        self.blocks.clear();
+        for closure in &set.closures {
+            closure.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
+        }
+        for coupling in &set.couplings {
+            let [one, two] = coupling.dofs.map(|k| k as u32);
+            let ratio = R::splat(coupling.ratio);
+            self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
+            let [q1, q2] = coupling.coordinates.map(|k| q[k]);
+            self.residual.push(q2 - ratio * q1 - R::splat(coupling.offset));
+        }
+        self.n_free = self.rows.len();
+        for (slot, limit) in set.limits.iter().enumerate() {
+            if self.memory.is_closed(slot) {
+                let sign = R::splat(limit.sign);
+                self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::model::WORLD, R::zero())]));
+                self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
+                let row = self.rows.len() - 1;
+                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3] });
+            }
+        }
+        for pair in &set.pairs {
+            for k in pair.first..pair.first + pair.slots {
+                let slot = set.limits.len() + k;
+                if let (true, Some(spot)) = (self.memory.is_closed(slot), self.spots[k]) {
+                    self.contact(slot, &spot, pair, v, scratch, slides);
+                }
+            }
+        }
+        self.lambda.clear();
+        self.lambda.resize(self.rows.len(), R::zero());
+        self.memory.recall(&mut self.blocks, &mut self.lambda);
+    }
+
+    fn contact(&mut self, slot: usize, spot: &Spot, pair: &Pair, v: &[R], scratch: &Scratch<R>, slides: bool) {
+        let at = spot.gap(scratch, &self.motions);
+        let row = self.rows.len();
+        let (c, n) = (at.point, at.normal);
+        let normal = Row::between(spot.a, spot.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
+        self.add(normal, at.gap);
+        let material = &pair.material;
+        let given = material.stiffness.is_finite().then(|| {
+            let rate = self.motions.rate(&normal, v);
+            let k = R::splat(material.stiffness);
+            let force = -(k * at.gap) * (R::one() - R::splat(material.dissipation) * rate);
+            // it never pulls
+            force.max(R::zero())
+        });
+        let (t1, t2) = tangents(n);
+        let zero = Vec3::zero();
+        let mut groups = [None; 3];
+        let wanted = [(2, material.friction), (2, material.rolling_friction), (1, material.spinning_friction)];
+        for (g, (dim, coefficient)) in wanted.into_iter().enumerate() {
+            if coefficient <= 0.0 {
+                continue;
+            }
+            let first = self.rows.len();
+            let axes = if g == 2 { [n, n] } else { [t1, t2] };
+            for t in axes.into_iter().take(dim) {
+                let row = if g == 0 {
+                    Row::between(spot.a, spot.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
+                } else {
+                    Row::between(spot.a, spot.b, Force { ang: t, lin: zero }, Force::zero())
+                };
+                self.add(row, R::zero());
+            }
+            let slides = slides && self.memory.slides(slot, g);
+            let mut group = Group {
+                row: first,
+                dim,
+                coefficient,
+                slides,
+                grip: Grip::Stick,
+                direction: [R::zero(); 2],
+                give: None,
+            };
+            if slides {
+                group.grip = Grip::Slip;
+                let (direction, speed) = self.against(first, dim, v, self.memory.direction(slot, g));
+                group.direction = self.memory.steer(slot, g, direction);
+                if dim == 2 {
+                    self.align(&mut group, speed);
+                }
+            }
+            groups[g] = Some(group);
+        }
+        self.blocks.push(Block { slot, row, open: false, given, groups });
+    }
+
+    fn add(&mut self, row: Row<R>, residual: R) {
+        self.rows.push(row);
+        self.residual.push(residual);
+    }
+
+    /// Direction against the velocity of a group of rows; the last one where there is none.
+    fn against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
+        let mut u = [R::zero(); 2];
+        for k in 0..dim {
+            u[k] = self.motions.rate(&self.rows[first + k], v);
+        }
+        let square = u[0] * u[0] + u[1] * u[1];
+        if square.lane(0) < 1e-28 {
+            return (last, R::zero());
+        }
+        let speed = square.sqrt();
+        let inverse = R::one() / speed;
+        (u.map(|x| -(x * inverse)), speed)
+    }
+
+    /// Turns the two rows of a sliding group into one along the sliding and one across it; notes its speed.
+    fn align(&mut self, group: &mut Group<R>, speed: R) {
+        let (i, j) = (group.row, group.row + 1);
+        let (one, two, d) = (self.rows[i], self.rows[j], group.direction);
+        self.rows[i] = one.combined(&two, -d[0], -d[1]);
+        self.rows[j] = one.combined(&two, d[1], -d[0]);
+        group.direction = [-R::one(), R::zero()];
+        group.give = Some(speed);
+    }
+
+    /// Of the groups that slide, those that do so slowly: their speed becomes what the solver needs.
+    fn find_slow(&mut self) {
+        let m = self.rows.len();
+        let h = self.sub_step;
+        for block in &mut self.blocks {
+            let normal = self.lambda[block.row];
+            for group in block.groups.iter_mut().flatten() {
+                let Some(speed) = group.give else { continue };
+                let limit = R::splat(group.coefficient) * normal;
+                let across = group.row + 1;
+                let reach = R::splat(h) * limit * self.a[across * m + across];
+                let slow = normal.lane(0) > 0.0 && speed.lane(0) < reach.lane(0);
+                group.give = slow.then(|| speed / (R::splat(h) * limit));
+            }
+        }
+    }
+
+    /// Jacobian, responses and A of the rows.
+    pub fn respond(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
+        let (m, n) = (self.rows.len(), model.n_v());
+        for list in [&mut self.jacobian, &mut self.responses] {
+            list.clear();
+            list.resize(m * n, R::zero());
+        }
+        for (i, row) in self.rows.iter().enumerate() {
+            let j = &mut self.jacobian[i * n..(i + 1) * n];
+            self.motions.jacobian(model, row, j);
+            self.response.find(model, scratch, j, &mut self.responses[i * n..(i + 1) * n], None);
+        }
+        self.a.clear();
+        self.a.resize(m * m, R::zero());
+        for i in 0..m {
+            for j in 0..=i {
+                let x = dot(&self.jacobian[i * n..(i + 1) * n], &self.responses[j * n..(j + 1) * n]);
+                self.a[i * m + j] = x;
+                self.a[j * m + i] = x;
+            }
+        }
+    }
+
+    fn solve(&mut self) {
+        self.find_slow();
+        self.solver.solve(&self.a, &self.b, self.n_free, &mut self.blocks, &mut self.lambda);
+        self.memory.keep(&self.blocks, &self.lambda);
+    }
+
+    /// Adds what the forces do to accelerations and reactions.
+    fn push(&mut self, model: &Model<R>, scratch: &mut Scratch<R>, v_dot: &mut [R], has_drives: bool) {
+        let n = model.n_v();
+        self.torque.fill(R::zero());
+        for (i, lambda) in self.lambda.iter().enumerate() {
+            for (t, j) in self.torque.iter_mut().zip(&self.jacobian[i * n..(i + 1) * n]) {
+                *t += *lambda * *j;
+            }
+        }
+        let mut reaction = core::mem::take(&mut scratch.reaction);
+        let wanted = has_drives.then_some(&mut reaction[..]);
+        self.response.find(model, scratch, &self.torque, &mut self.change, wanted);
+        scratch.reaction = reaction;
+        for (v_dot, change) in v_dot.iter_mut().zip(&self.change) {
+            *v_dot += *change;
+        }
+    }
+
+    /// Power taken from the mechanism by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
+    pub fn dissipation(&self, v: &[R]) -> R {
+        let n = v.len();
+        let mut sum = R::zero();
+        for (i, lambda) in self.lambda.iter().enumerate() {
+            sum += *lambda * dot(&self.jacobian[i * n..(i + 1) * n], v);
+        }
+        -sum
+    }
+}
+
+impl Constraints<f64> {
+    /// Velocity changes of an impact: approaching contacts bounce, nothing goes into what it touches, closures stay closed. `scratch` holds what an
+    /// impulse meets. Returns the energy that is lost `[J]`.
+    pub fn impact(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) -> f64 {
+        let n = model.n_v();
+        // no forces of the motion before are meant here
+        self.lambda.fill(0.0);
+        self.blocks.iter_mut().for_each(|b| b.open = false);
+        for block in &mut self.blocks {
+            for group in block.groups.iter_mut().flatten() {
+                (group.slides, group.grip, group.give) = (false, Grip::Stick, None);
+            }
+            // what is compliant takes its time
+            if block.given.is_some() {
+                block.given = Some(0.0);
+            }
+        }
+        self.respond(model, scratch);
+        self.b.clear();
+        self.b.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
+        self.before.clone_from(&self.b);
+        for k in 0..self.blocks.len() {
+            let block = &self.blocks[k];
+            if self.b[block.row] < -model.constraints.rest_speed && block.given.is_none() {
+                self.b[block.row] += restitution(model, block.slot) * self.before[block.row];
+            }
+        }
+        self.solver.solve(&self.a, &self.b, self.n_free, &mut self.blocks, &mut self.lambda);
+        let mut change = core::mem::take(&mut self.kick);
+        change.fill(0.0);
+        self.push(model, scratch, &mut change, has_drives);
+        let mut lost = 0.0;
+        for i in 0..self.rows.len() {
+            let row = &self.jacobian[i * n..(i + 1) * n];
+            lost -= self.lambda[i] * (self.before[i] + 0.5 * dot(row, &change));
+        }
+        for (v, change) in v.iter_mut().zip(&change) {
+            *v += *change;
+        }
+        self.kick = change;
+        lost
+    }
+
+    /// Keeps the rows that hold as equations: closures, what presses, and with `sticking` what sticks.
+    pub fn keep_equations(&mut self, sticking: bool) {
+        let n_free = self.n_free;
+        let mut keep = core::mem::take(&mut self.kept);
+        keep.clear();
+        keep.extend(0..n_free);
+        for block in self.blocks.iter().filter(|b| !b.open && b.given.is_none()) {
+            keep.push(block.row);
+            for group in block.groups.iter().flatten() {
+                if sticking && group.grip == Grip::Stick {
+                    keep.extend(group.row..group.row + group.dim);
+                }
+            }
+        }
+        for (into, from) in keep.iter().enumerate() {
+            self.rows[into] = self.rows[*from];
+            self.residual[into] = self.residual[*from];
+        }
+        self.rows.truncate(keep.len());
+        self.residual.truncate(keep.len());
+        self.n_free = keep.len();
+        self.blocks.clear();
+        self.lambda.clear();
+        self.lambda.resize(keep.len(), 0.0);
+        self.kept = keep;
+    }
+
+    /// Largest residual, and largest rate for joint rates `v`, of the rows.
+    pub fn worst(&self, v: &[f64]) -> (f64, f64) {
+        let gap = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let rate = self.rows.iter().map(|row| self.motions.rate(row, v).abs()).fold(0.0, f64::max);
+        (gap, rate)
+    }
+
+    /// The smallest change (in the metric of the mass matrix) of positions that undoes the residuals, or of rates that stops them.
+    pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
+        self.respond(model, scratch);
+        self.b.clear();
+        match v {
+            Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
+            None => self.b.extend_from_slice(&self.residual),
+        }
+        self.solver.correct(&self.a, &self.b, self.n_free, &[], &mut self.lambda);
+        out.fill(0.0);
+        self.push(model, scratch, out, false);
+    }
+
+    /// Points of contact that press, with their forces, as of the last evaluation.
+    pub fn points(&self, model: &Model<f64>, scratch: &Scratch<f64>) -> impl Iterator<Item = ContactPoint> {
+        let set = &model.constraints;
+        self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open).filter_map(move |block| {
+            let k = block.slot - set.limits.len();
+            let at = self.spots[k]?.gap(scratch, &self.motions);
+            let (t1, t2) = tangents(at.normal);
+            let mut force = at.normal.scale(self.lambda[block.row]);
+            let mut torque = Vec3::zero();
+            for (g, group) in block.groups.iter().enumerate() {
+                let Some(group) = group else { continue };
+                let l = |k: usize| self.lambda[group.row + k];
+                match g {
+                    0 => force = force + t1.scale(l(0)) + t2.scale(l(1)),
+                    1 => torque = torque + t1.scale(l(0)) + t2.scale(l(1)),
+                    _ => torque = torque + at.normal.scale(l(0)),
+                }
+            }
+            let pair = pair_of(set, k);
+            Some(ContactPoint { pair, point: at.point, normal: at.normal, force, torque, gap: at.gap })
+        })
+    }
+}
+
+fn restitution<R: Real>(model: &Model<R>, slot: usize) -> f64 {
+    let set = &model.constraints;
+    match set.limits.get(slot) {
+        Some(limit) => limit.restitution,
+        None => set.pairs[pair_of(set, slot - set.limits.len())].material.restitution,
+    }
+}
+
+/// The pair that a contact slot belongs to.
+pub(crate) fn pair_of(set: &ConstraintSet, slot: usize) -> usize {
+    set.pairs.partition_point(|p| p.first + p.slots <= slot)
+}
+
+#[inline(always)]
+fn dot<R: Real>(a: &[R], b: &[R]) -> R {
+    let mut sum = R::zero();
+    for (a, b) in a.iter().zip(b) {
+        sum += *a * *b;
+    }
+    sum
+}

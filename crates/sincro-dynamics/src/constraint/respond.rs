@@ -1,0 +1,172 @@
+//! Responses: M⁻¹ times a vector of joint torques, in time proportional to the number of links, with what forward dynamics left in
+//! the scratch.
+//!
+//! The second half of the articulated-body algorithm with velocities, gravity and bias forces zero. Held degrees of freedom do
+//! not respond; what they need instead is added to their reaction. Source: key `featherstone2008`, section 7.3.
+
+use sincro_math::Real;
+
+use crate::joint::{Stage, StageVisitor};
+use crate::model::{Link, Model, WORLD};
+use crate::scratch::{DofScratch, LinkScratch, Scratch};
+use crate::spatial::{Force, Motion};
+
+/// Working memory of [`Response::find`]: forces and accelerations of the links, what each degree of freedom gives way.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Response<R> {
+    force: Vec<Force<R>>,
+    motion: Vec<Motion<R>>,
+    x: Vec<R>,
+    torque: Vec<R>,
+    /// First link of the tree that each link belongs to.
+    tree: Vec<u32>,
+    /// Whether anything pushes in a tree.
+    touched: Vec<bool>,
+}
+
+impl<R: Real> Response<R> {
+    pub fn new(model: &Model<R>) -> Self {
+        let n = model.links.len();
+        let mut tree = vec![0; n];
+        for (i, link) in model.links.iter().enumerate() {
+            tree[i] = if link.parent == WORLD { i as u32 } else { tree[link.parent as usize] };
+        }
+        let dofs = vec![R::zero(); model.n_v()];
+        Self {
+            force: vec![Force::zero(); n],
+            motion: vec![Motion::zero(); n],
+            x: dofs.clone(),
+            torque: dofs,
+            tree,
+            touched: vec![false; n],
+        }
+    }
+
+    /// `out = M⁻¹ torque`; with `reaction`, what held degrees of freedom need against it is added there.
+    pub fn find(
+        &mut self,
+        model: &Model<R>,
+        scratch: &Scratch<R>,
+        torque: &[R],
+        out: &mut [R],
+        mut reaction: Option<&mut [R]>,
+    ) {
+        self.mark(model, torque);
+        for i in (0..model.links.len()).rev() {
+            if !self.touched[self.tree[i] as usize] {
+                continue;
+            }
+            let link = &model.links[i];
+            let (done, rest) = self.force.split_at_mut(i);
+            let k = link.v_idx as usize;
+            link.kind.dispatch(Up {
+                link,
+                at: &scratch.links[i],
+                dofs: &scratch.dofs[k..],
+                torque: &torque[k..],
+                this: &rest[0],
+                parent: (link.parent != WORLD).then(|| &mut done[link.parent as usize]),
+                x: &mut self.x[k..],
+                given: &mut self.torque[k..],
+            });
+        }
+        for i in 0..model.links.len() {
+            let link = &model.links[i];
+            let k = link.v_idx as usize;
+            if !self.touched[self.tree[i] as usize] {
+                out[k..k + link.kind.n_v()].fill(R::zero());
+                continue;
+            }
+            let (done, rest) = self.motion.split_at_mut(i);
+            let base = Motion::zero();
+            let parent = if link.parent == WORLD { &base } else { &done[link.parent as usize] };
+            link.kind.dispatch(Down {
+                link,
+                at: &scratch.links[i],
+                dofs: &scratch.dofs[k..],
+                parent,
+                x: &self.x[k..],
+                given: &self.torque[k..],
+                this: &mut rest[0],
+                out: &mut out[k..],
+                reaction: reaction.as_deref_mut().map(|r| &mut r[k..]),
+            });
+        }
+    }
+
+    fn mark(&mut self, model: &Model<R>, torque: &[R]) {
+        self.touched.fill(false);
+        for (i, link) in model.links.iter().enumerate() {
+            let k = link.v_idx as usize;
+            if torque[k..k + link.kind.n_v()].iter().any(|t| *t != R::zero()) {
+                self.touched[self.tree[i] as usize] = true;
+            }
+            self.force[i] = Force::zero();
+        }
+    }
+}
+
+struct Up<'a, R> {
+    link: &'a Link<R>,
+    at: &'a LinkScratch<R>,
+    dofs: &'a [DofScratch<R>],
+    torque: &'a [R],
+    this: &'a Force<R>,
+    parent: Option<&'a mut Force<R>>,
+    x: &'a mut [R],
+    given: &'a mut [R],
+}
+
+impl<R: Real> StageVisitor for Up<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let mut pa = *self.this;
+        for j in (0..S::N_V).rev() {
+            // u = τ − Sᵀ pA,  pa = pA + U u/D
+            let u = self.link.signed::<S>(self.torque[j]) - S::project(self.link, j, &pa);
+            self.given[j] = u;
+            self.x[j] = u * self.dofs[j].inv_d;
+            pa += self.dofs[j].u.scale(self.x[j]);
+        }
+        if let Some(parent) = self.parent {
+            *parent += self.link.force_to_parent::<S>(&self.at.at, &pa);
+        }
+    }
+}
+
+struct Down<'a, R> {
+    link: &'a Link<R>,
+    at: &'a LinkScratch<R>,
+    dofs: &'a [DofScratch<R>],
+    parent: &'a Motion<R>,
+    x: &'a [R],
+    given: &'a [R],
+    this: &'a mut Motion<R>,
+    out: &'a mut [R],
+    reaction: Option<&'a mut [R]>,
+}
+
+impl<R: Real> StageVisitor for Down<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let mut a = self.link.motion_in_link::<S>(&self.at.at, self.parent);
+        let mut reaction = self.reaction;
+        for j in 0..S::N_V {
+            // v̇ = x − Uᵀ a'/D,  a' += S v̇
+            let dof = &self.dofs[j];
+            let along = a.dot(&dof.u);
+            let acceleration = self.x[j] - dof.inv_d * along;
+            a += S::column(self.link, j, acceleration);
+            self.out[j] = self.link.signed::<S>(acceleration);
+            if let Some(reaction) = &mut reaction {
+                // of a free degree of freedom this is zero
+                let needed = dof.d * acceleration + along - self.given[j];
+                let held = dof.inv_d.abs().if_less(R::splat(f64::MIN_POSITIVE), needed, R::zero());
+                reaction[j] += self.link.signed::<S>(held);
+            }
+        }
+        *self.this = a;
+    }
+}

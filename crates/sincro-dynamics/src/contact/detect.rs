@@ -1,0 +1,134 @@
+//! From poses to spots: where the surfaces of each pair are closest.
+
+use super::feature::{Feature, Spot};
+use super::manifold::Manifolds;
+use super::{Collider, Pair, PairKind, Surface};
+use crate::model::{Shape, WORLD};
+use crate::spatial::{Pose, Vec3};
+
+/// Sine of the tilt below which a cylinder on its end is held to stand on four points of its rim.
+const STANDS: f64 = 1e-6;
+
+/// Finds spots; its memory grows to the largest manifold it has seen.
+#[derive(Clone, Debug)]
+pub(crate) struct Detector {
+    points: Vec<(Vec<Vec3<f64>>, f64)>,
+    reach: Vec<f64>,
+    manifolds: Manifolds,
+}
+
+impl Detector {
+    pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
+        Self {
+            points: colliders.iter().map(Collider::points).collect(),
+            reach: colliders.iter().map(Collider::reach).collect(),
+            manifolds: Manifolds::new(colliders, pairs),
+        }
+    }
+
+    /// Writes the spots of every pair into its slots; none where nothing is near (closer than `margin` `[m]`).
+    pub fn detect(
+        &mut self,
+        colliders: &[Collider],
+        pairs: &[Pair],
+        poses: &[Pose<f64>],
+        margin: f64,
+        spots: &mut [Option<Spot>],
+    ) {
+        for (k, pair) in pairs.iter().enumerate() {
+            let slots = &mut spots[pair.first..pair.first + pair.slots];
+            slots.fill(None);
+            let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
+            if !self.is_near(pair, a, b, poses, margin) {
+                continue;
+            }
+            let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
+            match pair.kind {
+                PairKind::PointsOnPlane => points_on_plane(&self.points[pair.a], a, b, slots),
+                PairKind::CylinderOnPlane => cylinder_on_plane(a, b, (&at(a), &at(b)), slots),
+                PairKind::Balls => slots[0] = Some(balls(a, b)),
+                PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
+                PairKind::General => self.manifolds.find(k, (a, b), (&at(a), &at(b)), margin, slots),
+            }
+        }
+    }
+
+    fn is_near(&self, pair: &Pair, a: &Collider, b: &Collider, poses: &[Pose<f64>], margin: f64) -> bool {
+        let center = |c: &Collider| if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) };
+        if let Surface::HalfSpace = b.surface {
+            return b.pose.rot.col(2).dot(center(a) - b.pose.pos) <= self.reach[pair.a] + margin;
+        }
+        let (d, reach) = (center(a) - center(b), self.reach[pair.a] + self.reach[pair.b] + margin);
+        d.dot(d) <= reach * reach
+    }
+}
+
+fn plane_of(b: &Collider) -> Feature {
+    Feature::Plane { origin: b.pose.pos, normal: b.pose.rot.col(2) }
+}
+
+fn spot(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> Spot {
+    Spot { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
+}
+
+fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<Spot>]) {
+    let (points, radius) = points;
+    for (slot, point) in slots.iter_mut().zip(points) {
+        *slot = Some(spot(a, b, *point, *radius, plane_of(b)));
+    }
+}
+
+fn cylinder_on_plane(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>), slots: &mut [Option<Spot>]) {
+    let Surface::Solid(Shape::Cylinder { radius, length }) = a.surface else { return };
+    let (n, axis) = (at_b.rot.col(2), at_a.rot.col(2));
+    let across = n - axis.scale(n.dot(axis));
+    let stands = across.norm() < STANDS;
+    for end in 0..2 {
+        let z = if end == 0 { -0.5 * length } else { 0.5 * length };
+        let center = a.pose.point(Vec3([0.0, 0.0, z]));
+        let slots = &mut slots[4 * end..4 * end + 4];
+        if !stands {
+            let rim = Some(a.pose.rot.col(2));
+            slots[0] = Some(Spot { rim, ..spot(a, b, center, radius, plane_of(b)) });
+            continue;
+        }
+        for (k, slot) in slots.iter_mut().enumerate() {
+            let e = [[radius, 0.0, z], [0.0, radius, z], [-radius, 0.0, z], [0.0, -radius, z]][k];
+            *slot = Some(spot(a, b, a.pose.point(Vec3(e)), 0.0, plane_of(b)));
+        }
+    }
+}
+
+fn balls(a: &Collider, b: &Collider) -> Spot {
+    let (ra, rb) = (a.ball().unwrap_or(0.0), b.ball().unwrap_or(0.0));
+    let feature = Feature::Point { origin: b.pose.pos };
+    Spot { radius_a: ra, ..spot(a, b, a.pose.pos, ra + rb, feature) }
+}
+
+/// The face, edge or corner of the cuboid that is closest to the ball's centre; from inside, the nearest face.
+fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>)) -> Spot {
+    let radius = a.ball().unwrap_or(0.0);
+    let Surface::Solid(Shape::Cuboid { size }) = b.surface else { unreachable!("the pair is a ball on a cuboid") };
+    let c = at_b.rot.tr_mul_vec(at_a.pos - at_b.pos);
+    let half = size.map(|s| 0.5 * s);
+    let outside = |k: usize| c[k].abs() > half[k];
+    let side = |k: usize| if c[k] < 0.0 { -half[k] } else { half[k] };
+    let nearest = Vec3(std::array::from_fn(|k| if outside(k) { side(k) } else { c[k] }));
+    let in_link = |p: Vec3<f64>| b.pose.point(p);
+    let feature = match (0..3).filter(|k| outside(*k)).count() {
+        3 => Feature::Point { origin: in_link(nearest) },
+        2 => {
+            let along = (0..3).find(|k| !outside(*k)).unwrap_or(0);
+            Feature::Line { origin: in_link(nearest), direction: b.pose.rot.col(along) }
+        }
+        _ => {
+            let depth = |k: usize| half[k] - c[k].abs();
+            let k = (0..3)
+                .find(|k| outside(*k))
+                .unwrap_or_else(|| (1..3).fold(0, |best, k| if depth(k) < depth(best) { k } else { best }));
+            let sign = if c[k] < 0.0 { -1.0 } else { 1.0 };
+            Feature::Plane { origin: in_link(Vec3::along(k, side(k))), normal: b.pose.rot.col(k).scale(sign) }
+        }
+    };
+    spot(a, b, a.pose.pos, radius, feature)
+}

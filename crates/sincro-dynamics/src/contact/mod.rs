@@ -1,0 +1,230 @@
+//! What touches what: shapes with a material, pairs of them, and the spots where a pair may touch.
+//!
+//! Contact is asked for: a shape takes part if it has a [`Material`]. Two such shapes are a pair unless they are fixed to one another, joined directly by
+//! a joint, or in the same group. A pair has as many slots as it may have points of contact, so that states have a fixed length.
+//!
+//! Friction of a pair is the geometric mean of the two coefficients (nothing sticks to what is frictionless), restitution the larger one; lengths of
+//! rolling and spinning friction the larger one; compliances are added.
+
+mod detect;
+pub(crate) mod feature;
+mod manifold;
+
+pub(crate) use detect::Detector;
+
+use crate::model::{Shape, WORLD};
+use crate::spatial::{Pose, Vec3};
+
+/// How a surface answers to contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Coulomb's coefficient.
+    pub friction: f64,
+    /// Newton's coefficient: speed of leaving over speed of arriving, 0 to 1.
+    pub restitution: f64,
+    /// Lever arm of rolling resistance `[m]`: its torque is at most this times the normal force.
+    pub rolling_friction: f64,
+    /// Lever arm of the torque about the normal `[m]`.
+    pub spinning_friction: f64,
+    /// Force a metre of penetration [N/m]; infinite: rigid.
+    pub stiffness: f64,
+    /// Dissipation of a compliant contact [s/m]: force k·δ·(1 + dissipation·δ̇).
+    pub dissipation: f64,
+    /// Shapes of the same group other than zero do not touch each other.
+    pub group: u32,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            friction: 0.0,
+            restitution: 0.0,
+            rolling_friction: 0.0,
+            spinning_friction: 0.0,
+            stiffness: f64::INFINITY,
+            dissipation: 0.0,
+            group: 0,
+        }
+    }
+}
+
+impl Material {
+    /// What two surfaces do to each other.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        Self {
+            friction: (self.friction * other.friction).sqrt(),
+            restitution: self.restitution.max(other.restitution),
+            rolling_friction: self.rolling_friction.max(other.rolling_friction),
+            spinning_friction: self.spinning_friction.max(other.spinning_friction),
+            stiffness: 1.0 / (1.0 / self.stiffness + 1.0 / other.stiffness),
+            dissipation: self.dissipation.max(other.dissipation),
+            group: 0,
+        }
+    }
+}
+
+/// The geometry of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surface {
+    /// A solid.
+    Solid(Shape),
+    /// Everything below z = 0 of its frame; fixed in the world.
+    HalfSpace,
+    /// Convex hull of points `[m]`.
+    Hull(Vec<[f64; 3]>),
+    /// A closed triangle mesh: vertices `[m]` and counter-clockwise triangles; fixed in the world.
+    Mesh(Vec<[f64; 3]>, Vec<[u32; 3]>),
+    /// Heights `[m]` over a grid centred on the frame, row by row along x, extents along x and y `[m]`; fixed in the world.
+    HeightField {
+        /// Points along x.
+        columns: usize,
+        /// Heights, `columns` a row.
+        heights: Vec<f64>,
+        /// Extents.
+        size: [f64; 2],
+    },
+}
+
+/// A surface where it is fixed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Collider {
+    /// Name of the body.
+    pub name: String,
+    /// The link, `WORLD` for none.
+    pub(crate) link: u32,
+    /// In the link, or the world.
+    pub pose: Pose<f64>,
+    /// Geometry.
+    pub surface: Surface,
+    /// Material.
+    pub material: Material,
+}
+
+/// Two surfaces that may touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// Index of the surface whose points touch.
+    pub a: usize,
+    /// Index of the surface that is touched.
+    pub b: usize,
+    /// What they do to each other.
+    pub material: Material,
+    /// First slot.
+    pub first: usize,
+    /// Number of slots.
+    pub slots: usize,
+    kind: PairKind,
+}
+
+/// How the spots of a pair are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PairKind {
+    /// Rounded points of a against the plane b.
+    PointsOnPlane,
+    /// A cylinder on a plane.
+    CylinderOnPlane,
+    /// Ball against ball.
+    Balls,
+    /// Ball a against cuboid b.
+    BallOnCuboid,
+    /// By the general algorithm.
+    General,
+}
+
+/// Most points of a manifold between two solids.
+const MANIFOLD: usize = 8;
+
+impl Collider {
+    /// Rounded points that stand for the surface over a plane, in the link: corners, ends of a capsule; none for others.
+    fn points(&self) -> (Vec<Vec3<f64>>, f64) {
+        let at = |p: [f64; 3]| self.pose.point(Vec3(p));
+        match &self.surface {
+            Surface::Solid(Shape::Sphere { radius }) => (vec![at([0.0; 3])], *radius),
+            Surface::Solid(Shape::Capsule { radius, length }) => {
+                (vec![at([0.0, 0.0, -0.5 * length]), at([0.0, 0.0, 0.5 * length])], *radius)
+            }
+            Surface::Solid(Shape::Cuboid { size }) => {
+                let corner = |k: usize| {
+                    at(std::array::from_fn(|c| if k >> c & 1 == 0 { -0.5 * size[c] } else { 0.5 * size[c] }))
+                };
+                ((0..8).map(corner).collect(), 0.0)
+            }
+            Surface::Hull(points) => (points.iter().map(|p| at(*p)).collect(), 0.0),
+            _ => (Vec::new(), 0.0),
+        }
+    }
+
+    /// Radius of a ball about the pose's origin that holds it.
+    fn reach(&self) -> f64 {
+        let length = |p: &[f64; 3]| Vec3(*p).norm();
+        match &self.surface {
+            Surface::Solid(Shape::Sphere { radius }) => *radius,
+            Surface::Solid(Shape::Cuboid { size }) => 0.5 * length(size),
+            Surface::Solid(Shape::Capsule { radius, length }) => 0.5 * length + radius,
+            Surface::Solid(Shape::Cylinder { radius, length }) => (0.25 * length * length + radius * radius).sqrt(),
+            Surface::Solid(Shape::Cone { radius, length }) => {
+                (0.75 * length).max((length * length / 16.0 + radius * radius).sqrt())
+            }
+            Surface::Hull(points) | Surface::Mesh(points, _) => points.iter().map(length).fold(0.0, f64::max),
+            Surface::HalfSpace => f64::INFINITY,
+            Surface::HeightField { heights, size, .. } => {
+                let top = heights.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+                length(&[0.5 * size[0], 0.5 * size[1], top])
+            }
+        }
+    }
+
+    fn ball(&self) -> Option<f64> {
+        match self.surface {
+            Surface::Solid(Shape::Sphere { radius }) => Some(radius),
+            _ => None,
+        }
+    }
+}
+
+/// The pairs of a set of surfaces; `joined` says of two links whether a joint joins them directly.
+pub(crate) fn pairs(colliders: &[Collider], joined: impl Fn(u32, u32) -> bool) -> Vec<Pair> {
+    let mut pairs: Vec<Pair> = Vec::new();
+    for i in 0..colliders.len() {
+        for j in i + 1..colliders.len() {
+            let (x, y) = (&colliders[i], &colliders[j]);
+            let same_group = x.material.group != 0 && x.material.group == y.material.group;
+            // a joint to the world does not keep what it carries off the floor
+            let adjacent = x.link != WORLD && y.link != WORLD && joined(x.link, y.link);
+            if x.link == y.link || same_group || adjacent {
+                continue;
+            }
+            let Some((a, b, kind, slots)) = arrange(colliders, i, j) else { continue };
+            let first = pairs.last().map_or(0, |p| p.first + p.slots);
+            pairs.push(Pair { a, b, material: x.material.with(&y.material), first, slots, kind });
+        }
+    }
+    pairs
+}
+
+/// Who touches whom, and how it is found; none for two things that cannot touch.
+fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, PairKind, usize)> {
+    let fixed = |k: usize| !matches!(colliders[k].surface, Surface::Solid(_) | Surface::Hull(_));
+    if fixed(i) && fixed(j) {
+        return None;
+    }
+    let (a, b) = if fixed(i) { (j, i) } else { (i, j) };
+    let is = |k: usize, test: fn(&Surface) -> bool| test(&colliders[k].surface);
+    let cuboid: fn(&Surface) -> bool = |s| matches!(s, Surface::Solid(Shape::Cuboid { .. }));
+    if is(b, |s| matches!(s, Surface::HalfSpace)) {
+        let slots = match &colliders[a].surface {
+            Surface::Solid(Shape::Cylinder { .. }) => return Some((a, b, PairKind::CylinderOnPlane, 8)),
+            Surface::Solid(Shape::Cone { .. }) => return Some((a, b, PairKind::General, MANIFOLD)),
+            _ => colliders[a].points().0.len(),
+        };
+        return Some((a, b, PairKind::PointsOnPlane, slots));
+    }
+    Some(match (colliders[a].ball().is_some(), colliders[b].ball().is_some()) {
+        (true, true) => (a, b, PairKind::Balls, 1),
+        (true, false) if is(b, cuboid) => (a, b, PairKind::BallOnCuboid, 1),
+        (false, true) if is(a, cuboid) => (b, a, PairKind::BallOnCuboid, 1),
+        (false, true) => (b, a, PairKind::General, MANIFOLD),
+        _ => (a, b, PairKind::General, MANIFOLD),
+    })
+}
