@@ -5,13 +5,17 @@
 
 use sincro_dynamics::force::rotor::{CoefficientTable, TableRow};
 use sincro_dynamics::force::rotor::{Drag, Rotor, RotorSpec, Spin, StockPropeller, Validity, printed};
-use sincro_dynamics::spatial::Vec3;
+use sincro_dynamics::spatial::{Mat3, Vec3};
 
 const TABLE: &str = include_str!("../third-party/data/rotor-table.csv");
 const GRID: &str = include_str!("../third-party/data/rotor-inflow-grid.csv");
 
 const DENSITY: f64 = 1.225;
-const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The printed script for an upright rotor that moves at `velocity`.
+fn printed_at(speed: f64, velocity: [f64; 3]) -> printed::Printed<f64> {
+    printed::evaluate(&spec(), DENSITY, speed, Vec3(velocity), &Mat3::identity())
+}
 
 /// The quadrotor's rotor of the thesis; drag of a common section.
 fn spec() -> RotorSpec {
@@ -96,7 +100,7 @@ fn in_axial_flight_the_printed_script_agrees() {
         for k in 0..29 {
             let v = -4.0 + f64::from(k) * 0.5;
             let good = rotor().evaluate(DENSITY, speed, Vec3([0.0, 0.0, v]));
-            let bad = printed::evaluate(&spec(), DENSITY, speed, [0.0, 0.0, v], UPRIGHT);
+            let bad = printed_at(speed, [0.0, 0.0, v]);
             // its guard of 1e-6 in the arc sine
             assert!((good.thrust - bad.thrust).abs() < 2e-5, "{speed} {v}: {}", good.thrust - bad.thrust);
         }
@@ -108,14 +112,14 @@ fn the_printed_script_is_not_a_number_where_it_was() {
     let mut n_bad = 0;
     for row in rows(GRID) {
         let tip = 100.0 * 0.2032;
-        let x = printed::evaluate(&spec(), DENSITY, 100.0, [row[0] * tip, 0.0, row[1] * tip], UPRIGHT).inflow_ratio;
+        let x = printed_at(100.0, [row[0] * tip, 0.0, row[1] * tip]).inflow_ratio;
         assert!(x.is_nan() == row[4].is_nan() && (x.is_nan() || (x - row[4]).abs() < 1e-9), "{x} {row:?}");
         n_bad += usize::from(x.is_nan());
     }
     assert_eq!(n_bad, 79); // of 180 with forward speed, none of 15 without
     // at 1e-5 rad/s in axial flight its discriminant is the rounding of its cosine (3e-16 of its terms): of either sign
     for row in rows(TABLE).into_iter().filter(|row| row[0] > 0.0 || row[1] > 0.0) {
-        let bad = printed::evaluate(&spec(), DENSITY, row[0] + 1e-5, [row[1], 0.0, row[2]], UPRIGHT).thrust;
+        let bad = printed_at(row[0] + 1e-5, [row[1], 0.0, row[2]]).thrust;
         assert!(bad.is_nan() == row[7].is_nan() && (bad.is_nan() || close(bad, row[7])), "{bad} {row:?}");
     }
 }
@@ -124,9 +128,7 @@ fn the_printed_script_is_not_a_number_where_it_was() {
 fn the_printed_script_fails_on_half_of_the_envelope() {
     let counts = [20.0, 50.0, 100.0, 200.0, 400.0, 600.0, 750.0, 900.0].map(|speed| {
         let states = (0..31).flat_map(|i| (0..61).map(move |j| (f64::from(i) * 0.5, f64::from(j) * 0.5 - 15.0)));
-        states
-            .filter(|(x, z)| printed::evaluate(&spec(), DENSITY, speed, [*x, 0.0, *z], UPRIGHT).thrust.is_nan())
-            .count()
+        states.filter(|(x, z)| printed_at(speed, [*x, 0.0, *z]).thrust.is_nan()).count()
     });
     assert_eq!(counts, [1872, 1826, 1672, 1350, 622, 106, 0, 0]); // 7448 of 15128
 }
@@ -136,7 +138,7 @@ fn the_printed_script_loses_thrust_in_forward_flight() {
     for (mu, lost) in [(0.02, 2.5), (0.05, 12.0), (0.1, 29.0), (0.2, 44.0)] {
         let along = mu * 100.0 * 0.2032;
         let good = rotor().evaluate(DENSITY, 100.0, Vec3([along, 0.0, 0.0])).thrust;
-        let bad = printed::evaluate(&spec(), DENSITY, 100.0, [along, 0.0, 0.0], UPRIGHT).thrust;
+        let bad = printed_at(100.0, [along, 0.0, 0.0]).thrust;
         assert!((100.0 * (1.0 - bad / good) - lost).abs() < 0.5, "{mu}: {}", 100.0 * (1.0 - bad / good));
     }
 }
@@ -144,21 +146,31 @@ fn the_printed_script_loses_thrust_in_forward_flight() {
 #[test]
 fn particles_are_counted_exactly() {
     let propeller = StockPropeller::default();
-    for step in [1u64, 5_000_000, 10_000_000, 50_000_000, 33_333_333] {
+    // the step is the fraction that was typed, not that of its bits
+    for (step, numerator, denominator) in [
+        (1e-9, 1, 1_000_000_000),
+        (0.005, 5, 1000),
+        (0.01, 1, 100),
+        (0.05, 1, 20),
+        (0.3, 3, 10),
+        (0.033333333, 33_333_333, 1_000_000_000),
+        (1.5, 3, 2),
+    ] {
         let mut sum = 0;
-        for k in 0..4000 {
-            sum += propeller.count(k * step, (k + 1) * step);
-            assert_eq!(sum, 430 * ((k + 1) * step) / 1_000_000_000);
+        for k in 0..4000_u64 {
+            sum += propeller.count(k, step);
+            assert_eq!(sum, 430 * (k + 1) * numerator / denominator, "step {step} at {k}");
         }
     }
-    let counts =
-        |step: u64, n: u64| -> Vec<u64> { (0..n).map(|k| propeller.count(k * step, (k + 1) * step)).collect() };
-    assert_eq!(counts(50_000_000, 6), [21, 22, 21, 22, 21, 22]);
-    assert_eq!(counts(5_000_000, 14), [2, 2, 2, 2, 2, 2, 3, 2, 2, 2, 2, 2, 2, 3]);
-    // a century: no drift, no overflow
-    let century = 3_155_760_000_000_000_000;
-    assert_eq!(propeller.count(0, century), 430 * 3_155_760_000);
-    assert_eq!(propeller.count(5, 5), 0);
+    let counts = |step: f64, n: u64| -> Vec<u64> { (0..n).map(|k| propeller.count(k, step)).collect() };
+    assert_eq!(counts(0.05, 6), [21, 22, 21, 22, 21, 22]);
+    assert_eq!(counts(0.005, 14), [2, 2, 2, 2, 2, 2, 3, 2, 2, 2, 2, 2, 2, 3]);
+    // a century of milliseconds in: no drift, no overflow
+    let century = 3_155_760_000_000_u64;
+    assert_eq!((0..100).map(|k| propeller.count(century + k, 0.001)).sum::<u64>(), 43);
+    // 0.3333333333333333 is less than a third
+    assert_eq!((0..3000).map(|k| propeller.count(k, 1.0 / 3.0)).sum::<u64>(), 429_999);
+    assert_eq!(propeller.count(5, 0.0), 0);
 }
 
 #[test]
@@ -166,13 +178,13 @@ fn the_stock_propeller_gives_its_mean_force() {
     let propeller = StockPropeller::default();
     assert!((propeller.mean_force(1.0) - 0.239_219_190_601).abs() < 1e-12);
     assert_eq!(propeller.torque(20.0), -0.04);
-    for (step, n) in [(50_000_000u64, 2u64), (5_000_000, 20)] {
+    for (step, n) in [(0.05, 2_u64), (0.005, 20)] {
         // a whole number of cycles: 43 particles in 0.1 s
-        let force = |k: u64| propeller.force(propeller.count(k * step, (k + 1) * step), step, 7.5);
+        let force = |k: u64| propeller.flow(k, step) * 7.5;
         let mean = (0..n).map(force).sum::<f64>() / n as f64;
         assert!((mean / propeller.mean_force(7.5) - 1.0).abs() < 1e-9, "{mean}");
         // a second anywhere: to one particle
-        let per_second = 1_000_000_000 / step;
+        let per_second = (1.0 / step).round() as u64;
         for start in 0..50 {
             let mean = (start..start + per_second).map(force).sum::<f64>() / per_second as f64;
             assert!((mean / propeller.mean_force(7.5) - 1.0).abs() <= 1.0 / 430.0 + 1e-12);

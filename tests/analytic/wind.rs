@@ -1,10 +1,11 @@
 //! Wind: profiles and gusts in closed form; turbulence has the variance and the autocorrelation of Dryden's spectra.
 
-use sincro_dynamics::wind::{Gust, Profile, TurbulenceSpec, Wind, dryden_scales};
+use sincro_dynamics::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, dryden_scales};
 use sincro_math::{Dual, Lanes, Real};
 
 fn turbulent(seed: u64) -> Wind {
-    let spec = TurbulenceSpec { seed, wind_at_20_feet: 8.0, height: 30.0, airspeed: 10.0 };
+    let spec =
+        TurbulenceSpec { seed, scales: Scales::LowAltitude { wind_at_20_feet: 8.0, height: 30.0 }, airspeed: 10.0 };
     Wind::new([0.0, 0.0, 0.0], Profile::Constant, vec![], Some(spec)).unwrap()
 }
 
@@ -98,7 +99,8 @@ fn turbulence_depends_on_seed_and_time_alone() {
 fn wrong_winds_are_refused_all_at_once() {
     let log = Profile::Logarithmic { reference: 0.05, roughness: 0.1 };
     let gust = Gust { start: f64::NAN, rise: 0.0, peak: [0.0; 3], holds: true };
-    let spec = TurbulenceSpec { seed: 0, wind_at_20_feet: -1.0, height: 1.0, airspeed: 0.0 };
+    let spec =
+        TurbulenceSpec { seed: 0, scales: Scales::LowAltitude { wind_at_20_feet: -1.0, height: 1.0 }, airspeed: 0.0 };
     let problems = Wind::new([f64::NAN, 0.0, 0.0], log, vec![gust], Some(spec)).unwrap_err();
     assert_eq!(problems.len(), 7, "{problems:?}");
 }

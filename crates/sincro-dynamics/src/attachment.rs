@@ -42,6 +42,10 @@ pub struct Seen<'a, R> {
     pub q: &'a [R],
     /// Velocities.
     pub v: &'a [R],
+    /// States of rotors.
+    pub rotors: &'a [R],
+    /// Commands as they were last given; empty while they are being written.
+    pub commands: &'a [R],
     /// Memory for kinematics, of any content.
     pub scratch: &'a mut Scratch<R>,
 }

@@ -9,6 +9,7 @@
 use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
+use crate::force::rotor::SpeedFrom;
 use crate::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, PackError};
@@ -77,7 +78,9 @@ pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<()
 fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     let end = settings.h * f64::from(settings.n_steps);
     let unlimited = world.model.drives.iter().all(|d| d.limit(&world.model).is_none());
-    unlimited && world.model.next_corner(-1.0) >= end
+    // particles are counted for each world
+    let counts = world.model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. }));
+    unlimited && !counts && world.model.next_corner(-1.0) >= end
 }
 
 /// One world by itself.
@@ -128,7 +131,8 @@ impl LaneVisitor for Bundle<'_> {
         let model = Model::<R>::pack(&models)?;
         let mechanism = Mechanism::new(model, false);
         let dim = mechanism.dim();
-        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], jump: vec![R::zero(); dim / 2], mechanism };
+        let jump = vec![R::zero(); mechanism.model().n_v()];
+        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], jump, mechanism };
         lanes.load(worlds);
         match settings.method {
             MethodKind::SemiImplicitEuler => lanes.run(&mut SemiImplicitEuler::new(dim), worlds, settings),
@@ -156,7 +160,10 @@ impl<R: Real> LaneWorlds<R> {
         let (n_q, n_v) = (self.mechanism.model().n_q(), self.mechanism.model().n_v());
         let q = gather(n_q, &|s| &s.q);
         self.mechanism.set_base(&q);
-        self.y[n_v..].copy_from_slice(&gather(n_v, &|s| &s.v));
+        self.y[n_v..2 * n_v].copy_from_slice(&gather(n_v, &|s| &s.v));
+        let rotors = self.mechanism.rotor_states();
+        let n = rotors.len();
+        self.y[rotors].copy_from_slice(&gather(n, &|s| &s.rotors));
         let commands = gather(self.mechanism.commands.len(), &|s| &s.commands);
         self.mechanism.commands.copy_from_slice(&commands);
     }
@@ -172,6 +179,9 @@ impl<R: Real> LaneWorlds<R> {
             }
             for (v, lanes) in world.state.v.iter_mut().zip(&self.y[n_v..]) {
                 *v = lanes.lane(k);
+            }
+            for (x, lanes) in world.state.rotors.iter_mut().zip(&self.y[self.mechanism.rotor_states()]) {
+                *x = lanes.lane(k);
             }
             for (c, lanes) in world.state.commands.iter_mut().zip(&self.mechanism.commands) {
                 *c = lanes.lane(k);
@@ -275,7 +285,7 @@ impl<R: Real> LaneWorlds<R> {
         let n_v = self.mechanism.model().n_v();
         for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
             world.record.extend(self.mechanism.base().iter().map(|q| q.lane(k)));
-            world.record.extend(self.y[n_v..].iter().map(|v| v.lane(k)));
+            world.record.extend(self.y[n_v..2 * n_v].iter().map(|v| v.lane(k)));
         }
     }
 }

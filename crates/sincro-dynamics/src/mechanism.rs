@@ -1,7 +1,7 @@
 //! The mechanism as a system to integrate: model, commands and drives put together into dy/dt = f(t, y).
 //!
 //! y = (δ, v, totals): displacement of the coordinates in the chart of the step (`n_v`), velocities (`n_v`), and, if they are
-//! tracked, the totals of [`State`]: work, dissipation, impulse of each motor.
+//! tracked, the totals of [`State`]: work, dissipation, impulse of each motor; last the states of rotors.
 //!
 //! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child axes.
 //! Source: key `iserles2000`, sections 2.5 and 3.
@@ -11,6 +11,7 @@ use sincro_math::Real;
 use crate::aba::{self, Held};
 use crate::attachment::Seen;
 use crate::drive::DriveKind;
+use crate::force::rotor::SpeedFrom;
 use crate::force::{Instant, damper, friction, joint_torques};
 use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
@@ -38,6 +39,8 @@ pub struct Mechanism<R> {
     pub(crate) held_mask: Vec<R>,
     pub(crate) held_acceleration: Vec<R>,
     external: Vec<Force<R>>,
+    /// What drag elements take in the last evaluation `[W]`.
+    air_dissipation: R,
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
 }
@@ -58,6 +61,7 @@ impl<R: Real> Mechanism<R> {
             held_mask: zero.clone(),
             held_acceleration: zero,
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
+            air_dissipation: R::zero(),
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             model,
@@ -100,6 +104,8 @@ impl<R: Real> Mechanism<R> {
         if self.tracks_totals {
             y[2 * n..2 * n + x.totals.len()].copy_from_slice(&x.totals);
         }
+        let rotors = self.rotor_states();
+        y[rotors].copy_from_slice(&x.rotors);
     }
 
     /// Writes the state that a freshly charted y describes.
@@ -112,6 +118,19 @@ impl<R: Real> Mechanism<R> {
             let totals = 2 * n..2 * n + x.totals.len();
             x.totals.copy_from_slice(&y[totals]);
         }
+        x.rotors.copy_from_slice(&y[self.rotor_states()]);
+    }
+
+    /// Whether work, dissipation and motor impulses are integrated along.
+    pub(crate) fn tracks_totals(&self) -> bool {
+        self.tracks_totals
+    }
+
+    /// Where in y the states of rotors stand.
+    #[must_use]
+    pub fn rotor_states(&self) -> core::ops::Range<usize> {
+        let first = 2 * self.model.n_v() + if self.tracks_totals { 2 + self.model.motors.len() } else { 0 };
+        first..first + self.model.n_rotor_states()
     }
 
     /// Coordinates of the chart's origin.
@@ -134,7 +153,9 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     pub(crate) fn seen<'a>(&'a mut self, t: f64, y: &'a [R]) -> Seen<'a, R> {
         let n = self.model.n_v();
-        Seen { t, model: &self.model, q: &self.q, v: &y[n..2 * n], scratch: &mut self.scratch }
+        let (v, rotors) = (&y[n..2 * n], &y[self.rotor_states()]);
+        let (model, q, commands) = (&self.model, &*self.q, &*self.commands);
+        Seen { t, model, q, v, rotors, commands, scratch: &mut self.scratch }
     }
 
     pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
@@ -185,11 +206,11 @@ impl<R: Real> Mechanism<R> {
 
     /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].
     #[inline(always)]
-    fn accelerations(&mut self, t: f64, v: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
+    fn accelerations(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
         let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
         let external = if self.model.has_external() {
-            self.external_wrenches(t, v);
+            self.external_wrenches(t, v, rotors);
             Some(&*self.external)
         } else {
             None
@@ -205,20 +226,55 @@ impl<R: Real> Mechanism<R> {
     }
 
     #[inline(always)]
-    fn external_wrenches(&mut self, t: f64, v: &[R]) {
+    fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
         self.external.fill(Force::zero());
-        if !self.model.rotors.is_empty() {
+        if self.model.feels_air() {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
         } else if self.model.wrenches.iter().any(|w| !w.in_body) {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
         }
-        for rotor in &self.model.rotors {
-            let load = rotor.load(self.commands[rotor.command], &self.scratch.links[rotor.link].v);
-            self.external[rotor.link] += rotor.wrench(&load);
-        }
+        self.air_wrenches(t, v, rotors);
         for wrench in &self.model.wrenches {
             self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
+        }
+    }
+
+    /// What rotors and drag elements do; after kinematics.
+    #[inline(always)]
+    fn air_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
+        if !self.model.feels_air() {
+            return;
+        }
+        let air = self.model.wind.as_ref().map(|wind| wind.at(t));
+        let at = |link: usize| (&self.scratch.links[link].v, &self.scratch.poses[link]);
+        for rotor in &self.model.rotors {
+            let (twist, x_wl) = at(rotor.link);
+            let speed = rotor.speed.value(v, &self.commands, rotors);
+            let load = rotor.load(speed, rotors, &rotor.hub(twist, x_wl, air.as_ref()));
+            self.external[rotor.link] += rotor.wrench(&load);
+        }
+        self.air_dissipation = R::zero();
+        for drag in &self.model.drags {
+            let (twist, x_wl) = at(drag.link);
+            let resistance = drag.resistance(drag.velocity(twist, x_wl, air.as_ref()));
+            self.external[drag.link] += drag.wrench(resistance.force);
+            self.air_dissipation += resistance.dissipation;
+        }
+    }
+
+    /// Rates of the states of rotors `x`, over a linearly implicit step of length `h` (0: now).
+    #[inline(always)]
+    fn rotor_rates(&self, x: &[R], h: f64, rates: &mut [R]) {
+        for rotor in &self.model.rotors {
+            match rotor.speed {
+                SpeedFrom::Lag { command, state, time_constant, .. } => {
+                    rates[state] = (self.commands[command] - x[state]) / (time_constant + R::splat(h));
+                }
+                // particles are counted once a tick
+                SpeedFrom::Particles { state, .. } => rates[state] = R::zero(),
+                SpeedFrom::Command(_) | SpeedFrom::Joint { .. } => {}
+            }
         }
     }
 
@@ -235,6 +291,11 @@ impl<R: Real> Mechanism<R> {
         }
         for (i, link) in self.scratch.links.iter().enumerate().take(self.external.len()) {
             work += link.v.dot(&self.external[i]);
+        }
+        if !self.model.drags.is_empty() {
+            // drag's power is in `work` already: what it takes as heat, and what the wind does, add up to it
+            work += self.air_dissipation;
+            dissipation += self.air_dissipation;
         }
         self.find_motor_torques(v_at, steps);
         for (i, drive) in self.model.drives.iter().enumerate() {
@@ -332,12 +393,12 @@ impl<R: Real> Mechanism<R> {
 impl<R: Real> System<R> for Mechanism<R> {
     #[inline(always)]
     fn dim(&self) -> usize {
-        2 * self.model.n_v() + if self.tracks_totals { 2 + self.model.motors.len() } else { 0 }
+        self.rotor_states().end
     }
 
     #[inline(always)]
     fn is_controlled(&self, k: usize) -> bool {
-        k < 2 * self.model.n_v()
+        k < 2 * self.model.n_v() || k >= self.rotor_states().start
     }
 
     #[inline(always)]
@@ -348,10 +409,12 @@ impl<R: Real> System<R> for Mechanism<R> {
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
         self.chart_rate(delta, v, rate);
-        self.accelerations(t, v, None, &mut rest[..n]);
+        let rotors = &y[self.rotor_states()];
+        self.accelerations(t, v, rotors, None, &mut rest[..n]);
         if self.tracks_totals {
             self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
         }
+        self.rotor_rates(rotors, 0.0, &mut slope[self.rotor_states()]);
     }
 
     #[inline(always)]
@@ -361,7 +424,8 @@ impl<R: Real> System<R> for Mechanism<R> {
         let v = &rest[..n];
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
-        self.accelerations(t, v, Some((h, implicit)), &mut rest[..n]);
+        let rotors = &y[self.rotor_states()];
+        self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
         // the position moves with the new velocity; forces do their work over the mean of old and new
         let step = R::splat(h);
         for k in 0..n {
@@ -380,6 +444,7 @@ impl<R: Real> System<R> for Mechanism<R> {
             self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
             self.torque = mean_v;
         }
+        self.rotor_rates(rotors, h, &mut slope[self.rotor_states()]);
     }
 
     #[inline(always)]

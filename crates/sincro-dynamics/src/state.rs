@@ -12,9 +12,10 @@ use crate::spatial::{Quat, Vec3};
 /// |---|---|---|
 /// | `q` | joint coordinates `[rad]`, `[m]`, quaternions (w, x, y, z) | `n_q` |
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
-/// | `commands` | latched commands: of motors, then six of each external force that takes them | motors + 6 × inputs |
+/// | `commands` | latched commands: of motors, then six of each external force that takes them, then of rotors | [`Model::n_commands`] |
 /// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
+/// | `rotors` | speed of each rotor with a lag; of a stock propeller what it throws this tick | rotors that have one |
 /// | `tick` | base steps done | |
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<R> {
@@ -28,6 +29,8 @@ pub struct State<R> {
     pub drives: Vec<R>,
     /// Integrated work `[J]`, dissipation `[J]`, and impulse of each motor [N·m·s].
     pub totals: Vec<R>,
+    /// Speed of each rotor with a lag [rad/s]; mass that a stock propeller throws during the present tick, by its length [kg/s].
+    pub rotors: Vec<R>,
     /// Base steps since the start.
     pub tick: u64,
 }
@@ -50,6 +53,7 @@ impl<R: Real> State<R> {
             commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
             totals: vec![R::zero(); 2 + model.motors().len()],
+            rotors: model.rotors().iter().filter_map(|rotor| rotor.speed.initial()).collect(),
             tick: 0,
         }
     }
@@ -57,7 +61,12 @@ impl<R: Real> State<R> {
     /// Bytes on the heap.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        let n = self.q.len() + self.v.len() + self.commands.len() + self.drives.len() + self.totals.len();
+        let n = self.q.len()
+            + self.v.len()
+            + self.commands.len()
+            + self.drives.len()
+            + self.totals.len()
+            + self.rotors.len();
         n * size_of::<R>()
     }
 }

@@ -1,7 +1,8 @@
 //! Wind: the velocity of the air as a function of time and height, and of nothing else.
 //!
 //! There is no state and no filter: the same instant has the same wind, whichever step or order asks for it, so integrators
-//! may go back, and a snapshot needs nothing of it. A call costs a few operations; with turbulence 192 sines.
+//! may go back, and a snapshot needs nothing of it. An instant ([`Wind::at`]) costs a few operations, with turbulence 192
+//! sines; a place in it a few operations more.
 //!
 //! Source: key `mil-f-8785c`, section 3.7: logarithmic shear, discrete gust of 1 − cosine, Dryden's spectra at low altitude.
 //!
@@ -64,15 +65,43 @@ pub struct Gust {
     pub holds: bool,
 }
 
+/// How strong turbulence is, and how long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scales {
+    /// As [`dryden_scales`] gives them near the ground.
+    LowAltitude {
+        /// Mean wind at 20 feet, W₂₀ `[m/s]`.
+        wind_at_20_feet: f64,
+        /// Height h `[m]`, 3.048 to 304.8: lengths and deviations are those at this height, whatever height is asked for.
+        height: f64,
+    },
+    /// Given outright.
+    Given {
+        /// Standard deviations of u, v, w `[m/s]`.
+        deviations: [f64; 3],
+        /// Lengths Lu, Lv, Lw `[m]`.
+        lengths: [f64; 3],
+    },
+}
+
+impl Scales {
+    /// Standard deviations `[m/s]` and lengths `[m]` of u, v, w.
+    #[must_use]
+    pub fn values(&self) -> ([f64; 3], [f64; 3]) {
+        match *self {
+            Self::LowAltitude { wind_at_20_feet, height } => dryden_scales(wind_at_20_feet, height),
+            Self::Given { deviations, lengths } => (deviations, lengths),
+        }
+    }
+}
+
 /// Where Dryden's turbulence is met.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurbulenceSpec {
     /// Another seed is another turbulence with the same spectra.
     pub seed: u64,
-    /// Mean wind at 20 feet, W₂₀ `[m/s]`.
-    pub wind_at_20_feet: f64,
-    /// Height h `[m]`, 3.048 to 304.8: lengths and deviations are those at this height, whatever height is asked for.
-    pub height: f64,
+    /// How strong it is, and how long.
+    pub scales: Scales,
     /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind.
     pub airspeed: f64,
 }
@@ -82,6 +111,9 @@ pub const N_HARMONICS: usize = 64;
 
 /// End of the band in units of V/L.
 pub const BAND: f64 = 100.0;
+
+/// Times closer than this are the same instant `[s]`.
+const SAME_INSTANT: f64 = 1e-9;
 
 /// The air's velocity over time and height.
 ///
@@ -141,19 +173,58 @@ impl Wind {
     #[must_use]
     #[inline(always)]
     pub fn velocity<R: Real>(&self, t: f64, height: R) -> Vec3<R> {
-        let mut steady = [0.0; 3];
+        self.at(t).velocity(height)
+    }
+
+    /// The wind at time `t` `[s]`, its height still open: for whoever asks in several places.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Air<'_> {
+        let mut unsteady = [0.0; 3];
         for gust in &self.gusts {
             let share = gust.share(t);
-            for (sum, peak) in steady.iter_mut().zip(gust.peak) {
+            for (sum, peak) in unsteady.iter_mut().zip(gust.peak) {
                 *sum += share * peak;
             }
         }
         if let Some(turbulence) = &self.turbulence {
-            for (sum, part) in steady.iter_mut().zip(turbulence.velocity(t)) {
+            for (sum, part) in unsteady.iter_mut().zip(turbulence.velocity(t)) {
                 *sum += part;
             }
         }
-        Vec3::splat(self.mean).scale(self.profile.factor(height)) + Vec3::splat(steady)
+        Air { wind: self, unsteady }
+    }
+
+    /// Height at which the wind has its given velocity `[m]`; none if that is everywhere.
+    #[must_use]
+    pub fn reference_height(&self) -> Option<f64> {
+        match self.profile {
+            Profile::Constant => None,
+            Profile::Linear { reference } | Profile::Logarithmic { reference, .. } => Some(reference),
+        }
+    }
+
+    /// The first instant after `t` `[s]` at which a gust begins or has done; infinite if there is none.
+    #[must_use]
+    pub fn next_corner(&self, t: f64) -> f64 {
+        let ends = self.gusts.iter().flat_map(|g| [g.start, g.start + if g.holds { 1.0 } else { 2.0 } * g.rise]);
+        ends.filter(|x| *x > t + SAME_INSTANT).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The wind at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Air<'a> {
+    wind: &'a Wind,
+    /// Gusts and turbulence `[m/s]`, world axes.
+    unsteady: [f64; 3],
+}
+
+impl Air<'_> {
+    /// Velocity of the air [m/s] in world axes at a `height` above ground `[m]`.
+    #[must_use]
+    #[inline(always)]
+    pub fn velocity<R: Real>(&self, height: R) -> Vec3<R> {
+        Vec3::splat(self.wind.mean).scale(self.wind.profile.factor(height)) + Vec3::splat(self.unsteady)
     }
 }
 
@@ -194,7 +265,7 @@ pub fn dryden_scales(wind_at_20_feet: f64, height: f64) -> ([f64; 3], [f64; 3]) 
 
 impl Turbulence {
     fn new(spec: &TurbulenceSpec, mean: [f64; 3]) -> Self {
-        let (deviations, lengths) = dryden_scales(spec.wind_at_20_feet, spec.height);
+        let (deviations, lengths) = spec.scales.values();
         let mut random = SplitMix(spec.seed);
         let components = core::array::from_fn(|k| {
             let area = if k == 0 { along_area } else { across_area };
@@ -301,10 +372,21 @@ fn problems(mean: [f64; 3], profile: Profile, gusts: &[Gust], turbulence: Option
             format!("gust {} has `peak` {peak:?} m/s: expected finite numbers", k + 1),
         );
     }
-    if let Some(TurbulenceSpec { wind_at_20_feet: w, height, airspeed, .. }) = turbulence {
-        check((0.0..=1e3).contains(&w), format!("`wind_at_20_feet` is {w} m/s: expected a number from 0 to 1000 m/s"));
-        let is_low = (3.048..=304.8).contains(&height);
-        check(is_low, format!("`height` is {height} m: the spectra hold from 3.048 to 304.8 m"));
+    if let Some(TurbulenceSpec { scales, airspeed, .. }) = turbulence {
+        match scales {
+            Scales::LowAltitude { wind_at_20_feet: w, height } => {
+                let is_wind = (0.0..=1e3).contains(&w);
+                check(is_wind, format!("`wind_at_20_feet` is {w} m/s: expected a number from 0 to 1000 m/s"));
+                let is_low = (3.048..=304.8).contains(&height);
+                check(is_low, format!("`height` is {height} m: the spectra hold from 3.048 to 304.8 m"));
+            }
+            Scales::Given { deviations, lengths } => {
+                let is_good = deviations.iter().all(|x| (0.0..=1e3).contains(x));
+                check(is_good, format!("`deviation` is {deviations:?} m/s: expected three numbers from 0 to 1000 m/s"));
+                let is_good = lengths.iter().all(|x| (1e-3..=1e6).contains(x));
+                check(is_good, format!("`length` is {lengths:?} m: expected three numbers from 0.001 to 1000000 m"));
+            }
+        }
         let is_slow = (1e-3..=1e3).contains(&airspeed);
         check(is_slow, format!("`airspeed` is {airspeed} m/s: expected a number from 0.001 to 1000 m/s"));
     }

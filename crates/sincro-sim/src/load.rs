@@ -147,8 +147,9 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         problems.merge(found);
         experiment
     });
-    let scene = open_scene(&document, folder, overrides, &mut problems);
     let experiment = experiment.flatten();
+    let seed = experiment.as_ref().map_or(0, |e| e.seed);
+    let scene = open_scene(&document, folder, overrides, seed, &mut problems);
     let controller = open_diagram(&document, folder, overrides, experiment.as_ref(), scene.as_ref(), &mut problems);
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
@@ -179,6 +180,7 @@ fn open_scene(
     experiment: &Document,
     folder: &Folder,
     overrides: &[Override],
+    seed: u64,
     problems: &mut Problems,
 ) -> Option<Scene> {
     let read = match (experiment.located("/scene"), experiment.get("/scene")) {
@@ -200,7 +202,7 @@ fn open_scene(
         problems.merge(found);
         return None;
     }
-    match scene::compile(&document, folder) {
+    match scene::compile(&document, folder, seed) {
         Ok(scene) => Some(scene),
         Err(found) => {
             problems.merge(found);

@@ -9,9 +9,11 @@
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`gravity`] | through the base's acceleration | −m g·c | |
 //! | [`rotor`] | thrust and reaction at a hub | | what the shaft gives |
+//! | [`drag`] | −½ρ·abs(u)·(a ∘ u) − c ∘ u at a point | | −F·u |
 
 pub mod applied;
 pub mod damper;
+pub mod drag;
 pub mod friction;
 pub mod gravity;
 pub mod motor;
@@ -19,6 +21,7 @@ pub mod rotor;
 pub mod spring;
 
 pub use applied::{AppliedTorque, AppliedWrench};
+pub use drag::AirDrag;
 pub use motor::{Motor, MotorMode};
 
 use sincro_math::Real;

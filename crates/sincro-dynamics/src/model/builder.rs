@@ -1,11 +1,14 @@
 //! The builder: the tree as the user names it.
 
+use std::sync::Arc;
+
 use super::{MassProperties, Model, Problem, compile};
 use crate::force::Motor;
 use crate::force::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
+use crate::wind::Wind;
 
 /// One object of the tree under construction; [`NodeId::WORLD`] is its root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -79,6 +82,36 @@ pub struct RotorSpec {
     pub law: RotorLaw,
     /// Density of the air [kg/m³].
     pub density: f64,
+    /// What gives its speed.
+    pub drive: RotorDrive,
+}
+
+/// What gives a rotor its speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RotorDrive {
+    /// A command is its speed [rad/s].
+    Command,
+    /// The speed follows a command with a first-order lag: Ω' = (command − Ω)/τ.
+    Lag {
+        /// τ `[s]`, positive.
+        time_constant: f64,
+        /// Where it starts [rad/s].
+        initial: f64,
+    },
+    /// It turns with a revolute joint that carries it, about that joint's axis: the rate of the joint is its speed, and the reaction
+    /// of the air goes through the joint.
+    Joint(NodeId),
+}
+
+/// A drag element on a body or frame, at its own origin, along its own axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DragSpec {
+    /// Drag coefficient by area along each axis `[m²]`.
+    pub area: [f64; 3],
+    /// Linear coefficient along each axis [N·s/m].
+    pub linear: [f64; 3],
+    /// Density of the air [kg/m³].
+    pub density: f64,
 }
 
 pub(crate) enum NodeKind {
@@ -88,6 +121,7 @@ pub(crate) enum NodeKind {
     Frame,
     Force(Box<ForceSpec>),
     Rotor(Box<RotorSpec>),
+    Drag(Box<DragSpec>),
 }
 
 pub(crate) struct Node {
@@ -114,6 +148,7 @@ pub(crate) struct Node {
 /// ```
 pub struct ModelBuilder {
     pub(crate) gravity: [f64; 3],
+    pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) nodes: Vec<Node>,
 }
 
@@ -122,7 +157,7 @@ impl ModelBuilder {
     #[must_use]
     pub fn new(gravity: [f64; 3]) -> Self {
         let world = Node { name: "/".into(), parent: NodeId::WORLD, pose: Pose::identity(), kind: NodeKind::World };
-        Self { gravity, nodes: vec![world] }
+        Self { gravity, wind: None, nodes: vec![world] }
     }
 
     fn add(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, kind: NodeKind) -> NodeId {
@@ -146,9 +181,19 @@ impl ModelBuilder {
         self.add(name, parent, pose, NodeKind::Frame)
     }
 
-    /// Adds a rotor whose hub frame stands at `pose` in its parent's; its speed is a command.
+    /// The air moves: rotors and drag elements feel it.
+    pub fn wind(&mut self, wind: Wind) {
+        self.wind = Some(Arc::new(wind));
+    }
+
+    /// Adds a rotor whose hub frame stands at `pose` in its parent's.
     pub fn rotor(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: RotorSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Rotor(Box::new(spec)))
+    }
+
+    /// Adds a drag element whose axes and centre of pressure stand at `pose` in its parent's frame.
+    pub fn drag(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: DragSpec) -> NodeId {
+        self.add(name, parent, pose, NodeKind::Drag(Box::new(spec)))
     }
 
     /// Adds an external wrench that acts at the origin of `parent`.
@@ -162,7 +207,8 @@ impl ModelBuilder {
     ///
     /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is not
     /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
-    /// limits, list lengths that do not fit the joint, a joint that carries no mass.
+    /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
+    /// takes its speed from.
     pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
         compile::compile(self)
     }

@@ -1,9 +1,11 @@
 //! What the builder refuses, and what it only warns of.
 
-use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind};
+use super::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
 use super::problem::{Problem, Severity};
 use super::{MassProperties, Model};
+use crate::force::rotor::RotorLaw;
 use crate::joint::JointKind;
+use crate::spatial::{Mat3, Vec3};
 
 /// Relative excess over the triangle inequality that is put down to rounding of printed figures.
 const TRIANGLE_SLACK: f64 = 1e-9;
@@ -33,19 +35,109 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Problem> {
         match &node.kind {
             NodeKind::Joint(spec) => check_joint(&mut found, id, node, spec, builder),
             NodeKind::Body(spec) => check_mass(&mut found, id, &node.name, &spec.mass),
-            NodeKind::Rotor(spec) => {
-                if !(spec.density.is_finite() && spec.density >= 0.0) {
-                    let message = format!(
-                        "density {} kg/m³ of the air at `{}` is not a positive number",
-                        spec.density, node.name
-                    );
-                    found.error(id, "air_density", message, "1.225 at sea level, 0 in a vacuum");
-                }
-            }
+            NodeKind::Rotor(spec) => check_rotor(&mut found, id, node, spec, &builder.nodes),
+            NodeKind::Drag(spec) => check_drag(&mut found, id, node, spec),
             NodeKind::Force(_) | NodeKind::Frame | NodeKind::World => {}
         }
     }
     found.0
+}
+
+fn check_density(found: &mut Findings, id: NodeId, node: &Node, density: f64) {
+    if !(density.is_finite() && density >= 0.0) {
+        let message = format!("density {density} kg/m³ of the air at `{}` is not a positive number", node.name);
+        found.error(id, "air_density", message, "1.225 at sea level, 0 in a vacuum");
+    }
+}
+
+fn check_rotor(found: &mut Findings, id: NodeId, node: &Node, spec: &RotorSpec, nodes: &[Node]) {
+    let name = &node.name;
+    check_density(found, id, node, spec.density);
+    if matches!(spec.law, RotorLaw::Stock(_)) && spec.drive != RotorDrive::Command {
+        let message = format!("rotor `{name}` is a stock propeller, which does not turn");
+        found.error(id, "stock", message, "its `speed` is the velocity of its particles; leave `lag` and `joint` out");
+    }
+    match spec.drive {
+        RotorDrive::Command => {}
+        RotorDrive::Lag { time_constant, initial } => {
+            if !(time_constant.is_finite() && time_constant > 0.0) {
+                let message = format!("time constant {time_constant} s of rotor `{name}` is not positive");
+                found.error(
+                    id,
+                    "lag",
+                    message,
+                    "give a positive time; a rotor without `lag` follows its command at once",
+                );
+            }
+            if !initial.is_finite() {
+                let message = format!("initial speed {initial} rad/s of rotor `{name}` is not finite");
+                found.error(id, "lag", message, "give a number in rad/s");
+            }
+        }
+        RotorDrive::Joint(joint) => {
+            if let Err((message, help)) = turn_of_rotor(nodes, id, joint) {
+                found.error(id, "joint", message, help);
+            }
+        }
+    }
+}
+
+/// +1 if the thrust axis of a rotor points along the axis of the joint it turns with, −1 if against it.
+///
+/// # Errors
+///
+/// That it does not turn with the joint, or not about its own axis; what is wrong, and what helps.
+pub(super) fn turn_of_rotor(nodes: &[Node], rotor: NodeId, joint: NodeId) -> Result<f64, (String, &'static str)> {
+    let name = &nodes[rotor.0 as usize].name;
+    let joint_name = &nodes[joint.0 as usize].name;
+    let NodeKind::Joint(spec) = &nodes[joint.0 as usize].kind else {
+        return Err((
+            format!("rotor `{name}` takes its speed from `{joint_name}`, which is no joint"),
+            "name a revolute joint",
+        ));
+    };
+    let JointKind::Revolute { axis } = spec.kind else {
+        let message = format!("rotor `{name}` takes its speed from joint `{joint_name}`, which is not revolute");
+        return Err((message, "a rotor turns with a revolute joint"));
+    };
+    // the rotor's axes in those of what the joint carries
+    let (mut rot, mut at) = (nodes[rotor.0 as usize].pose.rot, nodes[rotor.0 as usize].parent);
+    while at != joint {
+        let node = &nodes[at.0 as usize];
+        let is_fixed = match &node.kind {
+            NodeKind::Joint(spec) => spec.kind == JointKind::Fixed,
+            NodeKind::World => false,
+            _ => true,
+        };
+        if !is_fixed {
+            let message =
+                format!("rotor `{name}` takes its speed from joint `{joint_name}`, but does not turn with it");
+            return Err((message, "hang the rotor on the joint, or on a body that the joint carries"));
+        }
+        rot = node.pose.rot.mul(&rot);
+        at = node.parent;
+    }
+    let thrust = Mat3::mul_vec(&rot, Vec3([0.0, 0.0, 1.0]));
+    let axis = Vec3(axis);
+    let along = thrust.dot(axis) / axis.norm();
+    if (along.abs() - 1.0).abs() > 1e-9 {
+        let message = format!("the axis of rotor `{name}` is not that of joint `{joint_name}`, which turns it");
+        return Err((
+            message,
+            "turn the rotor so that its z axis is the joint's axis: rotation_deg, or the joint's axis",
+        ));
+    }
+    Ok(along.signum())
+}
+
+fn check_drag(found: &mut Findings, id: NodeId, node: &Node, spec: &DragSpec) {
+    check_density(found, id, node, spec.density);
+    for (field, list, unit) in [("area", spec.area, "m²"), ("linear", spec.linear, "N·s/m")] {
+        if !list.iter().all(|x| x.is_finite() && *x >= 0.0) {
+            let message = format!("{field} {list:?} {unit} of drag `{}` is negative or not finite", node.name);
+            found.error(id, field, message, "give three numbers, zero or more: drag brakes");
+        }
+    }
 }
 
 fn check_pose(found: &mut Findings, id: NodeId, node: &Node) {

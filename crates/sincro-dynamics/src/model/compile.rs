@@ -5,12 +5,12 @@
 
 use std::sync::Arc;
 
-use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind};
+use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
 use super::names::{FrameInfo, JointInfo, Names};
 use super::problem::{Problem, Severity};
 use super::{Dof, Link, Model, Shift, WORLD, check};
-use crate::force::rotor::MountedRotor;
-use crate::force::{AppliedTorque, AppliedWrench};
+use crate::force::rotor::{MountedRotor, RotorLaw, SpeedFrom};
+use crate::force::{AirDrag, AppliedTorque, AppliedWrench};
 use crate::joint::{JointKind, StageKind};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
@@ -47,6 +47,8 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
             applied: Vec::new(),
             wrenches: Vec::new(),
             rotors: Vec::new(),
+            drags: Vec::new(),
+            wind: builder.wind.clone(),
             drives: Vec::new(),
             n_q: 0,
             names: Arc::default(),
@@ -63,7 +65,7 @@ pub(super) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
         *input = n_motors + 6 * *input;
     }
     for rotor in &mut model.rotors {
-        rotor.command += n_motors + 6 * names.inputs.len();
+        rotor.speed.shift_command(n_motors + 6 * names.inputs.len());
     }
     model.names = Arc::new(names);
     mark_children(&mut model.links);
@@ -115,20 +117,47 @@ impl Compiler<'_> {
             }
             NodeKind::Rotor(spec) => {
                 if here.link != WORLD {
-                    self.model.rotors.push(MountedRotor {
+                    self.rotor(node_id, here, spec);
+                    self.names.rotors.push(node.name.clone());
+                }
+                here
+            }
+            NodeKind::Drag(spec) => {
+                if here.link != WORLD {
+                    self.model.drags.push(AirDrag {
                         link: here.link as usize,
                         pose: here.pose,
-                        law: spec.law.clone(),
-                        command: self.names.rotors.len(),
+                        area: Vec3(spec.area),
+                        linear: Vec3(spec.linear),
                         density: spec.density,
                     });
-                    self.names.rotors.push(node.name.clone());
+                    self.names.drags.push(node.name.clone());
                 }
                 here
             }
             NodeKind::World => unreachable!("handled above"),
         };
         self.carriers.push(carrier);
+    }
+
+    /// A rotor; commands are counted from that of the first one, where those begin is known at the end.
+    fn rotor(&mut self, node: NodeId, at: Carrier, spec: &RotorSpec) {
+        let (command, state) = (self.model.n_commands(), self.model.n_rotor_states());
+        let speed = match spec.drive {
+            RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedFrom::Particles { command, state },
+            RotorDrive::Command => SpeedFrom::Command(command),
+            RotorDrive::Lag { time_constant, initial } => SpeedFrom::Lag { command, state, time_constant, initial },
+            RotorDrive::Joint(joint) => {
+                let info = self.names.joints.iter().find(|j| j.node == joint);
+                let along = check::turn_of_rotor(self.nodes, node, joint).expect("checked before");
+                SpeedFrom::Joint {
+                    dof: info.expect("a revolute joint has a name").v_idx,
+                    sign: along * spec.law.spin().map_or(1.0, |spin| spin.sign()),
+                }
+            }
+        };
+        let (link, law, density) = (at.link as usize, spec.law.clone(), spec.density);
+        self.model.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density });
     }
 
     fn add_inertia(&mut self, at: Carrier, mass: &super::MassProperties) {

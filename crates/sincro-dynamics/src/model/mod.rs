@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use sincro_math::Real;
 
-pub use builder::{BodySpec, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorSpec};
+pub use builder::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorDrive, RotorSpec};
 pub use mass::MassProperties;
 pub use names::{FrameInfo, JointInfo, Names};
 pub use pack::PackError;
@@ -28,9 +28,10 @@ pub use shape::Shape;
 
 use crate::drive::Drive;
 use crate::force::rotor::MountedRotor;
-use crate::force::{AppliedTorque, AppliedWrench, Motor};
+use crate::force::{AirDrag, AppliedTorque, AppliedWrench, Motor};
 use crate::joint::{Placement, Stage, StageKind};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
+use crate::wind::Wind;
 
 /// No parent: the link moves against the world.
 pub(crate) const WORLD: u32 = u32::MAX;
@@ -137,6 +138,8 @@ pub struct Model<R> {
     pub(crate) applied: Vec<AppliedTorque>,
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
     pub(crate) rotors: Vec<MountedRotor<R>>,
+    pub(crate) drags: Vec<AirDrag<R>>,
+    pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) drives: Vec<Drive>,
     pub(crate) n_q: usize,
     pub(crate) names: Arc<Names>,
@@ -173,22 +176,46 @@ impl<R: Real> Model<R> {
         &self.motors
     }
 
-    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them, then the speed
-    /// [rad/s] of each rotor.
+    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them, then one for each
+    /// rotor that does not turn with a joint: its speed [rad/s].
     #[must_use]
     pub fn n_commands(&self) -> usize {
-        self.motors.len() + 6 * self.names.inputs.len() + self.rotors.len()
+        let of_rotors = self.rotors.iter().filter(|r| r.speed.command().is_some()).count();
+        self.motors.len() + 6 * self.names.inputs.len() + of_rotors
     }
 
-    /// The rotors, in the order of their commands.
+    /// Number of states of rotors: [`crate::state::State::rotors`].
+    #[must_use]
+    pub fn n_rotor_states(&self) -> usize {
+        self.rotors.iter().filter(|r| r.speed.state().is_some()).count()
+    }
+
+    /// The rotors.
     #[must_use]
     pub fn rotors(&self) -> &[MountedRotor<R>] {
         &self.rotors
     }
 
+    /// The drag elements.
+    #[must_use]
+    pub fn drags(&self) -> &[AirDrag<R>] {
+        &self.drags
+    }
+
+    /// The wind, if the air moves.
+    #[must_use]
+    pub fn wind(&self) -> Option<&Wind> {
+        self.wind.as_deref()
+    }
+
+    /// Whether anything feels the air.
+    pub(crate) fn feels_air(&self) -> bool {
+        !self.rotors.is_empty() || !self.drags.is_empty()
+    }
+
     /// Whether anything pushes on links from outside.
     pub(crate) fn has_external(&self) -> bool {
-        !self.wrenches.is_empty() || !self.rotors.is_empty()
+        !self.wrenches.is_empty() || self.feels_air()
     }
 
     /// Velocity motors and joints with Coulomb friction.
@@ -249,12 +276,13 @@ impl Model<f64> {
     /// The first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if there is none.
     #[must_use]
     pub fn next_corner(&self, t: f64) -> f64 {
-        if self.applied.is_empty() && self.wrenches.is_empty() {
+        if self.applied.is_empty() && self.wrenches.is_empty() && self.wind.is_none() {
             return f64::INFINITY;
         }
+        let of_wind = self.wind.as_ref().filter(|_| self.feels_air()).map_or(f64::INFINITY, |w| w.next_corner(t));
         let applied = self.applied.iter().flat_map(|a| &a.signal);
         let wrenches = self.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.torque).flatten());
-        applied.chain(wrenches).map(|s| s.next_corner(t)).fold(f64::INFINITY, f64::min)
+        applied.chain(wrenches).map(|s| s.next_corner(t)).fold(of_wind, f64::min)
     }
 }
 

@@ -49,8 +49,10 @@ pub struct Names {
     pub frames: Vec<FrameInfo>,
     /// External forces that take commands, in the order of those.
     pub inputs: Vec<String>,
-    /// Rotors, in the order of their commands.
+    /// Rotors, in the order of [`super::Model::rotors`].
     pub rotors: Vec<String>,
+    /// Drag elements, in the order of [`super::Model::drags`].
+    pub drags: Vec<String>,
     /// For each degree of freedom, the joint it belongs to.
     pub dof_joint: Vec<usize>,
 }

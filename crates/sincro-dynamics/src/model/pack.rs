@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
-use crate::force::rotor::MountedRotor;
-use crate::force::{AppliedTorque, AppliedWrench, Motor};
+use crate::force::rotor::{MountedRotor, SpeedFrom};
+use crate::force::{AirDrag, AppliedTorque, AppliedWrench, Motor};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
 /// Why models cannot share lanes: the named part has another structure.
@@ -91,8 +91,29 @@ impl<R: Real> Model<R> {
             link: first.rotors[i].link,
             pose: Pose { rot: mat3(&|m| m.rotors[i].pose.rot), pos: vec3(&|m| m.rotors[i].pose.pos) },
             law: first.rotors[i].law.clone(),
-            command: first.rotors[i].command,
+            speed: match first.rotors[i].speed {
+                SpeedFrom::Lag { command, state, .. } => {
+                    let lag =
+                        |k: usize, pick: fn((f64, f64)) -> f64| pick(of(k).rotors[i].speed.lag().unwrap_or((1.0, 0.0)));
+                    SpeedFrom::Lag {
+                        command,
+                        state,
+                        time_constant: R::from_lanes(|k| lag(k, |x| x.0)),
+                        initial: R::from_lanes(|k| lag(k, |x| x.1)),
+                    }
+                }
+                SpeedFrom::Command(k) => SpeedFrom::Command(k),
+                SpeedFrom::Particles { command, state } => SpeedFrom::Particles { command, state },
+                SpeedFrom::Joint { dof, sign } => SpeedFrom::Joint { dof, sign },
+            },
             density: first.rotors[i].density,
+        });
+        let drags = (0..first.drags.len()).map(|i| AirDrag {
+            link: first.drags[i].link,
+            pose: Pose { rot: mat3(&|m| m.drags[i].pose.rot), pos: vec3(&|m| m.drags[i].pose.pos) },
+            area: vec3(&|m| m.drags[i].area),
+            linear: vec3(&|m| m.drags[i].linear),
+            density: first.drags[i].density,
         });
         Ok(Self {
             drives: first.drives.clone(),
@@ -103,6 +124,8 @@ impl<R: Real> Model<R> {
             applied: applied.collect(),
             wrenches: wrenches.collect(),
             rotors: rotors.collect(),
+            drags: drags.collect(),
+            wind: first.wind.clone(),
             n_q: first.n_q,
             names: Arc::clone(&first.names),
         })
@@ -116,8 +139,10 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let motors = |m: &Model<f64>| -> Vec<_> { m.motors.iter().map(|x| (x.dof, x.mode)).collect() };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
     let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
-    let rotors =
-        |m: &Model<f64>| -> Vec<_> { m.rotors.iter().map(|x| (x.link, x.law.clone(), x.command, x.density)).collect() };
+    let rotors = |m: &Model<f64>| -> Vec<_> {
+        m.rotors.iter().map(|x| (x.link, x.law.clone(), x.speed.structure(), x.density)).collect()
+    };
+    let drags = |m: &Model<f64>| -> Vec<_> { m.drags.iter().map(|x| (x.link, x.density)).collect() };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction > 0.0).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
@@ -125,6 +150,8 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (applied(a) == applied(b), "applied torques"),
         (wrenches(a) == wrenches(b), "external forces"),
         (rotors(a) == rotors(b), "rotors"),
+        (drags(a) == drags(b), "drag elements"),
+        (a.wind == b.wind, "wind"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

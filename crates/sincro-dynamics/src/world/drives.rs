@@ -5,7 +5,7 @@
 use super::{Stop, World};
 use crate::attachment::Attachment;
 use crate::drive::DriveKind;
-use crate::integrate::{Control, System};
+use crate::integrate::Control;
 
 /// Relative width below which two velocities count as equal.
 const SAME_VELOCITY: f64 = 1e-12;
@@ -77,7 +77,7 @@ impl World {
     /// Adds the work and the impulses of a strike to the totals: ΔT = Σ λ·(mean of the velocities before and after).
     fn count_impulses(&mut self) {
         let n = self.model().n_v();
-        if self.mechanism.dim() == 2 * n {
+        if !self.mechanism.tracks_totals() {
             return;
         }
         for (i, drive) in self.mechanism.model.drives.iter().enumerate() {

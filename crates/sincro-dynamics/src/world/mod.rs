@@ -11,6 +11,7 @@ mod drives;
 use crate::attachment::{Alone, Attachment, Coupled, Seen};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
+use crate::force::rotor::{RotorLaw, SpeedFrom};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -295,6 +296,7 @@ impl World {
     ) -> Result<(), (f64, Stop)> {
         // what the last tick ended at is behind
         attachment.set_corner(f64::INFINITY);
+        self.throw_particles(h);
         self.load(attachment);
         self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
         self.latch();
@@ -312,6 +314,15 @@ impl World {
         Ok(())
     }
 
+    /// What each stock propeller throws during this tick.
+    fn throw_particles(&mut self, h: f64) {
+        for rotor in &self.mechanism.model.rotors {
+            if let (RotorLaw::Stock(propeller), SpeedFrom::Particles { state, .. }) = (&rotor.law, rotor.speed) {
+                self.state.rotors[state] = propeller.flow(self.state.tick, h);
+            }
+        }
+    }
+
     /// Accelerations [rad/s²], [m/s²] and motor torques [N·m], `[N]` at the present state, as the drives now stand.
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.model().n_v();
@@ -327,7 +338,8 @@ impl World {
     /// Lets somebody look at the state as an attachment does.
     pub fn with_seen<T>(&mut self, t: f64, look: impl FnOnce(Seen<'_, f64>) -> T) -> T {
         let (state, mechanism) = (&self.state, &mut self.mechanism);
-        look(Seen { t, model: &mechanism.model, q: &state.q, v: &state.v, scratch: &mut mechanism.scratch })
+        let State { q, v, rotors, commands, .. } = state;
+        look(Seen { t, model: &mechanism.model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
     }
 
     /// The mechanism, for kinematics and energies at the state.

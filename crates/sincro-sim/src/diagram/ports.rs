@@ -9,6 +9,7 @@ use sincro_blocks::unit::Unit;
 use sincro_dynamics::force::MotorMode;
 use sincro_dynamics::model::Model;
 
+use crate::record::probe::depends_on_command;
 use crate::record::{EnergyQuantity, Entry, FrameQuantity, Probe, catalogue};
 
 /// A measurement: where its components are read.
@@ -25,8 +26,8 @@ pub(crate) fn measurements(model: &Model<f64>) -> Vec<Measurement> {
         whole("q", (0..model.n_q()).map(Probe::Coordinate).collect()),
         whole("v", (0..model.n_v()).map(Probe::Rate).collect()),
     ];
-    list.extend(entries.iter().map(|entry| measurement(entry.name.clone(), &entry.unit, vec![entry.probe])));
-    list.extend(vectors(&entries));
+    list.extend(entries.iter().map(|entry| measurement(model, entry.name.clone(), &entry.unit, vec![entry.probe])));
+    list.extend(vectors(model, &entries));
     list
 }
 
@@ -35,14 +36,14 @@ fn whole(name: &str, probes: Vec<Probe>) -> Measurement {
     Measurement { terminal, probes }
 }
 
-fn measurement(name: String, unit: &str, probes: Vec<Probe>) -> Measurement {
-    let is_special = probes.iter().any(|p| depends_on_commands(*p));
+fn measurement(model: &Model<f64>, name: String, unit: &str, probes: Vec<Probe>) -> Measurement {
+    let is_special = probes.iter().any(|p| depends_on_commands(model, *p));
     let unit = unit_of(unit);
     Measurement { terminal: Terminal { names: vec![name], width: probes.len(), unit, is_special }, probes }
 }
 
 /// Neighbouring entries `stem.x`, `stem.y`, `stem.z` (or `stem.w` …) as one vector `stem`.
-fn vectors(entries: &[Entry]) -> Vec<Measurement> {
+fn vectors(model: &Model<f64>, entries: &[Entry]) -> Vec<Measurement> {
     let mut found = Vec::new();
     let mut k = 0;
     while k < entries.len() {
@@ -50,7 +51,7 @@ fn vectors(entries: &[Entry]) -> Vec<Measurement> {
         if run > 1 {
             let stem = entries[k].name.rsplit_once('.').map_or("", |(stem, _)| stem);
             let probes = entries[k..k + run].iter().map(|e| e.probe).collect();
-            found.push(measurement(stem.to_owned(), &entries[k].unit, probes));
+            found.push(measurement(model, stem.to_owned(), &entries[k].unit, probes));
         }
         k += run.max(1);
     }
@@ -71,8 +72,12 @@ fn run_of(entries: &[Entry]) -> usize {
 }
 
 /// Whether a measurement changes at once when a command does.
-pub(crate) fn depends_on_commands(probe: Probe) -> bool {
-    matches!(probe, Probe::Acceleration(_) | Probe::MotorTorqueNow(_) | Probe::Frame(FrameQuantity::Acceleration, ..))
+pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
+    match probe {
+        Probe::Acceleration(_) | Probe::MotorTorqueNow(_) | Probe::Frame(FrameQuantity::Acceleration, ..) => true,
+        Probe::Rotor(quantity, k) => depends_on_command(model, quantity, k),
+        _ => false,
+    }
 }
 
 /// Whether a measurement is known at ticks only: what is summed up over a step.
@@ -108,10 +113,6 @@ fn unit_of(text: &str) -> Option<Unit> {
 fn can_be_measured(probe: Probe) -> bool {
     !matches!(
         probe,
-        Probe::Command(_)
-            | Probe::Rotor(..)
-            | Probe::FrictionTorque(_)
-            | Probe::Energy(EnergyQuantity::Balance)
-            | Probe::Signal(_)
+        Probe::Command(_) | Probe::FrictionTorque(_) | Probe::Energy(EnergyQuantity::Balance) | Probe::Signal(_)
     )
 }

@@ -14,7 +14,7 @@ use super::names::{InputKind, Names, Output};
 use crate::diagram::Control;
 use crate::linear::Axis;
 use crate::load::Loaded;
-use crate::record::{Probe, catalogue, probe};
+use crate::record::{Probe, RotorQuantity, catalogue, probe};
 use crate::run::LockStep;
 
 /// A scene at an operating point.
@@ -58,15 +58,15 @@ impl<R: Number> Lens<R> {
             Vec::new()
         };
         let state = at.state().clone();
-        let (n_v, own) = (model.n_v(), mechanism.dim());
+        let (n_v, own, n_rotors) = (model.n_v(), mechanism.dim(), model.n_rotor_states());
         mechanism.drives = state.drives.iter().map(|x| R::splat(*x)).collect();
         mechanism.mark_held();
         let places: Vec<usize> = (0..n_v)
             .chain((0..n_v).filter(|&k| !mechanism.is_held(k) || state.drives.is_empty()).map(|k| n_v + k))
-            .chain(own..own + z.len())
+            .chain(own - n_rotors..own + z.len())
             .collect();
         let (all_axes, all_values) = describe(loaded, at, &state, &z);
-        let pick = |place: usize| if place < 2 * n_v { place } else { place - own + 2 * n_v };
+        let pick = |place: usize| if place < 2 * n_v { place } else { place + n_rotors - own + 2 * n_v };
         let signals = at.control().map_or(Vec::new(), |c| c.runner.state.signals.clone());
         Self {
             watch: Watch {
@@ -130,6 +130,7 @@ impl<R: Number> Lens<R> {
             commands: cast(&self.commands),
             drives: cast(&self.state.drives),
             totals: cast(&self.state.totals),
+            rotors: cast(&self.state.rotors),
             tick: self.state.tick,
         };
         self.mechanism.load(&x, &mut self.y);
@@ -188,8 +189,10 @@ impl Lens<f64> {
         displace(self.mechanism.model(), &self.state.q, &change[..n_v], &mut state.q);
         let mut z = Vec::new();
         for (k, &place) in self.places.iter().enumerate().skip(n_v) {
-            if place < self.own {
+            if place < 2 * n_v {
                 state.v[place - n_v] += change[k];
+            } else if place < self.own {
+                state.rotors[place - self.mechanism.rotor_states().start] += change[k];
             } else {
                 z.push(self.values[k] + change[k]);
             }
@@ -269,7 +272,7 @@ impl<R: Number> Attachment<R> for Watch<R> {
     fn decay(&mut self, _: &mut [R]) {}
 }
 
-/// Names, units and values of displacements, velocities and continuous states of the diagram.
+/// Names, units and values of displacements, velocities, states of rotors and continuous states of the diagram.
 fn describe(loaded: &Loaded, at: &LockStep, state: &State<f64>, z: &[f64]) -> (Vec<Axis>, Vec<f64>) {
     let model = &loaded.scene.model;
     let entries = catalogue(model);
@@ -291,6 +294,16 @@ fn describe(loaded: &Loaded, at: &LockStep, state: &State<f64>, z: &[f64]) -> (V
         let rate = named(Probe::Rate(k));
         axes.push(rate.map_or_else(|| axis(format!("v[{k}]"), ""), |e| axis(&e.name, &*e.unit)));
         values.push(state.v[k]);
+    }
+    for rotor in 0..model.rotors().len() {
+        let Some(k) = model.rotors()[rotor].speed.state() else { continue };
+        let speed = named(Probe::Rotor(RotorQuantity::Speed, rotor));
+        // of a stock propeller it is what is thrown during a tick: constant
+        axes.push(speed.map_or_else(
+            || axis(format!("{}.flow", model.names().rotors[rotor]), "kg/s"),
+            |e| axis(&e.name, &*e.unit),
+        ));
+        values.push(state.rotors[k]);
     }
     if let Some(control) = at.control() {
         for step in control.wiring().program().steps.iter().filter(|_| !z.is_empty()) {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::force::rotor::RotorLaw;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
 
@@ -45,6 +46,9 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     }
     for (i, frame) in model.names().frames.iter().enumerate() {
         frame_signals(&mut list, &frame.name, i, frame.body.is_some());
+        if model.wind().is_some() {
+            list.vector(&format!("{}.wind", frame.name), &XYZ, "m/s", |k| Probe::Frame(FrameQuantity::Wind, i, k));
+        }
     }
     for (k, name) in model.names().inputs.iter().enumerate() {
         let first = model.motors().len() + 6 * k;
@@ -53,7 +57,19 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     }
     for (k, name) in model.names().rotors.iter().enumerate() {
         use RotorQuantity as Q;
-        list.add(format!("{name}.speed"), "rad/s", Probe::Command(model.rotors()[k].command));
+        let rotor = &model.rotors()[k];
+        // the speed of a rotor that follows at once is its command
+        let unit = if matches!(rotor.law, RotorLaw::Stock(_)) { "m/s" } else { "rad/s" };
+        match rotor.speed.command() {
+            Some(command) if rotor.speed.follows_at_once() => {
+                list.add(format!("{name}.speed"), unit, Probe::Command(command))
+            }
+            Some(command) => {
+                list.add(format!("{name}.command"), unit, Probe::Command(command));
+                list.add(format!("{name}.speed"), unit, Probe::Rotor(Q::Speed, k));
+            }
+            None => list.add(format!("{name}.speed"), unit, Probe::Rotor(Q::Speed, k)),
+        }
         let quantities = [
             ("thrust", "N", Q::Thrust),
             ("torque", "N·m", Q::Torque),
@@ -64,6 +80,12 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
         for (what, unit, quantity) in quantities {
             list.add(format!("{name}.{what}"), unit, Probe::Rotor(quantity, k));
         }
+    }
+    for (k, name) in model.names().drags.iter().enumerate() {
+        list.vector(&format!("{name}.force"), &XYZ, "N", |c| Probe::Drag(k, c));
+    }
+    if model.wind().is_some() {
+        list.vector("wind", &XYZ, "m/s", Probe::Wind);
     }
     world_signals(&mut list);
     list.0

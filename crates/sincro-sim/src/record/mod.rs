@@ -10,7 +10,6 @@ pub use catalogue::{Entry, catalogue};
 
 use sincro_dynamics::attachment::Response;
 use sincro_dynamics::energy::Energy;
-use sincro_dynamics::force::rotor::Validity;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
 
@@ -49,6 +48,10 @@ pub enum Probe {
     Momentum(usize),
     /// Of a rotor.
     Rotor(RotorQuantity, usize),
+    /// Component of the force of a drag element, world axes.
+    Drag(usize, usize),
+    /// Component of the wind at its reference height.
+    Wind(usize),
     /// Signal of the diagram.
     Signal(usize),
 }
@@ -56,6 +59,8 @@ pub enum Probe {
 /// What can be read of a rotor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RotorQuantity {
+    /// What it turns at [rad/s].
+    Speed,
     /// Force along its axis `[N]`.
     Thrust,
     /// Reaction on the airframe about its axis [N·m].
@@ -85,6 +90,8 @@ pub enum FrameQuantity {
     Acceleration,
     /// Of a body `[m]`.
     CenterOfMass,
+    /// Of the air at the origin [m/s].
+    Wind,
 }
 
 /// What can be read of the energy.
@@ -173,9 +180,16 @@ impl Recorder {
                 if span > 0.0 { (state.totals[2 + m] - self.motor_impulse[m]) / span } else { 0.0 }
             }
             Probe::FrictionTorque(k) => seen.friction_torque(k),
-            Probe::Rotor(quantity, k) => rotor_quantity(seen, quantity, k),
             probe => {
-                let view = View { t, model: seen.model(), q: &state.q, v: &state.v, scratch: seen.scratch() };
+                let view = View {
+                    t,
+                    model: seen.model(),
+                    q: &state.q,
+                    v: &state.v,
+                    rotors: &state.rotors,
+                    commands: &state.commands,
+                    scratch: seen.scratch(),
+                };
                 let response = Response { accelerations: seen.accelerations, motor_torque: seen.motor_torque() };
                 let value = probe::of_state(&view, probe).or_else(|| probe::of_response(&view, response, probe));
                 value.expect("what is neither of the state nor of its response is read above")
@@ -192,19 +206,6 @@ impl Recorder {
             EnergyQuantity::Dissipated => totals[1],
             EnergyQuantity::Balance => energy.total() - self.energy_at_start - totals[0] + totals[1],
         }
-    }
-}
-
-fn rotor_quantity(seen: &Observation<'_>, quantity: RotorQuantity, k: usize) -> f64 {
-    let rotor = &seen.model().rotors()[k];
-    let (speed, twist) = (seen.state.commands[rotor.command], seen.scratch().twist(rotor.link));
-    let load = rotor.load(speed, &twist);
-    match quantity {
-        RotorQuantity::Thrust => load.thrust,
-        RotorQuantity::Torque => load.torque,
-        RotorQuantity::Inflow => load.inflow,
-        RotorQuantity::Power => load.power,
-        RotorQuantity::Valid => f64::from(u8::from(rotor.validity(speed, &twist, &load) == Validity::Valid)),
     }
 }
 

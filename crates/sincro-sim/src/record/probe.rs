@@ -2,6 +2,7 @@
 
 use sincro_dynamics::attachment::{Response, Seen};
 use sincro_dynamics::energy::{energy, momentum};
+use sincro_dynamics::force::rotor::Validity;
 use sincro_dynamics::force::{damper, spring};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
@@ -9,7 +10,7 @@ use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::Real;
 
-use super::{EnergyQuantity, FrameQuantity, Probe};
+use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
 
 /// What a measurement is taken of.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,10 @@ pub(crate) struct View<'a, R> {
     pub model: &'a Model<R>,
     pub q: &'a [R],
     pub v: &'a [R],
+    /// States of rotors.
+    pub rotors: &'a [R],
+    /// As latched; empty where they are not known yet.
+    pub commands: &'a [R],
     /// With the kinematics at (q, v), where a probe needs them.
     pub scratch: &'a Scratch<R>,
 }
@@ -26,13 +31,14 @@ pub(crate) struct View<'a, R> {
 impl<'a, R> View<'a, R> {
     /// Of what an attachment sees.
     pub fn of(seen: &'a Seen<'_, R>) -> Self {
-        Self { t: seen.t, model: seen.model, q: seen.q, v: seen.v, scratch: seen.scratch }
+        let &Seen { t, model, q, v, rotors, commands, ref scratch } = seen;
+        Self { t, model, q, v, rotors, commands, scratch }
     }
 }
 
 /// Whether a probe needs the poses and twists of links.
 pub(crate) fn needs_kinematics(probe: Probe) -> bool {
-    matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_))
+    matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
 }
 
 /// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks only.
@@ -53,6 +59,12 @@ pub(crate) fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Energy(EnergyQuantity::Total) => energy(model, at.q, at.v, at.scratch).total(),
         Probe::Momentum(k) if k < 3 => momentum(model, at.scratch).ang[k],
         Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
+        Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
+        Probe::Drag(k, component) => of_drag(at, k, component),
+        Probe::Wind(k) => {
+            let wind = model.wind()?;
+            wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
+        }
         _ => return None,
     })
 }
@@ -62,11 +74,47 @@ pub(crate) fn of_response<R: Real>(at: &View<'_, R>, response: Response<'_, R>, 
     Some(match probe {
         Probe::Acceleration(k) => response.accelerations[k],
         Probe::MotorTorqueNow(m) => response.motor_torque[m],
+        Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
         Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
             kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
         }
         _ => return None,
     })
+}
+
+/// Whether what a rotor does changes at once when its command does.
+pub(crate) fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuantity, rotor: usize) -> bool {
+    quantity != RotorQuantity::Speed && model.rotors()[rotor].speed.follows_at_once()
+}
+
+fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
+    let rotor = &at.model.rotors()[k];
+    let speed = rotor.speed.value(at.v, at.commands, at.rotors);
+    if quantity == RotorQuantity::Speed {
+        return speed;
+    }
+    let air = at.model.wind().map(|wind| wind.at(at.t));
+    let hub = rotor.hub(&at.scratch.twist(rotor.link), &at.scratch.link_poses()[rotor.link], air.as_ref());
+    let load = rotor.load(speed, at.rotors, &hub);
+    match quantity {
+        RotorQuantity::Speed => speed,
+        RotorQuantity::Thrust => load.thrust,
+        RotorQuantity::Torque => load.torque,
+        RotorQuantity::Inflow => load.inflow,
+        RotorQuantity::Power => load.power,
+        RotorQuantity::Valid => match rotor.validity(speed, &hub, &load) {
+            Validity::Valid => R::one(),
+            _ => R::zero(),
+        },
+    }
+}
+
+fn of_drag<R: Real>(at: &View<'_, R>, k: usize, component: usize) -> R {
+    let drag = &at.model.drags()[k];
+    let x_wl = &at.scratch.link_poses()[drag.link];
+    let air = at.model.wind().map(|wind| wind.at(at.t));
+    let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref())).force;
+    x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))[component]
 }
 
 /// Where a frame of the model is fixed.
@@ -89,6 +137,10 @@ fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, co
         FrameQuantity::Velocity => kinematics::frame_velocity(at.scratch, &fixed).lin[component],
         FrameQuantity::AngularVelocity => kinematics::frame_velocity(at.scratch, &fixed).ang[component],
         FrameQuantity::Acceleration => kinematics::frame_acceleration(at.scratch, &fixed).lin[component],
+        FrameQuantity::Wind => {
+            let height = pose().pos[2];
+            at.model.wind().map_or(R::zero(), |wind| wind.velocity(at.t, height)[component])
+        }
         FrameQuantity::CenterOfMass => {
             let com = at.model.names().frames[frame].body.map_or([0.0; 3], |(com, _)| com);
             pose().point(Vec3(com.map(R::splat)))[component]

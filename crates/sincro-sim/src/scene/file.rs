@@ -5,6 +5,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::air::{DragFile, WindFile};
 use super::signal_file::SignalFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
@@ -30,6 +31,11 @@ pub(crate) struct SceneFile {
     /// Rotors.
     #[serde(default)]
     pub rotor: Vec<RotorFile>,
+    /// Drag of bodies in the air.
+    #[serde(default)]
+    pub drag: Vec<DragFile>,
+    /// Wind; none if left out.
+    pub wind: Option<WindFile>,
     /// Density of the air that rotors turn in [kg/m³].
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]

@@ -3,6 +3,7 @@
 //! The types of `file.rs` are what is written; `compile` orders the tree, makes the builder's specifications of joints,
 //! bodies and forces, and brings what the builder finds back to lines of the file. All problems are reported at once.
 
+mod air;
 mod body;
 mod file;
 mod initial;
@@ -17,7 +18,7 @@ mod tree;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sincro_dynamics::model::{BodySpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId, RotorSpec};
+use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId, RotorSpec};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
@@ -63,10 +64,11 @@ enum Spec {
     Frame,
     Force(ForceSpec),
     Rotor(RotorSpec, Signal),
+    Drag(DragSpec),
 }
 
-/// Compiles a document that fits the schema.
-pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Problems> {
+/// Compiles a document that fits the schema; `seed` is that of the turbulence.
+pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result<Scene, Problems> {
     let file: SceneFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Problem::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
     let entries = tree::entries(&file);
@@ -74,10 +76,14 @@ pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Pro
     let order = tree::order(&entries, document, &mut problems);
     let mut maker = Maker { document, folder, air_density: file.air_density, problems: &mut problems };
     let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
+    let wind = file.wind.as_ref().and_then(|wind| air::wind(wind, seed, document, &mut problems));
     if problems.any_error() {
         return Err(problems.sorted());
     }
     let mut assembly = Assembly::new(file.gravity);
+    if let Some(wind) = wind {
+        assembly.builder.wind(wind);
+    }
     for place in &order {
         let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
         assembly.add(&entries[place.entry], place, spec, pose, document);
@@ -108,6 +114,10 @@ impl Maker<'_> {
             }
             tree::AnyFile::Frame(_) => Spec::Frame,
             tree::AnyFile::Rotor(file) => rotor::spec(file, &entry.pointer, self.air_density, &mut self.signals()),
+            tree::AnyFile::Drag(file) => {
+                let (density, document) = (self.air_density, self.document);
+                Spec::Drag(air::drag(file, &entry.pointer, density, document, self.problems))
+            }
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
     }
@@ -174,6 +184,7 @@ impl Assembly {
             }
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
+            Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
             Spec::Rotor(spec, speed) => {
                 self.commands.insert(self.objects.len(), speed);
                 (self.builder.rotor(&path, parent, pose, spec), ObjectKind::Rotor)
@@ -204,6 +215,10 @@ impl Assembly {
         let initial = initial::state(&model, &starts, document, &mut problems);
         let commands = self.motors(&model);
         self.warn_of_idle_forces(&model, &mut problems);
+        if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
+            let problem = Problem::error(&document.at("/wind"), "nothing in this scene feels the wind").as_warning();
+            problems.push(problem.with_help("rotors and drag elements do: add a [[drag]] to a body"));
+        }
         if problems.any_error() {
             return Err(problems.sorted());
         }
@@ -216,7 +231,9 @@ impl Assembly {
         let mut commands = vec![Signal::Constant(0.0); model.n_commands()];
         for (rotor, name) in model.rotors().iter().zip(&model.names().rotors) {
             let speed = self.objects.iter().position(|o| o.path == *name).and_then(|k| self.commands.remove(&k));
-            commands[rotor.command] = speed.expect("a rotor has a speed");
+            if let Some(command) = rotor.speed.command() {
+                commands[command] = speed.expect("a rotor that takes a command has one");
+            }
         }
         for joint in &model.names().joints {
             let Some(index) = self.objects.iter().position(|o| o.path == joint.name) else { continue };
@@ -230,7 +247,9 @@ impl Assembly {
     }
 
     fn warn_of_idle_forces(&self, model: &Model<f64>, problems: &mut Problems) {
-        for object in self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force | ObjectKind::Rotor)) {
+        for object in
+            self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force | ObjectKind::Rotor | ObjectKind::Drag))
+        {
             let carrier = object.parent.and_then(|k| model.names().frame(&self.objects[k].path));
             if carrier.is_some_and(|frame| frame.link.is_none()) {
                 let word = object.kind.word();

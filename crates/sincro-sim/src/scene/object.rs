@@ -46,6 +46,8 @@ pub enum ObjectKind {
     Force,
     /// Rotor on its parent; thrust along its z.
     Rotor,
+    /// Drag of its parent, along its own axes.
+    Drag,
 }
 
 impl ObjectKind {
@@ -67,6 +69,7 @@ impl ObjectKind {
             Self::Frame => "frame",
             Self::Force => "force",
             Self::Rotor => "rotor",
+            Self::Drag => "drag",
         }
     }
 }

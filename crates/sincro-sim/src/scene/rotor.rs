@@ -1,7 +1,7 @@
 //! From a rotor of the file to its law.
 
 use sincro_dynamics::force::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
-use sincro_dynamics::model::RotorSpec;
+use sincro_dynamics::model::{RotorDrive, RotorSpec};
 
 use super::Spec;
 use super::file::{RotorFile, SpinFile};
@@ -42,5 +42,5 @@ pub(super) fn spec(file: &RotorFile, pointer: &str, density: f64, signals: &mut 
         }
         (None, None) => return Spec::Frame,
     };
-    Spec::Rotor(RotorSpec { law, density }, speed)
+    Spec::Rotor(RotorSpec { law, density, drive: RotorDrive::Command }, speed)
 }

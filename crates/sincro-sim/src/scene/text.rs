@@ -9,7 +9,8 @@ use crate::folder::Folder;
 use crate::problem::{Problems, SourceText};
 use crate::schema::{scene_schema, validate};
 
-/// Compiles the text of a scene file. Files that it names are looked for in the working directory.
+/// Compiles the text of a scene file. Files that it names are looked for in the working directory; the seed of its
+/// turbulence is 0.
 ///
 /// ```
 /// let text = r#"
@@ -39,5 +40,5 @@ pub fn from_text(text: &str) -> Result<Scene, Problems> {
     if found.any_error() {
         return Err(found.sorted());
     }
-    super::compile(&document, &Folder::new(Path::new("")))
+    super::compile(&document, &Folder::new(Path::new("")), 0)
 }

@@ -5,6 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::air::DragFile;
 use super::file::{BodyFile, ForceFile, FrameFile, JointFile, RotorFile, SceneFile};
 use super::placement::Placement;
 use crate::document::Document;
@@ -30,6 +31,7 @@ pub(super) enum AnyFile<'a> {
     Frame(&'a FrameFile),
     Force(&'a ForceFile),
     Rotor(&'a RotorFile),
+    Drag(&'a DragFile),
 }
 
 impl AnyFile<'_> {
@@ -41,6 +43,7 @@ impl AnyFile<'_> {
             Self::Frame(_) => "frame",
             Self::Force(_) => "force",
             Self::Rotor(_) => "rotor",
+            Self::Drag(_) => "drag",
         }
     }
 }
@@ -62,6 +65,7 @@ impl Entry<'_> {
             AnyFile::Body(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Frame(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Rotor(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Drag(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Force(_) => Placement::new([0.0; 3], None, None),
         }
     }
@@ -74,6 +78,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
     let frames = file.frame.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Frame(f))).enumerate();
     let forces = file.force.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Force(f))).enumerate();
     let rotors = file.rotor.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Rotor(f))).enumerate();
+    let drags = file.drag.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Drag(f))).enumerate();
     let named = |list: &'static str| {
         move |(k, (name, parent, file))| Entry {
             name,
@@ -88,6 +93,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
         .chain(frames.map(named("frame")))
         .chain(forces.map(named("force")))
         .chain(rotors.map(named("rotor")))
+        .chain(drags.map(named("drag")))
         .collect()
 }
 
@@ -168,12 +174,12 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
     let at = document.at(&format!("{}/parent", entry.pointer));
     let carrier = parent.map(|p| p.file);
     match (entry.file, carrier) {
-        (_, Some(AnyFile::Force(_) | AnyFile::Rotor(_))) => {
+        (_, Some(AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_))) => {
             let word = carrier.map_or("", AnyFile::word);
             let problem = Problem::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
             problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));
         }
-        (AnyFile::Force(_) | AnyFile::Rotor(_), None | Some(AnyFile::Joint(_))) => {
+        (AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_), None | Some(AnyFile::Joint(_))) => {
             let word = entry.file.word();
             let message = format!("{word} `{}` acts on `{}`, which is no body and no frame", entry.path, entry.parent);
             problems

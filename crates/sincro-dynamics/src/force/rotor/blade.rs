@@ -74,6 +74,36 @@ pub enum Validity {
     NegativeThrust,
     /// Forward speed above half that of the tips: reversed flow and stall on the retreating blade, which are left out.
     HighAdvance,
+    /// The advance ratio is outside the table that was measured: the coefficients are those of its end.
+    OutsideTable,
+    /// The law gave what is not a number.
+    NotANumber,
+}
+
+impl Validity {
+    /// Every way not to hold, in a fixed order.
+    pub const REASONS: [Self; 6] = [
+        Self::Standing,
+        Self::SteepDescent,
+        Self::NegativeThrust,
+        Self::HighAdvance,
+        Self::OutsideTable,
+        Self::NotANumber,
+    ];
+
+    /// In words.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Valid => "valid",
+            Self::Standing => "standing",
+            Self::SteepDescent => "steep descent",
+            Self::NegativeThrust => "negative thrust",
+            Self::HighAdvance => "fast forward flight",
+            Self::OutsideTable => "outside its table",
+            Self::NotANumber => "not a number",
+        }
+    }
 }
 
 /// A rotor, ready to be evaluated.

@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 
 use sincro_math::Real;
 
-use super::{Load, Spin, outside};
+use super::{Load, Spin, Validity, outside};
 use crate::spatial::Vec3;
 
 /// Thrust and torque that grow with the square of the speed and depend on nothing else.
@@ -90,6 +90,24 @@ impl CoefficientTable {
             }
         }
         if problems.is_empty() { Ok(Self { diameter, spin, rows }) } else { Err(problems) }
+    }
+
+    /// Which way it turns at positive speed.
+    #[must_use]
+    pub fn spin(&self) -> Spin {
+        self.spin
+    }
+
+    /// Whether the advance ratio is one that was measured, and the propeller turns; the first lane alone is looked at.
+    #[must_use]
+    pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Validity {
+        let by_turn = speed.lane(0) * (self.diameter / TAU);
+        if by_turn.abs() < STANDING {
+            return Validity::Standing;
+        }
+        let advance = velocity[2].lane(0) / by_turn;
+        let is_inside = advance >= self.rows[0].advance && advance <= self.rows[self.rows.len() - 1].advance;
+        if is_inside { Validity::Valid } else { Validity::OutsideTable }
     }
 
     /// Thrust, torque and power in air of `density` [kg/m³] at `speed` [rad/s], the hub moving at `velocity` [m/s] relative to

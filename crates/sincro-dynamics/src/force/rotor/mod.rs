@@ -21,7 +21,8 @@ mod stock;
 
 pub use blade::{Drag, Rotor, RotorSpec, Validity};
 pub use coefficients::{CoefficientTable, ConstantCoefficients, TableRow};
-pub use mounted::{MountedRotor, RotorLaw};
+pub use mounted::{Hub, MountedRotor, RotorLaw, SpeedFrom};
+pub use printed::PrintedScript;
 pub use stock::StockPropeller;
 
 use sincro_math::Real;
