@@ -286,12 +286,15 @@ fn draw_track(canvas: &mut Canvas, paper: &Paper, frame: &Frame, track: &Track, 
         format!("M{} {}m-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0z", coordinate(x), coordinate(y))
     };
     let class = if track.role == Role::Reference { look.class } else { color(slot(track, space)) };
-    canvas.path(&format!("sp-mark {class} sp-hollow"), "", &mark(first));
+    canvas.path(&format!("{class} sp-hollow"), r#"stroke-width="1.8""#, &mark(first));
     canvas.path(&format!("sp-mark {class}"), "", &mark(last));
     if track.role == Role::Simulated && !fonts.is_thumbnail {
         for (p, word) in [(first, "start"), (last, "end")] {
             let (x, y) = paper.at(*p);
-            canvas.text((x + 9.0, y - 5.0), "start", fonts.tick, "sp-halo", word);
+            // away from the other mark
+            let other = paper.at(if word == "start" { *last } else { *first }).0;
+            let (shift, anchor) = if x < other { (-9.0, "end") } else { (9.0, "start") };
+            canvas.text((x + shift, y - 5.0), anchor, fonts.tick, "sp-halo", word);
         }
     }
 }
