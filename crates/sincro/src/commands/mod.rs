@@ -15,4 +15,5 @@ pub(crate) mod draw;
 pub(crate) mod linearize;
 pub(crate) mod reproduce;
 pub(crate) mod run;
+pub(crate) mod serve;
 pub(crate) mod trim;
