@@ -256,7 +256,7 @@ fn what_means_nothing_is_refused_with_a_reason() {
         ),
         ("sim.getJointPosition", vec![Value::Int(77)], "there is no object with the handle 77"),
         ("sim.getJointPosition", vec![Value::Text("x".into())], "argument 1 is text, expected a handle"),
-        ("sim.loadScene", vec![Value::Text("/etc".into())], "does not exist"),
+        ("sim.loadScene", vec![Value::Text("nowhere".into())], "does not exist"),
         ("sim.loadScene", vec![Value::Text("..".into())], "lies outside"),
         ("sim.setFloatParam", vec![Value::Int(1), Value::Real(0.003)], "no whole multiple"),
     ];

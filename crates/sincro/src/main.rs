@@ -42,6 +42,8 @@ enum Command {
     Replay(commands::view::ReplayArguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
+    /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
+    Serve(commands::serve::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
     Reproduce(commands::reproduce::Arguments),
     /// Measure speed, memory and accuracy on this machine, beside peers if asked
@@ -82,6 +84,7 @@ fn main() -> ExitCode {
         Command::View(arguments) => commands::view::run(&arguments),
         Command::Replay(arguments) => commands::view::replay(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
+        Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match bench::run(&options) {
             Ok(()) => Exit::Holds,

@@ -50,6 +50,7 @@ impl Resolver<'_> {
         self.parameter_names();
         let grid = Grid { duration: file.duration, step: file.step, record_every: file.record_every };
         let n_steps = self.steps(&grid);
+        let client_ticks = self.client_ticks();
         let record = self.record();
         let parameters: Arc<[(String, f64)]> = file.parameters.iter().map(|(k, x)| (k.clone(), *x)).collect();
         let checks = self.reader(&parameters, Keys::Run(grid)).list(&file.check, "");
@@ -65,6 +66,7 @@ impl Resolver<'_> {
             duration: file.duration,
             step: file.step,
             n_steps: n_steps?,
+            client_ticks,
             record_every: file.record_every,
             integrator: file.integrator.into(),
             accuracy: file.accuracy,
@@ -93,6 +95,20 @@ impl Resolver<'_> {
 
     fn error(&mut self, pointer: &str, message: impl Into<String>, help: impl Into<String>) {
         self.problems.push(Problem::error(&self.document.at(pointer), message).with_help(help));
+    }
+
+    /// Base steps in a step of clients.
+    fn client_ticks(&mut self) -> u64 {
+        let (Some(dt), step) = (self.file.client_step, self.file.step) else { return 1 };
+        let ticks = (dt / step).round();
+        if ticks < 1.0 || ticks > 1e9 || (ticks * step - dt).abs() > 1e-9 * dt {
+            let message = format!("client_step {dt} s is no whole number of steps of {step} s");
+            let near = ticks.max(1.0) * step;
+            let help = format!("use {near} s, or another step");
+            self.problems.push(Problem::error(&self.document.at("/client_step"), message).with_help(help));
+            return 1;
+        }
+        ticks as u64
     }
 
     fn parameter_names(&mut self) {

@@ -106,6 +106,22 @@ pub fn run_campaign(
     Ok(Campaign { main, variants, sweep, report })
 }
 
+/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no variants, no sweep, no error
+/// bars, because it cannot be repeated.
+#[must_use]
+pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
+    let columns = ColumnReport::of_table(&simulated.table);
+    let time = simulated.table.times().last().copied();
+    let ended = if simulated.status == Status::Completed { None } else { time };
+    let outcomes = evaluate(&loaded.experiment.checks, &simulated.table, simulated.status.stopped_at().or(ended));
+    let settings = settings(&loaded.experiment, &simulated);
+    let model_hash = model_hash(&loaded.scene.model);
+    let controller = loaded.controller.clone();
+    let main = Done { simulated, columns, outcomes, settings, model_hash, controller };
+    let report = report(folder, loaded, &main, &[], None);
+    Campaign { main, variants: Vec::new(), sweep: None, report }
+}
+
 type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
 
 /// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs `before` it.

@@ -26,7 +26,7 @@ use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, World};
 
-pub use campaign::{Campaign, Done, Progress, run_campaign};
+pub use campaign::{Campaign, Done, Progress, judge, run_campaign};
 pub use lockstep::{Halt, LockStep};
 pub(crate) use recording::Recording;
 pub use trace::{Trace, model_hash, plant_hash};

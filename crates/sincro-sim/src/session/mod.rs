@@ -35,6 +35,8 @@ pub use signals::Signals;
 pub use table::{Entry, Handle, JointEntry, Kind, LogLine, Request, Table};
 pub use value::{Arguments, Value};
 
+pub use sincro_dynamics::spatial::{Pose, Vec3};
+
 use crate::load::{Loaded, load};
 use crate::overrides::Override;
 use crate::problem::Problems;
@@ -78,6 +80,9 @@ pub struct Session {
     root: PathBuf,
 }
 
+/// Scenes that the example programs of CoppeliaSim load, and what they are called here.
+const EXAMPLES: &[(&str, &str)] = &[("messaging/pControllerViaRemoteApi", "pcontroller")];
+
 /// A run under way.
 struct Run {
     recording: Recording,
@@ -88,7 +93,7 @@ struct Run {
 }
 
 impl Session {
-    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or one base step.
+    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says (`client_step`).
     ///
     /// # Errors
     ///
@@ -110,7 +115,7 @@ impl Session {
         sample_time: Option<f64>,
     ) -> Result<Self, Problems> {
         let (method, warnings) = method_for(&loaded);
-        let mut table = Table::new(&loaded, 1);
+        let mut table = Table::new(&loaded, loaded.experiment.client_ticks);
         if let Some(dt) = sample_time {
             let refused = |Refusal(message)| Problems::from(crate::problem::Problem::nowhere(message));
             table.set_sample_time(dt).map_err(refused)?;
@@ -341,6 +346,7 @@ impl Session {
         let refused = |why: &str| Refusal(format!("the scene `{path}` {why}"));
         // V-REP's scenes are files; here the folder of the same name
         let stem = path.strip_suffix(".ttt").or_else(|| path.strip_suffix(".simscene.xml")).unwrap_or(path);
+        let stem = EXAMPLES.iter().find(|(known, _)| stem.ends_with(known)).map_or(stem, |(_, here)| here);
         let name = Path::new(stem);
         let root = self.root.canonicalize().map_err(|_| refused("cannot be found"))?;
         let whole = root.join(name).canonicalize();

@@ -15,5 +15,6 @@ pub(crate) mod draw;
 pub(crate) mod linearize;
 pub(crate) mod reproduce;
 pub(crate) mod run;
+pub(crate) mod serve;
 pub(crate) mod trim;
 pub(crate) mod view;

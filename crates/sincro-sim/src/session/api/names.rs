@@ -9,7 +9,6 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("setJointMaxForce", "setJointTargetForce"),
     ("getJointMaxForce", "getJointTargetForce"),
     ("getRealTimeSimulation", "getIsRealTimeSimulation"),
-    ("getScriptSimulationParameter", "getScriptSimulationParameter"),
     ("getIntegerSignal", "getInt32Signal"),
     ("setIntegerSignal", "setInt32Signal"),
     ("clearIntegerSignal", "clearInt32Signal"),
@@ -37,7 +36,6 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("setObjectFloatParameter", "setObjectFloatParam"),
     ("isHandleValid", "isHandle"),
     ("getObjectSelection", "getObjectSel"),
-    ("addStatusbarMessage", "addStatusbarMessage"),
 ];
 
 /// The present name of a function that may be given by an old one, without `sim.`.
@@ -53,4 +51,9 @@ pub fn present_name(name: &str) -> Cow<'_, str> {
         },
     };
     IRREGULAR.iter().find(|(old, _)| *old == bare).map_or(bare, |(_, present)| (*present).into())
+}
+
+/// Names that functions had before, without `sim.`, each with the present one.
+pub fn old_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    IRREGULAR.iter().copied()
 }

@@ -1,0 +1,223 @@
+//! What the commands of the legacy API do: simulation, joints, signals, parameters.
+
+use sincro_sim::session::{Desk, Handle, Refusal, Search};
+
+use super::message::{float, int, text};
+use super::{group, objects};
+use crate::hub::Floor;
+
+/// `simxGetObjectHandle`
+pub(super) const GET_HANDLE: u16 = 0x3001;
+
+/// A command as a function sees it.
+#[derive(Clone, Copy)]
+pub(super) struct Call<'a> {
+    pub function: u16,
+    pub ident: &'a [u8],
+    pub data: &'a [u8],
+}
+
+/// Data of a reply.
+pub(super) type Reply = Result<Vec<u8>, Refusal>;
+
+impl<'a> Call<'a> {
+    /// The object that the identification begins with.
+    pub fn handle(&self) -> Result<Handle, Refusal> {
+        Ok(Handle(self.ident_int(0)?))
+    }
+
+    pub fn ident_int(&self, k: usize) -> Result<i32, Refusal> {
+        int(self.ident, 4 * k).ok_or_else(|| Refusal::new("the identification is shorter than it should be"))
+    }
+
+    pub fn name(&self) -> Result<&'a str, Refusal> {
+        text(self.ident).map(|(text, _)| text).ok_or_else(|| Refusal::new("the name is not UTF-8"))
+    }
+
+    pub fn int(&self, at: usize) -> Result<i32, Refusal> {
+        int(self.data, at).ok_or_else(short)
+    }
+
+    pub fn float(&self, at: usize) -> Result<f64, Refusal> {
+        float(self.data, at).ok_or_else(short)
+    }
+
+    pub fn floats<const N: usize>(&self, at: usize) -> Result<[f64; N], Refusal> {
+        super::message::floats(self.data, at).ok_or_else(short)
+    }
+}
+
+fn short() -> Refusal {
+    Refusal::new("the data is shorter than it should be")
+}
+
+pub(super) fn done() -> Reply {
+    Ok(Vec::new())
+}
+
+pub(super) fn ints(list: impl IntoIterator<Item = i32>) -> Reply {
+    Ok(list.into_iter().flat_map(i32::to_le_bytes).collect())
+}
+
+pub(super) fn reals(list: impl IntoIterator<Item = f64>) -> Reply {
+    Ok(list.into_iter().flat_map(|x| (x as f32).to_le_bytes()).collect())
+}
+
+/// A handle list with its length before it.
+pub(super) fn counted(list: &[Handle]) -> Reply {
+    ints([list.len() as i32].into_iter().chain(list.iter().map(|h| h.0)))
+}
+
+/// Runs a function.
+pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
+    match call.function {
+        0x1007 => simulation(floor, call),
+        0x3002 => {
+            let name = call.name()?;
+            floor.act(|session| session.load(name))?;
+            done()
+        }
+        0x0005 => {
+            floor.act(sincro_sim::session::Session::stop)?;
+            done()
+        }
+        _ => on_desk(&mut floor.session.desk(), call),
+    }
+}
+
+fn simulation(floor: &mut Floor, call: &Call<'_>) -> Reply {
+    let what = call.ident_int(0)?;
+    floor.act(|session| match what {
+        0 => session.start(),
+        1 => session.pause(),
+        2 => {
+            session.table().stop_requests += 1;
+            session.stop()
+        }
+        _ => Err(Refusal(format!("{what} is neither start 0 nor pause 1 nor stop 2"))),
+    })?;
+    done()
+}
+
+fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    match call.function {
+        0x0001..=0x0fff
+        | 0x1012
+        | 0x1018..=0x101c
+        | 0x1028
+        | 0x102a
+        | 0x102f
+        | 0x1036
+        | 0x1801
+        | 0x200b..=0x200e
+        | 0x2801
+        | GET_HANDLE
+        | 0x1034
+        | 0x1035
+        | 0x2007..=0x200a
+        | 0x1037
+        | 0x3019 => {
+            if call.function == 0x200c {
+                group::run(desk, call)
+            } else {
+                objects::run(desk, call)
+            }
+        }
+        0x1001..0x1010 | 0x1038 => joint(desk, call),
+        0x101d..=0x1025 => parameter(desk, call),
+        0x300d..=0x3018 => signal(desk, call),
+        0x3008 => {
+            desk.table.log(450, call.name()?);
+            done()
+        }
+        0x3401 => Err(Refusal::new("scripts cannot be called through this door yet")),
+        0x3003 => Err(Refusal::new("models cannot be loaded into a scene that is open: put them in the scene file")),
+        0x3004 | 0x3006 => Err(Refusal::new("files cannot be sent or erased: put the scene where the server finds it")),
+        other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
+    }
+}
+
+fn joint(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let joint = call.handle()?;
+    match call.function {
+        0x1001 => reals([desk.joint_position(joint)?]),
+        0x1002 => desk.set_joint_position(joint, call.float(0)?).and_then(|()| done()),
+        0x1008 => desk.set_target_velocity(joint, call.float(0)?).and_then(|()| done()),
+        0x100c => desk.set_target_position(joint, call.float(0)?).and_then(|()| done()),
+        0x100d => {
+            let force = desk.joint_force(joint)?;
+            reals([force.ok_or_else(|| Refusal::new("there is no force before the first step, nor without a motor"))?])
+        }
+        0x1038 => reals([desk.target_force(joint)?]),
+        0x100e => desk.set_target_force(joint, call.float(0)?, false).and_then(|()| done()),
+        0x100a => {
+            let pose = desk.joint_pose(joint)?;
+            reals(sincro_sim::session::convention::matrix_of(&pose))
+        }
+        0x1003..=0x1006 | 0x1009 | 0x100b | 0x100f => Err(Refusal::new("this scene has no such sensor or joint")),
+        other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
+    }
+}
+
+fn parameter(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let id = i64::from(call.ident_int(0)?);
+    match call.function {
+        0x1021 => ints([i32::try_from(desk.int_parameter(id)?).unwrap_or(i32::MAX)]),
+        0x1023 => reals([desk.float_parameter(id)?]),
+        // what a client means by a float is the nearest number that the base step has a multiple of
+        0x1024 => desk.set_float_parameter(id, call.float(0)?).and_then(|()| done()),
+        0x101f => ints([i32::from(desk.bool_parameter(id)?)]),
+        // display and real time: taken, and of no effect here
+        0x1020 => desk.bool_parameter(id).and_then(|_| call.int(0)).and_then(|_| done()),
+        0x101d => reals(desk.array_parameter(id)?),
+        0x1025 => {
+            let mut text = desk.string_parameter(id)?.into_bytes();
+            text.push(0);
+            Ok(text)
+        }
+        0x1022 | 0x101e => Err(Refusal(format!("parameter {id} cannot be set here"))),
+        other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
+    }
+}
+
+fn signal(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let (name, of_run) = (call.name()?, desk.is_running());
+    let unset = || Refusal(format!("there is no signal `{name}`"));
+    let table = &mut *desk.table;
+    match call.function {
+        0x3010 => reals([*table.floats.get(name).ok_or_else(unset)?]),
+        0x3013 => table.floats.set(name, call.float(0)?, of_run).and_then(|()| done()),
+        0x300d => clear(table.floats.clear(name)),
+        0x3011 => {
+            let x = *table.integers.get(name).ok_or_else(unset)?;
+            ints([x.clamp(i32::MIN.into(), i32::MAX.into()) as i32])
+        }
+        0x3014 => table.integers.set(name, call.int(0)?.into(), of_run).and_then(|()| done()),
+        0x300e => clear(table.integers.clear(name)),
+        0x3012 => table.strings.get(name).cloned().ok_or_else(unset),
+        0x3015 => table.strings.set(name, call.data.to_vec(), of_run).and_then(|()| done()),
+        0x300f => clear(table.strings.clear(name)),
+        0x3016 => table.strings.append(name, call.data, of_run).and_then(|()| done()),
+        0x3017 => {
+            let bytes = table.strings.get(name).cloned().ok_or_else(unset)?;
+            table.strings.clear(name);
+            Ok(bytes)
+        }
+        _ => {
+            let bytes = table.strings.get(name).cloned().unwrap_or_default();
+            if !bytes.is_empty() {
+                table.strings.clear(name);
+            }
+            Ok(bytes)
+        }
+    }
+}
+
+fn clear(_n: usize) -> Reply {
+    done()
+}
+
+/// The object of a name or path.
+pub(super) fn find(desk: &Desk<'_>, name: &str) -> Result<Handle, Refusal> {
+    desk.table.find(name, Search::default())
+}

@@ -1,0 +1,80 @@
+//! `simxGetObjectGroupData`: one kind of data of all objects of a type.
+
+use sincro_sim::session::convention::{euler_of, quaternion_of};
+use sincro_sim::session::{Desk, Entry, Handle, Kind, Reference, Refusal};
+
+use super::functions::{Call, Reply};
+
+/// What is gathered.
+#[derive(Default)]
+struct Gathered {
+    handles: Vec<i32>,
+    ints: Vec<i32>,
+    floats: Vec<f64>,
+    texts: Vec<String>,
+}
+
+/// Runs the function.
+pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let (objects, what) = (call.ident_int(0)?, call.ident_int(1)?);
+    let mut all = Gathered::default();
+    for handle in desk.objects_of_type(objects.into()) {
+        all.handles.push(handle.0);
+        add(desk, handle, what, &mut all)?;
+    }
+    let counts = [all.handles.len(), all.ints.len(), all.floats.len(), all.texts.len()];
+    let mut data: Vec<u8> = counts.into_iter().flat_map(|n| (n as i32).to_le_bytes()).collect();
+    data.extend(all.handles.iter().chain(&all.ints).flat_map(|x| x.to_le_bytes()));
+    data.extend(all.floats.iter().flat_map(|x| (*x as f32).to_le_bytes()));
+    for text in all.texts {
+        data.extend(text.bytes());
+        data.push(0);
+    }
+    Ok(data)
+}
+
+fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Result<(), Refusal> {
+    let entry: Entry = desk.table.entry(handle)?.clone();
+    let against = if what % 2 == 1 { Reference::World } else { Reference::Parent };
+    match what {
+        0 | 20 => all.texts.push(entry.name),
+        21 => all.texts.push(entry.path),
+        1 => all.ints.push(desk.type_of(&entry) as i32),
+        2 => all.ints.push(entry.parent.map_or(-1, |h| h.0)),
+        3..=12 => {
+            let pose = desk.pose(handle, against)?;
+            if matches!(what, 3 | 4 | 9..=12) {
+                all.floats.extend(pose.pos.0);
+            }
+            if matches!(what, 5 | 6 | 9 | 10) {
+                all.floats.extend(euler_of(&pose.rot));
+            }
+            if matches!(what, 7 | 8 | 11 | 12) {
+                all.floats.extend(quaternion_of(&pose.rot));
+            }
+        }
+        15 => match entry.kind {
+            Kind::Joint(Some(_)) => {
+                all.floats.push(desk.joint_position(handle)?);
+                all.floats.push(desk.joint_force(handle)?.unwrap_or(0.0));
+            }
+            _ => all.floats.extend([0.0; 2]),
+        },
+        16 => {
+            let is_joint = matches!(entry.kind, Kind::Joint(Some(_)));
+            all.ints.extend(if is_joint { [10, 5] } else { [-1, -1] });
+            all.floats.extend([0.0, if is_joint { -1.0 } else { 0.0 }]);
+        }
+        17..=19 => {
+            let (linear, angular) = desk.velocity(handle)?;
+            if what != 18 {
+                all.floats.extend(linear);
+            }
+            if what != 17 {
+                all.floats.extend(angular);
+            }
+        }
+        _ => return Err(Refusal(format!("there is no group data {what} here"))),
+    }
+    Ok(())
+}

@@ -1,0 +1,211 @@
+//! Messages of the legacy API: a head of 18 bytes, then commands of 26 bytes, an identification and data each. Little endian.
+
+use crate::limits;
+
+/// Bytes of a message's head.
+pub const MESSAGE_HEAD: usize = 18;
+/// Bytes of a command's head.
+pub const COMMAND_HEAD: usize = 26;
+/// Version of the protocol.
+pub const VERSION: u8 = 11;
+
+/// Head of a message.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Head {
+    /// Number of the message.
+    pub id: i32,
+    /// Clock of the client [ms].
+    pub client_time: i32,
+    /// Clock of the server [ms].
+    pub server_time: i32,
+    /// Number of the scene.
+    pub scene: u16,
+    /// Bit 0: a run is on; bit 1: it is paused; bit 2: real time.
+    pub state: u8,
+}
+
+impl Head {
+    /// From the start of a message; none if that is no head.
+    #[must_use]
+    pub fn parse(bytes: &[u8]) -> Option<Self> {
+        let b = bytes.get(..MESSAGE_HEAD)?;
+        let int = |k: usize| i32::from_le_bytes([b[k], b[k + 1], b[k + 2], b[k + 3]]);
+        Some(Self {
+            id: int(3),
+            client_time: int(7),
+            server_time: int(11),
+            scene: u16::from_le_bytes([b[15], b[16]]),
+            state: b[17],
+        })
+    }
+
+    /// Writes it.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        out.extend([0, 0, VERSION]);
+        for x in [self.id, self.client_time, self.server_time] {
+            out.extend(x.to_le_bytes());
+        }
+        out.extend(self.scene.to_le_bytes());
+        out.push(self.state);
+    }
+}
+
+/// What is to be done with a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Once.
+    Once,
+    /// Again and again.
+    Stream,
+    /// Once, sent and answered in pieces.
+    SplitOnce,
+    /// Again and again, in pieces.
+    SplitStream,
+    /// No longer.
+    Discontinue,
+}
+
+/// A command, as it was sent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Command<'a> {
+    /// What: low 16 bits; how: the rest.
+    pub code: i32,
+    /// Whole size; larger than this command if it is a piece.
+    pub full_size: i32,
+    /// Where the data stands in the whole.
+    pub offset: i32,
+    /// Shortest time between two executions [ms], or longest piece.
+    pub delay: u16,
+    /// Bit 0: keep it beside one like it.
+    pub status: u8,
+    /// What it is about.
+    pub ident: &'a [u8],
+    /// With what.
+    pub data: &'a [u8],
+}
+
+impl<'a> Command<'a> {
+    /// Number of the function.
+    #[must_use]
+    pub fn function(&self) -> u16 {
+        self.code as u16
+    }
+
+    /// Mode of operation; none if there is none of that number, or if it is never sent.
+    #[must_use]
+    pub fn mode(&self) -> Option<Mode> {
+        Some(match self.code as u32 >> 16 {
+            0 | 1 => Mode::Once,
+            2 => Mode::Stream,
+            3 => Mode::SplitOnce,
+            4 => Mode::SplitStream,
+            5 => Mode::Discontinue,
+            _ => return None,
+        })
+    }
+
+    /// Whole number `k` of the identification.
+    #[must_use]
+    pub fn ident_int(&self, k: usize) -> Option<i32> {
+        int(self.ident, 4 * k)
+    }
+
+    /// The text that the identification is.
+    #[must_use]
+    pub fn ident_text(&self) -> Option<&'a str> {
+        text(self.ident).map(|(text, _)| text)
+    }
+}
+
+/// The commands of a message.
+///
+/// # Errors
+///
+/// What is wrong with the message: nothing of it is to be executed.
+pub fn commands(message: &[u8]) -> Result<Vec<Command<'_>>, &'static str> {
+    let mut rest = message.get(MESSAGE_HEAD..).ok_or("a message is shorter than its head")?;
+    let mut commands = Vec::new();
+    while !rest.is_empty() {
+        if commands.len() == limits::COMMANDS {
+            return Err("a message has too many commands");
+        }
+        let head = rest.get(..COMMAND_HEAD).ok_or("a command is shorter than its head")?;
+        let word = |k: usize| u16::from_le_bytes([head[k], head[k + 1]]);
+        let at = |k: usize| int(head, k).unwrap_or(0);
+        let size = usize::try_from(at(0)).ok().filter(|n| (COMMAND_HEAD..=rest.len()).contains(n));
+        let size = size.ok_or("a command has a length that the message does not have")?;
+        let ident_end = COMMAND_HEAD + word(8) as usize;
+        let ident = rest.get(COMMAND_HEAD..ident_end).filter(|_| ident_end <= size);
+        let ident = ident.ok_or("an identification is longer than its command")?;
+        commands.push(Command {
+            code: at(14),
+            full_size: at(4),
+            offset: at(10),
+            delay: word(18),
+            status: head[24],
+            ident,
+            data: &rest[ident_end..size],
+        });
+        rest = &rest[size..];
+    }
+    Ok(commands)
+}
+
+/// What a reply is, beside its data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReplyHead {
+    /// As in the command.
+    pub code: i32,
+    /// Simulation time at execution [ms]; 0 while stopped.
+    pub time: i32,
+    /// Whether it failed.
+    pub failed: bool,
+    /// Whole size of a reply in pieces and where this one stands; none if it is whole.
+    pub piece: Option<(i32, i32)>,
+}
+
+/// Writes a reply.
+pub fn write_reply(head: &ReplyHead, ident: &[u8], data: &[u8], out: &mut Vec<u8>) {
+    let size = (COMMAND_HEAD + ident.len() + data.len()) as i32;
+    let (full, offset) = head.piece.unwrap_or((size, 0));
+    out.extend(size.to_le_bytes());
+    out.extend(full.to_le_bytes());
+    out.extend((ident.len() as u16).to_le_bytes());
+    out.extend(offset.to_le_bytes());
+    out.extend(head.code.to_le_bytes());
+    out.extend(0_u16.to_le_bytes());
+    out.extend(head.time.to_le_bytes());
+    out.extend([u8::from(head.failed), 0]);
+    out.extend(ident);
+    out.extend(data);
+}
+
+/// The whole number at a place.
+#[must_use]
+pub fn int(bytes: &[u8], at: usize) -> Option<i32> {
+    Some(i32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?))
+}
+
+/// The number at a place, as the double it stands for.
+#[must_use]
+pub fn float(bytes: &[u8], at: usize) -> Option<f64> {
+    Some(f32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?).into())
+}
+
+/// `N` numbers from a place on.
+#[must_use]
+pub fn floats<const N: usize>(bytes: &[u8], at: usize) -> Option<[f64; N]> {
+    let mut out = [0.0; N];
+    for (k, x) in out.iter_mut().enumerate() {
+        *x = float(bytes, at + 4 * k)?;
+    }
+    Some(out)
+}
+
+/// A text that ends with a zero, and how many bytes it takes; it may also end with the bytes.
+#[must_use]
+pub fn text(bytes: &[u8]) -> Option<(&str, usize)> {
+    let end = bytes.iter().position(|b| *b == 0);
+    let text = std::str::from_utf8(&bytes[..end.unwrap_or(bytes.len())]).ok()?;
+    Some((text, end.map_or(bytes.len(), |n| n + 1)))
+}

@@ -1,0 +1,39 @@
+//! The legacy remote API (`simx…`): TCP, a strict ping-pong of messages made of commands.
+//!
+//! | file | has |
+//! |---|---|
+//! | `packet.rs` | messages cut into packets and put together |
+//! | `message.rs` | headers, commands, replies |
+//! | `client.rs` | operation modes: streaming, splitting, discontinuing |
+//! | `functions.rs`, `objects.rs`, `group.rs` | what each command does |
+//!
+//! Everything in a message is executed before it is answered, the trigger of a synchronous step last, and what is streamed after that:
+//! values read with a trigger are those after the step.
+
+mod client;
+mod functions;
+mod group;
+pub mod message;
+mod objects;
+pub mod packet;
+
+use std::sync::Arc;
+
+use crate::hub::Hub;
+use crate::listen::Connection;
+use client::Client;
+
+/// Serves one connection until it ends.
+pub(crate) fn serve(mut connection: Connection, hub: &Arc<Hub>) {
+    let key = format!("legacy {}", connection.peer());
+    let id = hub.enter().attach(&key);
+    let mut client = Client::new(hub.clone(), id);
+    let (mut incoming, mut outgoing) = (Vec::new(), Vec::new());
+    while packet::receive(&mut connection, &mut incoming).is_ok() {
+        let Ok(goes_on) = client.answer(&incoming, &mut outgoing) else { break };
+        if packet::send(connection.stream(), &outgoing).is_err() || !goes_on {
+            break;
+        }
+    }
+    hub.detach(id);
+}

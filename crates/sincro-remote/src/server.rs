@@ -1,0 +1,184 @@
+//! The server: a session, its ports and its threads.
+
+use std::fmt;
+use std::io::ErrorKind;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use sincro_sim::session::Session;
+
+use crate::hub::{Event, Hub, Manner};
+use crate::{legacy, listen, ws, zmq};
+
+/// What to serve, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Address to listen on; the loopback one unless others are to come in.
+    pub bind: IpAddr,
+    /// Ports of the legacy API; 0 for any free one.
+    pub legacy: Vec<u16>,
+    /// Port of the ZeroMQ API, the one after it for version 1; 0 for any free ones.
+    pub zmq: Option<u16>,
+    /// Port of the WebSocket API; 0 for any free one.
+    pub ws: Option<u16>,
+    /// Whether the simulation runs no faster than the clock when nobody steps it.
+    pub real_time: bool,
+    /// How long a client that steps may stay silent before it is let go.
+    pub patience: Duration,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            bind: Ipv4Addr::LOCALHOST.into(),
+            legacy: vec![19997, 19999],
+            zmq: Some(23000),
+            ws: Some(23050),
+            real_time: false,
+            patience: Duration::from_secs(600),
+        }
+    }
+}
+
+/// Why nothing is served.
+#[derive(Debug)]
+pub struct ServeError {
+    /// What happened, the port named.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl fmt::Display for ServeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; {}", self.message, self.help)
+    }
+}
+
+impl std::error::Error for ServeError {}
+
+/// The addresses that are listened on.
+#[derive(Clone, Debug, Default)]
+pub struct Ports {
+    /// Of the legacy API.
+    pub legacy: Vec<SocketAddr>,
+    /// Of the ZeroMQ API.
+    pub zmq: Option<SocketAddr>,
+    /// Of its step counter, for clients of version 1.
+    pub zmq_steps: Option<SocketAddr>,
+    /// Of the WebSocket API.
+    pub ws: Option<SocketAddr>,
+}
+
+/// A server that runs until it is dropped.
+pub struct Server {
+    hub: Arc<Hub>,
+    ports: Ports,
+    threads: Vec<JoinHandle<()>>,
+    events: Receiver<Event>,
+}
+
+impl Server {
+    /// Opens the ports and starts to serve.
+    ///
+    /// # Errors
+    ///
+    /// A port cannot be had; then nothing is served.
+    pub fn start(session: Session, options: &Options) -> Result<Self, ServeError> {
+        let open = |port: u16, flag: &str| open(options.bind, port, flag);
+        let legacy = options.legacy.iter().map(|p| open(*p, "--legacy-port")).collect::<Result<Vec<_>, _>>()?;
+        let zmq = options.zmq.map(|p| open(p, "--zmq-port")).transpose()?;
+        let steps =
+            options.zmq.map(|p| open(if p == 0 { 0 } else { p.saturating_add(1) }, "--zmq-port")).transpose()?;
+        let ws = options.ws.map(|p| open(p, "--ws-port")).transpose()?;
+        let address = |l: &TcpListener| l.local_addr().expect("a listener has an address");
+        let ports = Ports {
+            legacy: legacy.iter().map(address).collect(),
+            zmq: zmq.as_ref().map(address),
+            zmq_steps: steps.as_ref().map(address),
+            ws: ws.as_ref().map(address),
+        };
+        let (send, events) = channel();
+        let manner = Manner { real_time: options.real_time, patience: options.patience };
+        let hub = Hub::new(session, manner, send);
+        let mut threads = Vec::new();
+        let failed =
+            |e| ServeError { message: format!("no thread can be started: {e}"), help: "close programs".into() };
+        for listener in legacy {
+            threads.push(listen::accept(listener, &hub, "legacy", legacy::serve).map_err(failed)?);
+        }
+        if let Some(listener) = zmq {
+            threads.push(listen::accept(listener, &hub, "zmq", zmq::serve).map_err(failed)?);
+        }
+        if let Some(listener) = steps {
+            let publisher = zmq::Publisher::default();
+            let of_hub = publisher.clone();
+            hub.enter().on_step(Box::new(move |step| of_hub.publish(step)));
+            let serve = move |connection, _: &Arc<Hub>| publisher.serve(connection);
+            threads.push(listen::accept(listener, &hub, "zmq steps", serve).map_err(failed)?);
+        }
+        if let Some(listener) = ws {
+            threads.push(listen::accept(listener, &hub, "ws", ws::serve).map_err(failed)?);
+        }
+        let of_run = hub.clone();
+        let run = std::thread::Builder::new().name("simulation".into()).spawn(move || of_run.run());
+        threads.push(run.map_err(failed)?);
+        Ok(Self { hub, ports, threads, events })
+    }
+
+    /// The addresses that are listened on.
+    #[must_use]
+    pub fn ports(&self) -> &Ports {
+        &self.ports
+    }
+
+    /// Where the clients meet.
+    #[must_use]
+    pub fn hub(&self) -> &Arc<Hub> {
+        &self.hub
+    }
+
+    /// What happens: messages, runs that have ended.
+    #[must_use]
+    pub fn events(&self) -> &Receiver<Event> {
+        &self.events
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.hub.close();
+        let ports = &self.ports;
+        let all = ports.legacy.iter().chain(&ports.zmq).chain(&ports.zmq_steps).chain(&ports.ws);
+        all.copied().for_each(listen::nudge);
+        for thread in self.threads.drain(..) {
+            // a thread that panicked has said so
+            let _ = thread.join();
+        }
+    }
+}
+
+/// A listener; the standard library sets `SO_REUSEADDR` where a port would else stay taken after the last server has ended.
+fn open(bind: IpAddr, port: u16, flag: &str) -> Result<TcpListener, ServeError> {
+    TcpListener::bind((bind, port)).map_err(|e| match e.kind() {
+        ErrorKind::AddrInUse => ServeError {
+            message: format!("port {port} is in use on {bind}"),
+            help: format!("another simulator may be running: end it, or take another port with {flag}"),
+        },
+        ErrorKind::AddrNotAvailable => ServeError {
+            message: format!("{bind} is no address of this machine"),
+            help: "give one that is with --bind, or 0.0.0.0 for all".into(),
+        },
+        ErrorKind::PermissionDenied => ServeError {
+            message: format!("port {port} is not allowed for this user"),
+            help: format!("take one above 1023 with {flag}"),
+        },
+        _ => ServeError {
+            message: format!("port {port} on {bind} cannot be opened: {e}"),
+            help: format!("see {flag} and --bind"),
+        },
+    })
+}

@@ -1,0 +1,225 @@
+//! What a door of the regular API offers beside the session's own functions: stepping, waiting, locks, information. The ZeroMQ and the WebSocket
+//! door have it in common.
+
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, SystemTime};
+
+use sincro_sim::session::{Arguments, Refusal, Value, api, constants};
+
+use crate::hub::{ClientId, Hub};
+use crate::limits;
+
+/// Modules of the official program that are asked for and not offered.
+const MODULES: &str = "only the module sim is offered";
+/// Longest real wait of one call.
+const LONGEST_WAIT: f64 = 3_600.0;
+
+/// Functions of the door, with what they give and take.
+const FUNCTIONS: &[(&str, &str)] = &[
+    ("setStepping", "int previousLevel=sim.setStepping(bool enabled)"),
+    ("step", "sim.step(int steps=1)"),
+    ("switchThread", "sim.switchThread()"),
+    ("yield", "sim.yield()"),
+    ("wait", "float timeLeft=sim.wait(float dt,bool simulationTime=true)"),
+    ("acquireLock", "sim.acquireLock()"),
+    ("releaseLock", "sim.releaseLock()"),
+    ("setThreadSwitchTiming", "sim.setThreadSwitchTiming(int dtInMs)"),
+    ("setThreadAutomaticSwitch", "int previousLevel=sim.setThreadAutomaticSwitch(any autoSwitch)"),
+    ("restartServer", "sim.restartServer()"),
+    ("readCustomDataBlock", "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)"),
+    ("callScriptFunction", "...=sim.callScriptFunction(string functionName,int scriptHandle,...)"),
+    ("testCB", "any result=sim.testCB(any a,func cb,any b,int iterations=99)"),
+    ("getApiFunc", "string[] functions=sim.getApiFunc(int scriptHandle,string apiWord)"),
+    ("getApiInfo", "string info=sim.getApiInfo(int scriptHandle,string apiWord)"),
+    ("getSystemTime", "float systemTime=sim.getSystemTime()"),
+    ("handleExtCalls", "sim.handleExtCalls()"),
+];
+
+/// Functions that could do harm; a client is told so.
+const UNSAFE: &[&str] = &["executeScriptString", "launchExecutable", "_evalExec", "saveScene", "saveModel"];
+
+/// What a call gives.
+pub(crate) enum Said {
+    /// Its results.
+    Done(Vec<Value>),
+    /// The client must run a callback: its name, what it is given, and how often still.
+    Callback { name: String, arguments: Vec<Value>, left: i64 },
+}
+
+/// A client at the door.
+pub(crate) struct Door {
+    pub hub: Arc<Hub>,
+    pub id: ClientId,
+}
+
+impl Door {
+    /// Calls a function.
+    ///
+    /// # Errors
+    ///
+    /// There is none of that name, or it refused.
+    pub fn call(&self, name: &str, arguments: &[Value]) -> Result<Said, Refusal> {
+        let bare = name.strip_prefix("sim.").unwrap_or(name);
+        let a = Arguments(arguments);
+        let results = match bare {
+            "setStepping" => {
+                // Lua lets a level be given: any above zero is stepping
+                let before = self.hub.enter().set_stepping(self.id, a.bool_or(0, true)?);
+                self.hub.wake();
+                vec![Value::Int(before.into())]
+            }
+            "step" | "switchThread" | "yield" => self.steps(a)?,
+            "wait" => self.wait(a)?,
+            "acquireLock" | "releaseLock" => {
+                self.hub.enter().lock(self.id, bare == "acquireLock");
+                self.hub.wake();
+                Vec::new()
+            }
+            "setThreadSwitchTiming" | "handleExtCalls" | "restartServer" => Vec::new(),
+            "setThreadAutomaticSwitch" => vec![Value::Int(0)],
+            "testCB" => return callback(a),
+            "getApiFunc" => vec![Value::List(names(a.text(1)?).map(Value::from).collect())],
+            "getApiInfo" => vec![tip(a.text(1)?).map_or(Value::Text(String::new()), Value::from)],
+            "getSystemTime" => vec![Value::Real(clock())],
+            "callScriptFunction" => {
+                return Err(Refusal::new(
+                    "this scene has no scripts that could be called (in function 'sim.callScriptFunction')",
+                ));
+            }
+            name if UNSAFE.contains(&name) => {
+                return Err(Refusal(format!("sim.{name} is not allowed over the network")));
+            }
+            _ => {
+                let mut results = self.session(name, arguments)?;
+                // over the wire nothing stored is an empty text
+                if bare == "readCustomDataBlock" && results == [Value::Nil] {
+                    results = vec![Value::Bytes(Vec::new())];
+                }
+                results
+            }
+        };
+        Ok(Said::Done(results))
+    }
+
+    fn session(&self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
+        if !name.starts_with("sim") {
+            let short: String = name.chars().take(100).collect();
+            return Err(Refusal(format!("No such function: {short}")));
+        }
+        let mut floor = self.hub.enter();
+        floor.seen(self.id);
+        let result = floor.act(|session| session.call(name, arguments));
+        drop(floor);
+        self.hub.wake();
+        result
+    }
+
+    /// One step, or as many as are asked for in one call.
+    fn steps(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+        // old clients give a truth value: it means nothing
+        let n = match a.get(0) {
+            Value::Nil | Value::Bool(_) => 1,
+            _ => a.int(0)?,
+        };
+        if !(1..=limits::STEPS).contains(&n) {
+            return Err(Refusal(format!("{n} steps, expected 1 to {}", limits::STEPS)));
+        }
+        for _ in 0..n {
+            self.hub.step(self.id)?;
+        }
+        Ok(Vec::new())
+    }
+
+    fn wait(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+        let dt = a.real(0)?;
+        if !(0.0..=LONGEST_WAIT).contains(&dt) {
+            return Err(Refusal(format!("a wait of {dt} s, expected 0 to {LONGEST_WAIT} s")));
+        }
+        if !a.bool_or(1, true)? {
+            std::thread::sleep(Duration::from_secs_f64(dt));
+            return Ok(vec![Value::Real(0.0)]);
+        }
+        let now = || {
+            let mut floor = self.hub.enter();
+            (floor.session.t(), floor.session.phase() == sincro_sim::session::Phase::Running)
+        };
+        let end = now().0 + dt;
+        loop {
+            let (t, runs) = now();
+            if t >= end - 1e-9 || !runs {
+                return Ok(vec![Value::Real((end - t).min(0.0))]);
+            }
+            self.hub.step(self.id)?;
+        }
+    }
+}
+
+fn callback(a: Arguments<'_>) -> Result<Said, Refusal> {
+    let name = a.text(1)?;
+    let name = name.strip_suffix("@func").unwrap_or(name).to_owned();
+    let left = a.int_or(3, 99)?.clamp(0, 10_000);
+    Ok(Said::Callback { name, arguments: vec![a.get(0).clone(), a.get(2).clone()], left })
+}
+
+/// Seconds of the wall clock: for clients that time themselves, not for the simulation.
+fn clock() -> f64 {
+    SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0.0, |d| d.as_secs_f64())
+}
+
+/// Every function that can be called, by present and old names, without `sim.`.
+fn all() -> impl Iterator<Item = &'static str> {
+    let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| api::function(name).is_none());
+    let old = api::old_names().filter(|(_, present)| api::function(present).is_some()).map(|(old, _)| old);
+    api::functions().map(|f| f.name).chain(own).chain(old)
+}
+
+/// Names that begin as asked for, with `sim.` before them; `+` before the beginning asks for all of it.
+fn names(begin: &str) -> impl Iterator<Item = String> {
+    let begin = begin.trim_start_matches(['+', '-']).to_owned();
+    all().map(|name| format!("sim.{name}")).filter(move |name| name.starts_with(&begin))
+}
+
+fn tip(name: &str) -> Option<&'static str> {
+    let bare = name.strip_prefix("sim.").unwrap_or(name);
+    let own = FUNCTIONS.iter().find(|(known, _)| *known == bare).map(|(_, tip)| *tip);
+    own.or_else(|| api::function(name).map(|f| f.tip))
+}
+
+/// Everything that a module has, as clients build their own from it.
+///
+/// # Errors
+///
+/// The module is not offered.
+pub(crate) fn info(module: &str) -> Result<Value, Refusal> {
+    static SIM: OnceLock<Value> = OnceLock::new();
+    if !is_offered(module) {
+        return Err(Refusal(format!("there is no module {module}: {MODULES}")));
+    }
+    let build = || {
+        let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
+        let constant = |x: i64| Value::Map(vec![("const".into(), Value::Int(x))]);
+        let functions = all().map(|name| (name.to_owned(), func()));
+        let constants = constants::CONSTANTS.iter().map(|(name, x)| ((*name).to_owned(), constant(*x)));
+        Value::Map(functions.chain(constants).collect())
+    };
+    Ok(SIM.get_or_init(build).clone())
+}
+
+/// Whether a module is here: `sim`, with or without a version.
+pub(crate) fn is_offered(module: &str) -> bool {
+    module == "sim" || module.strip_prefix("sim-").is_some_and(|version| version.parse::<u32>().is_ok_and(|v| v == 1))
+}
+
+/// `require`
+///
+/// # Errors
+///
+/// The module is not offered.
+pub(crate) fn require(module: &str) -> Result<Vec<Value>, Refusal> {
+    let short: String = module.chars().take(100).collect();
+    if is_offered(module) {
+        Ok(vec![Value::Nil])
+    } else {
+        Err(Refusal(format!("there is no module {short}: {MODULES}")))
+    }
+}

@@ -1,0 +1,32 @@
+//! The ZeroMQ remote API of CoppeliaSim: one CBOR map each way, versions 2 and 1 told apart by whether a request has a `uuid`.
+//!
+//! | file | has |
+//! |---|---|
+//! | `wire.rs` | ZMTP 3.0, as far as REP and PUB need it |
+//! | `rpc.rs` | requests, answers, callbacks |
+//! | `functions.rs` | what the door itself offers: stepping, waiting, locks, information |
+//! | `steps.rs` | the step counter that clients of version 1 wait for |
+
+mod functions;
+mod rpc;
+mod steps;
+pub mod wire;
+
+use std::sync::Arc;
+
+use crate::hub::Hub;
+use crate::listen::Connection;
+pub(crate) use functions::{Door, Said, info};
+pub use steps::Publisher;
+
+/// Serves one connection until it ends.
+pub(crate) fn serve(connection: Connection, hub: &Arc<Hub>) {
+    let Ok(mut socket) = wire::Socket::accept(connection, "REP") else { return };
+    let mut conversation = rpc::Conversation::new(hub.clone());
+    while let Ok((envelope, request)) = socket.receive_request() {
+        let answer = conversation.answer(&request);
+        if socket.send_answer(&envelope, &answer).is_err() {
+            break;
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! Requests and answers of one connection.
+
+use std::sync::Arc;
+
+use sincro_sim::session::{Refusal, Value};
+
+use super::functions::{self, Door, Said};
+use crate::cbor;
+use crate::hub::Hub;
+
+/// Longest identity of a client.
+const LONGEST_UUID: usize = 256;
+
+/// One connection, and what it has not been answered yet.
+pub(super) struct Conversation {
+    hub: Arc<Hub>,
+    /// The client that the connection is of, once it has said so.
+    door: Option<(String, Door)>,
+    callback: Option<Callback>,
+}
+
+/// A callback that the client is running.
+struct Callback {
+    name: String,
+    arguments: Vec<Value>,
+    left: i64,
+}
+
+/// A request, taken apart.
+struct Request {
+    function: String,
+    arguments: Vec<Value>,
+    uuid: Option<String>,
+}
+
+impl Conversation {
+    pub fn new(hub: Arc<Hub>) -> Self {
+        Self { hub, door: None, callback: None }
+    }
+
+    /// Answers a request.
+    pub fn answer(&mut self, request: &[u8]) -> Vec<u8> {
+        let answer = match parse(request) {
+            Ok(request) if request.uuid.is_none() => self.first_version(&request),
+            Ok(request) => {
+                self.second_version(&request).unwrap_or_else(|Refusal(e)| map([("err", Value::Text(line(&e)))]))
+            }
+            Err(Refusal(e)) => map([("err", Value::Text(line(&e)))]),
+        };
+        let mut out = Vec::new();
+        cbor::encode(&answer, &mut out);
+        out
+    }
+
+    /// The client of an identity; the connection becomes one of its.
+    fn door(&mut self, key: String) -> &Door {
+        if self.door.as_ref().is_none_or(|(known, _)| *known != key) {
+            self.leave();
+            let id = self.hub.enter().attach(&key);
+            self.door = Some((key, Door { hub: self.hub.clone(), id }));
+        }
+        &self.door.as_ref().expect("it was just opened").1
+    }
+
+    fn leave(&mut self) {
+        self.callback = None;
+        if let Some((_, door)) = self.door.take() {
+            self.hub.detach(door.id);
+        }
+    }
+
+    fn second_version(&mut self, request: &Request) -> Result<Value, Refusal> {
+        let key = format!("zmq {}", request.uuid.as_deref().unwrap_or_default());
+        match request.function.as_str() {
+            "_*end*_" => {
+                self.leave();
+                return Ok(Value::Map(Vec::new()));
+            }
+            "_*executed*_" => return Ok(self.executed(&request.arguments)),
+            "zmqRemoteApi.require" => {
+                self.door(key);
+                return functions::require(text(&request.arguments)?).map(ret);
+            }
+            "zmqRemoteApi.info" => {
+                self.door(key);
+                return functions::info(text(&request.arguments)?).map(|info| ret(vec![info]));
+            }
+            _ => {}
+        }
+        match self.door(key).call(&request.function, &request.arguments)? {
+            Said::Done(results) => Ok(ret(results)),
+            Said::Callback { name, arguments, left } => {
+                let answer = run(&name, &arguments);
+                self.callback = Some(Callback { name, arguments, left });
+                Ok(answer)
+            }
+        }
+    }
+
+    /// The client has run a callback, or has waited.
+    fn executed(&mut self, results: &[Value]) -> Value {
+        match &mut self.callback {
+            Some(callback) if callback.left > 0 => {
+                callback.left -= 1;
+                run(&callback.name, &callback.arguments)
+            }
+            Some(_) => {
+                self.callback = None;
+                ret(results.to_vec())
+            }
+            None => ret(Vec::new()),
+        }
+    }
+
+    fn first_version(&mut self, request: &Request) -> Value {
+        match self.first_version_call(request) {
+            Ok(results) => map([("success", Value::Bool(true)), ("ret", Value::List(results))]),
+            Err(Refusal(e)) => map([("success", Value::Bool(false)), ("error", Value::Text(line(&e)))]),
+        }
+    }
+
+    fn first_version_call(&mut self, request: &Request) -> Result<Vec<Value>, Refusal> {
+        let given = &request.arguments;
+        let uuid = |k: usize| given.get(k).and_then(Value::as_text).unwrap_or("shared").chars().take(LONGEST_UUID);
+        let key = |k: usize| format!("zmq 1 {}", uuid(k).collect::<String>());
+        match request.function.as_str() {
+            "zmqRemoteApi.info" => functions::info(text(given)?).map(|info| vec![info]),
+            "zmqRemoteApi.require" => functions::require(text(given)?),
+            "setStepping" => {
+                let on = given.first().and_then(Value::as_bool).unwrap_or(true);
+                let id = self.door(key(1)).id;
+                let mut floor = self.hub.enter();
+                floor.stop_stepping(id);
+                if on {
+                    floor.set_stepping(id, true);
+                }
+                drop(floor);
+                self.hub.wake();
+                Ok(Vec::new())
+            }
+            // answered at once: the client waits for the counter
+            "step" => {
+                let id = self.door(key(0)).id;
+                let mut floor = self.hub.enter();
+                floor.ask_step(id);
+                let made = floor.advance_if_ready();
+                drop(floor);
+                self.hub.wake();
+                made.map(|()| Vec::new())
+            }
+            name => {
+                let door = match &self.door {
+                    Some((_, door)) => door,
+                    None => self.door(key(usize::MAX)),
+                };
+                match door.call(name, given)? {
+                    Said::Done(results) => Ok(results),
+                    Said::Callback { .. } => Err(Refusal::new("version 1 of the client has no callbacks")),
+                }
+            }
+        }
+    }
+}
+
+impl Drop for Conversation {
+    fn drop(&mut self) {
+        self.leave();
+    }
+}
+
+fn parse(bytes: &[u8]) -> Result<Request, Refusal> {
+    let value = cbor::decode(bytes).map_err(|e| Refusal(format!("the request cannot be read: {e}")))?;
+    let Value::Map(fields) = value else {
+        return Err(Refusal(format!("the request is {}, expected a map", value.word())));
+    };
+    let (mut function, mut arguments, mut uuid, mut count) = (None, Vec::new(), None, None);
+    for (key, value) in fields {
+        match (key.as_str(), value) {
+            ("func", Value::Text(name)) => function = Some(name),
+            ("args", Value::List(list)) => arguments = list,
+            // Lua has one empty table
+            ("args", Value::Map(list)) if list.is_empty() => {}
+            ("args", other) => return Err(Refusal(format!("`args` is {}, expected a list", other.word()))),
+            ("uuid", value) => uuid = value.as_text().filter(|text| text.len() <= LONGEST_UUID).map(str::to_owned),
+            ("argsL", value) => count = value.as_int().and_then(|n| usize::try_from(n).ok()),
+            ("eval", _) => return Err(Refusal::new("Lua text is not evaluated for clients")),
+            _ => {}
+        }
+    }
+    let nil = |value: &Value| value.as_text() == Some("_*NIL*_");
+    arguments.iter_mut().filter(|value| nil(value)).for_each(|value| *value = Value::Nil);
+    if let Some(count) = count.filter(|n| (arguments.len()..=arguments.len() + 64).contains(n)) {
+        arguments.resize(count, Value::Nil);
+    }
+    let function = function.ok_or_else(|| Refusal::new("the request has no `func`"))?;
+    Ok(Request { function, arguments, uuid })
+}
+
+fn text(arguments: &[Value]) -> Result<&str, Refusal> {
+    arguments.first().and_then(Value::as_text).ok_or_else(|| Refusal::new("the name of a module is expected"))
+}
+
+fn map<const N: usize>(fields: [(&str, Value); N]) -> Value {
+    Value::Map(fields.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+}
+
+fn ret(results: Vec<Value>) -> Value {
+    map([("ret", Value::List(results))])
+}
+
+fn run(name: &str, arguments: &[Value]) -> Value {
+    map([("func", Value::from(name)), ("args", Value::List(arguments.to_vec()))])
+}
+
+/// Errors have one line: some clients print the marks of others raw.
+fn line(message: &str) -> String {
+    message.replace(['\n', '\t', '\r'], " ")
+}

@@ -1,0 +1,98 @@
+//! The same control law through every door gives the same bits.
+//!
+//! The law is that of a joint that goes to 0.5 rad: velocity 2·(0.5 − q), rounded to 1/64 rad/s because the legacy wire has single precision. It is
+//! computed 20 times a second by a block diagram, in Rust, by a legacy client and by a ZeroMQ client.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use sincro_remote::Server;
+use sincro_sim::load;
+use sincro_sim::run::{Manner, Trace, Watch, simulate};
+use sincro_sim::session::{Search, Session, Value};
+
+use super::legacy_client::Client as Legacy;
+use super::scene::{finished, folder, options};
+use super::zmq_client::Client as Zmq;
+
+const DIAGRAM: &str = r#"
+sample_time = 0.05
+block = [
+  { name = "goal", kind = "constant", value = 0.5 },
+  { name = "error", kind = "sum", signs = "+-" },
+  { name = "gain", kind = "gain", gain = 2.0 },
+  { name = "rounded", kind = "quantizer", interval = 0.015625 },
+]
+wires = [
+  "goal -> error", "/joint1.position -> error.2", "error -> gain", "gain -> rounded", "rounded -> /joint1",
+]
+"#;
+
+const STEPS: usize = 40;
+
+fn law(q: f64) -> f64 {
+    (2.0 * (0.5 - q) * 64.0).round() / 64.0
+}
+
+fn by_diagram() -> Trace {
+    let folder = folder("parity-diagram", "diagram = \"diagram.toml\"\n");
+    std::fs::write(folder.join("diagram.toml"), DIAGRAM).unwrap();
+    let loaded = load(&folder, &[]).unwrap_or_else(|p| panic!("{:?}", p.0));
+    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    simulate(&loaded, Manner::default(), watch).unwrap().trace
+}
+
+fn session(folder: &Path) -> Session {
+    Session::open(folder, &[], None).unwrap()
+}
+
+fn in_rust(folder: &Path) -> Trace {
+    let mut session = session(folder);
+    let joint = session.desk().table.find("joint1", Search::default()).unwrap();
+    session.start().unwrap();
+    for _ in 0..STEPS {
+        let q = session.desk().joint_position(joint).unwrap();
+        session.desk().set_target_velocity(joint, law(q)).unwrap();
+        session.step().unwrap();
+    }
+    session.trace().unwrap()
+}
+
+fn by_legacy(server: &Server) -> Trace {
+    let mut client = Legacy::connect(server.ports().legacy[0]);
+    let joint = client.handle("joint1#");
+    client.start();
+    for _ in 0..STEPS {
+        let q = client.joint_position(joint);
+        client.set_velocity(joint, law(q.into()) as f32);
+        client.trigger().unwrap();
+    }
+    client.simulation(2);
+    finished(server).simulated.trace
+}
+
+fn by_zmq(server: &Server) -> Trace {
+    let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("parity"));
+    let joint = client.object("/joint1");
+    client.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
+    client.call("sim.startSimulation", &[]).unwrap();
+    for _ in 0..STEPS {
+        let q = client.real("sim.getJointPosition", std::slice::from_ref(&joint));
+        client.call("sim.setJointTargetVelocity", &[joint.clone(), Value::Real(law(q))]).unwrap();
+        client.call("sim.step", &[]).unwrap();
+    }
+    client.call("sim.stopSimulation", &[]).unwrap();
+    finished(server).simulated.trace
+}
+
+#[test]
+fn the_same_law_through_every_door_gives_the_same_hash() {
+    let folder = folder("parity", "");
+    let in_rust = in_rust(&folder);
+    assert_eq!(by_diagram(), in_rust, "diagram");
+    let server = Server::start(session(&folder), &options()).unwrap();
+    for _ in 0..2 {
+        assert_eq!(by_legacy(&server), in_rust, "legacy remote API");
+        assert_eq!(by_zmq(&server), in_rust, "ZeroMQ remote API");
+    }
+}
