@@ -10,6 +10,7 @@ mod joint;
 mod object;
 mod placement;
 mod rotor;
+mod script;
 mod signal_file;
 mod text;
 mod tree;
@@ -29,6 +30,7 @@ pub use text::from_text;
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Problem, Problems};
+use crate::script::Script;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
 use tree::Entry;
@@ -44,6 +46,8 @@ pub struct Scene {
     pub commands: Vec<Signal>,
     /// Every object, parents before children, children in the order of the file.
     pub objects: Vec<Object>,
+    /// Scripts, in the order of the file.
+    pub scripts: Vec<Script>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
 }
@@ -82,7 +86,8 @@ pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Pro
         let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
         assembly.add(&entries[place.entry], place, spec, pose, document);
     }
-    assembly.finish(&entries, document, problems)
+    let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
+    assembly.finish(&entries, scripts, document, problems)
 }
 
 /// Makes specifications, noting what is wrong.
@@ -186,7 +191,13 @@ impl Assembly {
         self.entry_of.push(place.entry);
     }
 
-    fn finish(mut self, entries: &[Entry<'_>], document: &Document, mut problems: Problems) -> Result<Scene, Problems> {
+    fn finish(
+        mut self,
+        entries: &[Entry<'_>],
+        scripts: Vec<Script>,
+        document: &Document,
+        mut problems: Problems,
+    ) -> Result<Scene, Problems> {
         let (model, found) = match self.builder.build() {
             Ok((model, warnings)) => (Some(model), warnings),
             Err(found) => (None, found),
@@ -208,7 +219,7 @@ impl Assembly {
             return Err(problems.sorted());
         }
         let warnings = problems.sorted().0;
-        Ok(Scene { model: Arc::new(model), initial, commands, objects: self.objects, warnings })
+        Ok(Scene { model: Arc::new(model), initial, commands, objects: self.objects, scripts, warnings })
     }
 
     /// Commands in the model's order; tells joints the index of their motors.
