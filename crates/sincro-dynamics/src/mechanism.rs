@@ -10,8 +10,8 @@ use sincro_math::Real;
 
 use crate::aba::{self, Held};
 use crate::attachment::Seen;
-use crate::drive::DriveKind;
-use crate::force::{Instant, damper, friction, joint_torques};
+use crate::drive::{Drive, DriveKind};
+use crate::force::{Instant, Motor, Push, damper, friction, joint_torques};
 use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
 use crate::kinematics;
@@ -38,6 +38,8 @@ pub struct Mechanism<R> {
     pub(crate) held_mask: Vec<R>,
     pub(crate) held_acceleration: Vec<R>,
     external: Vec<Force<R>>,
+    /// Pushes from outside the model, until they are taken away.
+    pushes: Vec<Push<R>>,
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
 }
@@ -58,6 +60,7 @@ impl<R: Real> Mechanism<R> {
             held_mask: zero.clone(),
             held_acceleration: zero,
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
+            pushes: Vec::new(),
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             model,
@@ -86,6 +89,7 @@ impl<R: Real> Mechanism<R> {
         ];
         numbers.iter().map(|v| size_of_val(&***v)).sum::<usize>()
             + size_of_val(&*self.external)
+            + size_of_val(&*self.pushes)
             + self.scratch.heap_bytes()
     }
 
@@ -188,7 +192,7 @@ impl<R: Real> Mechanism<R> {
     fn accelerations(&mut self, t: f64, v: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
         let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
-        let external = if self.model.has_external() {
+        let external = if self.has_external() {
             self.external_wrenches(t, v);
             Some(&*self.external)
         } else {
@@ -210,7 +214,7 @@ impl<R: Real> Mechanism<R> {
         if !self.model.rotors.is_empty() {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
-        } else if self.model.wrenches.iter().any(|w| !w.in_body) {
+        } else if !self.pushes.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
         }
         for rotor in &self.model.rotors {
@@ -220,6 +224,50 @@ impl<R: Real> Mechanism<R> {
         for wrench in &self.model.wrenches {
             self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
         }
+        for push in &self.pushes {
+            self.external[push.link] += push.wrench(&self.scratch.poses[push.link].rot);
+        }
+    }
+
+    /// Whether anything pushes on links from outside, now.
+    #[inline(always)]
+    fn has_external(&self) -> bool {
+        self.model.has_external() || !self.pushes.is_empty()
+    }
+
+    /// Adds a push, to those on the same point of the same link if there are any.
+    pub(crate) fn push(&mut self, push: Push<R>) {
+        self.external.resize(self.model.links.len(), Force::zero());
+        match self.pushes.iter_mut().find(|p| p.link == push.link && p.point == push.point) {
+            Some(known) => {
+                known.force += push.force;
+                known.torque += push.torque;
+            }
+            None => self.pushes.push(push),
+        }
+    }
+
+    /// Takes all pushes away.
+    pub(crate) fn release(&mut self) {
+        self.pushes.clear();
+        if !self.model.has_external() {
+            self.external.clear();
+        }
+    }
+
+    /// Replaces a motor, the degree of freedom kept. Drives that stay keep what they do; a new one holds.
+    pub(crate) fn set_motor(&mut self, index: usize, motor: Motor<R>) {
+        let was_drive = self.model.motors[index].is_drive();
+        self.model.motors[index] = Motor { dof: self.model.motors[index].dof, ..motor };
+        if was_drive == motor.is_drive() {
+            return;
+        }
+        let drives = crate::drive::drives_of(&self.model);
+        let known = |new: &Drive| self.model.drives.iter().position(|old| old == new).map(|i| self.drives[i]);
+        self.drives = drives.iter().map(|drive| known(drive).unwrap_or(R::zero())).collect();
+        self.model.drives = drives;
+        self.held_mask.fill(R::zero());
+        self.held_acceleration.fill(R::zero());
     }
 
     /// Rates of the totals at the last evaluation, for velocities `v` over which forces do their work.

@@ -21,6 +21,7 @@ pub mod scene;
 pub mod schema;
 pub mod script;
 mod series;
+pub mod session;
 pub mod snapshot;
 mod suggest;
 pub mod sweep;

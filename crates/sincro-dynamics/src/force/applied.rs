@@ -60,6 +60,28 @@ impl<R: Real> AppliedWrench<R> {
     }
 }
 
+/// A constant force and torque, world axes, at a point of a link: what scripts and clients push with from outside the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Push<R> {
+    /// The link.
+    pub link: usize,
+    /// Where the force acts, link frame `[m]`.
+    pub point: Vec3<R>,
+    /// World axes `[N]`.
+    pub force: Vec3<R>,
+    /// World axes [N·m].
+    pub torque: Vec3<R>,
+}
+
+impl<R: Real> Push<R> {
+    /// As a wrench about the link's origin, link axes; `r_wl` takes link to world axes.
+    #[inline(always)]
+    pub fn wrench(&self, r_wl: &crate::spatial::Mat3<R>) -> Force<R> {
+        let lin = r_wl.tr_mul_vec(self.force);
+        Force { ang: r_wl.tr_mul_vec(self.torque) + self.point.cross(lin), lin }
+    }
+}
+
 #[inline(always)]
 fn value<R: Real>(signals: &[Signal], t: f64) -> R {
     R::from_lanes(|k| signals[k].value(t))

@@ -18,7 +18,7 @@ pub mod motor;
 pub mod rotor;
 pub mod spring;
 
-pub use applied::{AppliedTorque, AppliedWrench};
+pub use applied::{AppliedTorque, AppliedWrench, Push};
 pub use motor::{Motor, MotorMode};
 
 use sincro_math::Real;

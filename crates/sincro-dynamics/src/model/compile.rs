@@ -12,6 +12,7 @@ use super::{Dof, Link, Model, Shift, WORLD, check};
 use crate::force::rotor::MountedRotor;
 use crate::force::{AppliedTorque, AppliedWrench};
 use crate::joint::{JointKind, StageKind};
+use crate::kinematics::Attached;
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
 /// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point leaves.
@@ -21,6 +22,12 @@ const ON_AXIS: f64 = 1e-15;
 struct Carrier {
     link: u32,
     pose: Pose<f64>,
+}
+
+impl Carrier {
+    fn attached(&self) -> Attached<f64> {
+        Attached { link: (self.link != WORLD).then_some(self.link as usize), pose: self.pose }
+    }
 }
 
 struct Compiler<'a> {
@@ -143,9 +150,9 @@ impl Compiler<'_> {
     }
 
     fn frame(&mut self, node: NodeId, at: Carrier, body: Option<([f64; 3], f64)>) {
-        let link = (at.link != WORLD).then_some(at.link as usize);
+        let Attached { link, pose } = at.attached();
         let name = self.nodes[node.0 as usize].name.clone();
-        self.names.frames.push(FrameInfo { name, node, link, pose: at.pose, body });
+        self.names.frames.push(FrameInfo { name, node, link, pose, body });
     }
 
     /// Adds the stages of a joint; returns what carries its child frame.
@@ -170,7 +177,8 @@ impl Compiler<'_> {
             self.model.motors.len() - 1
         });
         let name = self.nodes[node.0 as usize].name.clone();
-        self.names.joints.push(JointInfo { name, node, kind: spec.kind, q_idx, n_q, v_idx, n_v, motor });
+        let (base, moving) = (at.attached(), carrier.attached());
+        self.names.joints.push(JointInfo { name, node, kind: spec.kind, q_idx, n_q, v_idx, n_v, motor, base, moving });
         carrier
     }
 

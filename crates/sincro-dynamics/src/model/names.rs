@@ -2,6 +2,7 @@
 
 use super::NodeId;
 use crate::joint::JointKind;
+use crate::kinematics::Attached;
 use crate::spatial::Pose;
 
 /// A joint as the user built it.
@@ -23,6 +24,10 @@ pub struct JointInfo {
     pub n_v: usize,
     /// Index of its motor, if it has one.
     pub motor: Option<usize>,
+    /// Its frame on the side of its parent, where the joint starts from.
+    pub base: Attached<f64>,
+    /// Its frame on the side of what hangs on it: the same at zero coordinates.
+    pub moving: Attached<f64>,
 }
 
 /// A body or frame as the user built it.

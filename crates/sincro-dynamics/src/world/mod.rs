@@ -11,6 +11,7 @@ mod drives;
 use crate::attachment::{Alone, Attachment, Coupled, Seen};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
+use crate::force::{Motor, Push};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -328,6 +329,33 @@ impl World {
     pub fn with_seen<T>(&mut self, t: f64, look: impl FnOnce(Seen<'_, f64>) -> T) -> T {
         let (state, mechanism) = (&self.state, &mut self.mechanism);
         look(Seen { t, model: &mechanism.model, q: &state.q, v: &state.v, scratch: &mut mechanism.scratch })
+    }
+
+    /// Pushes on a link from now on, until [`World::release`]; pushes at one point add up. Not part of the state: who pushes
+    /// over one step only leaves nothing behind.
+    pub fn push(&mut self, push: Push<f64>) {
+        self.mechanism.push(push);
+    }
+
+    /// Takes all pushes away.
+    pub fn release(&mut self) {
+        self.mechanism.release();
+    }
+
+    /// Replaces a motor between two steps; its joint stays, its command and the state of the other drives too. A motor that
+    /// becomes a drive holds its velocity from the next step on.
+    ///
+    /// # Panics
+    ///
+    /// If there is no motor of that index.
+    pub fn set_motor(&mut self, index: usize, motor: Motor<f64>) {
+        self.mechanism.drives.copy_from_slice(&self.state.drives);
+        self.mechanism.set_motor(index, motor);
+        let n = self.mechanism.drives.len();
+        self.state.drives.resize(n, 0.0);
+        self.state.drives.copy_from_slice(&self.mechanism.drives);
+        self.wanted.resize(n, 0.0);
+        self.jumps.resize(n, false);
     }
 
     /// The mechanism, for kinematics and energies at the state.

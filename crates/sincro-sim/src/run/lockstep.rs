@@ -8,6 +8,7 @@ use super::trace::Trace;
 use super::world_with_room;
 use crate::diagram::{Control, NotFinite};
 use crate::load::Loaded;
+use crate::session::{Desk, Table};
 use crate::snapshot::Snapshot;
 
 /// A world with its controller.
@@ -18,6 +19,8 @@ pub struct LockStep {
     commands: Vec<Signal>,
     step: f64,
     tick: u64,
+    /// What clients and scripts see of the scene and hold in it, if there are any.
+    table: Option<Box<Table>>,
 }
 
 /// Why it could not go on.
@@ -51,12 +54,29 @@ impl LockStep {
         let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
         let world = world_with_room(scene, experiment, method, refined, n_states);
-        let mut new = Self { world, control, commands: scene.commands.clone(), step: experiment.step, tick: 0 };
+        let mut new =
+            Self { world, control, commands: scene.commands.clone(), step: experiment.step, tick: 0, table: None };
         match &mut new.control {
             Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
             _ => new.world.settle_start(0.0),
         }
         new
+    }
+
+    /// Gives clients and scripts their table of objects: what they hold there is latched from the next tick on.
+    pub fn set_table(&mut self, table: Box<Table>) {
+        self.table = Some(table);
+    }
+
+    /// Takes the table of objects away again.
+    pub fn take_table(&mut self) -> Option<Box<Table>> {
+        self.table.take()
+    }
+
+    /// The table of objects with the world that it is about; none if nobody asked for one.
+    pub fn desk(&mut self) -> Option<Desk<'_>> {
+        let t = self.t();
+        self.table.as_mut().map(|table| Desk::new(table, &mut self.world, t))
     }
 
     /// The world.
@@ -120,6 +140,9 @@ impl LockStep {
     /// number (the world has then made the step).
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
+        if let Some(table) = &mut self.table {
+            table.begin_tick(tick, &self.world.state.totals);
+        }
         self.latch();
         let advanced = match &mut self.control {
             None => self.world.advance(t, self.step),
@@ -138,6 +161,11 @@ impl LockStep {
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
+        if let Some(table) = &self.table
+            && table.is_due(self.tick)
+        {
+            self.world.release();
+        }
         let arrived = self.t();
         if let Some(control) = self.control.as_mut().filter(|c| c.is_continuous()) {
             control.arrive(&mut self.world, arrived);
@@ -153,6 +181,9 @@ impl LockStep {
         }
         if let Some(control) = &self.control {
             control.latch(&mut self.world.state.commands);
+        }
+        if let Some(table) = &self.table {
+            table.latch(&mut self.world.state.commands);
         }
     }
 

@@ -12,30 +12,29 @@
 
 mod campaign;
 mod lockstep;
+mod recording;
 mod refine;
 mod stop;
 mod trace;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
-use sincro_dynamics::world::{Effort, MethodKind, Observation, World};
+use sincro_dynamics::world::{Effort, MethodKind, World};
 
 pub use campaign::{Campaign, Done, Progress, run_campaign};
 pub use lockstep::{Halt, LockStep};
+pub(crate) use recording::Recording;
 pub use trace::{Trace, model_hash, plant_hash};
 
-use crate::diagram::Controller;
 use crate::experiment::{Experiment, Integrator};
 use crate::load::Loaded;
 use crate::problem::Problems;
-use crate::record::Recorder;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::scene::Scene;
-use crate::table::{CsvWriter, Table};
+use crate::table::Table;
 
 /// Rate times base step above which `auto` takes the stiff method.
 const STIFF_FROM: f64 = 1.0;
@@ -232,29 +231,13 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
 /// If a recorded signal does not exist or the CSV file cannot be written. A run that stops is not an error: see
 /// [`Simulated::status`].
 pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> Result<Simulated, RunError> {
-    let Loaded { scene, experiment, controller, .. } = loaded;
+    let experiment = &loaded.experiment;
     let (method, warnings) = method_for(loaded);
-    let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
-    let mut recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
-    let rows = experiment.n_steps / experiment.record_every + 1;
-    let mut table = Table::new(recorder.columns(), rows as usize);
-    let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
-    let mut csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
-
-    let clock = Instant::now();
     let mut lockstep = LockStep::new(loaded, method, manner.refined);
-    let mut ledger = Ledger::start(lockstep.world());
-    let mut trace = lockstep.trace();
-    let mut publish = |lockstep: &mut LockStep, t: f64, is_start: bool| -> Result<(), FileError> {
-        let (seen, signals) = lockstep.observe(t);
-        ledger.look(&seen);
-        let row = recorder.row(&seen, signals, t, is_start);
-        table.push_row(row);
-        csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
-    };
+    let mut recording = Recording::new(loaded, &mut lockstep, manner)?;
     let mut status = Status::Completed;
     let first = lockstep.start();
-    publish(&mut lockstep, 0.0, true)?;
+    recording.start(&mut lockstep)?;
     if let Err(halt) = first {
         status = halt.explain(&mut lockstep, experiment, method);
     }
@@ -267,62 +250,18 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             status = halt.explain(&mut lockstep, experiment, method);
             break;
         }
-        lockstep.add_to(&mut trace);
-        let now = (tick + 1) as f64 * experiment.step;
-        if (tick + 1) % experiment.record_every == 0 || advanced.is_err() {
-            publish(&mut lockstep, now, false)?;
-        }
+        recording.tick(&mut lockstep, advanced.is_err())?;
         if let Err(halt) = advanced {
             status = halt.explain(&mut lockstep, experiment, method);
             break;
         }
         if watch.interrupt.load(Ordering::Relaxed) {
-            status = Status::Interrupted { tick: tick + 1, time: now };
+            status = Status::Interrupted { tick: tick + 1, time: lockstep.t() };
             break;
         }
         if tick % 256 == 0 {
             (watch.progress)(tick as f64 / experiment.n_steps as f64);
         }
     }
-    if let Some(csv) = csv {
-        csv.finish()?;
-    }
-    let wall_time = clock.elapsed().as_secs_f64();
-    let world = lockstep.world();
-    let energy = ledger.close(world);
-    Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
-}
-
-/// Follows the balance of energy.
-struct Ledger {
-    start: (f64, f64),
-    worst: f64,
-    last: (f64, f64),
-}
-
-impl Ledger {
-    fn start(world: &mut World) -> Self {
-        let e = world.observe(0.0).energy();
-        Self { start: (e.kinetic, e.potential), worst: 0.0, last: (e.kinetic, e.potential) }
-    }
-
-    fn look(&mut self, seen: &Observation<'_>) {
-        let (e, totals) = (seen.energy(), &seen.state.totals);
-        let balance = e.total() - (self.start.0 + self.start.1) - totals[0] + totals[1];
-        self.worst = self.worst.max(balance.abs());
-        self.last = (e.kinetic, e.potential);
-    }
-
-    fn close(&self, world: &World) -> EnergyReport {
-        let totals = &world.state.totals;
-        EnergyReport {
-            kinetic_start: self.start.0,
-            kinetic_end: self.last.0,
-            potential_start: self.start.1,
-            potential_end: self.last.1,
-            work: totals[0],
-            dissipated: totals[1],
-            residual: self.worst,
-        }
-    }
+    Ok(recording.finish(&mut lockstep, status, method, warnings)?)
 }

@@ -12,7 +12,7 @@ use crate::results::Status;
 
 impl Halt {
     /// The stop in words; for a world, from the last state that was still finite.
-    pub(super) fn explain(self, lockstep: &mut LockStep, experiment: &Experiment, method: MethodKind) -> Status {
+    pub(crate) fn explain(self, lockstep: &mut LockStep, experiment: &Experiment, method: MethodKind) -> Status {
         match self {
             Self::World { tick, t, cause } => explain(lockstep.world(), experiment, (tick, t, cause), method),
             Self::Block { tick, t, culprit } => of_block(tick, t, &culprit),

@@ -1,0 +1,139 @@
+//! What a run leaves behind, gathered tick by tick: recorded rows, hash, balance of energy. A run from a file and a live session
+//! keep it in the same way.
+
+use std::time::Instant;
+
+use sincro_dynamics::world::{MethodKind, Observation, World};
+
+use super::lockstep::LockStep;
+use super::{Manner, RunError, Simulated, Trace};
+use crate::diagram::Controller;
+use crate::load::Loaded;
+use crate::record::Recorder;
+use crate::results::{EnergyReport, FileError, Status};
+use crate::table::{CsvWriter, Table};
+
+/// A run as it is recorded.
+pub(crate) struct Recording {
+    recorder: Recorder,
+    table: Table,
+    csv: Option<CsvWriter>,
+    ledger: Ledger,
+    trace: Trace,
+    record_every: u64,
+    /// The last tick that is recorded: a session may last longer than its experiment, its memory may not grow.
+    last_tick: u64,
+    clock: Instant,
+}
+
+impl Recording {
+    /// For a run that has not started yet.
+    ///
+    /// # Errors
+    ///
+    /// Recorded signals that do not exist, or a CSV file that cannot be written.
+    pub fn new(loaded: &Loaded, lockstep: &mut LockStep, manner: Manner<'_>) -> Result<Self, RunError> {
+        let Loaded { scene, experiment, controller, .. } = loaded;
+        let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
+        let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
+        let rows = experiment.n_steps / experiment.record_every + 1;
+        let table = Table::new(recorder.columns(), rows as usize);
+        let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
+        let csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
+        let clock = Instant::now();
+        let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
+        let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
+        Ok(Self { recorder, table, csv, ledger, trace, record_every, last_tick, clock })
+    }
+
+    /// Hash of the states so far.
+    pub fn trace(&self) -> Trace {
+        self.trace
+    }
+
+    /// The state before the first tick, the controllers having looked at it once.
+    ///
+    /// # Errors
+    ///
+    /// The CSV file cannot be written.
+    pub fn start(&mut self, lockstep: &mut LockStep) -> Result<(), FileError> {
+        self.publish(lockstep, true)
+    }
+
+    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be.
+    ///
+    /// # Errors
+    ///
+    /// The CSV file cannot be written.
+    pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<(), FileError> {
+        lockstep.add_to(&mut self.trace);
+        let tick = lockstep.tick();
+        if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
+            self.publish(lockstep, false)?;
+        }
+        Ok(())
+    }
+
+    fn publish(&mut self, lockstep: &mut LockStep, is_start: bool) -> Result<(), FileError> {
+        let t = lockstep.t();
+        let (seen, signals) = lockstep.observe(t);
+        self.ledger.look(&seen);
+        let row = self.recorder.row(&seen, signals, t, is_start);
+        self.table.push_row(row);
+        self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))
+    }
+
+    /// The run is over.
+    ///
+    /// # Errors
+    ///
+    /// The CSV file cannot be written.
+    pub fn finish(
+        self,
+        lockstep: &mut LockStep,
+        status: Status,
+        method: MethodKind,
+        warnings: Vec<String>,
+    ) -> Result<Simulated, FileError> {
+        let Self { table, csv, ledger, trace, clock, .. } = self;
+        csv.map_or(Ok(()), CsvWriter::finish)?;
+        let wall_time = clock.elapsed().as_secs_f64();
+        let world = lockstep.world();
+        let energy = ledger.close(world);
+        Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
+    }
+}
+
+/// Follows the balance of energy.
+struct Ledger {
+    start: (f64, f64),
+    worst: f64,
+    last: (f64, f64),
+}
+
+impl Ledger {
+    fn start(world: &mut World) -> Self {
+        let e = world.observe(0.0).energy();
+        Self { start: (e.kinetic, e.potential), worst: 0.0, last: (e.kinetic, e.potential) }
+    }
+
+    fn look(&mut self, seen: &Observation<'_>) {
+        let (e, totals) = (seen.energy(), &seen.state.totals);
+        let balance = e.total() - (self.start.0 + self.start.1) - totals[0] + totals[1];
+        self.worst = self.worst.max(balance.abs());
+        self.last = (e.kinetic, e.potential);
+    }
+
+    fn close(&self, world: &World) -> EnergyReport {
+        let totals = &world.state.totals;
+        EnergyReport {
+            kinetic_start: self.start.0,
+            kinetic_end: self.last.0,
+            potential_start: self.start.1,
+            potential_end: self.last.1,
+            work: totals[0],
+            dissipated: totals[1],
+            residual: self.worst,
+        }
+    }
+}

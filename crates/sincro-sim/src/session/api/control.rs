@@ -1,0 +1,130 @@
+//! Shelf: the simulation itself, its parameters, messages.
+
+use super::{Function, Outcome, done, one};
+use crate::session::{Arguments, Desk, Phase, Request, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function { name: "startSimulation", tip: "int result=sim.startSimulation()", run: |d, _| ask(d, Request::Start) },
+    Function { name: "pauseSimulation", tip: "int result=sim.pauseSimulation()", run: |d, _| ask(d, Request::Pause) },
+    Function {
+        name: "stopSimulation",
+        tip: "int result=sim.stopSimulation(bool wait=false)",
+        run: |d, _| ask(d, Request::Stop),
+    },
+    Function { name: "loadScene", tip: "sim.loadScene(string filename)", run: load },
+    Function { name: "closeScene", tip: "int result=sim.closeScene()", run: |d, _| ask(d, Request::Close) },
+    Function {
+        name: "getSimulationState",
+        tip: "int simulationState=sim.getSimulationState()",
+        run: |d, _| one(d.simulation_state()),
+    },
+    Function { name: "getSimulationTime", tip: "float simulationTime=sim.getSimulationTime()", run: |d, _| one(d.t) },
+    Function {
+        name: "getSimulationTimeStep",
+        tip: "float timeStep=sim.getSimulationTimeStep()",
+        run: |d, _| one(d.table.sample_time()),
+    },
+    Function {
+        name: "getIsRealTimeSimulation",
+        tip: "int result=sim.getIsRealTimeSimulation()",
+        run: |_, _| one(0_i64),
+    },
+    Function {
+        name: "getSimulationStopping",
+        tip: "bool stopping=sim.getSimulationStopping()",
+        run: |_, _| one(false),
+    },
+    Function { name: "addLog", tip: "sim.addLog(int verbosityLevel,string logMessage)", run: log },
+    Function { name: "addStatusbarMessage", tip: "int result=sim.addStatusbarMessage(string message)", run: message },
+    Function {
+        name: "getInt32Param",
+        tip: "int intState=sim.getInt32Param(int parameter)",
+        run: |d, a| one(d.int_parameter(a.int(0)?)?),
+    },
+    Function {
+        name: "getFloatParam",
+        tip: "float floatState=sim.getFloatParam(int parameter)",
+        run: |d, a| one(d.float_parameter(a.int(0)?)?),
+    },
+    Function { name: "setFloatParam", tip: "sim.setFloatParam(int parameter,float floatState)", run: set_float },
+    Function {
+        name: "getBoolParam",
+        tip: "bool boolState=sim.getBoolParam(int parameter)",
+        run: |d, a| one(d.bool_parameter(a.int(0)?)?),
+    },
+    Function { name: "setBoolParam", tip: "sim.setBoolParam(int parameter,bool boolState)", run: set_bool },
+    Function { name: "getArrayParam", tip: "float[3] arrayOfValues=sim.getArrayParam(int parameter)", run: array },
+    Function {
+        name: "getStringParam",
+        tip: "string stringState=sim.getStringParam(int parameter)",
+        run: |d, a| one(d.string_parameter(a.int(0)?)?),
+    },
+    Function {
+        name: "setNamedStringParam",
+        tip: "sim.setNamedStringParam(string paramName,buffer stringParam)",
+        run: set_named,
+    },
+    Function {
+        name: "getNamedStringParam",
+        tip: "buffer stringParam=sim.getNamedStringParam(string paramName)",
+        run: named,
+    },
+];
+
+fn ask(desk: &mut Desk<'_>, request: Request) -> Outcome {
+    desk.table.ask(request);
+    one(1_i64)
+}
+
+fn load(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.ask(Request::Load(a.text(0)?.to_owned()));
+    done()
+}
+
+fn log(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.log(a.int(0)? & 0xfff, a.text(1)?);
+    done()
+}
+
+fn message(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.log(450, if a.has(0) { a.text(0)? } else { "" });
+    one(1_i64)
+}
+
+fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.set_float_parameter(a.int(0)?, a.real(1)?)?;
+    done()
+}
+
+/// Switches of the display and of real time are taken and do nothing here: the first has no meaning without a window, the second is the
+/// server's.
+fn set_bool(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.bool_parameter(a.int(0)?)?;
+    a.bool_or(1, false)?;
+    done()
+}
+
+fn array(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    super::list(desk.array_parameter(a.int(0)?)?)
+}
+
+fn set_named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (name, bytes) = (a.text(0)?, a.bytes(1)?);
+    if desk.table.named.len() >= 1_000 && !desk.table.named.contains_key(name) {
+        return Err(crate::session::Refusal::new("there are 1000 named parameters already"));
+    }
+    desk.table.named.insert(name.to_owned(), bytes.to_vec());
+    done()
+}
+
+fn named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    Ok(vec![desk.table.named.get(a.text(0)?).map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
+}
+
+impl Phase {
+    /// Whether a run is on, paused or not.
+    #[must_use]
+    pub fn is_on(self) -> bool {
+        self != Self::Stopped
+    }
+}

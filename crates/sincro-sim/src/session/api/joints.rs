@@ -1,0 +1,139 @@
+//! Shelf: joints and their motors.
+
+use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::joint::JointKind;
+
+use super::{Function, Outcome, done, handle, one};
+use crate::session::{Arguments, Desk, Refusal, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function { name: "getJointPosition", tip: "float position=sim.getJointPosition(int objectHandle)", run: position },
+    Function {
+        name: "setJointPosition",
+        tip: "sim.setJointPosition(int objectHandle,float position)",
+        run: set_position,
+    },
+    Function { name: "getJointVelocity", tip: "float velocity=sim.getJointVelocity(int jointHandle)", run: velocity },
+    Function {
+        name: "getJointTargetVelocity",
+        tip: "float targetVelocity=sim.getJointTargetVelocity(int objectHandle)",
+        run: target_velocity,
+    },
+    Function {
+        name: "setJointTargetVelocity",
+        tip: "sim.setJointTargetVelocity(int objectHandle,float targetVelocity)",
+        run: set_target_velocity,
+    },
+    Function {
+        name: "getJointTargetPosition",
+        tip: "float targetPosition=sim.getJointTargetPosition(int objectHandle)",
+        run: target_position,
+    },
+    Function {
+        name: "setJointTargetPosition",
+        tip: "sim.setJointTargetPosition(int objectHandle,float targetPosition)",
+        run: set_target_position,
+    },
+    Function {
+        name: "getJointTargetForce",
+        tip: "float force=sim.getJointTargetForce(int jointHandle)",
+        run: target_force,
+    },
+    Function {
+        name: "setJointTargetForce",
+        tip: "sim.setJointTargetForce(int objectHandle,float forceOrTorque,bool signedValue=true)",
+        run: set_target_force,
+    },
+    Function { name: "getJointForce", tip: "float forceOrTorque=sim.getJointForce(int jointHandle)", run: force },
+    Function { name: "getJointMode", tip: "int jointMode,int options=sim.getJointMode(int jointHandle)", run: mode },
+    Function {
+        name: "setJointMode",
+        tip: "sim.setJointMode(int jointHandle,int jointMode,int options)",
+        run: set_mode,
+    },
+    Function {
+        name: "getJointInterval",
+        tip: "bool cyclic,float[2] interval=sim.getJointInterval(int objectHandle)",
+        run: interval,
+    },
+];
+
+fn position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.joint_position(own)?)
+}
+
+fn set_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.set_joint_position(own, a.real(1)?)?;
+    done()
+}
+
+fn velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.joint_velocity(own)?)
+}
+
+fn target_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.target_velocity(own)?)
+}
+
+fn set_target_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.set_target_velocity(own, a.real(1)?)?;
+    done()
+}
+
+fn target_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.target_position(own)?)
+}
+
+fn set_target_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.set_target_position(own, a.real(1)?)?;
+    done()
+}
+
+fn target_force(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.target_force(own)?)
+}
+
+fn set_target_force(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.set_target_force(own, a.real(1)?, a.bool_or(2, true)?)?;
+    done()
+}
+
+fn force(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    Ok(vec![desk.joint_force(own)?.map_or(Value::Nil, Value::Real)])
+}
+
+fn mode(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.joint_mode(own)?;
+    Ok(vec![Value::Int(5), Value::Int(0)])
+}
+
+/// Every joint is dynamic here: the dynamic mode is accepted, the others are not.
+fn set_mode(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    match a.int(1)? {
+        5 if desk.joint_mode(own)? == MotorMode::Free => done(),
+        5 => done(),
+        other => Err(Refusal(format!("joint mode {other}: joints are always dynamic here (5)"))),
+    }
+}
+
+fn interval(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let joint = desk.table.joint(own)?;
+    let is_cyclic = matches!(joint.kind, JointKind::Revolute { .. });
+    let pi = std::f64::consts::PI;
+    // joints have no limits here
+    let range = if is_cyclic { [-pi, 2.0 * pi] } else { [-1000.0, 2000.0] };
+    Ok(vec![Value::Bool(is_cyclic), Value::reals(range)])
+}

@@ -1,0 +1,119 @@
+//! The functions of the regular API by name: what `sim.getJointPosition` does, whoever calls it.
+//!
+//! Each file has a shelf of functions; [`call`] finds them by their present names, the names of V-REP (`simGetJointPosition`) and those in
+//! between. Units and conventions are the API's own: SI, radians, quaternions x y z w. What a door must do itself (stepping, waiting,
+//! scripts) is not here.
+
+mod bodies;
+mod control;
+mod joints;
+mod names;
+mod objects;
+mod poses;
+mod signals;
+mod transforms;
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
+use super::{Arguments, Desk, Handle, Reference, Refusal, Value};
+
+pub use names::present_name;
+
+/// What a function gives.
+pub type Outcome = Result<Vec<Value>, Refusal>;
+
+/// A function that can be called by name.
+pub struct Function {
+    /// Name without `sim.`.
+    pub name: &'static str,
+    /// What it gives and takes, as call tips show it: `float position=sim.getJointPosition(int jointHandle)`.
+    pub tip: &'static str,
+    /// What it does.
+    pub run: fn(&mut Desk<'_>, Arguments<'_>) -> Outcome,
+}
+
+/// Every function, shelf by shelf.
+pub fn functions() -> impl Iterator<Item = &'static Function> {
+    let shelves = [
+        control::FUNCTIONS,
+        objects::FUNCTIONS,
+        poses::FUNCTIONS,
+        transforms::FUNCTIONS,
+        joints::FUNCTIONS,
+        bodies::FUNCTIONS,
+        signals::FUNCTIONS,
+    ];
+    shelves.into_iter().flatten()
+}
+
+/// The function of a name: present or old, with or without `sim.`.
+#[must_use]
+pub fn function(name: &str) -> Option<&'static Function> {
+    static BY_NAME: OnceLock<BTreeMap<&'static str, &'static Function>> = OnceLock::new();
+    let by_name = BY_NAME.get_or_init(|| functions().map(|f| (f.name, f)).collect());
+    let bare = name.strip_prefix("sim.").unwrap_or(name);
+    by_name.get(bare).or_else(|| by_name.get(&*present_name(name))).copied()
+}
+
+/// Calls a function by name.
+///
+/// # Errors
+///
+/// There is none of that name, or it refused: the message then names it.
+pub fn call(desk: &mut Desk<'_>, name: &str, arguments: &[Value]) -> Outcome {
+    let function = function(name).ok_or_else(|| {
+        let short: String = name.chars().take(100).collect();
+        Refusal(format!("No such function: {short}"))
+    })?;
+    (function.run)(desk, Arguments(arguments))
+        .map_err(|Refusal(message)| Refusal(format!("{message} (in function 'sim.{}')", function.name)))
+}
+
+/// Nothing to give.
+fn done() -> Outcome {
+    Ok(Vec::new())
+}
+
+fn one(value: impl Into<Value>) -> Outcome {
+    Ok(vec![value.into()])
+}
+
+fn list(numbers: impl IntoIterator<Item = f64>) -> Outcome {
+    Ok(vec![Value::reals(numbers)])
+}
+
+/// The handle of an object, flags taken off; `sim.handle_self` is the object of the script that calls.
+fn handle(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, Refusal> {
+    plain(desk, a.handle(k)?)
+}
+
+fn plain(desk: &Desk<'_>, raw: i32) -> Result<Handle, Refusal> {
+    let bare = if raw >= HANDLE_FLAGS { raw & (HANDLE_FLAGS - 1) } else { raw };
+    if bare == -4 {
+        return desk.own.ok_or_else(|| Refusal::new("sim.handle_self means the object of a script, and none calls"));
+    }
+    Ok(desk.table.entry(Handle(bare))?.handle)
+}
+
+/// What a pose is given against: argument `k`, the world if it is not given. Flags are those of the first handle.
+fn reference(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<Reference, Refusal> {
+    if !a.has(k) {
+        return Ok(Reference::World);
+    }
+    let first = a.handle(0)?;
+    let base = first > 0 && first & HANDLE_JOINT_BASE != 0;
+    Ok(match a.handle(k)? {
+        -1 => Reference::World,
+        -11 => Reference::Parent,
+        other if base => Reference::JointBase(plain(desk, other)?),
+        other => Reference::Object(plain(desk, other)?),
+    })
+}
+
+/// Places of the value and of what it is given against in the arguments of a setter: (handle, value, against) since 4.6, (handle, against,
+/// value) before.
+fn setter(a: Arguments<'_>) -> (usize, usize) {
+    if matches!(a.get(1), Value::List(_)) { (1, 2) } else { (2, 1) }
+}

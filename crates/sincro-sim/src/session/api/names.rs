@@ -1,0 +1,56 @@
+//! Old names of functions, as their present ones.
+
+use std::borrow::Cow;
+
+/// Old name without `sim`, its first letter small; and the present name. What follows the rule is not listed.
+const IRREGULAR: &[(&str, &str)] = &[
+    ("jointGetForce", "getJointForce"),
+    ("setJointForce", "setJointTargetForce"),
+    ("setJointMaxForce", "setJointTargetForce"),
+    ("getJointMaxForce", "getJointTargetForce"),
+    ("getRealTimeSimulation", "getIsRealTimeSimulation"),
+    ("getScriptSimulationParameter", "getScriptSimulationParameter"),
+    ("getIntegerSignal", "getInt32Signal"),
+    ("setIntegerSignal", "setInt32Signal"),
+    ("clearIntegerSignal", "clearInt32Signal"),
+    ("getBooleanParameter", "getBoolParam"),
+    ("setBooleanParameter", "setBoolParam"),
+    ("getBoolParameter", "getBoolParam"),
+    ("setBoolParameter", "setBoolParam"),
+    ("getIntegerParameter", "getInt32Param"),
+    ("setIntegerParameter", "setInt32Param"),
+    ("getInt32Parameter", "getInt32Param"),
+    ("setInt32Parameter", "setInt32Param"),
+    ("getIntParam", "getInt32Param"),
+    ("getFloatingParameter", "getFloatParam"),
+    ("setFloatingParameter", "setFloatParam"),
+    ("getFloatParameter", "getFloatParam"),
+    ("setFloatParameter", "setFloatParam"),
+    ("getStringParameter", "getStringParam"),
+    ("getArrayParameter", "getArrayParam"),
+    ("setArrayParameter", "setArrayParam"),
+    ("getObjectIntParameter", "getObjectInt32Param"),
+    ("setObjectIntParameter", "setObjectInt32Param"),
+    ("getObjectInt32Parameter", "getObjectInt32Param"),
+    ("setObjectInt32Parameter", "setObjectInt32Param"),
+    ("getObjectFloatParameter", "getObjectFloatParam"),
+    ("setObjectFloatParameter", "setObjectFloatParam"),
+    ("isHandleValid", "isHandle"),
+    ("getObjectSelection", "getObjectSel"),
+    ("addStatusbarMessage", "addStatusbarMessage"),
+];
+
+/// The present name of a function that may be given by an old one, without `sim.`.
+#[must_use]
+pub fn present_name(name: &str) -> Cow<'_, str> {
+    let bare: Cow<'_, str> = match name.strip_prefix("sim.") {
+        Some(bare) => bare.into(),
+        None => match name.strip_prefix("sim").and_then(|rest| Some((rest.chars().next()?, rest))) {
+            Some((first, rest)) if first.is_ascii_uppercase() => {
+                format!("{}{}", first.to_ascii_lowercase(), &rest[1..]).into()
+            }
+            _ => name.into(),
+        },
+    };
+    IRREGULAR.iter().find(|(old, _)| *old == bare).map_or(bare, |(_, present)| (*present).into())
+}

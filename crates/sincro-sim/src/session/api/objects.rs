@@ -1,0 +1,323 @@
+//! Shelf: objects, their names and their tree.
+
+use sincro_dynamics::joint::JointKind;
+
+use super::{Function, Outcome, done, handle, one, plain};
+use crate::session::{Arguments, Desk, Entry, Handle, Kind, Refusal, Search, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function { name: "getObject", tip: "int objectHandle=sim.getObject(string path,map options={})", run: get_object },
+    Function {
+        name: "getObjectHandle",
+        tip: "int objectHandle=sim.getObjectHandle(string objectName)",
+        run: get_object,
+    },
+    Function { name: "isHandle", tip: "bool result=sim.isHandle(int objectHandle)", run: is_handle },
+    Function {
+        name: "getObjectAlias",
+        tip: "string objectAlias=sim.getObjectAlias(int objectHandle,int options=-1)",
+        run: alias,
+    },
+    Function {
+        name: "getObjectName",
+        tip: "string objectName=sim.getObjectName(int objectHandle)",
+        run: |d, a| one(named(d, a)?.name.clone()),
+    },
+    Function {
+        name: "getObjectUid",
+        tip: "int uid=sim.getObjectUid(int objectHandle)",
+        run: |d, a| one(named(d, a)?.handle),
+    },
+    Function { name: "getObjectType", tip: "int objectType=sim.getObjectType(int objectHandle)", run: object_type },
+    Function { name: "getJointType", tip: "int jointType=sim.getJointType(int objectHandle)", run: joint_type },
+    Function {
+        name: "getObjectParent",
+        tip: "int parentObjectHandle=sim.getObjectParent(int objectHandle)",
+        run: parent,
+    },
+    Function {
+        name: "getObjectChild",
+        tip: "int childObjectHandle=sim.getObjectChild(int objectHandle,int index)",
+        run: child,
+    },
+    Function {
+        name: "setObjectParent",
+        tip: "sim.setObjectParent(int objectHandle,int parentObjectHandle,bool keepInPlace=true)",
+        run: set_parent,
+    },
+    Function { name: "getObjects", tip: "int objectHandle=sim.getObjects(int index,int objectType)", run: nth },
+    Function {
+        name: "getObjectsInTree",
+        tip: "int[] objects=sim.getObjectsInTree(int treeBaseHandle,int objectType=sim.handle_all,int options=0)",
+        run: in_tree,
+    },
+    Function {
+        name: "getObjectSel",
+        tip: "int[] objectHandles=sim.getObjectSel()",
+        run: |_, _| Ok(vec![Value::List(Vec::new())]),
+    },
+    Function { name: "setObjectSel", tip: "sim.setObjectSel(int[] objectHandles)", run: |_, _| done() },
+    Function { name: "createDummy", tip: "int objectHandle=sim.createDummy(float size)", run: create_dummy },
+    Function { name: "removeObject", tip: "int result=sim.removeObject(int objectHandle)", run: remove },
+    Function { name: "removeObjects", tip: "sim.removeObjects(int[] objectHandles)", run: remove_all },
+    Function {
+        name: "getObjectInt32Param",
+        tip: "int parameter=sim.getObjectInt32Param(int objectHandle,int parameterID)",
+        run: int,
+    },
+    Function {
+        name: "setObjectInt32Param",
+        tip: "sim.setObjectInt32Param(int objectHandle,int parameterID,int parameter)",
+        run: set_int,
+    },
+    Function {
+        name: "getObjectFloatParam",
+        tip: "float parameter=sim.getObjectFloatParam(int objectHandle,int parameterID)",
+        run: float,
+    },
+    Function {
+        name: "setObjectFloatParam",
+        tip: "sim.setObjectFloatParam(int objectHandle,int parameterID,float parameter)",
+        run: set_float,
+    },
+    Function { name: "getObjectProperty", tip: "int property=sim.getObjectProperty(int objectHandle)", run: property },
+    Function { name: "getModelProperty", tip: "int property=sim.getModelProperty(int objectHandle)", run: property },
+    Function {
+        name: "readCustomDataBlock",
+        tip: "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)",
+        run: read_data,
+    },
+    Function {
+        name: "writeCustomDataBlock",
+        tip: "sim.writeCustomDataBlock(int objectHandle,string tagName,buffer data)",
+        run: write_data,
+    },
+    Function {
+        name: "getScriptSimulationParameter",
+        tip: "any parameterValue=sim.getScriptSimulationParameter(int scriptHandle,string parameterName,bool forceStringReturn=false)",
+        run: parameter,
+    },
+    Function {
+        name: "setScriptSimulationParameter",
+        tip: "int result=sim.setScriptSimulationParameter(int scriptHandle,string parameterName,string parameterValue)",
+        run: set_parameter,
+    },
+];
+
+impl Desk<'_> {
+    /// The number of an object's type: 0 shapes, 1 joints, 4 points.
+    #[must_use]
+    pub fn type_of(&self, entry: &Entry) -> i64 {
+        match entry.kind {
+            Kind::Body(_) => 0,
+            Kind::Joint(Some(_)) => 1,
+            // a ball joint is V-REP's spherical one; what V-REP does not have is a point to it
+            Kind::Joint(None) if is_ball(self, entry) => 1,
+            _ => 4,
+        }
+    }
+
+    /// Objects of a type by its number, all of them for −2 and 109; parents before children.
+    #[must_use]
+    pub fn objects_of_type(&self, wanted: i64) -> Vec<Handle> {
+        let fits = |e: &&Entry| matches!(wanted, -2 | 109) || self.type_of(e) == wanted;
+        self.table.entries().filter(fits).map(|e| e.handle).collect()
+    }
+}
+
+fn is_ball(desk: &Desk<'_>, entry: &Entry) -> bool {
+    desk.world.model().names().joint(&entry.path).is_some_and(|j| j.kind == JointKind::Ball)
+}
+
+fn named<'a>(desk: &'a Desk<'_>, a: Arguments<'_>) -> Result<&'a Entry, Refusal> {
+    desk.table.entry(handle(desk, a, 0)?)
+}
+
+fn get_object(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let mut search = Search { from: desk.own, ..Search::default() };
+    let mut no_error = false;
+    if let Value::Map(options) = a.get(1) {
+        for (key, value) in options {
+            match key.as_str() {
+                "index" => search.index = value.as_int().and_then(|k| usize::try_from(k).ok()).unwrap_or(0),
+                "proxy" => {
+                    let proxy = value.as_int().and_then(|h| i32::try_from(h).ok()).filter(|h| *h >= 0);
+                    search.from = proxy.map(|h| plain(desk, h)).transpose()?;
+                    search.below = search.from;
+                }
+                "noError" => no_error = value.as_bool().unwrap_or(false),
+                _ => return Err(Refusal(format!("there is no option `{key}`: index, proxy, noError"))),
+            }
+        }
+    }
+    match desk.table.find(a.text(0)?, search) {
+        Ok(handle) => one(handle),
+        Err(_) if no_error => one(-1_i64),
+        Err(refusal) => Err(refusal),
+    }
+}
+
+fn is_handle(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    one(a.handle(0).is_ok_and(|h| plain(desk, h).is_ok()))
+}
+
+fn alias(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(desk, a)?;
+    one(match a.int_or(1, -1)? {
+        1 | 2 => entry.path.clone(),
+        4 => format!("{}__{}__", entry.name, entry.handle.0),
+        5 | 6 => format!("/{}{{{}}}", entry.name, order(desk, entry)),
+        0 => format!("{}[{}]", entry.name, order(desk, entry)),
+        _ => entry.name.clone(),
+    })
+}
+
+/// How many of the same name come before an object.
+fn order(desk: &Desk<'_>, entry: &Entry) -> usize {
+    desk.table.entries().filter(|e| e.name == entry.name && e.handle < entry.handle).count()
+}
+
+fn object_type(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(desk, a)?;
+    one(desk.type_of(entry))
+}
+
+fn joint_type(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(desk, a)?;
+    if is_ball(desk, entry) {
+        return one(12_i64);
+    }
+    let joint = desk.table.joint(entry.handle)?;
+    one(if matches!(joint.kind, JointKind::Prismatic { .. }) { 11_i64 } else { 10 })
+}
+
+fn parent(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    one(named(desk, a)?.parent.unwrap_or(Handle(-1)))
+}
+
+fn child(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(desk, a)?;
+    let nth = usize::try_from(a.int(1)?).map_err(|_| Refusal::new("the index is negative"))?;
+    one(desk.table.children(Some(entry.handle)).nth(nth).map_or(Handle(-1), |e| e.handle))
+}
+
+fn set_parent(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let parent = match a.handle(1)? {
+        -1 => None,
+        other => Some(plain(desk, other)?),
+    };
+    desk.set_parent(own, parent, a.bool_or(2, true)?)?;
+    done()
+}
+
+fn nth(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let nth = usize::try_from(a.int(0)?).map_err(|_| Refusal::new("the index is negative"))?;
+    one(desk.objects_of_type(a.int(1)?).get(nth).copied().unwrap_or(Handle(-1)))
+}
+
+fn in_tree(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (wanted, options) = (a.int_or(1, -2)?, a.int_or(2, 0)?);
+    let all = desk.objects_of_type(wanted);
+    let base = match a.handle(0)? {
+        -12 => return Ok(vec![Value::handles(all)]),
+        other => plain(desk, other)?,
+    };
+    let children: Vec<Handle> = desk.table.children(Some(base)).map(|e| e.handle).collect();
+    let tree = if options & 2 != 0 { [vec![base], children].concat() } else { desk.table.tree(base) };
+    let tree = tree.into_iter().filter(|h| all.contains(h) && (options & 1 == 0 || *h != base));
+    Ok(vec![Value::handles(tree)])
+}
+
+fn create_dummy(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    a.real(0)?;
+    one(desk.table.create_dummy("Dummy")?)
+}
+
+fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.table.remove(own)?;
+    one(1_i64)
+}
+
+fn remove_all(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let Value::List(list) = a.get(0) else { return Err(Refusal::new("argument 1 is no list of handles")) };
+    let handles = list.iter().map(|v| v.as_int().and_then(|h| i32::try_from(h).ok()).map(Handle));
+    let handles: Option<Vec<Handle>> = handles.collect();
+    for handle in handles.ok_or_else(|| Refusal::new("argument 1 is no list of handles"))? {
+        desk.table.remove(handle)?;
+    }
+    done()
+}
+
+fn int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.object_int(own, a.int(1)?)?)
+}
+
+fn set_int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.set_object_int(own, a.int(1)?, a.int(2)?)?;
+    done()
+}
+
+fn float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    one(desk.object_float(own, a.int(1)?)?)
+}
+
+fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.set_object_float(own, a.int(1)?, a.real(2)?)?;
+    done()
+}
+
+fn property(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    handle(desk, a, 0)?;
+    one(0_i64)
+}
+
+fn read_data(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let data = desk.table.data.get(&(own, a.text(1)?.to_owned()));
+    Ok(vec![data.map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
+}
+
+fn write_data(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let key = (handle(desk, a, 0)?, a.text(1)?.to_owned());
+    if !a.has(2) || a.bytes(2)?.is_empty() {
+        desk.table.data.remove(&key);
+    } else if desk.table.data.len() >= 10_000 && !desk.table.data.contains_key(&key) {
+        return Err(Refusal::new("there are 10000 blocks of data already"));
+    } else {
+        desk.table.data.insert(key, a.bytes(2)?.to_vec());
+    }
+    done()
+}
+
+/// Scripts have the handles of their objects here.
+fn parameter(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let Some(text) = desk.table.script_parameters.get(&(own, a.text(1)?.to_owned())) else {
+        return Ok(vec![Value::Nil]);
+    };
+    if a.bool_or(2, false)? {
+        return one(text.as_str());
+    }
+    one(match text.as_str() {
+        "nil" => Value::Nil,
+        "true" => Value::Bool(true),
+        "false" => Value::Bool(false),
+        text => text.trim().parse().map_or_else(|_| Value::from(text), Value::Real),
+    })
+}
+
+fn set_parameter(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let key = (handle(desk, a, 0)?, a.text(1)?.to_owned());
+    let text = a.text(2)?.to_owned();
+    match desk.table.script_parameters.get_mut(&key) {
+        Some(known) => *known = text,
+        None => return one(-1_i64),
+    }
+    one(1_i64)
+}

@@ -1,0 +1,167 @@
+//! Shelf: where objects are and how they move.
+
+use sincro_dynamics::spatial::{Pose, Vec3};
+
+use super::{Function, Outcome, done, handle, list, reference, setter};
+use crate::session::{Arguments, Desk, Handle, Reference, Refusal, Value, convention};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "getObjectPosition",
+        tip: "float[3] position=sim.getObjectPosition(int objectHandle,int relativeToObjectHandle=sim.handle_world)",
+        run: position,
+    },
+    Function {
+        name: "setObjectPosition",
+        tip: "sim.setObjectPosition(int objectHandle,float[3] position,int relativeToObjectHandle=sim.handle_world)",
+        run: set_position,
+    },
+    Function {
+        name: "getObjectOrientation",
+        tip: "float[3] eulerAngles=sim.getObjectOrientation(int objectHandle,int relativeToObjectHandle=sim.handle_world)",
+        run: orientation,
+    },
+    Function {
+        name: "setObjectOrientation",
+        tip: "sim.setObjectOrientation(int objectHandle,float[3] eulerAngles,int relativeToObjectHandle=sim.handle_world)",
+        run: set_orientation,
+    },
+    Function {
+        name: "getObjectQuaternion",
+        tip: "float[4] quaternion=sim.getObjectQuaternion(int objectHandle,int relativeToObjectHandle=sim.handle_world)",
+        run: quaternion,
+    },
+    Function {
+        name: "setObjectQuaternion",
+        tip: "sim.setObjectQuaternion(int objectHandle,float[4] quaternion,int relativeToObjectHandle=sim.handle_world)",
+        run: set_quaternion,
+    },
+    Function {
+        name: "getObjectPose",
+        tip: "float[7] pose=sim.getObjectPose(int objectHandle,int relativeToObjectHandle=sim.handle_world)",
+        run: pose,
+    },
+    Function {
+        name: "setObjectPose",
+        tip: "sim.setObjectPose(int objectHandle,float[7] pose,int relativeToObjectHandle=sim.handle_world)",
+        run: set_pose,
+    },
+    Function {
+        name: "getObjectMatrix",
+        tip: "float[12] matrix=sim.getObjectMatrix(int objectHandle,int relativeToObjectHandle=sim.handle_world)",
+        run: matrix,
+    },
+    Function {
+        name: "setObjectMatrix",
+        tip: "sim.setObjectMatrix(int objectHandle,float[12] matrix,int relativeToObjectHandle=sim.handle_world)",
+        run: set_matrix,
+    },
+    Function {
+        name: "getJointMatrix",
+        tip: "float[12] matrix=sim.getJointMatrix(int objectHandle)",
+        run: joint_matrix,
+    },
+    Function {
+        name: "getObjectChildPose",
+        tip: "float[7] pose=sim.getObjectChildPose(int objectHandle)",
+        run: child_pose,
+    },
+    Function {
+        name: "getObjectVelocity",
+        tip: "float[3] linearVelocity,float[3] angularVelocity=sim.getObjectVelocity(int objectHandle)",
+        run: velocity,
+    },
+    Function {
+        name: "getVelocity",
+        tip: "float[3] linearVelocity,float[3] angularVelocity=sim.getVelocity(int shapeHandle)",
+        run: center_velocity,
+    },
+];
+
+fn read(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Pose<f64>, Refusal> {
+    let (own, against) = (handle(desk, a, 0)?, reference(desk, a, 1)?);
+    desk.pose(own, against)
+}
+
+/// Handle, present pose against the reference, the reference, and the place of the new value.
+fn before(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<(Handle, Pose<f64>, Reference, usize), Refusal> {
+    let (value, against) = setter(a);
+    let (own, against) = (handle(desk, a, 0)?, reference(desk, a, against)?);
+    Ok((own, desk.pose(own, against)?, against, value))
+}
+
+fn position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    list(read(desk, a)?.pos.0)
+}
+
+fn orientation(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::euler_of(&read(desk, a)?.rot))
+}
+
+fn quaternion(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::quaternion_of(&read(desk, a)?.rot))
+}
+
+fn pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::seven_of(&read(desk, a)?))
+}
+
+fn matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::matrix_of(&read(desk, a)?))
+}
+
+fn set_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, before, against, value) = before(desk, a)?;
+    desk.set_pose(own, &Pose { pos: Vec3(a.reals(value)?), ..before }, against)?;
+    done()
+}
+
+fn set_orientation(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, before, against, value) = before(desk, a)?;
+    desk.set_pose(own, &Pose { rot: convention::rotation_of_euler(a.reals(value)?), ..before }, against)?;
+    done()
+}
+
+fn set_quaternion(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, before, against, value) = before(desk, a)?;
+    let rot = convention::rotation_of_quaternion(a.reals(value)?);
+    let rot = rot.ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
+    desk.set_pose(own, &Pose { rot, ..before }, against)?;
+    done()
+}
+
+fn set_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, _, against, value) = before(desk, a)?;
+    let pose = convention::pose_of_seven(a.reals(value)?);
+    let pose = pose.ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
+    desk.set_pose(own, &pose, against)?;
+    done()
+}
+
+fn set_matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, _, against, value) = before(desk, a)?;
+    desk.set_pose(own, &convention::pose_of_matrix(&a.reals(value)?), against)?;
+    done()
+}
+
+fn joint_matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    list(convention::matrix_of(&desk.joint_pose(own)?))
+}
+
+fn child_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    list(convention::seven_of(&desk.joint_pose(own)?))
+}
+
+fn velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let (linear, angular) = desk.velocity(own)?;
+    Ok(vec![Value::reals(linear), Value::reals(angular)])
+}
+
+fn center_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let (linear, angular) = desk.center_velocity(own)?;
+    Ok(vec![Value::reals(linear), Value::reals(angular)])
+}

@@ -1,0 +1,81 @@
+//! Shelf: signals.
+
+use super::{Function, Outcome, done, one};
+use crate::session::{Arguments, Desk, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function { name: "setInt32Signal", tip: "sim.setInt32Signal(string signalName,int signalValue)", run: set_int },
+    Function { name: "getInt32Signal", tip: "int signalValue=sim.getInt32Signal(string signalName)", run: int },
+    Function {
+        name: "clearInt32Signal",
+        tip: "sim.clearInt32Signal(string signalName)",
+        run: |d, a| one(d.table.integers.clear(text(a)?) as i64),
+    },
+    Function { name: "setFloatSignal", tip: "sim.setFloatSignal(string signalName,float signalValue)", run: set_float },
+    Function { name: "getFloatSignal", tip: "float signalValue=sim.getFloatSignal(string signalName)", run: float },
+    Function {
+        name: "clearFloatSignal",
+        tip: "sim.clearFloatSignal(string signalName)",
+        run: |d, a| one(d.table.floats.clear(text(a)?) as i64),
+    },
+    Function {
+        name: "setStringSignal",
+        tip: "sim.setStringSignal(string signalName,buffer signalValue)",
+        run: set_string,
+    },
+    Function { name: "getStringSignal", tip: "buffer signalValue=sim.getStringSignal(string signalName)", run: string },
+    Function {
+        name: "clearStringSignal",
+        tip: "sim.clearStringSignal(string signalName)",
+        run: |d, a| one(d.table.strings.clear(text(a)?) as i64),
+    },
+    Function {
+        name: "getSignalName",
+        tip: "string signalName=sim.getSignalName(int signalIndex,int signalType)",
+        run: name,
+    },
+];
+
+/// No name stands for all.
+fn text<'a>(a: Arguments<'a>) -> Result<&'a str, crate::session::Refusal> {
+    if a.has(0) { a.text(0) } else { Ok("") }
+}
+
+fn set_int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.integers.set(a.text(0)?, a.int(1)?, desk.table.phase.is_on())?;
+    done()
+}
+
+fn int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    one(desk.table.integers.get(a.text(0)?).map_or(Value::Nil, |x| Value::Int(*x)))
+}
+
+fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.floats.set(a.text(0)?, a.real(1)?, desk.table.phase.is_on())?;
+    done()
+}
+
+fn float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    one(desk.table.floats.get(a.text(0)?).map_or(Value::Nil, |x| Value::Real(*x)))
+}
+
+fn set_string(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.strings.set(a.text(0)?, a.bytes(1)?.to_vec(), desk.table.phase.is_on())?;
+    done()
+}
+
+fn string(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    one(desk.table.strings.get(a.text(0)?).map_or(Value::Nil, |x| Value::Bytes(x.clone())))
+}
+
+/// Signals by number: 0 whole numbers, 1 numbers, 2 texts.
+fn name(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (k, table) = (a.int(0)?, &desk.table);
+    let Ok(k) = usize::try_from(k) else { return Ok(vec![Value::Nil]) };
+    let name = match a.int(1)? {
+        0 => table.integers.names().nth(k),
+        1 => table.floats.names().nth(k),
+        _ => table.strings.names().nth(k),
+    };
+    one(name.map_or(Value::Nil, Value::from))
+}

@@ -1,0 +1,198 @@
+//! A table of objects together with the world that it is about: where things are and how they move.
+
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::spatial::{Motion, Pose, Quat};
+use sincro_dynamics::world::World;
+
+use super::table::{Entry, Handle, Kind, Table};
+use super::{Phase, Refusal, convention};
+
+/// What clients and scripts act on. Made anew for every call or phase; nothing in it outlives the step.
+pub struct Desk<'a> {
+    /// The objects.
+    pub table: &'a mut Table,
+    /// The world.
+    pub world: &'a mut World,
+    /// Time `[s]`.
+    pub t: f64,
+    /// The object of the script that acts, if it is one.
+    pub own: Option<Handle>,
+    is_located: bool,
+}
+
+/// What a pose is given against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// The world.
+    World,
+    /// The object's parent.
+    Parent,
+    /// An object; of a joint, the frame that moves.
+    Object(Handle),
+    /// The frame of a joint on its parent's side.
+    JointBase(Handle),
+}
+
+impl<'a> Desk<'a> {
+    /// A table and its world at time `t` `[s]`.
+    pub fn new(table: &'a mut Table, world: &'a mut World, t: f64) -> Self {
+        Self { table, world, t, own: None, is_located: false }
+    }
+
+    /// Whether a run is on, paused or not.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.table.phase != Phase::Stopped
+    }
+
+    /// Brings the poses and twists of all links to the present state.
+    fn locate(&mut self) {
+        if self.is_located {
+            return;
+        }
+        let zero = std::mem::take(&mut self.table.zero);
+        self.world.with_seen(self.t, |seen| kinematics::motions(seen.model, seen.q, seen.v, &zero, seen.scratch));
+        self.table.zero = zero;
+        self.is_located = true;
+    }
+
+    /// The state was changed: poses must be computed anew.
+    pub(super) fn moved(&mut self) {
+        self.is_located = false;
+    }
+
+    pub(super) fn place(&mut self, frame: &Attached<f64>) -> Pose<f64> {
+        self.locate();
+        self.world.with_seen(self.t, |seen| kinematics::frame_pose(seen.scratch, frame))
+    }
+
+    pub(super) fn twist(&mut self, frame: &Attached<f64>) -> Motion<f64> {
+        self.locate();
+        self.world.with_seen(self.t, |seen| kinematics::frame_velocity(seen.scratch, frame))
+    }
+
+    /// Pose of the frame that a pose of `handle` is given against, in the world.
+    fn reference(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, Refusal> {
+        let frame = match reference {
+            Reference::World => return Ok(Pose::identity()),
+            Reference::Parent => match self.table.entry(handle)?.parent {
+                None => return Ok(Pose::identity()),
+                Some(parent) => self.table.entry(parent)?.moving,
+            },
+            Reference::Object(other) => self.table.entry(other)?.moving,
+            Reference::JointBase(other) => self.table.entry(other)?.frame,
+        };
+        Ok(self.place(&frame))
+    }
+
+    /// Where an object is. Joints have their axis along z; the frame is that on their parent's side.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object.
+    pub fn pose(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, Refusal> {
+        let frame = self.table.entry(handle)?.frame;
+        let x_wr = self.reference(handle, reference)?;
+        let x_wo = self.place(&frame);
+        Ok(if reference == Reference::World { x_wo } else { x_wr.inverse().compose(&x_wo) })
+    }
+
+    /// The moving frame of a joint against its other one: its position as a pose.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object.
+    pub fn joint_pose(&mut self, handle: Handle) -> Result<Pose<f64>, Refusal> {
+        let entry = self.table.entry(handle)?;
+        let (frame, moving) = (entry.frame, entry.moving);
+        let x_wb = self.place(&frame);
+        Ok(x_wb.inverse().compose(&self.place(&moving)))
+    }
+
+    /// Puts an object somewhere: one that was made by a client or script, or one that is carried by a free joint.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, it hangs on something that does not move freely, or the pose is not finite.
+    pub fn set_pose(&mut self, handle: Handle, pose: &Pose<f64>, reference: Reference) -> Result<(), Refusal> {
+        let finite = pose.pos.0.iter().chain(pose.rot.0.iter().flatten()).all(|x| x.is_finite());
+        if !finite {
+            return Err(Refusal::new("a pose has numbers that are not finite"));
+        }
+        let x_wo = self.reference(handle, reference)?.compose(pose);
+        let entry = self.table.entry(handle)?;
+        if entry.kind == Kind::Dummy {
+            let carrier = match entry.parent {
+                Some(parent) => self.table.entry(parent)?.moving,
+                None => super::table::WORLD,
+            };
+            let x_wl = self.place(&Attached { pose: Pose::identity(), ..carrier });
+            let at = Attached { pose: x_wl.inverse().compose(&x_wo), ..carrier };
+            let entry = self.table.made(handle, "moved")?;
+            (entry.frame, entry.moving) = (at, at);
+            return Ok(());
+        }
+        let entry = entry.clone();
+        self.set_free(&entry, &x_wo)
+    }
+
+    /// Moves the free joint that carries an object.
+    fn set_free(&mut self, entry: &Entry, x_wo: &Pose<f64>) -> Result<(), Refusal> {
+        let joints = &self.world.model().names().joints;
+        let carrier = joints.iter().find(|j| j.kind == JointKind::Free && j.moving.link == entry.frame.link);
+        let Some((base, moving, q_idx)) = carrier.map(|j| (j.base, j.moving, j.q_idx)) else {
+            let help = "set the positions of the joints that carry it, or hang it on a free joint in the scene";
+            return Err(Refusal(format!("`{}` cannot be put anywhere: {help}", entry.path)));
+        };
+        let x_mo = moving.pose.inverse().compose(&entry.frame.pose);
+        let x_bm = self.place(&base).inverse().compose(&x_wo.compose(&x_mo.inverse()));
+        let q = &mut self.world.state.q[q_idx..q_idx + 7];
+        q[..3].copy_from_slice(&x_bm.pos.0);
+        Quat::from_matrix(&x_bm.rot).write(&mut q[3..]);
+        self.moved();
+        Ok(())
+    }
+
+    /// Hangs a point that was made by a client or script on another object, or on the world.
+    ///
+    /// # Errors
+    ///
+    /// It belongs to the scene, there is no such parent, or it would hang on itself.
+    pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), Refusal> {
+        let before = self.pose(handle, if keep_in_place { Reference::World } else { Reference::Parent })?;
+        let path = match parent {
+            None => String::new(),
+            Some(parent) => {
+                if self.table.tree(handle).contains(&parent) {
+                    return Err(Refusal::new("an object cannot hang on itself"));
+                }
+                self.table.entry(parent)?.path.clone()
+            }
+        };
+        let entry = self.table.made(handle, "hung elsewhere")?;
+        entry.parent = parent;
+        entry.path = format!("{path}/{}", entry.name);
+        self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
+    }
+
+    /// Velocity of an object's origin [m/s] and its angular velocity [rad/s], world axes: exact, not differences.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object.
+    pub fn velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), Refusal> {
+        let frame = self.table.entry(handle)?.frame;
+        let twist = self.twist(&frame);
+        Ok((twist.lin.0, twist.ang.0))
+    }
+
+    /// Orientation of an object as α, β, γ `[rad]`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object.
+    pub fn euler(&mut self, handle: Handle, reference: Reference) -> Result<[f64; 3], Refusal> {
+        Ok(convention::euler_of(&self.pose(handle, reference)?.rot))
+    }
+}

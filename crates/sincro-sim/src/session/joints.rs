@@ -1,0 +1,243 @@
+//! Joints with one coordinate: what they do and what they are told.
+//!
+//! V-REP's motors in the words of this program: motor off is `free`, velocity control `velocity`, position control `position`, spring-damper
+//! control `spring`, force control `torque`. A target that the present mode does not use is kept for when the mode changes.
+
+use sincro_dynamics::force::{Motor, MotorMode};
+
+use super::table::{Handle, JointEntry};
+use super::{Desk, Refusal};
+
+/// Velocity a unit of error of a motor that becomes a position motor and has no gain: that of V-REP's default P = 0.1 in steps
+/// of 5 ms [1/s].
+const POSITION_GAIN: f64 = 20.0;
+
+impl Desk<'_> {
+    /// Position `[rad]` or `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_position(&self, handle: Handle) -> Result<f64, Refusal> {
+        Ok(self.world.state.q[self.table.joint(handle)?.q_idx])
+    }
+
+    /// Puts a joint somewhere, its velocity kept `[rad]` or `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, or the number is not finite.
+    pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> Result<(), Refusal> {
+        let q_idx = self.table.joint(handle)?.q_idx;
+        self.world.state.q[q_idx] = finite(position, "position")?;
+        self.moved();
+        Ok(())
+    }
+
+    /// Velocity [rad/s] or [m/s].
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+        Ok(self.world.state.v[self.table.joint(handle)?.v_idx])
+    }
+
+    /// Sets the velocity of a joint [rad/s] or [m/s].
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, or the number is not finite.
+    pub fn set_joint_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), Refusal> {
+        let v_idx = self.table.joint(handle)?.v_idx;
+        self.world.state.v[v_idx] = finite(velocity, "velocity")?;
+        self.moved();
+        Ok(())
+    }
+
+    /// The force that V-REP reports [N·m] or `[N]`: **minus** the mean effort of the motor over the last step. None before the first
+    /// step, and for a joint without motor.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_force(&self, handle: Handle) -> Result<Option<f64>, Refusal> {
+        let joint = self.table.joint(handle)?;
+        let Some(motor) = joint.motor else { return Ok(None) };
+        let before = self.table.impulse_before(motor);
+        Ok(before.map(|before| (before - self.world.state.totals[2 + motor]) / self.table.sample_time()))
+    }
+
+    /// What the motor of a joint now is; none without motor.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_motor(&self, handle: Handle) -> Result<Option<Motor<f64>>, Refusal> {
+        Ok(self.table.joint(handle)?.drive)
+    }
+
+    /// Mode of the motor; `free` without one.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_mode(&self, handle: Handle) -> Result<MotorMode, Refusal> {
+        Ok(self.joint_motor(handle)?.map_or(MotorMode::Free, |m| m.mode))
+    }
+
+    /// Changes the mode of a motor; its targets are kept.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, or it has no motor.
+    pub fn set_joint_mode(&mut self, handle: Handle, mode: MotorMode) -> Result<(), Refusal> {
+        self.change_motor(handle, |motor| {
+            motor.mode = mode;
+            if mode == MotorMode::Position && motor.kp == 0.0 {
+                motor.kp = POSITION_GAIN;
+            }
+        })?;
+        self.command(handle)
+    }
+
+    /// Changes the numbers of a motor: limit, gains. Its targets are kept.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, it has no motor, or a number is negative or not a number.
+    pub fn change_motor(&mut self, handle: Handle, change: impl FnOnce(&mut Motor<f64>)) -> Result<(), Refusal> {
+        let joint = self.table.joint_mut(handle)?;
+        let (Some(index), Some(mut motor)) = (joint.motor, joint.drive) else { return Err(self.without_motor(handle)) };
+        change(&mut motor);
+        if let Some((name, x)) = motor.numbers().into_iter().find(|(_, x)| x.is_nan() || *x < 0.0) {
+            return Err(Refusal(format!("{name} would be {x}, expected a number that is not negative")));
+        }
+        self.table.joint_mut(handle)?.drive = Some(motor);
+        self.world.set_motor(index, motor);
+        self.moved();
+        Ok(())
+    }
+
+    /// Velocity that a joint was told [rad/s] or [m/s]: by a client or script, else by the scene; 0 if its motor takes no velocity.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn target_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+        let joint = self.table.joint(handle)?;
+        Ok(joint.target_velocity.unwrap_or_else(|| self.commanded(joint, MotorMode::Velocity)))
+    }
+
+    /// Tells a joint its velocity [rad/s] or [m/s].
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, it has no motor, or the number is not finite.
+    pub fn set_target_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), Refusal> {
+        self.joint_with_motor(handle)?.target_velocity = Some(finite(velocity, "target velocity")?);
+        self.command(handle)
+    }
+
+    /// Position that a joint was told `[rad]` or `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn target_position(&self, handle: Handle) -> Result<f64, Refusal> {
+        let joint = self.table.joint(handle)?;
+        let of_scene = || match joint.drive.map(|m| m.mode) {
+            Some(mode @ (MotorMode::Position | MotorMode::Spring)) => self.commanded(joint, mode),
+            _ => 0.0,
+        };
+        Ok(joint.target_position.unwrap_or_else(of_scene))
+    }
+
+    /// Tells a joint its position `[rad]` or `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, it has no motor, or the number is not finite.
+    pub fn set_target_position(&mut self, handle: Handle, position: f64) -> Result<(), Refusal> {
+        self.joint_with_motor(handle)?.target_position = Some(finite(position, "target position")?);
+        self.command(handle)
+    }
+
+    /// Effort of a motor in torque mode, else the largest effort that it may use [N·m] or `[N]`; infinite without limit.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn target_force(&self, handle: Handle) -> Result<f64, Refusal> {
+        let joint = self.table.joint(handle)?;
+        Ok(match joint.drive {
+            None => 0.0,
+            Some(motor) if motor.mode == MotorMode::Torque => {
+                joint.target_force.unwrap_or_else(|| self.commanded(joint, MotorMode::Torque))
+            }
+            Some(motor) => motor.max_torque,
+        })
+    }
+
+    /// Tells a motor in torque mode its effort, any other the largest effort that it may use [N·m] or `[N]`. If it is not `signed` (V-REP before
+    /// 4.3), the effort has the direction of the target velocity.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, it has no motor, or the number is not finite.
+    pub fn set_target_force(&mut self, handle: Handle, force: f64, signed: bool) -> Result<(), Refusal> {
+        let force = finite(force, "force")?;
+        let joint = self.joint_with_motor(handle)?;
+        let is_torque = joint.drive.is_some_and(|m| m.mode == MotorMode::Torque);
+        if !is_torque {
+            return self.change_motor(handle, |motor| motor.max_torque = force.abs());
+        }
+        let direction = joint.target_velocity.unwrap_or(0.0);
+        let along = if direction < 0.0 { -force.abs() } else { force.abs() };
+        joint.target_force = Some(if signed { force } else { along });
+        self.command(handle)
+    }
+
+    /// The command of a motor whose mode is `mode`; 0 in any other.
+    fn commanded(&self, joint: &JointEntry, mode: MotorMode) -> f64 {
+        let motor = joint.motor.filter(|_| joint.drive.is_some_and(|d| d.mode == mode));
+        let Some(motor) = motor else { return 0.0 };
+        // before the first step nothing is latched
+        let latched = || self.world.state.commands[motor];
+        let present = || if self.world.state.tick == 0 { self.table.scene_command(motor, 0.0) } else { latched() };
+        self.table.held(motor).unwrap_or_else(present)
+    }
+
+    /// Holds what a motor is told in its present mode, if it was told anything.
+    fn command(&mut self, handle: Handle) -> Result<(), Refusal> {
+        let joint = self.table.joint(handle)?;
+        let (Some(motor), Some(drive)) = (joint.motor, joint.drive) else { return Ok(()) };
+        let position = self.world.state.q[joint.q_idx];
+        let (told, default) = match drive.mode {
+            MotorMode::Free => (None, 0.0),
+            MotorMode::Torque => (joint.target_force, 0.0),
+            MotorMode::Velocity => (joint.target_velocity, 0.0),
+            MotorMode::Position | MotorMode::Spring => (joint.target_position, position),
+        };
+        // the scene's own command is meant for the scene's own mode
+        let unless_told = (joint.scene_mode != Some(drive.mode)).then_some(default);
+        self.table.hold(motor, told.or(unless_told));
+        Ok(())
+    }
+
+    fn joint_with_motor(&mut self, handle: Handle) -> Result<&mut JointEntry, Refusal> {
+        if self.table.joint(handle)?.motor.is_none() {
+            return Err(self.without_motor(handle));
+        }
+        self.table.joint_mut(handle)
+    }
+
+    fn without_motor(&self, handle: Handle) -> Refusal {
+        let path = self.table.entry(handle).map_or("", |e| e.path.as_str());
+        Refusal(format!("joint `{path}` has no motor; give it one in the scene: motor = {{ mode = \"velocity\" }}"))
+    }
+}
+
+fn finite(x: f64, what: &str) -> Result<f64, Refusal> {
+    if x.is_finite() { Ok(x) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
+}

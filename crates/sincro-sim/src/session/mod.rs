@@ -1,0 +1,412 @@
+//! A live session: a loaded scene that clients and scripts start, step, look at and act on, in V-REP's and CoppeliaSim's terms.
+//!
+//! | who | is |
+//! |---|---|
+//! | [`Table`] | the objects with their handles and names, signals, what is held: plain data, lives in the [`LockStep`] |
+//! | [`Desk`] | a table with its world, made for one call or phase: one function for each thing that can be asked or done |
+//! | [`api`] | the same by name, as `sim.getJointPosition`: [`Value`]s in, [`Value`]s out; what Lua and ZeroMQ share |
+//! | [`Session`] | the life of runs: start, step, pause, stop, load; each is recorded, hashed and reported as any run |
+//!
+//! A step of a session lasts [`Table::sample_time`], a whole number of base steps: commands are latched at its start and held, as those of any
+//! controller. Nothing here has a clock, a thread or a socket.
+
+pub mod api;
+mod bodies;
+pub mod constants;
+pub mod convention;
+mod desk;
+mod find;
+mod joints;
+mod parameters;
+mod refusal;
+mod signals;
+mod table;
+mod value;
+
+use std::path::{Path, PathBuf};
+
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::MethodKind;
+
+pub use desk::{Desk, Reference};
+pub use find::Search;
+pub use refusal::Refusal;
+pub use signals::Signals;
+pub use table::{Entry, Handle, JointEntry, Kind, LogLine, Request, Table};
+pub use value::{Arguments, Value};
+
+use crate::load::{Loaded, load};
+use crate::overrides::Override;
+use crate::problem::Problems;
+use crate::results::Status;
+use crate::run::{LockStep, Manner, Recording, RunError, Simulated, Trace, method_for};
+
+/// What a simulation is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// No run.
+    Stopped,
+    /// A run that goes on as soon as its controllers let it.
+    Running,
+    /// A run that waits to be started again.
+    Paused,
+}
+
+/// A run that has ended.
+#[derive(Debug)]
+pub struct Finished {
+    /// What it gave.
+    pub simulated: Simulated,
+    /// The scene that it was a run of.
+    pub loaded: Loaded,
+    /// Steps of clients.
+    pub steps: u64,
+}
+
+/// A loaded scene with the runs that clients make of it.
+pub struct Session {
+    folder: PathBuf,
+    overrides: Vec<Override>,
+    loaded: Loaded,
+    lockstep: LockStep,
+    method: MethodKind,
+    warnings: Vec<String>,
+    run: Option<Run>,
+    finished: Vec<Finished>,
+    steps: u64,
+    /// Folders that may be loaded by clients, besides the first one's own.
+    root: PathBuf,
+}
+
+/// A run under way.
+struct Run {
+    recording: Recording,
+    /// What the table was before it.
+    before: Table,
+    /// Where it started from.
+    start: State<f64>,
+}
+
+impl Session {
+    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or one base step.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the scene; or a sample time that is no whole multiple of its base step.
+    pub fn open(folder: &Path, overrides: &[Override], sample_time: Option<f64>) -> Result<Self, Problems> {
+        let loaded = load(folder, overrides)?;
+        Self::new(folder, overrides, loaded, sample_time)
+    }
+
+    /// As [`Session::open`], of a scene that is loaded already.
+    ///
+    /// # Errors
+    ///
+    /// A sample time that is no whole multiple of the base step.
+    pub fn new(
+        folder: &Path,
+        overrides: &[Override],
+        loaded: Loaded,
+        sample_time: Option<f64>,
+    ) -> Result<Self, Problems> {
+        let (method, warnings) = method_for(&loaded);
+        let mut table = Table::new(&loaded, 1);
+        if let Some(dt) = sample_time {
+            let refused = |Refusal(message)| Problems::from(crate::problem::Problem::nowhere(message));
+            table.set_sample_time(dt).map_err(refused)?;
+        }
+        let lockstep = fresh(&loaded, method, table);
+        let root = folder.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        Ok(Self {
+            folder: folder.to_path_buf(),
+            overrides: overrides.to_vec(),
+            loaded,
+            lockstep,
+            method,
+            warnings,
+            run: None,
+            finished: Vec::new(),
+            steps: 0,
+            root,
+        })
+    }
+
+    /// The scene and its experiment.
+    #[must_use]
+    pub fn loaded(&self) -> &Loaded {
+        &self.loaded
+    }
+
+    /// The folder of the scene.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The settings that it was loaded with.
+    #[must_use]
+    pub fn overrides(&self) -> &[Override] {
+        &self.overrides
+    }
+
+    /// The objects with their world.
+    ///
+    /// # Panics
+    ///
+    /// Never: a session's lock-step has a table.
+    pub fn desk(&mut self) -> Desk<'_> {
+        self.lockstep.desk().expect("a session's lock-step has a table")
+    }
+
+    /// The objects.
+    pub fn table(&mut self) -> &mut Table {
+        self.desk().table
+    }
+
+    /// What the simulation is doing.
+    pub fn phase(&mut self) -> Phase {
+        self.table().phase
+    }
+
+    /// Simulation time `[s]`; 0 while stopped.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.lockstep.t()
+    }
+
+    /// Steps of clients since the run began.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Hash of the states of the present run; none while stopped.
+    #[must_use]
+    pub fn trace(&self) -> Option<Trace> {
+        self.run.as_ref().map(|run| run.recording.trace())
+    }
+
+    /// Takes the runs that have ended since this was last asked.
+    pub fn take_finished(&mut self) -> Vec<Finished> {
+        std::mem::take(&mut self.finished)
+    }
+
+    /// Calls a function by name, with or without `sim.` before it, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// There is no such function, or it refused.
+    pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
+        let result = api::call(&mut self.desk(), name, arguments)?;
+        self.do_requests()?;
+        Ok(result)
+    }
+
+    /// Does what clients and scripts have asked for.
+    ///
+    /// # Errors
+    ///
+    /// The first of it that was refused; the rest is done.
+    pub fn do_requests(&mut self) -> Result<(), Refusal> {
+        let mut first = Ok(());
+        for request in self.table().take_requests() {
+            let done = match request {
+                Request::Start => self.start(),
+                Request::Pause => self.pause(),
+                Request::Stop => self.stop(),
+                Request::Load(path) => self.load(&path),
+                Request::Close => self.stop(),
+            };
+            if first.is_ok() {
+                first = done;
+            }
+        }
+        first
+    }
+
+    /// Starts a run, or goes on after a pause. Time stays 0 until the first step.
+    ///
+    /// # Errors
+    ///
+    /// Nothing can be recorded, or a block of the diagram gives what is not a finite number: the run has then ended.
+    pub fn start(&mut self) -> Result<(), Refusal> {
+        match self.phase() {
+            Phase::Running => return Ok(()),
+            Phase::Paused => {
+                self.table().phase = Phase::Running;
+                return Ok(());
+            }
+            Phase::Stopped => {}
+        }
+        let before = self.table().clone();
+        self.table().begin_run();
+        let start = self.lockstep.state().clone();
+        self.settle(&start);
+        let recording = Recording::new(&self.loaded, &mut self.lockstep, Manner::default()).map_err(told)?;
+        self.run = Some(Run { recording, before, start });
+        self.table().phase = Phase::Running;
+        self.steps = 0;
+        let first = self.lockstep.start();
+        if let Some(run) = &mut self.run {
+            run.recording.start(&mut self.lockstep).map_err(|e| told(e.into()))?;
+        }
+        if let Err(halt) = first {
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            return Err(self.fail(status));
+        }
+        Ok(())
+    }
+
+    /// Drives decide anew whether they hold, if a client has moved joints since the scene was opened.
+    fn settle(&mut self, start: &State<f64>) {
+        let initial = &self.loaded.scene.initial;
+        if start.q != initial.q || start.v != initial.v {
+            self.lockstep.world().settle_start(0.0);
+        }
+    }
+
+    /// Pauses the run; nothing if there is none.
+    ///
+    /// # Errors
+    ///
+    /// None yet.
+    pub fn pause(&mut self) -> Result<(), Refusal> {
+        let table = self.table();
+        if table.phase == Phase::Running {
+            table.phase = Phase::Paused;
+        }
+        Ok(())
+    }
+
+    /// Ends the run and goes back to where it started; nothing if there is none.
+    ///
+    /// # Errors
+    ///
+    /// None yet.
+    pub fn stop(&mut self) -> Result<(), Refusal> {
+        let (tick, time) = (self.lockstep.tick(), self.lockstep.t());
+        let lasted = tick >= self.loaded.experiment.n_steps;
+        self.end(if lasted { Status::Completed } else { Status::Interrupted { tick, time } });
+        Ok(())
+    }
+
+    /// One step of the clients: every base step of it. Nothing unless a run is on and not paused.
+    ///
+    /// # Errors
+    ///
+    /// The world or the diagram could not go on: the run has ended, what was recorded is kept.
+    pub fn step(&mut self) -> Result<(), Refusal> {
+        let table = self.table();
+        if table.phase != Phase::Running {
+            return Ok(());
+        }
+        for _ in 0..table.sample_ticks() {
+            let advanced = self.lockstep.advance();
+            let Some(run) = &mut self.run else { return Ok(()) };
+            let world_stopped = matches!(advanced, Err(crate::run::Halt::World { .. }));
+            if !world_stopped {
+                run.recording.tick(&mut self.lockstep, advanced.is_err()).map_err(|e| told(e.into()))?;
+            }
+            if let Err(halt) = advanced {
+                let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+                return Err(self.fail(status));
+            }
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one. A run that is on is ended.
+    ///
+    /// # Errors
+    ///
+    /// It lies elsewhere, or something is wrong with it; the scene that was loaded stays.
+    pub fn load(&mut self, path: &str) -> Result<(), Refusal> {
+        let folder = self.allowed(path)?;
+        let loaded = load(&folder, &[]).map_err(|problems| {
+            let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
+            Refusal(format!("the scene `{path}` cannot be loaded: {first}"))
+        })?;
+        self.stop()?;
+        let mut other =
+            Self::new(&folder, &[], loaded, None).map_err(|_| Refusal::new("the scene cannot be loaded"))?;
+        other.finished = std::mem::take(&mut self.finished);
+        other.root.clone_from(&self.root);
+        *self = other;
+        Ok(())
+    }
+
+    /// The scene folder that a client means, if it may be loaded.
+    fn allowed(&self, path: &str) -> Result<PathBuf, Refusal> {
+        let refused = |why: &str| Refusal(format!("the scene `{path}` {why}"));
+        // V-REP's scenes are files; here the folder of the same name
+        let stem = path.strip_suffix(".ttt").or_else(|| path.strip_suffix(".simscene.xml")).unwrap_or(path);
+        let name = Path::new(stem);
+        let root = self.root.canonicalize().map_err(|_| refused("cannot be found"))?;
+        let whole = root.join(name).canonicalize();
+        let whole = whole.or_else(|_| root.join(name.file_name().unwrap_or_default()).canonicalize());
+        let whole = whole.map_err(|_| refused("does not exist"))?;
+        if !whole.starts_with(&root) {
+            return Err(refused("lies outside the folder of the scene that is served"));
+        }
+        Ok(whole)
+    }
+
+    fn fail(&mut self, status: Status) -> Refusal {
+        let message = match &status {
+            Status::Stopped { reason, help, .. } => format!("the run stopped: {reason}; {help}"),
+            _ => "the run stopped".to_owned(),
+        };
+        self.table().log(200, message.clone());
+        self.end(status);
+        Refusal(message)
+    }
+
+    /// Keeps what the run gave and goes back to where it started.
+    fn end(&mut self, status: Status) {
+        let Some(run) = self.run.take() else { return };
+        let warnings = self.warnings.clone();
+        match run.recording.finish(&mut self.lockstep, status, self.method, warnings) {
+            Ok(simulated) => {
+                let (loaded, steps) = (self.loaded.clone(), self.steps);
+                self.finished.push(Finished { simulated, loaded, steps });
+            }
+            Err(error) => self.table().log(200, format!("{error}")),
+        }
+        let mut table = *self.lockstep.take_table().expect("a session's lock-step has a table");
+        table.end_run(run.before);
+        table.phase = Phase::Stopped;
+        self.lockstep = fresh(&self.loaded, self.method, table);
+        self.lockstep.place(run.start, &[]);
+        self.restore_motors();
+        self.steps = 0;
+    }
+
+    /// Motors that a client changed before the run are so again.
+    fn restore_motors(&mut self) {
+        let desk = self.desk();
+        for joint in desk.table.joints() {
+            if let (Some(index), Some(motor)) = (joint.motor, joint.drive)
+                && desk.world.model().motors()[index] != (sincro_dynamics::force::Motor { dof: joint.v_idx, ..motor })
+            {
+                desk.world.set_motor(index, motor);
+            }
+        }
+    }
+}
+
+/// A lock-step that has not started, with a table.
+fn fresh(loaded: &Loaded, method: MethodKind, table: Table) -> LockStep {
+    let mut lockstep = LockStep::new(loaded, method, false);
+    lockstep.set_table(Box::new(table));
+    lockstep
+}
+
+fn told(error: RunError) -> Refusal {
+    match error {
+        RunError::Problems(problems) => {
+            Refusal(problems.0.first().map_or_else(|| "nothing can be recorded".into(), |p| p.message.clone()))
+        }
+        RunError::File(error) => Refusal(error.to_string()),
+    }
+}

@@ -1,0 +1,88 @@
+//! Signals: named values that scripts and clients leave for each other.
+
+use std::collections::BTreeMap;
+
+use super::Refusal;
+
+/// Names of one kind that may exist at once.
+const MOST_NAMES: usize = 10_000;
+/// Bytes of one string signal.
+const MOST_BYTES: usize = 64 << 20;
+
+/// Signals of one kind.
+#[derive(Clone, Debug)]
+pub struct Signals<T> {
+    by_name: BTreeMap<String, Held<T>>,
+}
+
+#[derive(Clone, Debug)]
+struct Held<T> {
+    value: T,
+    /// Made during a run: it is gone when the next one starts.
+    of_run: bool,
+}
+
+impl<T> Default for Signals<T> {
+    fn default() -> Self {
+        Self { by_name: BTreeMap::new() }
+    }
+}
+
+impl<T> Signals<T> {
+    /// The value of a name, if there is one.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&T> {
+        self.by_name.get(name).map(|held| &held.value)
+    }
+
+    /// Sets a name; `of_run` says that it is gone when the next run starts.
+    ///
+    /// # Errors
+    ///
+    /// There are too many names.
+    pub fn set(&mut self, name: &str, value: T, of_run: bool) -> Result<(), Refusal> {
+        if self.by_name.len() >= MOST_NAMES && !self.by_name.contains_key(name) {
+            return Err(Refusal(format!("there are {MOST_NAMES} signals already: clear some")));
+        }
+        self.by_name.insert(name.to_owned(), Held { value, of_run });
+        Ok(())
+    }
+
+    /// Removes a name; an empty one stands for all. Says how many there were.
+    pub fn clear(&mut self, name: &str) -> usize {
+        if name.is_empty() {
+            let n = self.by_name.len();
+            self.by_name.clear();
+            return n;
+        }
+        usize::from(self.by_name.remove(name).is_some())
+    }
+
+    /// The names, in alphabetical order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.by_name.keys().map(String::as_str)
+    }
+
+    /// Forgets what the last run made.
+    pub(super) fn forget_run(&mut self) {
+        self.by_name.retain(|_, held| !held.of_run);
+    }
+}
+
+impl Signals<Vec<u8>> {
+    /// Adds to the end of a string signal, which is made if there is none.
+    ///
+    /// # Errors
+    ///
+    /// It becomes too long, or there are too many names.
+    pub fn append(&mut self, name: &str, bytes: &[u8], of_run: bool) -> Result<(), Refusal> {
+        let Some(held) = self.by_name.get_mut(name) else { return self.set(name, bytes.to_vec(), of_run) };
+        if held.value.len() + bytes.len() > MOST_BYTES {
+            return Err(Refusal(format!(
+                "string signal `{name}` is longer than {MOST_BYTES} bytes: read and clear it"
+            )));
+        }
+        held.value.extend_from_slice(bytes);
+        Ok(())
+    }
+}
