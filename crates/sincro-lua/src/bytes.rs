@@ -120,7 +120,9 @@ impl<'a> Reader<'a> {
             5 => {
                 let mut map = Vec::new();
                 for _ in 0..count.ok_or_else(cut_off)? {
-                    let Value::Text(name) = self.value(depth + 1)? else { return Err("the packed table has a key that is no text".into()) };
+                    let Value::Text(name) = self.value(depth + 1)? else {
+                        return Err("the packed table has a key that is no text".into());
+                    };
                     map.push((name, self.value(depth + 1)?));
                 }
                 Value::Map(map)

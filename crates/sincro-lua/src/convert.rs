@@ -23,7 +23,9 @@ fn at_depth(value: LuaValue, depth: usize) -> mlua::Result<Value> {
         },
         LuaValue::Table(table) => {
             if depth >= MAX_DEPTH {
-                return Err(Error::RuntimeError("a table holds itself, or tables are too deep inside each other".into()));
+                return Err(Error::RuntimeError(
+                    "a table holds itself, or tables are too deep inside each other".into(),
+                ));
             }
             of_table(&table, depth)?
         }
@@ -43,7 +45,12 @@ fn of_table(table: &Table, depth: usize) -> mlua::Result<Value> {
         let name = match &key {
             LuaValue::String(name) => name.to_string_lossy(),
             LuaValue::Integer(k) => k.to_string(),
-            other => return Err(Error::RuntimeError(format!("a table with a {} as a key cannot be passed on", other.type_name()))),
+            other => {
+                return Err(Error::RuntimeError(format!(
+                    "a table with a {} as a key cannot be passed on",
+                    other.type_name()
+                )));
+            }
         };
         map.push((name, at_depth(value, depth + 1)?));
     }

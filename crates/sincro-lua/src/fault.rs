@@ -67,7 +67,13 @@ pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
         (guard.words(), Some(help.to_owned()))
     } else if is_of_memory(error) {
         let message = format!("it took more than {} MiB of memory", script.max_memory >> 20);
-        (message, Some("look for a table or text that grows without end; `max_memory_mib` of the script raises the limit".into()))
+        (
+            message,
+            Some(
+                "look for a table or text that grows without end; `max_memory_mib` of the script raises the limit"
+                    .into(),
+            ),
+        )
     } else {
         let help = help(&message);
         (message, help)

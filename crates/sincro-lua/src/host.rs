@@ -5,13 +5,14 @@ use std::sync::Arc;
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_sim::script::{Call, Engine, Fault, Host, Law, LawSpec, Message, Phase, Script, Setting};
+use sincro_sim::script::{Call, Engine, Fault, Host, Kind, Law, LawSpec, Message, Phase, Script, Setting};
+use sincro_sim::session::{Handle, Refusal, Value};
 
 use crate::guard::Guard;
 use crate::law::LuaLaw;
 use crate::machine::{self, Machine};
 use crate::shared::Shared;
-use crate::{fault, sandbox};
+use crate::{api, fault, sandbox};
 
 /// Lua 5.4.
 #[derive(Debug)]
@@ -48,9 +49,24 @@ struct Scripts {
 }
 
 impl Host for Scripts {
-    fn call(&mut self, mut call: Call<'_>) -> Result<(), Fault> {
+    fn call(&mut self, mut call: Call<'_>, phase: Phase) -> Result<(), Fault> {
         self.lend(&mut call);
-        let done = self.run(call.phase);
+        let done = self.run(phase);
+        self.lend(&mut call);
+        done
+    }
+
+    fn call_function(
+        &mut self,
+        mut call: Call<'_>,
+        (object, kind): (Handle, Option<Kind>),
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal> {
+        let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
+        let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
+        self.lend(&mut call);
+        let done = self.machines[place].call_function(function, arguments);
         self.lend(&mut call);
         done
     }
@@ -74,6 +90,7 @@ impl Scripts {
         if self.machines.is_empty() {
             self.make()?;
         }
+        self.machines.iter().for_each(Machine::refill);
         if phase == Phase::Actuation {
             self.machines.iter_mut().try_for_each(Machine::resume)?;
         }

@@ -6,7 +6,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use mlua::{ChunkMode, Error, Function, Lua, MultiValue, Table, Value};
+use mlua::chunk::ChunkMode;
+use mlua::{Error, Function, Lua, MultiValue, Table, Value};
 use sincro_sim::script::{Law, LawSpec};
 
 use crate::guard::Guard;
@@ -47,7 +48,8 @@ impl LuaLaw {
 
     fn read(spec: &LawSpec, guard: Arc<Guard>) -> mlua::Result<Self> {
         let lua = sandbox::new(&guard, MAX_MEMORY)?;
-        let services = Services { time: Box::new(|| 0.0), signal: Box::new(|_, _| Ok(Value::Nil)), print: Box::new(drop) };
+        let services =
+            Services { time: Box::new(|| 0.0), signal: Box::new(|_, _| Ok(Value::Nil)), print: Box::new(drop) };
         sandbox::furnish(&lua, &guard, 0, services)?;
         for (name, x) in &spec.parameters {
             lua.globals().set(name.as_str(), *x)?;
@@ -105,7 +107,8 @@ impl LuaLaw {
             match value {
                 Value::Table(list) if list.raw_len() == *width => {
                     for k in 0..*width {
-                        y[at + k] = list.raw_get(k + 1).map_err(|_| wrong(format!("`{name}`[{}] is no number", k + 1)))?;
+                        y[at + k] =
+                            list.raw_get(k + 1).map_err(|_| wrong(format!("`{name}`[{}] is no number", k + 1)))?;
                     }
                 }
                 Value::Number(x) if *width == 1 => y[at] = x,

@@ -31,8 +31,8 @@ pub(crate) struct Word {
 }
 
 const KEYWORDS: [&str; 19] = [
-    "and", "break", "do", "else", "elseif", "end", "for", "function", "goto", "if", "in", "local", "not", "or", "repeat",
-    "return", "then", "until", "while",
+    "and", "break", "do", "else", "elseif", "end", "for", "function", "goto", "if", "in", "local", "not", "or",
+    "repeat", "return", "then", "until", "while",
 ];
 
 /// Symbols of more than one character, the longest first.
@@ -161,6 +161,9 @@ mod tests {
 
     #[test]
     fn numbers_have_signs_in_exponents_only() {
-        assert_eq!(cut("1e-6-2 0x1p+4+1 .5^3 1..2"), ["1e-6", "-", "2", "0x1p+4", "+", "1", ".5", "^", "3", "1", "..", "2"]);
+        assert_eq!(
+            cut("1e-6-2 0x1p+4+1 .5^3 1..2"),
+            ["1e-6", "-", "2", "0x1p+4", "+", "1", ".5", "^", "3", "1", "..", "2"]
+        );
     }
 }

@@ -10,13 +10,15 @@
 
 use std::sync::Arc;
 
-use mlua::{ChunkMode, Function, Lua, Thread, ThreadStatus, Value};
+use mlua::chunk::ChunkMode;
+use mlua::{Function, Lua, Thread, Value};
 use sincro_sim::script::{Fault, Kind, Phase, Script, Style};
+use sincro_sim::session::{self, Refusal};
 
 use crate::guard::{Guard, THREAD};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
-use crate::{api, fault, power};
+use crate::{api, convert, fault, power};
 
 /// Names of phases in `sim_call_type`; any numbers will do, scripts compare names.
 pub(crate) const CALL_TYPES: [(&str, Phase, i64); 4] = [
@@ -83,6 +85,24 @@ impl Machine {
 
     fn script(&self) -> &Script {
         &self.shared.scripts[self.index]
+    }
+
+    /// Gives the script all its instructions again: other scripts may call its functions before it is called itself.
+    pub fn refill(&self) {
+        self.guard.begin(false);
+    }
+
+    /// Calls a function by its name, for a client.
+    pub fn call_function(&mut self, name: &str, arguments: &[session::Value]) -> Result<Vec<session::Value>, Refusal> {
+        let path = self.script().path.clone();
+        let Some(function) = api::function_of(&self.lua, name) else {
+            return Err(Refusal(format!("the script of `{path}` has no function `{name}`")));
+        };
+        let done = self.within(false, |m| {
+            let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
+            convert::list_from_lua(values)
+        });
+        done.map_err(|fault| Refusal(fault.to_string()))
     }
 
     /// Runs something of the script within its limits.
@@ -212,7 +232,7 @@ impl Machine {
 
     /// Lets the script's thread go on, if it is one and has not ended.
     pub fn resume(&mut self) -> Result<(), Fault> {
-        let Some(thread) = self.thread.clone().filter(|t| t.status() == ThreadStatus::Resumable) else { return Ok(()) };
+        let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
         self.within(true, |_| thread.resume(()))
     }
 

@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 
-use mlua::{ChunkMode, Error, Function, Lua, LuaOptions, MultiValue, StdLib, Table, Value, Variadic};
+use mlua::chunk::ChunkMode;
+use mlua::{Error, Function, Lua, LuaOptions, MultiValue, StdLib, Table, Value, Variadic};
 use sincro_math::elementary;
 
 use crate::guard::Guard;
@@ -79,7 +80,10 @@ fn clocks(lua: &Lua, time: &Clock) -> mlua::Result<()> {
     let os = lua.create_table()?;
     os.set("clock", clock(lua, time)?)?;
     let whole = time.clone();
-    os.set("time", lua.create_function(move |_, _: MultiValue| Ok(whole.lock().map_or(0.0, |time| time()).floor() as i64))?)?;
+    os.set(
+        "time",
+        lua.create_function(move |_, _: MultiValue| Ok(whole.lock().map_or(0.0, |time| time()).floor() as i64))?,
+    )?;
     os.set("difftime", lua.create_function(|_, (a, b): (f64, Option<f64>)| Ok(a - b.unwrap_or(0.0)))?)?;
     for name in ["execute", "exit", "getenv", "remove", "rename", "tmpname", "setlocale", "date"] {
         os.set(name, refused(lua, &format!("os.{name}"))?)?;
@@ -115,7 +119,10 @@ fn forbid(lua: &Lua) -> mlua::Result<()> {
 }
 
 /// As Lua's `load`, for texts only; powers are made calls in them too.
-fn load(lua: &Lua, (chunk, name, mode, env): (Value, Option<String>, Option<String>, Option<Table>)) -> mlua::Result<MultiValue> {
+fn load(
+    lua: &Lua,
+    (chunk, name, mode, env): (Value, Option<String>, Option<String>, Option<Table>),
+) -> mlua::Result<MultiValue> {
     let text = match chunk {
         Value::String(text) => text.to_string_lossy(),
         Value::Function(pieces) => {
@@ -136,7 +143,8 @@ fn load(lua: &Lua, (chunk, name, mode, env): (Value, Option<String>, Option<Stri
     if mode.is_some_and(|mode| !mode.contains('t')) {
         return Err(Error::RuntimeError("bytecode is not allowed: load takes text".into()));
     }
-    let mut chunk = lua.load(power::with_calls(&text)).set_mode(ChunkMode::Text).set_name(name.unwrap_or_else(|| "=load".into()));
+    let mut chunk =
+        lua.load(power::with_calls(&text)).set_mode(ChunkMode::Text).set_name(name.unwrap_or_else(|| "=load".into()));
     if let Some(env) = env {
         chunk = chunk.set_environment(env);
     }
@@ -168,7 +176,7 @@ fn power_of(lua: &Lua, (a, b): (Value, Value)) -> mlua::Result<Value> {
             _ => None,
         };
         if let Some(own) = meta.and_then(|meta| meta.get::<Option<Function>>("__pow").ok().flatten()) {
-            return own.call((a, b));
+            return own.call((&a, &b));
         }
     }
     let wrong = if number(lua, &a)?.is_some() { &b } else { &a };

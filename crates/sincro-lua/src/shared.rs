@@ -1,5 +1,6 @@
 //! What all scripts of a run share: the world while they are called, what they say, and each other.
 
+use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use mlua::WeakLua;
@@ -19,7 +20,6 @@ pub(crate) struct Stage {
 }
 
 /// See the head of this file.
-#[derive(Debug)]
 pub(crate) struct Shared {
     stage: Mutex<Stage>,
     messages: Mutex<Vec<Message>>,
@@ -29,6 +29,12 @@ pub(crate) struct Shared {
     pub setting: Setting,
     /// Their Lua states, once all are made.
     pub states: OnceLock<Vec<WeakLua>>,
+}
+
+impl fmt::Debug for Shared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Shared").field("scripts", &self.scripts.len()).finish_non_exhaustive()
+    }
 }
 
 /// A lock that a panic of ours has left is as good as any: the run is over then.
@@ -49,10 +55,16 @@ impl Shared {
     }
 
     /// Lets somebody act on the world for the object `own`.
-    pub fn with_desk<T>(&self, own: Handle, act: impl FnOnce(&mut Desk<'_>) -> Result<T, Refusal>) -> Result<T, Refusal> {
+    pub fn with_desk<T>(
+        &self,
+        own: Handle,
+        act: impl FnOnce(&mut Desk<'_>) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
         let mut stage = self.stage();
         let Stage { world, table, t } = &mut *stage;
-        let Some(table) = table else { return Err(Refusal::new("the simulation can be reached while a script is called only")) };
+        let Some(table) = table else {
+            return Err(Refusal::new("the simulation can be reached while a script is called only"));
+        };
         let mut desk = Desk::new(table, world, *t);
         desk.own = Some(own);
         act(&mut desk)

@@ -20,7 +20,12 @@ const SORTS: [Sort; 6] = [
 
 /// Names that V-REP had for some of them.
 const OLD: [(&str, &str); 6] = [
-    ("Floats", "Float"), ("Doubles", "Double"), ("Ints", "Int32"), ("UInts", "UInt32"), ("Words", "UInt16"), ("Bytes", "UInt8"),
+    ("Floats", "Float"),
+    ("Doubles", "Double"),
+    ("Ints", "Int32"),
+    ("UInts", "UInt32"),
+    ("Words", "UInt16"),
+    ("Bytes", "UInt8"),
 ];
 
 /// The first `N` bytes, of at least as many.
@@ -31,15 +36,16 @@ fn fixed<const N: usize>(bytes: &[u8]) -> [u8; N] {
 pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
     for (name, size, to_bytes, from_bytes) in SORTS {
         let is_whole = !matches!(name, "Float" | "Double");
-        let pack = shelf.lua.create_function(move |lua, (list, start, count): (Table, Option<usize>, Option<usize>)| {
-            let (first, n) = (start.unwrap_or(0), list.raw_len());
-            let n = some_of(n.saturating_sub(first), count);
-            let mut packed = Vec::with_capacity(n * size);
-            for k in first..first + n {
-                packed.extend(to_bytes(list.raw_get::<f64>(k + 1)?));
-            }
-            lua.create_string(packed)
-        })?;
+        let pack =
+            shelf.lua.create_function(move |lua, (list, start, count): (Table, Option<usize>, Option<usize>)| {
+                let (first, n) = (start.unwrap_or(0), list.raw_len());
+                let n = some_of(n.saturating_sub(first), count);
+                let mut packed = Vec::with_capacity(n * size);
+                for k in first..first + n {
+                    packed.extend(to_bytes(list.raw_get::<f64>(k + 1)?));
+                }
+                lua.create_string(packed)
+            })?;
         type Given = (LuaString, Option<usize>, Option<usize>, Option<usize>);
         let unpack = shelf.lua.create_function(move |lua, (packed, start, count, offset): Given| {
             let packed = packed.as_bytes();

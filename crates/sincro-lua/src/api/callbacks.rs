@@ -15,9 +15,8 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         let fail = |message: String| Error::RuntimeError(format!("{message} (in function 'sim.callScriptFunction')"));
         // both orders are about: (handle, name) and (name, handle), where an old name is `function@object`
         let (name, handle) = match (&first, &second) {
-            (LuaValue::String(name), LuaValue::Integer(handle)) | (LuaValue::Integer(handle), LuaValue::String(name)) => {
-                (name.to_string_lossy(), *handle)
-            }
+            (LuaValue::String(name), LuaValue::Integer(handle))
+            | (LuaValue::Integer(handle), LuaValue::String(name)) => (name.to_string_lossy(), *handle),
             _ => return Err(fail("expected the name of a function and the handle of a script".into())),
         };
         let (name, place) = match name.split_once('@') {
@@ -33,13 +32,16 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
             return Err(fail("scripts can call each other once all of them are there, not while they are read".into()));
         };
         let path = &shared.scripts[place].path;
-        let function = find(&other, &name).ok_or_else(|| fail(format!("the script of `{path}` has no function `{name}`")))?;
+        let function =
+            find(&other, &name).ok_or_else(|| fail(format!("the script of `{path}` has no function `{name}`")))?;
         if depth.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= MAX_DEPTH {
             depth.store(0, std::sync::atomic::Ordering::Relaxed);
             return Err(fail(format!("more than {MAX_DEPTH} scripts call each other")));
         }
         let result = pass(lua, &other, &function, arguments);
-        let _ = depth.fetch_update(std::sync::atomic::Ordering::Relaxed, std::sync::atomic::Ordering::Relaxed, |n| n.checked_sub(1));
+        let _ = depth.fetch_update(std::sync::atomic::Ordering::Relaxed, std::sync::atomic::Ordering::Relaxed, |n| {
+            n.checked_sub(1)
+        });
         result.map_err(|error| fail(format!("`{name}` of the script of `{path}`: {}", crate::fault::words(&error).0)))
     })?;
     shelf.add("testCB", |_, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {
@@ -52,7 +54,7 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
 }
 
 /// A function by its name, as `f` or `table.f`.
-fn find(lua: &Lua, name: &str) -> Option<Function> {
+pub(crate) fn find(lua: &Lua, name: &str) -> Option<Function> {
     let mut at = LuaValue::Table(lua.globals());
     for part in name.split('.') {
         let LuaValue::Table(table) = at else { return None };

@@ -11,6 +11,9 @@ mod windows;
 
 use std::sync::Arc;
 
+pub(crate) use callbacks::find as function_of;
+pub(crate) use scripts::script_on;
+
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
 use sincro_sim::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
 
@@ -33,7 +36,13 @@ pub(crate) struct Shelf<'a> {
 }
 
 /// Fills a Lua state with everything that the script `index` may call.
-pub(crate) fn offer(lua: &Lua, shared: &Arc<Shared>, index: usize, guard: &Arc<Guard>, waits: &Waits) -> mlua::Result<()> {
+pub(crate) fn offer(
+    lua: &Lua,
+    shared: &Arc<Shared>,
+    index: usize,
+    guard: &Arc<Guard>,
+    waits: &Waits,
+) -> mlua::Result<()> {
     let own = handle_of(&shared.scripts[index]);
     let shelf = Shelf { lua, sim: lua.create_table()?, shared, index, own, guard };
     constants_of(&shelf)?;
@@ -84,7 +93,11 @@ impl Shelf<'_> {
             let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
             // a client's nil may be a number that is none; a script's is a mistake
             if is_setter && let Some(k) = given.iter().position(|value| *value == Value::Nil) {
-                return Err(Error::RuntimeError(format!("argument {} is nil (in function 'sim.{}')", k + 1, function.name)));
+                return Err(Error::RuntimeError(format!(
+                    "argument {} is nil (in function 'sim.{}')",
+                    k + 1,
+                    function.name
+                )));
             }
             let result = shared.with_desk(own, |desk| (function.run)(desk, Arguments(&given)));
             let values = result.map_err(|refusal| refused(function.name, &refusal))?;

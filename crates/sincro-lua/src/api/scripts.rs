@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
-use sincro_sim::script::{Kind, Parameter, Script};
+use sincro_sim::script::{Kind, Script};
 use sincro_sim::session::Handle;
 
 use super::Shelf;
@@ -33,7 +33,7 @@ fn unknown(handle: i64, function: &str) -> Error {
 }
 
 /// The script on an object.
-pub(super) fn script_on(scripts: &[Script], object: Handle, kind: Option<Kind>) -> Option<usize> {
+pub(crate) fn script_on(scripts: &[Script], object: Handle, kind: Option<Kind>) -> Option<usize> {
     scripts.iter().position(|s| handle_of(s) == object && kind.is_none_or(|kind| s.kind == kind))
 }
 
@@ -47,7 +47,10 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         let k = place_of(&shared, index, script).ok_or_else(|| unknown(script, "getObjectAssociatedWithScript"))?;
         Ok(handle_of(&shared.scripts[k]).0)
     })?;
-    for (name, kind) in [("getScriptAssociatedWithObject", Kind::Child), ("getCustomizationScriptAssociatedWithObject", Kind::Customization)] {
+    for (name, kind) in [
+        ("getScriptAssociatedWithObject", Kind::Child),
+        ("getCustomizationScriptAssociatedWithObject", Kind::Customization),
+    ] {
         let (shared, own) = (shelf.shared.clone(), shelf.own);
         shelf.add(name, move |_, object: i32| {
             let object = if object == -4 { own } else { Handle(object) };
@@ -80,7 +83,8 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
     let shared = shelf.shared.clone();
     shelf.add("getScriptSimulationParameter", move |lua, (script, name, as_text): (i64, String, Option<bool>)| {
         let script = object_with(&shared, index, script, "getScriptSimulationParameter")?;
-        let found = shared.with_desk(script, |desk| Ok(desk.table.script_parameters.get(&(script, name.clone())).cloned()));
+        let found =
+            shared.with_desk(script, |desk| Ok(desk.table.script_parameters.get(&(script, name.clone())).cloned()));
         let text = found.map_err(|refusal| super::refused("getScriptSimulationParameter", &refusal))?;
         let Some(text) = text else { return Ok(LuaValue::Nil) };
         if as_text == Some(true) { lua.create_string(text).map(LuaValue::String) } else { value_of(lua, &text) }
@@ -93,7 +97,9 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
             LuaValue::Nil => "nil".to_owned(),
             other => lua.coerce_string(other.clone())?.map(|text| text.to_string_lossy()).ok_or_else(|| {
                 let what = other.type_name();
-                Error::RuntimeError(format!("argument 3 is a {what}, expected text (in function 'sim.setScriptSimulationParameter')"))
+                Error::RuntimeError(format!(
+                    "argument 3 is a {what}, expected text (in function 'sim.setScriptSimulationParameter')"
+                ))
             })?,
         };
         let done = shared.with_desk(script, |desk| Ok(desk.table.script_parameters.insert((script, name), text)));
@@ -108,7 +114,8 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
 /// The object whose parameters are meant: that of a script, by the script's handle or its own.
 fn object_with(shared: &Arc<Shared>, index: usize, handle: i64, function: &str) -> mlua::Result<Handle> {
     let of_script = place_of(shared, index, handle).map(|k| handle_of(&shared.scripts[k]));
-    let of_object = || i32::try_from(handle).ok().map(Handle).filter(|h| script_on(&shared.scripts, *h, None).is_some());
+    let of_object =
+        || i32::try_from(handle).ok().map(Handle).filter(|h| script_on(&shared.scripts, *h, None).is_some());
     of_script.or_else(of_object).ok_or_else(|| unknown(handle, function))
 }
 
@@ -128,14 +135,4 @@ fn value_of(lua: &mlua::Lua, text: &str) -> mlua::Result<LuaValue> {
         Some(x) => LuaValue::Number(x),
         None => string,
     })
-}
-
-/// The text of a parameter, as it is stored.
-pub(crate) fn text_of(parameter: &Parameter) -> String {
-    match parameter {
-        Parameter::Number(x) if x.fract() == 0.0 && x.abs() < 1e15 => format!("{}", *x as i64),
-        Parameter::Number(x) => format!("{x:?}"),
-        Parameter::Flag(truth) => truth.to_string(),
-        Parameter::Text(text) => text.clone(),
-    }
 }

@@ -6,15 +6,39 @@ use super::Shelf;
 
 /// Functions that give a handle of something that is not there.
 const HANDLES: [&str; 7] = [
-    "auxiliaryConsoleOpen", "floatingViewAdd", "addDrawingObject", "displayDialog", "addGraphStream", "addParticleObject", "getGraphHandle",
+    "auxiliaryConsoleOpen",
+    "floatingViewAdd",
+    "addDrawingObject",
+    "displayDialog",
+    "addGraphStream",
+    "addParticleObject",
+    "getGraphHandle",
 ];
 
 /// Functions that say that it went well.
 const DONE: [&str; 22] = [
-    "adjustView", "auxiliaryConsoleClose", "auxiliaryConsolePrint", "auxiliaryConsoleShow", "floatingViewRemove",
-    "addDrawingObjectItem", "removeDrawingObject", "endDialog", "setGraphStreamValue", "setGraphUserData", "resetGraph",
-    "handleGraph", "setObjectColor", "setShapeColor", "setShapeTexture", "setShapeMaterial", "addParticleObjectItem",
-    "removeParticleObject", "cameraFitToView", "setEngineFloatParam", "setEngineInt32Param", "setEngineBoolParam",
+    "adjustView",
+    "auxiliaryConsoleClose",
+    "auxiliaryConsolePrint",
+    "auxiliaryConsoleShow",
+    "floatingViewRemove",
+    "addDrawingObjectItem",
+    "removeDrawingObject",
+    "endDialog",
+    "setGraphStreamValue",
+    "setGraphUserData",
+    "resetGraph",
+    "handleGraph",
+    "setObjectColor",
+    "setShapeColor",
+    "setShapeTexture",
+    "setShapeMaterial",
+    "addParticleObjectItem",
+    "removeParticleObject",
+    "cameraFitToView",
+    "setEngineFloatParam",
+    "setEngineInt32Param",
+    "setEngineBoolParam",
 ];
 
 pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {

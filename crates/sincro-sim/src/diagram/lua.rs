@@ -32,11 +32,31 @@ impl Described for LuaBlock {
         summary: "A law written in Lua, evaluated at ticks.",
         equation: "y = output(t, u, memory), then update(t, u, memory) changes memory",
         parameters: &[
-            Parameter::optional("code", Takes::Text, "Lua text with `output` and, if there is memory, `update`", "none"),
+            Parameter::optional(
+                "code",
+                Takes::Text,
+                "Lua text with `output` and, if there is memory, `update`",
+                "none",
+            ),
             Parameter::optional("file", Takes::File, "Lua file of the scene folder, in place of `code`", "none"),
-            Parameter::optional("inputs", Takes::Texts, "names of the inputs: `u.NAME` is a number, of a vector a list", "u"),
-            Parameter::optional("outputs", Takes::Texts, "names of the outputs in the order of their return, `y[3]` a list of three", "y"),
-            Parameter::optional("memory", Takes::Names, "numbers that it keeps, `memory.NAME`, and where they start", "none"),
+            Parameter::optional(
+                "inputs",
+                Takes::Texts,
+                "names of the inputs: `u.NAME` is a number, of a vector a list",
+                "u",
+            ),
+            Parameter::optional(
+                "outputs",
+                Takes::Texts,
+                "names of the outputs in the order of their return, `y[3]` a list of three",
+                "y",
+            ),
+            Parameter::optional(
+                "memory",
+                Takes::Names,
+                "numbers that it keeps, `memory.NAME`, and where they start",
+                "none",
+            ),
             Parameter::optional("parameters", Takes::Names, "numbers that the text knows by name", "none"),
         ],
     };
@@ -75,7 +95,11 @@ fn law(p: &mut Reader<'_>, spec: &LawSpec) -> Option<Box<dyn Law>> {
     match engine.law(spec) {
         Ok(law) => Some(law),
         Err(message) => {
-            p.fault(key, message, "it has functions `output(t, u, memory)` and, if there is memory, `update(t, u, memory)`");
+            p.fault(
+                key,
+                message,
+                "it has functions `output(t, u, memory)` and, if there is memory, `update(t, u, memory)`",
+            );
             None
         }
     }
@@ -86,7 +110,11 @@ fn width_of(p: &mut Reader<'_>, text: &str) -> (String, usize) {
     let Some((name, rest)) = text.split_once('[') else { return (text.to_owned(), 1) };
     let width = rest.strip_suffix(']').and_then(|n| n.parse::<usize>().ok()).filter(|n| (1..10_000).contains(n));
     if width.is_none() {
-        p.fault("outputs", format!("`{text}` is no output"), "write a name, or a name and how many numbers it has: y[3]");
+        p.fault(
+            "outputs",
+            format!("`{text}` is no output"),
+            "write a name, or a name and how many numbers it has: y[3]",
+        );
     }
     (name.to_owned(), width.unwrap_or(1))
 }
@@ -134,7 +162,10 @@ impl Block for LuaBlock {
     type Work<R: Real> = Work;
 
     fn ports(&self) -> Ports {
-        Ports { inputs: self.spec.inputs.clone(), outputs: self.spec.outputs.iter().map(|(name, _)| name.clone()).collect() }
+        Ports {
+            inputs: self.spec.inputs.clone(),
+            outputs: self.spec.outputs.iter().map(|(name, _)| name.clone()).collect(),
+        }
     }
 
     fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {

@@ -33,6 +33,9 @@ pub(crate) struct SceneFile {
     /// Scripts, each on an object.
     #[serde(default)]
     pub script: Vec<ScriptFile>,
+    /// Time between two calls of the scripts, a whole multiple of the base step; default each base step [s].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub script_step: Option<f64>,
     /// Density of the air that rotors turn in [kg/m³].
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]

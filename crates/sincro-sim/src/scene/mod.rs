@@ -29,7 +29,7 @@ pub use text::from_text;
 
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problem, Problems};
+use crate::problem::{Located, Problem, Problems};
 use crate::script::Script;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
@@ -48,6 +48,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
     pub scripts: Vec<Script>,
+    /// Time between two calls of the scripts `[s]`; none: every base step.
+    pub script_step: Option<Located<f64>>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
 }
@@ -87,7 +89,9 @@ pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Pro
         assembly.add(&entries[place.entry], place, spec, pose, document);
     }
     let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
-    assembly.finish(&entries, scripts, document, problems)
+    let step = file.script_step.map(|value| Located { value, at: document.at("/script_step") });
+    let scene = assembly.finish(&entries, scripts, document, problems)?;
+    Ok(Scene { script_step: step, ..scene })
 }
 
 /// Makes specifications, noting what is wrong.
@@ -219,7 +223,15 @@ impl Assembly {
             return Err(problems.sorted());
         }
         let warnings = problems.sorted().0;
-        Ok(Scene { model: Arc::new(model), initial, commands, objects: self.objects, scripts, warnings })
+        Ok(Scene {
+            model: Arc::new(model),
+            initial,
+            commands,
+            objects: self.objects,
+            scripts,
+            script_step: None,
+            warnings,
+        })
     }
 
     /// Commands in the model's order; tells joints the index of their motors.

@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use sincro_dynamics::world::World;
 
-use super::{Call, Fault, Host, Message, Phase, Script, Setting, engine};
+use super::{Call, Fault, Host, Kind, Message, Phase, Script, Setting, engine};
 use crate::scene::Scene;
-use crate::session::Table;
+use crate::session::{Handle, Refusal, Table, Value};
 
 /// Messages that are kept of a run: a script that says something at every tick must not fill the memory.
 const MOST_MESSAGES: usize = 10_000;
+
+/// Level of scripts' messages in the log of a session.
+const OF_SCRIPTS: i64 = 450;
 
 /// Scripts with what they have said.
 #[derive(Debug)]
@@ -42,15 +45,43 @@ impl Scripts {
         (tick, t): (u64, f64),
     ) -> Result<(), Fault> {
         self.is_started |= phase == Phase::Initialization;
-        let done = self.host.call(Call { world, table, phase, tick, t });
+        let done = self.host.call(Call { world, table, tick, t }, phase);
+        self.keep_messages(table);
+        done
+    }
+
+    /// Calls a function of the script on an object.
+    ///
+    /// # Errors
+    ///
+    /// There is no script or no such function, or it failed.
+    pub fn call_function(
+        &mut self,
+        (object, kind): (Handle, Option<Kind>),
+        (function, arguments): (&str, &[Value]),
+        world: &mut World,
+        table: &mut Option<Box<Table>>,
+        (tick, t): (u64, f64),
+    ) -> Result<Vec<Value>, Refusal> {
+        if !self.is_started {
+            return Err(Refusal::new("scripts can be called once the simulation is started"));
+        }
+        let done = self.host.call_function(Call { world, table, tick, t }, (object, kind), function, arguments);
+        self.keep_messages(table);
+        done
+    }
+
+    fn keep_messages(&mut self, table: &mut Option<Box<Table>>) {
         for message in self.host.take_messages() {
+            if let Some(table) = table {
+                table.log(OF_SCRIPTS, message.text.clone());
+            }
             if self.messages.len() < MOST_MESSAGES {
                 self.messages.push(message);
             } else {
                 self.n_dropped += 1;
             }
         }
-        done
     }
 
     /// Whether their initialisation has been called.
@@ -88,10 +119,12 @@ fn ranks(scene: &Scene) -> Vec<usize> {
     // first free place of the branch below an object, roots behind each other
     let (mut next_root, mut next_child) = (0, vec![0; n]);
     for k in 0..n {
-        let start = match scene.objects[k].parent {
-            None => std::mem::replace(&mut next_root, next_root + size[k]),
-            Some(parent) => std::mem::replace(&mut next_child[parent], next_child[parent] + size[k]),
+        let next = match scene.objects[k].parent {
+            None => &mut next_root,
+            Some(parent) => &mut next_child[parent],
         };
+        let start = *next;
+        *next += size[k];
         next_child[k] = start;
         rank[k] = start + size[k] - 1;
     }

@@ -12,7 +12,7 @@ use std::sync::{Arc, OnceLock};
 pub use calls::Scripts;
 
 use crate::problem::{Location, Problem, SourceText};
-use crate::session::Table;
+use crate::session::{Handle, Refusal, Table, Value};
 use sincro_dynamics::world::World;
 
 /// A script as a scene has it.
@@ -53,6 +53,17 @@ pub enum Parameter {
     Flag(bool),
     /// A text.
     Text(String),
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(x) if x.fract() == 0.0 && x.abs() < 1e15 => write!(f, "{x:.0}"),
+            Self::Number(x) => write!(f, "{x:?}"),
+            Self::Flag(truth) => write!(f, "{truth}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
 }
 
 /// How a script is called.
@@ -146,8 +157,6 @@ pub struct Call<'a> {
     pub world: &'a mut World,
     /// The objects as scripts know them.
     pub table: &'a mut Option<Box<Table>>,
-    /// When.
-    pub phase: Phase,
     /// The tick, in sensing that at which the step began.
     pub tick: u64,
     /// Time `[s]` that scripts are told: `tick · step`.
@@ -161,7 +170,20 @@ pub trait Host: Send + fmt::Debug {
     /// # Errors
     ///
     /// The first script that fails; those after it are not called.
-    fn call(&mut self, call: Call<'_>) -> Result<(), Fault>;
+    fn call(&mut self, call: Call<'_>, phase: Phase) -> Result<(), Fault>;
+
+    /// Calls a function of the script on an object, of any kind unless one is given.
+    ///
+    /// # Errors
+    ///
+    /// There is no script or no such function, or it failed.
+    fn call_function(
+        &mut self,
+        call: Call<'_>,
+        script: (Handle, Option<Kind>),
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal>;
 
     /// What scripts have said since the last time it was asked.
     fn take_messages(&mut self) -> Vec<Message>;

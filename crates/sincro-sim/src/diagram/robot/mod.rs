@@ -42,15 +42,14 @@ pub struct Item {
 
 /// All blocks that are made here and not in the library.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    const SHELF: &[Item] =
-        &[
-            forward_kinematics::ITEM,
-            jacobian::ITEM,
-            inverse_dynamics::ITEM,
-            gravity_torque::ITEM,
-            mass_matrix::ITEM,
-            super::lua::ITEM,
-        ];
+    const SHELF: &[Item] = &[
+        forward_kinematics::ITEM,
+        jacobian::ITEM,
+        inverse_dynamics::ITEM,
+        gravity_torque::ITEM,
+        mass_matrix::ITEM,
+        super::lua::ITEM,
+    ];
     SHELF.iter()
 }
 

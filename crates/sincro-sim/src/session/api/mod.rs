@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
 use super::{Arguments, Desk, Handle, Reference, Refusal, Value};
 
-pub use names::present_name;
+pub use names::{old_names, present_name};
 
 /// What a function gives.
 pub type Outcome = Result<Vec<Value>, Refusal>;

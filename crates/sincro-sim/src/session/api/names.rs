@@ -40,6 +40,11 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("addStatusbarMessage", "addStatusbarMessage"),
 ];
 
+/// Every old name, without `sim` and its first letter small, with the present one; what follows the rule is not among them.
+pub fn old_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    IRREGULAR.iter().copied()
+}
+
 /// The present name of a function that may be given by an old one, without `sim.`.
 #[must_use]
 pub fn present_name(name: &str) -> Cow<'_, str> {
