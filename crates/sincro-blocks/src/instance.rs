@@ -39,6 +39,7 @@ pub trait Template: Debug + Send + Sync {
     fn check(&self, node: &Node) -> Result<(), (String, String)>;
     fn next_corner(&self, t: f64) -> f64;
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String>;
+    fn fault(&self) -> Option<String>;
     fn label(&self) -> String;
     fn on_numbers(&self) -> Box<dyn Instance<f64>>;
     fn on_duals(&self) -> Box<dyn Instance<Dual<1>>>;
@@ -81,6 +82,9 @@ impl<B: Block + Described> Template for B {
     }
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String> {
         Block::notice(self, node, memory)
+    }
+    fn fault(&self) -> Option<String> {
+        Block::fault(self)
     }
     fn label(&self) -> String {
         Block::label(self)

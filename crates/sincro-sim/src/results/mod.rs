@@ -54,6 +54,9 @@ pub struct RunReport {
     pub outside_theory: Vec<OutsideReport>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// What scripts said, if they did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub messages: Vec<MessageReport>,
     /// How long it took `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
@@ -84,6 +87,17 @@ impl From<&Outside> for OutsideReport {
         let (rotor, reason) = (o.rotor.clone(), o.reason.word().to_owned());
         Self { rotor, reason, steps: o.steps, duration: o.duration, first: o.first, last: o.last }
     }
+}
+
+/// What a script said.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MessageReport {
+    /// When `[s]`.
+    pub t: f64,
+    /// Path of the script's object.
+    pub object: String,
+    /// What it said.
+    pub text: String,
 }
 
 /// How a run ended.

@@ -65,6 +65,7 @@ fn report() -> RunReport {
         variants: Vec::new(),
         outside_theory: Vec::new(),
         warnings: vec!["the step is coarse".into()],
+        messages: Vec::new(),
         wall_time_s: 0.25,
         real_time_factor: 12.0,
     }

@@ -13,9 +13,11 @@ use crate::load::{Loaded, load};
 use crate::overrides::Override;
 use crate::replay::SceneView;
 use crate::results::{
-    CheckReport, ColumnReport, Override as Setting, RunReport, Settings, Status, SweepReport, VariantReport,
+    CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status, SweepReport,
+    VariantReport,
 };
 use crate::scene::{ObjectKind, Scene};
+use crate::script::Message;
 use crate::sweep::Sweep;
 use crate::table::Table;
 
@@ -117,7 +119,8 @@ pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     let settings = settings(&loaded.experiment, &simulated);
     let model_hash = model_hash(&loaded.scene.model);
     let controller = loaded.controller.clone();
-    let main = Done { simulated, columns, outcomes, settings, model_hash, controller };
+    let view = SceneView::new(&loaded.scene);
+    let main = Done { simulated, columns, outcomes, settings, model_hash, controller, view };
     let report = report(folder, loaded, &main, &[], None);
     Campaign { main, variants: Vec::new(), sweep: None, report }
 }
@@ -279,9 +282,14 @@ fn report(
         variants: variants.iter().map(variant_report).collect(),
         outside_theory: main.simulated.outside.iter().map(Into::into).collect(),
         warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
+        messages: main.simulated.messages.iter().map(message_report).collect(),
         wall_time_s: main.simulated.wall_time,
         real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
     }
+}
+
+fn message_report(message: &Message) -> MessageReport {
+    MessageReport { t: message.t, object: message.object.clone(), text: message.text.clone() }
 }
 
 fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {

@@ -38,6 +38,8 @@ use crate::problem::Problems;
 use crate::replay::Tape;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::scene::Scene;
+use crate::script::Message;
+use crate::session::Request;
 use crate::table::Table;
 
 /// Rate times base step above which `auto` takes the stiff method.
@@ -70,6 +72,8 @@ pub struct Simulated {
     pub outside: Vec<Outside>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// What scripts said.
+    pub messages: Vec<Message>,
     /// How long it took `[s]`, recording included.
     pub wall_time: f64,
 }
@@ -294,8 +298,8 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             break;
         }
         let advanced = lockstep.advance();
-        if let Err(halt @ Halt::World { .. }) = advanced {
-            status = halt.explain(&mut lockstep, experiment, method);
+        if advanced.as_ref().is_err_and(|halt| !halt.is_after_step()) {
+            status = advanced.map_or_else(|halt| halt.explain(&mut lockstep, experiment, method), |()| status);
             break;
         }
         let end = recording.tick(&mut lockstep, advanced.is_err())?;
@@ -307,6 +311,10 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             status = Status::Ended { tick: tick + 1, time: lockstep.t(), reason };
             break;
         }
+        if lockstep.take_requests().contains(&Request::Stop) {
+            status = stopped_by_script(&lockstep);
+            break;
+        }
         if watch.interrupt.load(Ordering::Relaxed) {
             status = Status::Interrupted { tick: tick + 1, time: lockstep.t() };
             break;
@@ -315,5 +323,17 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             (watch.progress)(tick as f64 / experiment.n_steps as f64);
         }
     }
+    if let Err(halt) = lockstep.end()
+        && status == Status::Completed
+    {
+        status = halt.explain(&mut lockstep, experiment, method);
+    }
     Ok(recording.finish(&mut lockstep, status, method, warnings)?)
+}
+
+/// A script has called `sim.stopSimulation`.
+fn stopped_by_script(lockstep: &LockStep) -> Status {
+    let (tick, time) = (lockstep.tick(), lockstep.t());
+    let reason = format!("a script stopped the simulation after tick {tick} at t = {time:.6} s");
+    Status::Stopped { tick, time, reason, help: format!("if that is the end that is meant, set duration = {time}") }
 }

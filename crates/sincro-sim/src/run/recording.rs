@@ -127,7 +127,12 @@ impl Recording {
         let (energy, effort) = (ledger.close(world), world.effort());
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
-        Ok(Simulated { table, status, method, trace, tape, energy, effort, outside, warnings, wall_time })
+        let (messages, n_more) = lockstep.messages();
+        if n_more > 0 {
+            warnings.push(format!("scripts said {n_more} more things than are kept"));
+        }
+        let messages = messages.to_vec();
+        Ok(Simulated { table, status, method, trace, tape, energy, effort, outside, warnings, messages, wall_time })
     }
 }
 

@@ -167,6 +167,7 @@ impl Watch {
         let hash = finished.simulated.trace;
         let how = match &finished.simulated.status {
             Status::Stopped { reason, .. } => format!("stopped: {reason}"),
+            Status::Ended { reason, .. } => format!("ended: {reason}"),
             Status::Completed | Status::Interrupted { .. } => "ended".to_owned(),
         };
         match write(&finished, &out) {

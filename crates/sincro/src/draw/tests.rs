@@ -52,6 +52,9 @@ impl Template for Sham {
     fn notice(&self, _: &Node, _: &[f64]) -> Option<String> {
         None
     }
+    fn fault(&self) -> Option<String> {
+        None
+    }
     fn label(&self) -> String {
         self.label.into()
     }
