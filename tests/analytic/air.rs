@@ -1,5 +1,6 @@
 //! Bodies in moving air: terminal velocity, wind's work, lag and spinning joints in closed form, power balances.
 
+use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
 use sincro_dynamics::energy::energy_at;
 use sincro_dynamics::force::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
 use sincro_dynamics::force::{Motor, MotorMode};
@@ -282,6 +283,29 @@ fn a_driven_rotor_turns_its_airframe_by_the_airs_torque() {
 }
 
 #[test]
+fn commands_of_rotors_come_after_those_of_motors_and_forces() {
+    let mut b = ModelBuilder::new([0.0; 3]);
+    let air = b.joint("air", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+    let body = b.body("body", air, Pose::identity(), brick(5.0));
+    let law = RotorLaw::Constant(ConstantCoefficients { thrust: 1.0, torque: 0.0, spin: Spin::Clockwise });
+    for (name, drive) in [("one", RotorDrive::Command), ("two", RotorDrive::Lag { time_constant: 0.1, initial: 0.0 })] {
+        b.rotor(name, body, Pose::identity(), rotor(law.clone(), drive));
+    }
+    let shaft = JointSpec {
+        motor: Some(Motor::new(MotorMode::Torque)),
+        ..JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] })
+    };
+    let shaft = b.joint("shaft", body, Pose::identity(), shaft);
+    b.body("disc", shaft, Pose::identity(), brick(0.1));
+    b.rotor("three", shaft, Pose::identity(), rotor(law.clone(), RotorDrive::Joint(shaft)));
+    b.rotor("four", body, Pose::identity(), rotor(law, RotorDrive::Command));
+    let model = b.build().unwrap().0;
+    let commands: Vec<_> = model.rotors().iter().map(|r| r.speed.command()).collect();
+    assert_eq!(commands, [Some(1), Some(2), None, Some(3)]);
+    assert_eq!((model.n_commands(), model.n_rotor_states()), (4, 1));
+}
+
+#[test]
 fn a_rotor_must_turn_with_its_joint() {
     let build = |rotor_on_body: bool, turned: bool| {
         let mut b = ModelBuilder::new([0.0; 3]);
@@ -303,6 +327,40 @@ fn a_rotor_must_turn_with_its_joint() {
     assert_eq!(build(false, false), Ok(()));
     assert!(build(true, false).unwrap_err().contains("does not turn with it"));
     assert!(build(false, true).unwrap_err().contains("axis of rotor `rotor` is not that of joint `shaft`"));
+}
+
+#[test]
+fn lanes_have_the_bits_of_single_worlds_in_rough_air() {
+    let build = |k: u32| {
+        let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+        let air = b.joint("air", NodeId::WORLD, at(0.0, 0.0, 3.0), JointSpec::new(JointKind::Free));
+        let body = b.body("body", air, Pose::identity(), brick(5.0 + f64::from(k)));
+        let area = [0.3 + 0.01 * f64::from(k), 0.2, 0.5];
+        b.drag("drag", body, at(0.0, 0.0, 0.2), DragSpec { area, linear: [0.1; 3], density: DENSITY });
+        let lag = RotorDrive::Lag { time_constant: 0.1 + 0.01 * f64::from(k), initial: 300.0 + f64::from(k) };
+        b.rotor("left", body, at(0.0, 0.4, 0.1), rotor(blades(Spin::Clockwise), lag));
+        b.rotor("right", body, at(0.0, -0.4, 0.1), rotor(blades(Spin::CounterClockwise), RotorDrive::Command));
+        let scales = Scales::Given { deviations: [1.0; 3], lengths: [20.0; 3] };
+        let turbulence = Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0 });
+        let shear = Profile::Logarithmic { reference: 6.0, roughness: 0.05 };
+        b.wind(Wind::new([4.0, -3.0, 0.0], shear, vec![], turbulence).unwrap());
+        let model = b.build().unwrap().0;
+        let mut x = State::new(&model);
+        x.commands.copy_from_slice(&[650.0, 700.0 - f64::from(k)]);
+        x.v[0] = 0.1 * f64::from(k);
+        BatchWorld::new(model, x)
+    };
+    for method in [MethodKind::SemiImplicitEuler, MethodKind::Rk4, MethodKind::Implicit] {
+        let settings = BatchSettings { method, h: 0.005, n_steps: 100, record_every: 0 };
+        let mut together: Vec<BatchWorld> = (0..8).map(build).collect();
+        let mut alone = together.clone();
+        advance(&mut together, &settings).unwrap();
+        for (k, (world, other)) in alone.iter_mut().zip(&together).enumerate() {
+            advance_alone(world, &settings);
+            assert_eq!(world.stop, None);
+            assert_eq!(world.state, other.state, "{method:?} {k}");
+        }
+    }
 }
 
 #[test]

@@ -25,6 +25,18 @@ const PID: &[(&str, &str)] = &[
     ("step", "0.00025"),
 ];
 
+/// Rotors with a lag of their own, drag, and wind of every kind.
+const ROUGH: &[(&str, &str)] = &[
+    ("/air/quadrotor/rotor1.lag", "{ time_constant = 0.1, initial = 700.0 }"),
+    ("/air/quadrotor/rotor3.lag", "{ time_constant = 0.2, initial = 700.0 }"),
+    ("drag", "[{ name = \"hull\", parent = \"/air/quadrotor\", area = [0.1, 0.1, 0.2] }]"),
+    ("wind.mean", "[3.0, 1.0, 0.0]"),
+    ("wind.profile", "{ linear = { reference = 5.0 } }"),
+    ("wind.gust", "[{ start = 0.1, rise = 0.2, peak = [0.0, 0.0, 1.0] }]"),
+    ("wind.turbulence", "{ low_altitude = { wind_at_20_feet = 5.0, height = 10.0 } }"),
+    ("step", "0.01"),
+];
+
 #[test]
 fn a_step_and_a_row_allocate_nothing() {
     // jumps of motors every tick, limits and events, quaternions, external signals
@@ -37,6 +49,8 @@ fn a_step_and_a_row_allocate_nothing() {
         // sampled blocks on ideal motors, continuous ones on torque motors
         ("two-dof-position", &[]),
         ("two-dof-position", PID),
+        ("quadrotor-open-loop", ROUGH),
+        ("stock-propeller", &[]),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
         let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();

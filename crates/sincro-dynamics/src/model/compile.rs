@@ -154,7 +154,8 @@ impl Compiler<'_> {
 
     /// A rotor; commands are counted from that of the first one, where those begin is known at the end.
     fn rotor(&mut self, node: NodeId, at: Carrier, spec: &RotorSpec) {
-        let (command, state) = (self.model.n_commands(), self.model.n_rotor_states());
+        let command = self.model.rotors.iter().filter(|r| r.speed.command().is_some()).count();
+        let state = self.model.n_rotor_states();
         let speed = match spec.drive {
             RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedFrom::Particles { command, state },
             RotorDrive::Command => SpeedFrom::Command(command),
