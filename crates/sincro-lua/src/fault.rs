@@ -77,7 +77,8 @@ pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
         )
     } else {
         // an address says nothing, and is another one in every run
-        let message = if message.starts_with("table: 0x") { "an error that is a table, not a text".to_owned() } else { message };
+        let message =
+            if message.starts_with("table: 0x") { "an error that is a table, not a text".to_owned() } else { message };
         let help = help(&message);
         (message, help)
     };

@@ -28,7 +28,9 @@ fn parameters_are_texts_that_read_as_values() {
         simSetScriptSimulationParameter(sim_handle_self, 'gain', 3.5)
         print(get('gain'), simGetObjectAssociatedWithScript(sim_handle_self) == sim.getObject('.'))
     end";
-    let loaded = with_script(code, "parameters = { gain = 0.1, count = 4, on = true, name = \"x y\", nothing = \"nil\" }").unwrap();
+    let loaded =
+        with_script(code, "parameters = { gain = 0.1, count = 4, on = true, name = \"x y\", nothing = \"nil\" }")
+            .unwrap();
     let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
     assert_eq!(said, ["0.1\t4\ttrue\tx y\tnil\tnil\t0.1", "3.5\ttrue"]);
 }
@@ -50,7 +52,8 @@ fn scripts_share_signals_and_call_each_other() {
         "{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"arm.lua\"\n[[script]]\nobject = \"/hinge\"\nfile = \"hinge.lua\"\n"
     );
     let experiment = EXPERIMENT.replace("0.05", "0.01");
-    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("arm.lua", arm), ("hinge.lua", hinge)]);
+    let loaded =
+        open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("arm.lua", arm), ("hinge.lua", hinge)]);
     let said: Vec<String> = run(&loaded.unwrap()).messages.into_iter().map(|m| m.text).collect();
     assert_eq!(said[..3], ["1.5\tnil", "8\t6", "1.0\t6"]);
     assert!(said[3].contains("the script of `/hinge/arm` has no function `thrice`"), "{said:?}");
@@ -66,7 +69,8 @@ fn a_name_without_suffix_takes_that_of_the_scripts_own_object() {
         )
     };
     let scene: String = (1..=3).map(joint).collect();
-    let experiment = EXPERIMENT.replace("\"/hinge.position\", \"/hinge.motor_torque_now\"", "\"/mount1/motor.position\"");
+    let experiment =
+        EXPERIMENT.replace("\"/hinge.position\", \"/hinge.motor_torque_now\"", "\"/mount1/motor.position\"");
     let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment)]).unwrap_or_else(|p| panic!("{p}"));
     let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
     assert_eq!(said, ["true\ttrue"; 3]);
@@ -87,5 +91,8 @@ fn matrices_and_buffers_are_as_in_vrep() {
         print(t.a, t.b[1], t.b[2], t.b[3], t.c.d)
         print(#sim.getObjectMatrix(sim.getObject('/hinge/arm/tip'), -1), sim.getObjectPosition(sim.getObject('./tip'), sim.getObject('.'))[3])
     end";
-    assert_eq!(said(code), ["1.000 3.000 3.000", "1.000 0.000 0.000", "0.5\t2.0\t-1.0", "12\t8", "1\t2.5\tx\ttrue\t-3", "12\t-1.0"]);
+    assert_eq!(
+        said(code),
+        ["1.000 3.000 3.000", "1.000 0.000 0.000", "0.5\t2.0\t-1.0", "12\t8", "1\t2.5\tx\ttrue\t-3", "12\t-1.0"]
+    );
 }

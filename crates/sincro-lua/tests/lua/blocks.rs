@@ -11,7 +11,9 @@ use super::world::{EXPERIMENT, PENDULUM, open, run};
 /// The pendulum with a block of these keys between its angle and its motor.
 fn with_block(keys: &str) -> Result<Loaded, Problems> {
     let experiment = format!("diagram = \"law.toml\"\n{EXPERIMENT}");
-    let diagram = format!("wires = [\"/hinge.position -> law\", \"law -> /hinge\"]\n[[block]]\nname = \"law\"\ntype = \"lua\"\n{keys}\n");
+    let diagram = format!(
+        "wires = [\"/hinge.position -> law\", \"law -> /hinge\"]\n[[block]]\nname = \"law\"\ntype = \"lua\"\n{keys}\n"
+    );
     open(&[("scene.toml", PENDULUM), ("experiment.toml", &experiment), ("law.toml", &diagram), ("law.lua", INTEGRAL)])
 }
 

@@ -38,7 +38,8 @@ fn powers_are_those_of_this_program() {
 
 #[test]
 fn random_numbers_are_those_of_the_seed() {
-    let code = "function sysCall_init() print(math.random(), math.random(1000)) math.randomseed() print(math.random()) end";
+    let code =
+        "function sysCall_init() print(math.random(), math.random(1000)) math.randomseed() print(math.random()) end";
     let (first, second) = (said(code), said(code));
     assert_eq!(first, second);
     assert_eq!(first[0].split('\t').next(), Some(first[1].as_str()));

@@ -47,7 +47,10 @@ fn the_line_of_an_endless_loop_is_told() {
 
 #[test]
 fn memory_has_an_end() {
-    for text in ["local t = {} while true do t[#t + 1] = ('x'):rep(1000) .. #t end", "local s = 'x' while true do s = s .. s end"] {
+    for text in [
+        "local t = {} while true do t[#t + 1] = ('x'):rep(1000) .. #t end",
+        "local s = 'x' while true do s = s .. s end",
+    ] {
         let (reason, help) = stop(&format!("function sysCall_init() {text} end"));
         assert!(reason.contains("it took more than 64 MiB of memory"), "{reason}");
         assert!(help.contains("max_memory_mib"), "{help}");
@@ -116,7 +119,12 @@ fn what_was_recorded_before_a_fault_is_kept() {
 fn a_scene_with_bad_scripts_is_refused_as_a_whole() {
     let refused = |scripts: &str| {
         let scene = format!("{PENDULUM}\n{scripts}");
-        let files = [("scene.toml", scene.as_str()), ("experiment.toml", EXPERIMENT), ("a.lua", "x = = 3\n"), ("b.lua", "x = 3\n")];
+        let files = [
+            ("scene.toml", scene.as_str()),
+            ("experiment.toml", EXPERIMENT),
+            ("a.lua", "x = = 3\n"),
+            ("b.lua", "x = 3\n"),
+        ];
         open(&files).unwrap_err().to_string()
     };
     let text = refused(
@@ -124,7 +132,10 @@ fn a_scene_with_bad_scripts_is_refused_as_a_whole() {
          [[script]]\nobject = \"/hinge\"\nfile = \"c.lua\"\n",
     );
     assert!(text.contains("a.lua:1:1: error: script of `/hinge/arm`: unexpected symbol near '='"), "{text}");
-    assert!(text.contains("there is no object `/hing` for the script") && text.contains("did you mean `/hinge`?"), "{text}");
+    assert!(
+        text.contains("there is no object `/hing` for the script") && text.contains("did you mean `/hinge`?"),
+        "{text}"
+    );
     assert!(text.contains("c.lua"), "{text}");
     let twice = "[[script]]\nobject = \"/hinge\"\nfile = \"b.lua\"\n".repeat(2);
     assert!(refused(&twice).contains("`/hinge` has two child scripts"));
@@ -132,5 +143,9 @@ fn a_scene_with_bad_scripts_is_refused_as_a_whole() {
     let inline = "[[script]]\nobject = \"/hinge\"\ncode = '''\nx = 1\nx = = 2\n'''\n";
     let scene = format!("{PENDULUM}\n{inline}");
     let line = 1 + scene.lines().position(|l| l == "x = = 2").unwrap();
-    assert!(refused(inline).contains(&format!("scene.toml:{line}:1: error: script of `/hinge`")), "{}", refused(inline));
+    assert!(
+        refused(inline).contains(&format!("scene.toml:{line}:1: error: script of `/hinge`")),
+        "{}",
+        refused(inline)
+    );
 }

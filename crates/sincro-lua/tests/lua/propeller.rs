@@ -86,7 +86,11 @@ fn the_printed_script_gives_what_its_formulas_give() {
     for k in 0..4000 {
         let mut state = run.state().clone();
         let axis = [0; 4].map(|_| random.between(-1.0, 1.0));
-        let attitude = if k % 4 == 0 { Quat { w: 1.0, xyz: Vec3([0.0; 3]) } } else { Quat { w: axis[0], xyz: Vec3([axis[1], axis[2], axis[3]]) }.normalized() };
+        let attitude = if k % 4 == 0 {
+            Quat { w: 1.0, xyz: Vec3([0.0; 3]) }
+        } else {
+            Quat { w: axis[0], xyz: Vec3([axis[1], axis[2], axis[3]]) }.normalized()
+        };
         attitude.write(&mut state.q[3..7]);
         let speed = if k % 100 == 99 { 0.0 } else { random.between(20.0, 900.0) };
         for v in &mut state.v[..6] {

@@ -14,7 +14,10 @@ fn an_old_script_is_run_as_a_whole_for_every_phase_and_keeps_its_globals() {
         if sim_call_type == sim_childscriptcall_sensing then print('sensing', calls, mine, simGetSimulationTime()) end
         if sim_call_type == sim_childscriptcall_cleanup then print('cleanup', calls, mine) end";
     let said = said(code);
-    assert_eq!(said[..5], ["init\t1\t1", "actuation\t2\t1\t0.0", "sensing\t3\t1\t0.0", "actuation\t4\t1\t0.01", "sensing\t5\t1\t0.01"]);
+    assert_eq!(
+        said[..5],
+        ["init\t1\t1", "actuation\t2\t1\t0.0", "sensing\t3\t1\t0.0", "actuation\t4\t1\t0.01", "sensing\t5\t1\t0.01"]
+    );
     assert_eq!((said.len(), said.last().unwrap().as_str()), (12, "cleanup\t12\t1"));
 }
 
@@ -29,7 +32,15 @@ fn a_new_script_is_called_by_its_functions() {
         function sysCall_sensing() print('sensing', sim.getSimulationTime()) end
         function sysCall_cleanup() print('cleanup') end";
     let said = said(code);
-    let first = ["read\t0", "init\tnil", "actuation\t0.0", "dyn\tfalse\t0.01", "dyn\ttrue\t0.01", "sensing\t0.0", "actuation\t0.01"];
+    let first = [
+        "read\t0",
+        "init\tnil",
+        "actuation\t0.0",
+        "dyn\tfalse\t0.01",
+        "dyn\ttrue\t0.01",
+        "sensing\t0.0",
+        "actuation\t0.01",
+    ];
     assert_eq!(said[..7], first);
     assert_eq!(said.last().unwrap(), "cleanup");
 }
@@ -77,7 +88,10 @@ fn a_thread_that_never_waits_is_made_to() {
 fn descendants_are_called_before_ancestors_and_siblings_in_their_order() {
     let script = |object: &str, more: &str| {
         let code = format!("function sysCall_actuation() print('{object}{more}') end");
-        format!("[[script]]\nobject = \"{object}\"\ncode = \"{code}\"\n{}\n", if more.is_empty() { "" } else { "kind = \"customization\"" })
+        format!(
+            "[[script]]\nobject = \"{object}\"\ncode = \"{code}\"\n{}\n",
+            if more.is_empty() { "" } else { "kind = \"customization\"" }
+        )
     };
     let frame = "[[frame]]\nname = \"second\"\nparent = \"/hinge/arm\"\n";
     let scripts = ["/hinge", "/hinge/arm/second", "/hinge/arm/tip", "/hinge/arm"].map(|object| script(object, ""));
@@ -98,7 +112,10 @@ fn scripts_may_be_called_less_often_than_the_world_steps() {
     assert_eq!(said, ["0.0\t0.02", "0.0", "0.02\t0.02", "0.02", "0.04\t0.02"]);
     let scene = scene.replace("0.02", "0.015");
     let problems = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap_err();
-    assert!(problems.to_string().contains("`script_step` is 0.015 s, no whole multiple of the base step, 0.01 s"), "{problems}");
+    assert!(
+        problems.to_string().contains("`script_step` is 0.015 s, no whole multiple of the base step, 0.01 s"),
+        "{problems}"
+    );
 }
 
 #[test]
