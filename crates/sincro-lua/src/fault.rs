@@ -61,6 +61,7 @@ fn line_in(trace: &str) -> Option<usize> {
 /// The fault of a script.
 pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
     let (message, line) = words(error);
+    let line = if guard.is_doomed() { guard.line().or(line) } else { line };
     let (message, help) = if guard.is_doomed() {
         let help = "look for a loop without end; a thread waits with sim.switchThread(), and `max_instructions` of the script \
                     raises the limit";
@@ -75,6 +76,9 @@ pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
             ),
         )
     } else {
+        // an address says nothing, and is another one in every run
+        let message =
+            if message.starts_with("table: 0x") { "an error that is a table, not a text".to_owned() } else { message };
         let help = help(&message);
         (message, help)
     };
@@ -92,8 +96,9 @@ fn is_of_memory(error: &Error) -> bool {
 
 /// How some messages of Lua are usually mended.
 fn help(message: &str) -> Option<String> {
-    let help = if message.contains("(global 'sim") && message.contains("call a nil value") {
-        "no function of that name is offered; docs/lua.md lists all of them"
+    let is_call = message.contains("call a nil value");
+    let help = if is_call && (message.contains("(global 'sim") || message.contains("(field '")) {
+        "there is no function of that name; docs/lua.md lists those of `sim`"
     } else if message.contains("a nil value (global '") {
         "nothing of that name has been set; look for a misspelt name, or a value that only another script has"
     } else {

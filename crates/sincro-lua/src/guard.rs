@@ -5,9 +5,11 @@
 //! sandbox fail when they are entered or left, so that no script can catch it and go on.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use mlua::{HookTriggers, Lua, Thread, VmState};
+
+use crate::sandbox::CHUNK;
 
 /// Instructions between two looks at the count.
 pub(crate) const EVERY: u32 = 1000;
@@ -27,6 +29,15 @@ pub(crate) struct Guard {
     is_doomed: AtomicBool,
     is_in_thread: AtomicBool,
     switches_by_itself: AtomicBool,
+    /// Line of the script that was running when the limit was reached; 0 if none is known.
+    line: AtomicUsize,
+}
+
+/// The innermost line of the script that is running.
+fn line_of(lua: &Lua) -> usize {
+    let at = |level| lua.inspect_stack(level, |d| (d.source().short_src.is_some_and(|s| s == CHUNK), d.current_line()));
+    let lines = (0..100).map_while(at);
+    lines.filter_map(|(is_script, line)| line.filter(|_| is_script)).next().unwrap_or(0)
 }
 
 impl Guard {
@@ -55,6 +66,11 @@ impl Guard {
         self.switches_by_itself.swap(by_itself, Ordering::Relaxed)
     }
 
+    /// Line of the script that was running when the limit was reached.
+    pub fn line(&self) -> Option<usize> {
+        Some(self.line.load(Ordering::Relaxed)).filter(|line| *line > 0)
+    }
+
     /// What is said when the limit is reached.
     pub fn words(&self) -> String {
         let budget = self.budget.load(Ordering::Relaxed);
@@ -71,6 +87,7 @@ impl Guard {
         let every = u64::from(EVERY);
         let left = self.left.load(Ordering::Relaxed);
         if left < every && !self.is_doomed.swap(true, Ordering::Relaxed) {
+            self.line.store(line_of(lua), Ordering::Relaxed);
             self.watch(lua, 1)?;
         }
         self.check()?;

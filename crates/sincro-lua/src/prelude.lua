@@ -19,7 +19,11 @@ function pcall(f, ...)
 end
 
 function xpcall(f, handler, ...)
-  return checked(raw_xpcall(f, function(e) return handler(host.text(e)) end, ...))
+  -- a handler of an error that comes from the limit itself would run unwatched
+  return checked(raw_xpcall(f, function(e)
+    if host.doomed() then return host.text(e) end
+    return handler(host.text(e))
+  end, ...))
 end
 
 function coroutine.resume(co, ...)

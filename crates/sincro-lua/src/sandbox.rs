@@ -61,6 +61,8 @@ pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Servic
     let host = lua.create_table()?;
     let checked = guard.clone();
     host.set("check", lua.create_function(move |_, ()| checked.check())?)?;
+    let doomed = guard.clone();
+    host.set("doomed", lua.create_function(move |_, ()| Ok(doomed.is_doomed()))?)?;
     host.set("text", lua.create_function(|lua, error: Value| text_of(lua, error))?)?;
     host.set("time", clock(lua, &time)?)?;
     host.set("signal", lua.create_function(move |lua, name: String| signal(lua, &name))?)?;

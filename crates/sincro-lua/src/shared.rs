@@ -8,6 +8,11 @@ use sincro_dynamics::world::World;
 use sincro_sim::script::{Message, Script, Setting};
 use sincro_sim::session::{Desk, Handle, Refusal, Table};
 
+/// Messages of one phase that are kept: one more than a run keeps, so that the run tells of those that are not.
+const MOST_AT_ONCE: usize = 10_001;
+/// Bytes of a message that are kept.
+const LONGEST: usize = 10_000;
+
 /// The world, lent to the scripts for the time of a call; a world of nothing stands in its place otherwise.
 #[derive(Debug)]
 pub(crate) struct Stage {
@@ -77,8 +82,12 @@ impl Shared {
 
     /// Keeps what a script said.
     pub fn say(&self, script: usize, text: String) {
-        let message = Message { t: self.t(), object: self.scripts[script].path.clone(), text };
-        open(&self.messages).push(message);
+        let t = self.t();
+        let mut messages = open(&self.messages);
+        if messages.len() < MOST_AT_ONCE {
+            let end = text.floor_char_boundary(LONGEST);
+            messages.push(Message { t, object: self.scripts[script].path.clone(), text: text[..end].to_owned() });
+        }
     }
 
     /// Takes what scripts have said.

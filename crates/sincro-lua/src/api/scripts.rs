@@ -4,13 +4,16 @@ use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
 use sincro_sim::script::{Kind, Script};
-use sincro_sim::session::Handle;
+use sincro_sim::session::{Handle, Refusal};
 
 use super::Shelf;
 use crate::shared::{Shared, handle_of};
 
 /// Handle of the first script: beyond those of objects, below the flags.
 pub(super) const FIRST_SCRIPT: i64 = 1_000_000;
+
+/// Parameters of all scripts together.
+const MOST_PARAMETERS: usize = 10_000;
 
 const SELF: i64 = -4;
 const CUSTOMIZATION: i64 = 6;
@@ -102,8 +105,16 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
                 ))
             })?,
         };
-        let done = shared.with_desk(script, |desk| Ok(desk.table.script_parameters.insert((script, name), text)));
-        done.map(|_| 1).map_err(|refusal| super::refused("setScriptSimulationParameter", &refusal))
+        let done = shared.with_desk(script, |desk| {
+            let parameters = &mut desk.table.script_parameters;
+            let key = (script, name);
+            if parameters.len() >= MOST_PARAMETERS && !parameters.contains_key(&key) {
+                return Err(Refusal(format!("there are {MOST_PARAMETERS} parameters already")));
+            }
+            parameters.insert(key, text);
+            Ok(1)
+        });
+        done.map_err(|refusal| super::refused("setScriptSimulationParameter", &refusal))
     })?;
     shelf.add("getNameSuffix", |_, name: Option<String>| {
         let suffix = name.and_then(|name| name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<i64>().ok()));
