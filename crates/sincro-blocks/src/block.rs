@@ -146,6 +146,11 @@ pub trait Block: Clone + Debug + Send + Sync + 'static {
         f64::INFINITY
     }
 
+    /// Why its outputs are not finite, if it knows more than they tell.
+    fn fault(&self) -> Option<String> {
+        None
+    }
+
     /// What stands in its box in a drawing, such as `2.5` or `1/s`; empty for the name of its kind.
     fn label(&self) -> String {
         String::new()

@@ -38,6 +38,7 @@ pub trait Template: Debug + Send + Sync {
     fn memory(&self, node: &Node) -> Memory;
     fn check(&self, node: &Node) -> Result<(), (String, String)>;
     fn next_corner(&self, t: f64) -> f64;
+    fn fault(&self) -> Option<String>;
     fn label(&self) -> String;
     fn on_numbers(&self) -> Box<dyn Instance<f64>>;
     fn on_duals(&self) -> Box<dyn Instance<Dual<1>>>;
@@ -77,6 +78,9 @@ impl<B: Block + Described> Template for B {
     }
     fn next_corner(&self, t: f64) -> f64 {
         Block::next_corner(self, t)
+    }
+    fn fault(&self) -> Option<String> {
+        Block::fault(self)
     }
     fn label(&self) -> String {
         Block::label(self)

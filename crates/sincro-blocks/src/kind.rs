@@ -39,6 +39,7 @@ pub enum Group {
     Logic,
     Rotations,
     Robot,
+    Scripts,
     Sinks,
 }
 
@@ -56,6 +57,7 @@ impl Group {
             Self::Logic => "Logic and comparison",
             Self::Rotations => "Rotations",
             Self::Robot => "Robot",
+            Self::Scripts => "Scripts",
             Self::Sinks => "Sinks",
         }
     }
@@ -97,7 +99,7 @@ pub enum Takes {
     Names,
     /// One of these words.
     Choice(&'static [&'static str]),
-    /// A file of the scene folder.
+    /// A file of the scene folder: CSV, unless its meaning says otherwise.
     File,
 }
 

@@ -70,6 +70,15 @@ pub trait Files {
     ///
     /// Why there are none, in words.
     fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String>;
+
+    /// The whole text.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none, in words.
+    fn text(&self, file: &str) -> Result<String, String> {
+        Err(format!("the file `{file}` cannot be read here"))
+    }
 }
 
 /// No files at all.
@@ -329,6 +338,15 @@ impl<'a> Reader<'a> {
             }
             None => String::new(),
         }
+    }
+
+    /// The text of a file that the parameter names; empty after a fault.
+    pub fn text_file(&mut self, key: &str) -> String {
+        let name = self.text(key);
+        self.files.text(&name).unwrap_or_else(|message| {
+            self.fault(key, message, "name a file of the scene folder");
+            String::new()
+        })
     }
 
     /// A list of texts; one text is a list of one.

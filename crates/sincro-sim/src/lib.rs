@@ -19,6 +19,7 @@ pub mod rollout;
 pub mod run;
 pub mod scene;
 pub mod schema;
+pub mod script;
 mod series;
 pub mod session;
 pub mod snapshot;

@@ -71,6 +71,7 @@ impl From<Exit> for ExitCode {
 }
 
 fn main() -> ExitCode {
+    sincro_lua::install();
     let exit = match Cli::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),

@@ -92,6 +92,8 @@ pub struct NotFinite {
     pub outputs: Vec<f64>,
     /// Its inputs.
     pub inputs: Vec<f64>,
+    /// What the block itself says of it.
+    pub fault: Option<String>,
 }
 
 impl<R: Number> Control<R> {
@@ -234,6 +236,7 @@ impl Control<f64> {
             kind: step.template.kind().name,
             outputs: signals[step.out.clone()].to_vec(),
             inputs: inputs.copied().collect(),
+            fault: step.template.fault(),
         })
     }
 

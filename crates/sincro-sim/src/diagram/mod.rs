@@ -5,6 +5,7 @@
 
 mod coupling;
 mod file;
+mod lua;
 mod ports;
 mod read;
 pub mod reference;
@@ -22,6 +23,7 @@ use sincro_dynamics::model::Model;
 
 pub use coupling::{Control, NotFinite, Wiring};
 pub(crate) use file::DiagramFile;
+pub use lua::LuaBlock;
 use read::{DiagramReader, Origin};
 pub use reference::reference;
 

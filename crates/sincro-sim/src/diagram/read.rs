@@ -435,4 +435,12 @@ impl Files for FolderFiles<'_> {
     fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String> {
         series::column(self.0, file, column)
     }
+
+    fn text(&self, file: &str) -> Result<String, String> {
+        let absolute = || format!("the path `{file}` is absolute: give it relative to the scene folder");
+        if std::path::Path::new(file).is_absolute() {
+            return Err(absolute());
+        }
+        self.0.read(file).map(|source| source.text.clone()).map_err(|problem| problem.message)
+    }
 }

@@ -138,6 +138,7 @@ fn least(kind: &'static Kind) -> Option<Box<dyn Template>> {
         "sine" => vec![("frequency_hz", 1.0.into())],
         "table" => vec![("times", pair()), ("values", pair())],
         "expression" => vec![("expression", "u".into())],
+        "lua" => vec![("code", "function output(t, u, memory) return u.u end".into())],
         "lookup-table" => vec![("breakpoints", pair()), ("values", pair())],
         _ => Vec::new(),
     };
@@ -152,7 +153,7 @@ fn least(kind: &'static Kind) -> Option<Box<dyn Template>> {
         }
     };
     // a frame that is not there does not change the ports; anything else may
-    (reader.finish().is_empty() || kind.group == Group::Robot).then_some(template)
+    (reader.finish().is_empty() || matches!(kind.group, Group::Robot | Group::Scripts)).then_some(template)
 }
 
 /// A model for blocks that need one.

@@ -50,12 +50,26 @@ pub struct RunReport {
     pub variants: Vec<VariantReport>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// What scripts said, if they did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub messages: Vec<MessageReport>,
     /// How long it took `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
     /// Simulated time by wall time.
     #[serde(with = "number")]
     pub real_time_factor: f64,
+}
+
+/// What a script said.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MessageReport {
+    /// When `[s]`.
+    pub t: f64,
+    /// Path of the script's object.
+    pub object: String,
+    /// What it said.
+    pub text: String,
 }
 
 /// How a run ended.

@@ -64,6 +64,7 @@ fn report() -> RunReport {
         sweep: None,
         variants: Vec::new(),
         warnings: vec!["the step is coarse".into()],
+        messages: Vec::new(),
         wall_time_s: 0.25,
         real_time_factor: 12.0,
     }

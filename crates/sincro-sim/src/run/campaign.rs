@@ -12,9 +12,11 @@ use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use crate::load::{Loaded, load};
 use crate::overrides::Override;
 use crate::results::{
-    CheckReport, ColumnReport, Override as Setting, RunReport, Settings, Status, SweepReport, VariantReport,
+    CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status, SweepReport,
+    VariantReport,
 };
 use crate::scene::{ObjectKind, Scene};
+use crate::script::Message;
 use crate::sweep::Sweep;
 use crate::table::Table;
 
@@ -273,9 +275,14 @@ fn report(
         sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
         variants: variants.iter().map(variant_report).collect(),
         warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
+        messages: main.simulated.messages.iter().map(message_report).collect(),
         wall_time_s: main.simulated.wall_time,
         real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
     }
+}
+
+fn message_report(message: &Message) -> MessageReport {
+    MessageReport { t: message.t, object: message.object.clone(), text: message.text.clone() }
 }
 
 fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {

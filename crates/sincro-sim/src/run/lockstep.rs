@@ -8,7 +8,8 @@ use super::trace::Trace;
 use super::world_with_room;
 use crate::diagram::{Control, NotFinite};
 use crate::load::Loaded;
-use crate::session::{Desk, Table};
+use crate::script::{self, Fault, Message, Phase, Scripts, Setting};
+use crate::session::{self, Desk, Handle, Refusal, Table, Value};
 use crate::snapshot::Snapshot;
 
 /// A world with its controller.
@@ -21,6 +22,17 @@ pub struct LockStep {
     tick: u64,
     /// What clients and scripts see of the scene and hold in it, if there are any.
     table: Option<Box<Table>>,
+    scripts: OwnScripts,
+}
+
+/// Scripts of a lock-step. A copy has none: what they remember is theirs alone; copies are for looking at where the original is.
+#[derive(Debug, Default)]
+struct OwnScripts(Option<Scripts>);
+
+impl Clone for OwnScripts {
+    fn clone(&self) -> Self {
+        Self(None)
+    }
 }
 
 /// Why it could not go on.
@@ -44,6 +56,29 @@ pub enum Halt {
         /// The block.
         culprit: NotFinite,
     },
+    /// A script failed.
+    Script {
+        /// The tick.
+        tick: u64,
+        /// Where `[s]`.
+        t: f64,
+        /// Whether the world has made the step.
+        is_after_step: bool,
+        /// Which, where and why.
+        fault: Fault,
+    },
+}
+
+impl Halt {
+    /// Whether the world has made the step all the same, so that the state is that of another tick.
+    #[must_use]
+    pub fn is_after_step(&self) -> bool {
+        match self {
+            Self::World { .. } => false,
+            Self::Block { .. } => true,
+            Self::Script { is_after_step, .. } => *is_after_step,
+        }
+    }
 }
 
 impl LockStep {
@@ -54,8 +89,16 @@ impl LockStep {
         let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
         let world = world_with_room(scene, experiment, method, refined, n_states);
-        let mut new =
-            Self { world, control, commands: scene.commands.clone(), step: experiment.step, tick: 0, table: None };
+        let ticks = loaded.script_ticks();
+        let setting = Setting { step: experiment.step * ticks as f64, seed: experiment.seed };
+        let scripts = Scripts::of(scene, setting);
+        let table = scripts.is_some().then(|| {
+            let mut table = Table::new(loaded, ticks);
+            table.phase = session::Phase::Running;
+            Box::new(table)
+        });
+        let (commands, scripts) = (scene.commands.clone(), OwnScripts(scripts));
+        let mut new = Self { world, control, commands, step: experiment.step, tick: 0, table, scripts };
         match &mut new.control {
             Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
             _ => new.world.settle_start(0.0),
@@ -129,19 +172,70 @@ impl LockStep {
     ///
     /// If a block gives what is not a finite number.
     pub fn start(&mut self) -> Result<(), Halt> {
+        self.call_scripts(Phase::Initialization, 0)?;
         self.look()
     }
 
-    /// One base step: hold, advance, measure, ask.
+    /// Lets the scripts clean up, if they were started. Nothing may be done after it.
     ///
     /// # Errors
     ///
-    /// If the world cannot go on (the state is then that of the last instant reached), or if a block gives what is not a finite
-    /// number (the world has then made the step).
+    /// If a script fails.
+    pub fn end(&mut self) -> Result<(), Halt> {
+        let is_started = self.scripts.0.as_ref().is_some_and(Scripts::is_started);
+        if is_started { self.call_scripts(Phase::Cleanup, self.tick) } else { Ok(()) }
+    }
+
+    /// Calls the scripts; they are told the time of `tick`.
+    fn call_scripts(&mut self, phase: Phase, tick: u64) -> Result<(), Halt> {
+        let Some(scripts) = &mut self.scripts.0 else { return Ok(()) };
+        let t = tick as f64 * self.step;
+        let done = scripts.call(phase, &mut self.world, &mut self.table, (tick, t));
+        let is_after_step = phase == Phase::Sensing;
+        done.map_err(|fault| Halt::Script { tick: self.tick, t: self.tick as f64 * self.step, is_after_step, fault })
+    }
+
+    /// Calls a function of the script on an object, as another script or a client asks for it.
+    ///
+    /// # Errors
+    ///
+    /// There is no script or no such function, or it failed.
+    pub fn call_script(
+        &mut self,
+        object: Handle,
+        kind: Option<script::Kind>,
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal> {
+        let (tick, t) = (self.tick, self.t());
+        let Some(scripts) = &mut self.scripts.0 else { return Err(Refusal::new("the scene has no scripts")) };
+        scripts.call_function((object, kind), (function, arguments), &mut self.world, &mut self.table, (tick, t))
+    }
+
+    /// What scripts have said, and how many messages were too many to keep.
+    #[must_use]
+    pub fn messages(&self) -> (&[Message], usize) {
+        self.scripts.0.as_ref().map_or((&[], 0), Scripts::messages)
+    }
+
+    /// Takes what scripts have asked for of the run as a whole.
+    pub fn take_requests(&mut self) -> Vec<session::Request> {
+        self.table.as_mut().map_or_else(Vec::new, |table| table.take_requests())
+    }
+
+    /// One base step: scripts act, hold, advance, scripts sense, measure, ask.
+    ///
+    /// # Errors
+    ///
+    /// If the world cannot go on (the state is then that of the last instant reached), if a block gives what is not a finite
+    /// number (the world has then made the step), or if a script fails.
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         if let Some(table) = &mut self.table {
             table.begin_tick(tick, &self.world.state.totals);
+        }
+        if self.is_due() {
+            self.call_scripts(Phase::Actuation, tick)?;
         }
         self.latch();
         let advanced = match &mut self.control {
@@ -161,10 +255,10 @@ impl LockStep {
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
-        if let Some(table) = &self.table
-            && table.is_due(self.tick)
-        {
+        if self.is_due() {
             self.world.release();
+            let ticks = self.table.as_ref().map_or(1, |table| table.sample_ticks());
+            self.call_scripts(Phase::Sensing, self.tick - ticks.min(self.tick))?;
         }
         let arrived = self.t();
         if let Some(control) = self.control.as_mut().filter(|c| c.is_continuous()) {
@@ -185,6 +279,11 @@ impl LockStep {
         if let Some(table) = &self.table {
             table.latch(&mut self.world.state.commands);
         }
+    }
+
+    /// Whether a step of clients and scripts begins at the present tick.
+    fn is_due(&self) -> bool {
+        self.table.as_ref().is_some_and(|table| table.is_due(self.tick))
     }
 
     fn look(&mut self) -> Result<(), Halt> {

@@ -34,6 +34,8 @@ use crate::load::Loaded;
 use crate::problem::Problems;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::scene::Scene;
+use crate::script::Message;
+use crate::session::Request;
 use crate::table::Table;
 
 /// Rate times base step above which `auto` takes the stiff method.
@@ -62,6 +64,8 @@ pub struct Simulated {
     pub effort: Effort,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// What scripts said.
+    pub messages: Vec<Message>,
     /// How long it took `[s]`, recording included.
     pub wall_time: f64,
 }
@@ -246,13 +250,17 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             break;
         }
         let advanced = lockstep.advance();
-        if let Err(halt @ Halt::World { .. }) = advanced {
-            status = halt.explain(&mut lockstep, experiment, method);
+        if advanced.as_ref().is_err_and(|halt| !halt.is_after_step()) {
+            status = advanced.map_or_else(|halt| halt.explain(&mut lockstep, experiment, method), |()| status);
             break;
         }
         recording.tick(&mut lockstep, advanced.is_err())?;
         if let Err(halt) = advanced {
             status = halt.explain(&mut lockstep, experiment, method);
+            break;
+        }
+        if lockstep.take_requests().contains(&Request::Stop) {
+            status = stopped_by_script(&lockstep);
             break;
         }
         if watch.interrupt.load(Ordering::Relaxed) {
@@ -263,5 +271,17 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             (watch.progress)(tick as f64 / experiment.n_steps as f64);
         }
     }
+    if let Err(halt) = lockstep.end()
+        && status == Status::Completed
+    {
+        status = halt.explain(&mut lockstep, experiment, method);
+    }
     Ok(recording.finish(&mut lockstep, status, method, warnings)?)
+}
+
+/// A script has called `sim.stopSimulation`.
+fn stopped_by_script(lockstep: &LockStep) -> Status {
+    let (tick, time) = (lockstep.tick(), lockstep.t());
+    let reason = format!("a script stopped the simulation after tick {tick} at t = {time:.6} s");
+    Status::Stopped { tick, time, reason, help: format!("if that is the end that is meant, set duration = {time}") }
 }

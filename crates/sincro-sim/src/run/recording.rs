@@ -93,14 +93,20 @@ impl Recording {
         lockstep: &mut LockStep,
         status: Status,
         method: MethodKind,
-        warnings: Vec<String>,
+        mut warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
         let Self { table, csv, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let wall_time = clock.elapsed().as_secs_f64();
         let world = lockstep.world();
         let energy = ledger.close(world);
-        Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
+        let effort = world.effort();
+        let (messages, n_more) = lockstep.messages();
+        if n_more > 0 {
+            warnings.push(format!("scripts said {n_more} more things than are kept"));
+        }
+        let messages = messages.to_vec();
+        Ok(Simulated { table, status, method, trace, energy, effort, warnings, messages, wall_time })
     }
 }
 

@@ -16,6 +16,10 @@ impl Halt {
         match self {
             Self::World { tick, t, cause } => explain(lockstep.world(), experiment, (tick, t, cause), method),
             Self::Block { tick, t, culprit } => of_block(tick, t, &culprit),
+            Self::Script { tick, t, fault, .. } => {
+                let reason = format!("{fault} (tick {tick}, t = {t:.6} s)");
+                Status::Stopped { tick, time: t, reason, help: fault.help.unwrap_or_default() }
+            }
         }
     }
 }
@@ -23,7 +27,12 @@ impl Halt {
 /// A block that gave what is not a number.
 fn of_block(tick: u64, time: f64, culprit: &NotFinite) -> Status {
     let list = |numbers: &[f64]| numbers.iter().take(6).map(number).collect::<Vec<_>>().join(", ");
-    let NotFinite { block, kind, outputs, inputs } = culprit;
+    let NotFinite { block, kind, outputs, inputs, fault } = culprit;
+    if let Some(fault) = fault {
+        let reason = format!("block `{block}` ({kind}) failed in tick {tick} at t = {time:.6} s: {fault}");
+        let help = "mend the line; what the block was given is in the signals before it".to_owned();
+        return Status::Stopped { tick, time, reason, help };
+    }
     let inputs_were = if inputs.is_empty() { String::new() } else { format!(" from the inputs {}", list(inputs)) };
     let reason =
         format!("block `{block}` ({kind}) gave {} in tick {tick} at t = {time:.6} s{inputs_were}", list(outputs));

@@ -30,6 +30,12 @@ pub(crate) struct SceneFile {
     /// Rotors.
     #[serde(default)]
     pub rotor: Vec<RotorFile>,
+    /// Scripts, each on an object.
+    #[serde(default)]
+    pub script: Vec<ScriptFile>,
+    /// Time between two calls of the scripts, a whole multiple of the base step; default each base step [s].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub script_step: Option<f64>,
     /// Density of the air that rotors turn in [kg/m³].
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]
@@ -441,4 +447,83 @@ fn sea_level() -> f64 {
 
 fn no_signals() -> [SignalFile; 3] {
     std::array::from_fn(|_| SignalFile::Number(0.0))
+}
+
+/// A script on an object, called inside the step.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["code"]}]))]
+pub(crate) struct ScriptFile {
+    /// Path of the object that it belongs to.
+    pub object: String,
+    /// Lua file in this folder.
+    pub file: Option<String>,
+    /// Lua text, in place of a file.
+    pub code: Option<String>,
+    /// How it is called: `new` by functions `sysCall_…`, `old` as a whole with `sim_call_type`, `detect` by what its text has.
+    #[serde(default)]
+    pub style: ScriptStyleFile,
+    /// `child`: of the simulation; `customization`: of the model, called after child scripts of the same place.
+    #[serde(default)]
+    pub kind: ScriptKindFile,
+    /// Whether an old script is a thread: run once, and resumed at every tick where it called simSwitchThread or simWait.
+    #[serde(default)]
+    pub threaded: bool,
+    /// What is stored with it, for simGetScriptSimulationParameter.
+    #[serde(default)]
+    pub parameters: std::collections::BTreeMap<String, ScriptParameterFile>,
+    /// Memory that it may take, 2^20 bytes each.
+    #[serde(default = "script_memory")]
+    #[schemars(range(min = 1))]
+    pub max_memory_mib: u32,
+    /// Lua instructions that one call may take.
+    #[serde(default = "script_instructions")]
+    #[schemars(range(min = 1000))]
+    pub max_instructions: u64,
+}
+
+/// How a script is called.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ScriptStyleFile {
+    /// `new` if it has a function `sysCall_…` after its first run, else `old`.
+    #[default]
+    Detect,
+    /// The whole text for every call.
+    Old,
+    /// Functions.
+    New,
+}
+
+/// Kinds of scripts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ScriptKindFile {
+    /// Of the simulation.
+    #[default]
+    Child,
+    /// Of the model.
+    Customization,
+}
+
+/// A parameter of a script.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum ScriptParameterFile {
+    /// A number.
+    Number(f64),
+    /// True or false.
+    Flag(bool),
+    /// A text; scripts get nil, false, true or a number where it reads so.
+    Text(String),
+}
+
+/// Ordinary scripts take less than 1 MiB.
+fn script_memory() -> u32 {
+    64
+}
+
+/// About half a second: far more than a call in a control loop needs.
+fn script_instructions() -> u64 {
+    20_000_000
 }

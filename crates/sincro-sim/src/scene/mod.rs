@@ -10,6 +10,7 @@ mod joint;
 mod object;
 mod placement;
 mod rotor;
+mod script;
 mod signal_file;
 mod text;
 mod tree;
@@ -28,7 +29,8 @@ pub use text::from_text;
 
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problem, Problems};
+use crate::problem::{Located, Problem, Problems};
+use crate::script::Script;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
 use tree::Entry;
@@ -44,6 +46,10 @@ pub struct Scene {
     pub commands: Vec<Signal>,
     /// Every object, parents before children, children in the order of the file.
     pub objects: Vec<Object>,
+    /// Scripts, in the order of the file.
+    pub scripts: Vec<Script>,
+    /// Time between two calls of the scripts `[s]`; none: every base step.
+    pub script_step: Option<Located<f64>>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
 }
@@ -82,7 +88,10 @@ pub(crate) fn compile(document: &Document, folder: &Folder) -> Result<Scene, Pro
         let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
         assembly.add(&entries[place.entry], place, spec, pose, document);
     }
-    assembly.finish(&entries, document, problems)
+    let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
+    let step = file.script_step.map(|value| Located { value, at: document.at("/script_step") });
+    let scene = assembly.finish(&entries, scripts, document, problems)?;
+    Ok(Scene { script_step: step, ..scene })
 }
 
 /// Makes specifications, noting what is wrong.
@@ -186,7 +195,13 @@ impl Assembly {
         self.entry_of.push(place.entry);
     }
 
-    fn finish(mut self, entries: &[Entry<'_>], document: &Document, mut problems: Problems) -> Result<Scene, Problems> {
+    fn finish(
+        mut self,
+        entries: &[Entry<'_>],
+        scripts: Vec<Script>,
+        document: &Document,
+        mut problems: Problems,
+    ) -> Result<Scene, Problems> {
         let (model, found) = match self.builder.build() {
             Ok((model, warnings)) => (Some(model), warnings),
             Err(found) => (None, found),
@@ -208,7 +223,15 @@ impl Assembly {
             return Err(problems.sorted());
         }
         let warnings = problems.sorted().0;
-        Ok(Scene { model: Arc::new(model), initial, commands, objects: self.objects, warnings })
+        Ok(Scene {
+            model: Arc::new(model),
+            initial,
+            commands,
+            objects: self.objects,
+            scripts,
+            script_step: None,
+            warnings,
+        })
     }
 
     /// Commands in the model's order; tells joints the index of their motors.

@@ -115,7 +115,11 @@ impl Session {
         sample_time: Option<f64>,
     ) -> Result<Self, Problems> {
         let (method, warnings) = method_for(&loaded);
-        let mut table = Table::new(&loaded, loaded.experiment.client_ticks);
+        let ticks = match loaded.scene.script_step {
+            Some(_) => loaded.script_ticks(),
+            None => loaded.experiment.client_ticks,
+        };
+        let mut table = Table::new(&loaded, ticks);
         if let Some(dt) = sample_time {
             let refused = |Refusal(message)| Problems::from(crate::problem::Problem::nowhere(message));
             table.set_sample_time(dt).map_err(refused)?;
@@ -205,6 +209,23 @@ impl Session {
         let result = api::call(&mut self.desk(), name, arguments)?;
         self.do_requests()?;
         Ok(result)
+    }
+
+    /// Calls a function of the script on an object, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// There is no such script or function, or it failed.
+    pub fn call_script(
+        &mut self,
+        object: Handle,
+        kind: Option<crate::script::Kind>,
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal> {
+        let results = self.lockstep.call_script(object, kind, function, arguments)?;
+        self.do_requests()?;
+        Ok(results)
     }
 
     /// Does what clients and scripts have asked for.
@@ -308,8 +329,7 @@ impl Session {
         for _ in 0..table.sample_ticks() {
             let advanced = self.lockstep.advance();
             let Some(run) = &mut self.run else { return Ok(()) };
-            let world_stopped = matches!(advanced, Err(crate::run::Halt::World { .. }));
-            if !world_stopped {
+            if advanced.as_ref().err().is_none_or(crate::run::Halt::is_after_step) {
                 run.recording.tick(&mut self.lockstep, advanced.is_err()).map_err(|e| told(e.into()))?;
             }
             if let Err(halt) = advanced {
@@ -318,7 +338,8 @@ impl Session {
             }
         }
         self.steps += 1;
-        Ok(())
+        // scripts may have asked for something
+        self.do_requests()
     }
 
     /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one. A run that is on is ended.
@@ -371,6 +392,14 @@ impl Session {
     /// Keeps what the run gave and goes back to where it started.
     fn end(&mut self, status: Status) {
         let Some(run) = self.run.take() else { return };
+        if let Err(halt) = self.lockstep.end() {
+            let experiment = &self.loaded.experiment;
+            let words = match halt.explain(&mut self.lockstep, experiment, self.method) {
+                Status::Stopped { reason, .. } => reason,
+                _ => String::new(),
+            };
+            self.table().log(200, words);
+        }
         let warnings = self.warnings.clone();
         match run.recording.finish(&mut self.lockstep, status, self.method, warnings) {
             Ok(simulated) => {

@@ -222,6 +222,11 @@ impl Table {
             let (name, path) = (object.name.clone(), object.path.clone());
             new.entries.push(Some(Entry { handle, name, path, kind, parent, frame, moving }));
         }
+        for script in &scene.scripts {
+            let object = Handle(script.object as i32 + 1);
+            let texts = script.parameters.iter().map(|(name, value)| ((object, name.clone()), value.to_string()));
+            new.script_parameters.extend(texts);
+        }
         new
     }
 

@@ -8,6 +8,7 @@ use sincro_sim::diagram::Controller;
 use sincro_sim::record::catalogue;
 use sincro_sim::run::{method_for, method_word, model_hash};
 use sincro_sim::scene::{Object, ObjectKind, Scene};
+use sincro_sim::script::Kind;
 use sincro_sim::{Loaded, load};
 
 use super::console::{degrees, short};
@@ -52,6 +53,7 @@ fn print(loaded: &Loaded) {
         say!("objects");
         print_children(scene, None, 1);
     }
+    print_scripts(loaded);
     let model = &scene.model;
     say!("model");
     say!(
@@ -86,6 +88,24 @@ fn print(loaded: &Loaded) {
     );
     for warning in warnings {
         say!("warning: {warning}");
+    }
+}
+
+/// The scripts in the order of the file: on what, from where, how often.
+fn print_scripts(loaded: &Loaded) {
+    let scripts = &loaded.scene.scripts;
+    if scripts.is_empty() {
+        return;
+    }
+    let every = loaded.experiment.step * loaded.script_ticks() as f64;
+    say!("scripts, called every {} s", short(every));
+    for script in scripts {
+        let kind = match script.kind {
+            Kind::Child => "child",
+            Kind::Customization => "customization",
+        };
+        let parameters = diagnostics::count(script.parameters.len(), "parameter");
+        say!("  {} {kind} script, {}, {parameters}", script.path, script.source.path.display());
     }
 }
 

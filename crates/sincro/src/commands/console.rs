@@ -8,6 +8,7 @@ use sincro_sim::Loaded;
 use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
 use sincro_sim::run::Campaign;
+use sincro_sim::script::Message;
 
 use crate::diagnostics::count;
 use crate::plot::number::significant;
@@ -55,6 +56,7 @@ pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
     let report = &campaign.report;
     say!("{}", report.title);
     say!("  {}", how(report));
+    print_messages(&campaign.main.simulated.messages);
     for warning in &campaign.main.simulated.warnings {
         say!("  warning: {warning}");
     }
@@ -207,5 +209,20 @@ pub(crate) fn verdict_line(report: &RunReport) -> String {
         (n, 0, missing) => format!("{missing} of {} could not be made", count(n, "check")),
         (n, fails, 0) => format!("{fails} of {} fail", count(n, "check")),
         (n, fails, missing) => format!("{fails} of {} fail, {missing} could not be made", count(n, "check")),
+    }
+}
+
+/// What scripts said, the first of it.
+fn print_messages(messages: &[Message]) {
+    const MOST: usize = 20;
+    if messages.is_empty() {
+        return;
+    }
+    say!("scripts said");
+    for Message { t, object, text } in messages.iter().take(MOST) {
+        say!("  t = {} s, {object}: {text}", short(*t));
+    }
+    if messages.len() > MOST {
+        say!("  and {} more; all of it is in run.json", messages.len() - MOST);
     }
 }

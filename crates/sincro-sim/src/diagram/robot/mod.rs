@@ -40,10 +40,16 @@ pub struct Item {
     pub read: fn(&mut Reader<'_>, &Context) -> Box<dyn Template>,
 }
 
-/// All robot blocks.
+/// All blocks that are made here and not in the library.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    const SHELF: &[Item] =
-        &[forward_kinematics::ITEM, jacobian::ITEM, inverse_dynamics::ITEM, gravity_torque::ITEM, mass_matrix::ITEM];
+    const SHELF: &[Item] = &[
+        forward_kinematics::ITEM,
+        jacobian::ITEM,
+        inverse_dynamics::ITEM,
+        gravity_torque::ITEM,
+        mass_matrix::ITEM,
+        super::lua::ITEM,
+    ];
     SHELF.iter()
 }
 

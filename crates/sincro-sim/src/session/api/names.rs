@@ -38,6 +38,11 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("getObjectSelection", "getObjectSel"),
 ];
 
+/// Every old name, without `sim` and its first letter small, with the present one; what follows the rule is not among them.
+pub fn old_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    IRREGULAR.iter().copied()
+}
+
 /// The present name of a function that may be given by an old one, without `sim.`.
 #[must_use]
 pub fn present_name(name: &str) -> Cow<'_, str> {
@@ -51,9 +56,4 @@ pub fn present_name(name: &str) -> Cow<'_, str> {
         },
     };
     IRREGULAR.iter().find(|(old, _)| *old == bare).map_or(bare, |(_, present)| (*present).into())
-}
-
-/// Names that functions had before, without `sim.`, each with the present one.
-pub fn old_names() -> impl Iterator<Item = (&'static str, &'static str)> {
-    IRREGULAR.iter().copied()
 }

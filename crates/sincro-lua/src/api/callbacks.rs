@@ -1,0 +1,75 @@
+//! Functions of other scripts.
+
+use mlua::{Error, Function, Lua, MultiValue, Value as LuaValue};
+
+use super::{Shelf, scripts};
+use crate::convert;
+
+/// Scripts that may be calling each other at once.
+const MAX_DEPTH: usize = 16;
+
+pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
+    let (shared, index, own) = (shelf.shared.clone(), shelf.index, shelf.own);
+    let depth = std::sync::Arc::new(std::sync::atomic::AtomicUsize::new(0));
+    shelf.add("callScriptFunction", move |lua, (first, second, arguments): (LuaValue, LuaValue, MultiValue)| {
+        let fail = |message: String| Error::RuntimeError(format!("{message} (in function 'sim.callScriptFunction')"));
+        // both orders are about: (handle, name) and (name, handle), where an old name is `function@object`
+        let (name, handle) = match (&first, &second) {
+            (LuaValue::String(name), LuaValue::Integer(handle))
+            | (LuaValue::Integer(handle), LuaValue::String(name)) => (name.to_string_lossy(), *handle),
+            _ => return Err(fail("expected the name of a function and the handle of a script".into())),
+        };
+        let (name, place) = match name.split_once('@') {
+            None => (name.clone(), scripts::place_of(&shared, index, handle)),
+            Some((name, object)) => {
+                let object = shared.with_desk(own, |desk| super::object_of_name(desk, own, object));
+                let object = object.map_err(|refusal| super::refused("callScriptFunction", &refusal))?;
+                (name.to_owned(), scripts::script_on(&shared.scripts, object, None))
+            }
+        };
+        let place = place.ok_or_else(|| fail(format!("there is no script {handle}")))?;
+        let Some(other) = shared.states.get().and_then(|states| states[place].try_upgrade()) else {
+            return Err(fail("scripts can call each other once all of them are there, not while they are read".into()));
+        };
+        let path = &shared.scripts[place].path;
+        let function =
+            find(&other, &name).ok_or_else(|| fail(format!("the script of `{path}` has no function `{name}`")))?;
+        if depth.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= MAX_DEPTH {
+            depth.store(0, std::sync::atomic::Ordering::Relaxed);
+            return Err(fail(format!("more than {MAX_DEPTH} scripts call each other")));
+        }
+        let result = pass(lua, &other, &function, arguments);
+        let _ = depth.fetch_update(std::sync::atomic::Ordering::Relaxed, std::sync::atomic::Ordering::Relaxed, |n| {
+            n.checked_sub(1)
+        });
+        result.map_err(|error| fail(format!("`{name}` of the script of `{path}`: {}", crate::fault::words(&error).0)))
+    })?;
+    shelf.add("testCB", |_, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {
+        let mut result = MultiValue::new();
+        for _ in 0..=n.unwrap_or(99) {
+            result = callback.call((a.clone(), b.clone()))?;
+        }
+        Ok(result)
+    })
+}
+
+/// A function by its name, as `f` or `table.f`.
+pub(crate) fn find(lua: &Lua, name: &str) -> Option<Function> {
+    let mut at = LuaValue::Table(lua.globals());
+    for part in name.split('.') {
+        let LuaValue::Table(table) = at else { return None };
+        at = table.get(part).ok()?;
+    }
+    match at {
+        LuaValue::Function(function) => Some(function),
+        _ => None,
+    }
+}
+
+/// Calls a function of another Lua state.
+fn pass(lua: &Lua, other: &Lua, function: &Function, arguments: MultiValue) -> mlua::Result<MultiValue> {
+    let given = convert::list_from_lua(arguments)?;
+    let result: MultiValue = function.call(convert::list_to_lua(other, &given)?)?;
+    let values = convert::list_from_lua(result)?;
+    convert::list_to_lua(lua, &values)
+}

@@ -1,0 +1,212 @@
+//! The functions of `sim`, for one script.
+//!
+//! What the simulation can be asked is [`sincro_sim::session::api`]: the same for scripts and clients. Here it becomes Lua, as
+//! `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their parameters, each other, threads.
+
+mod buffers;
+mod callbacks;
+mod scripts;
+mod threads;
+mod windows;
+
+use std::sync::Arc;
+
+pub(crate) use callbacks::find as function_of;
+pub(crate) use scripts::script_on;
+
+use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
+use sincro_sim::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
+
+use crate::convert;
+use crate::guard::Guard;
+use crate::machine::CALL_TYPES;
+use crate::sandbox::Waits;
+use crate::shared::{Shared, handle_of};
+
+/// Where functions of `sim` are put, under all their names.
+pub(crate) struct Shelf<'a> {
+    lua: &'a Lua,
+    sim: Table,
+    shared: &'a Arc<Shared>,
+    /// The script's place among those of the run.
+    index: usize,
+    /// Its object.
+    own: Handle,
+    guard: &'a Arc<Guard>,
+}
+
+/// Fills a Lua state with everything that the script `index` may call.
+pub(crate) fn offer(
+    lua: &Lua,
+    shared: &Arc<Shared>,
+    index: usize,
+    guard: &Arc<Guard>,
+    waits: &Waits,
+) -> mlua::Result<()> {
+    let own = handle_of(&shared.scripts[index]);
+    let shelf = Shelf { lua, sim: lua.create_table()?, shared, index, own, guard };
+    constants_of(&shelf)?;
+    for function in api::functions() {
+        let called = shelf.of_session(function)?;
+        shelf.put(function.name, called)?;
+    }
+    for (old, present) in api::old_names() {
+        if let Some(function) = shelf.sim.get::<Option<Function>>(present)? {
+            shelf.put(old, function)?;
+        }
+    }
+    shelf.replace_some()?;
+    scripts::offer(&shelf)?;
+    threads::offer(&shelf, waits)?;
+    callbacks::offer(&shelf)?;
+    buffers::offer(&shelf)?;
+    windows::offer(&shelf)?;
+    lua.globals().set("sim", &shelf.sim)?;
+    modules(&shelf)
+}
+
+impl Shelf<'_> {
+    /// Puts a function under its present name, and as V-REP had it.
+    fn put(&self, name: &str, function: Function) -> mlua::Result<()> {
+        let mut letters = name.chars();
+        if let Some(first) = letters.next() {
+            let old = format!("sim{}{}", first.to_ascii_uppercase(), letters.as_str());
+            self.lua.globals().set(old, &function)?;
+        }
+        self.sim.set(name, function)
+    }
+
+    /// Puts a function that is made here.
+    fn add<A, R>(&self, name: &str, f: impl Fn(&Lua, A) -> mlua::Result<R> + Send + 'static) -> mlua::Result<()>
+    where
+        A: mlua::FromLuaMulti,
+        R: IntoLuaMulti,
+    {
+        self.put(name, self.lua.create_function(f)?)
+    }
+
+    /// A function of the session.
+    fn of_session(&self, function: &'static api::Function) -> mlua::Result<Function> {
+        let (shared, own) = (self.shared.clone(), self.own);
+        let is_setter = function.name.starts_with("set");
+        self.lua.create_function(move |lua, arguments: MultiValue| {
+            let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
+            // a client's nil may be a number that is none; a script's is a mistake
+            if is_setter && let Some(k) = given.iter().position(|value| *value == Value::Nil) {
+                return Err(Error::RuntimeError(format!(
+                    "argument {} is nil (in function 'sim.{}')",
+                    k + 1,
+                    function.name
+                )));
+            }
+            let result = shared.with_desk(own, |desk| (function.run)(desk, Arguments(&given)));
+            let values = result.map_err(|refusal| refused(function.name, &refusal))?;
+            convert::list_to_lua(lua, &values)
+        })
+    }
+
+    /// Functions of the session that scripts have in another way.
+    fn replace_some(&self) -> mlua::Result<()> {
+        let (shared, own) = (self.shared.clone(), self.own);
+        self.add("getObjectHandle", move |_, name: String| {
+            let found = shared.with_desk(own, |desk| object_of_name(desk, own, &name));
+            found.map(|handle| handle.0).map_err(|refusal| refused("getObjectHandle", &refusal))
+        })?;
+        let (shared, index) = (self.shared.clone(), self.index);
+        self.add("addStatusbarMessage", move |_, text: Option<String>| {
+            shared.say(index, text.unwrap_or_default());
+            Ok(1)
+        })?;
+        let shared = self.shared.clone();
+        self.add("addLog", move |_, (_, text): (i64, String)| {
+            shared.say(index, text);
+            Ok(())
+        })?;
+        // the clock of the wall would make every run another one
+        let shared = self.shared.clone();
+        self.add("getSystemTime", move |_, ()| Ok(shared.t()))?;
+        if let Some(inverse) = self.sim.get::<Option<Function>>("getMatrixInverse")? {
+            self.add("invertMatrix", move |_, matrix: Table| {
+                let inverted: Table = inverse.call(&matrix)?;
+                for k in 1..=12 {
+                    matrix.raw_set(k, inverted.raw_get::<f64>(k)?)?;
+                }
+                Ok(1)
+            })?;
+        }
+        let random: Function = self.lua.globals().get::<Table>("math")?.get("random")?;
+        self.add("getRandom", move |_, _: Option<i64>| random.call::<f64>(()))
+    }
+}
+
+/// The object of a name, by V-REP's rule for scripts: a name without `#` means the one that has the suffix of the script's own object, if
+/// there is one.
+fn object_of_name(desk: &mut sincro_sim::session::Desk<'_>, own: Handle, name: &str) -> Result<Handle, Refusal> {
+    let search = Search { from: Some(own), ..Search::default() };
+    let is_plain = !name.contains('#') && !name.starts_with(['/', '.', ':']);
+    let table = &desk.table;
+    if is_plain && let Ok(entry) = table.entry(own) {
+        let place = table.entries().filter(|e| e.name == entry.name).position(|e| e.handle == own);
+        if let Some(k) = place.filter(|k| *k > 0)
+            && let Ok(found) = table.find(&format!("{name}#{}", k - 1), search)
+        {
+            return Ok(found);
+        }
+    }
+    table.find(name, search)
+}
+
+/// A refusal as an error of Lua.
+fn refused(name: &str, Refusal(message): &Refusal) -> Error {
+    Error::RuntimeError(format!("{message} (in function 'sim.{name}')"))
+}
+
+fn named(name: &str, error: Error) -> Error {
+    Error::RuntimeError(format!("{} (in function 'sim.{name}')", crate::fault::words(&error).0))
+}
+
+/// Numbers by name: `sim.x` and `sim_x`.
+fn constants_of(shelf: &Shelf<'_>) -> mlua::Result<()> {
+    let globals = shelf.lua.globals();
+    for (name, value) in constants::CONSTANTS {
+        shelf.sim.set(*name, *value)?;
+        globals.set(format!("sim_{name}"), *value)?;
+    }
+    for (name, _, number) in CALL_TYPES {
+        let old = if name == "init" { "initialization" } else { name };
+        shelf.sim.set(format!("syscb_{name}"), number)?;
+        globals.set(format!("sim_syscb_{name}"), number)?;
+        for kind in ["child", "main", "customization"] {
+            shelf.sim.set(format!("{kind}scriptcall_{old}"), number)?;
+            globals.set(format!("sim_{kind}scriptcall_{old}"), number)?;
+        }
+    }
+    Ok(())
+}
+
+/// `require 'sim'`, and the modules that are not there.
+fn modules(shelf: &Shelf<'_>) -> mlua::Result<()> {
+    let sim = shelf.sim.clone();
+    let require = shelf.lua.create_function(move |_, name: String| {
+        if name == "sim" || name.strip_prefix("sim-").is_some_and(|version| version.parse::<u32>().is_ok()) {
+            return Ok(sim.clone());
+        }
+        Err(Error::RuntimeError(format!("there is no module '{name}': scripts have `sim` only, and load no files")))
+    })?;
+    shelf.lua.globals().set("require", require)
+}
+
+/// The value of a signal of any kind, for those who wait for it.
+pub(crate) fn signal(lua: &Lua, shared: &Shared, own: Handle, name: &str) -> mlua::Result<LuaValue> {
+    let found = shared.with_desk(own, |desk| {
+        let table = &desk.table;
+        let integer = table.integers.get(name).map(|x| Value::Int(*x));
+        let float = || table.floats.get(name).map(|x| Value::Real(*x));
+        let text = || table.strings.get(name).map(|x| Value::Bytes(x.clone()));
+        Ok(integer.or_else(float).or_else(text))
+    });
+    match found.map_err(|refusal| refused("waitForSignal", &refusal))? {
+        Some(value) => convert::to_lua(lua, &value),
+        None => Ok(LuaValue::Nil),
+    }
+}

@@ -1,0 +1,149 @@
+//! Scripts by their handles: their objects, their parameters.
+
+use std::sync::Arc;
+
+use mlua::{Error, Value as LuaValue};
+use sincro_sim::script::{Kind, Script};
+use sincro_sim::session::{Handle, Refusal};
+
+use super::Shelf;
+use crate::shared::{Shared, handle_of};
+
+/// Handle of the first script: beyond those of objects, below the flags.
+pub(super) const FIRST_SCRIPT: i64 = 1_000_000;
+
+/// Parameters of all scripts together.
+const MOST_PARAMETERS: usize = 10_000;
+
+const SELF: i64 = -4;
+const CUSTOMIZATION: i64 = 6;
+
+/// The place of a script, by its own handle or `sim.handle_self`.
+pub(super) fn place_of(shared: &Shared, index: usize, handle: i64) -> Option<usize> {
+    if handle == SELF {
+        return Some(index);
+    }
+    let k = usize::try_from(handle - FIRST_SCRIPT).ok()?;
+    (k < shared.scripts.len()).then_some(k)
+}
+
+fn handle_of_place(k: usize) -> i64 {
+    FIRST_SCRIPT + k as i64
+}
+
+fn unknown(handle: i64, function: &str) -> Error {
+    Error::RuntimeError(format!("there is no script with the handle {handle} (in function 'sim.{function}')"))
+}
+
+/// The script on an object.
+pub(crate) fn script_on(scripts: &[Script], object: Handle, kind: Option<Kind>) -> Option<usize> {
+    scripts.iter().position(|s| handle_of(s) == object && kind.is_none_or(|kind| s.kind == kind))
+}
+
+fn kind_of(script_type: i64) -> Kind {
+    if script_type == CUSTOMIZATION { Kind::Customization } else { Kind::Child }
+}
+
+pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
+    let (shared, index) = (shelf.shared.clone(), shelf.index);
+    shelf.add("getObjectAssociatedWithScript", move |_, script: i64| {
+        let k = place_of(&shared, index, script).ok_or_else(|| unknown(script, "getObjectAssociatedWithScript"))?;
+        Ok(handle_of(&shared.scripts[k]).0)
+    })?;
+    for (name, kind) in [
+        ("getScriptAssociatedWithObject", Kind::Child),
+        ("getCustomizationScriptAssociatedWithObject", Kind::Customization),
+    ] {
+        let (shared, own) = (shelf.shared.clone(), shelf.own);
+        shelf.add(name, move |_, object: i32| {
+            let object = if object == -4 { own } else { Handle(object) };
+            Ok(script_on(&shared.scripts, object, Some(kind)).map_or(-1, handle_of_place))
+        })?;
+    }
+    let (shared, own) = (shelf.shared.clone(), shelf.own);
+    shelf.add("getScript", move |_, (script_type, object): (i64, Option<LuaValue>)| {
+        let object = match object {
+            None | Some(LuaValue::Nil) => own,
+            Some(LuaValue::String(path)) => {
+                let path = path.to_string_lossy();
+                let found = shared.with_desk(own, |desk| super::object_of_name(desk, own, &path));
+                found.map_err(|refusal| super::refused("getScript", &refusal))?
+            }
+            Some(LuaValue::Integer(SELF)) => own,
+            Some(LuaValue::Integer(h)) => Handle(i32::try_from(h).unwrap_or(-1)),
+            Some(_) => return Err(Error::RuntimeError("argument 2 is no handle (in function 'sim.getScript')".into())),
+        };
+        Ok(script_on(&shared.scripts, object, Some(kind_of(script_type))).map_or(-1, handle_of_place))
+    })?;
+    let shared = shelf.shared.clone();
+    shelf.add("getScriptHandle", move |_, name: Option<String>| {
+        let found = match name {
+            None => Some(index),
+            Some(name) => shared.scripts.iter().position(|s| s.path.rsplit('/').next() == name.split('#').next()),
+        };
+        Ok(found.map_or(-1, handle_of_place))
+    })?;
+    let shared = shelf.shared.clone();
+    shelf.add("getScriptSimulationParameter", move |lua, (script, name, as_text): (i64, String, Option<bool>)| {
+        let script = object_with(&shared, index, script, "getScriptSimulationParameter")?;
+        let found =
+            shared.with_desk(script, |desk| Ok(desk.table.script_parameters.get(&(script, name.clone())).cloned()));
+        let text = found.map_err(|refusal| super::refused("getScriptSimulationParameter", &refusal))?;
+        let Some(text) = text else { return Ok(LuaValue::Nil) };
+        if as_text == Some(true) { lua.create_string(text).map(LuaValue::String) } else { value_of(lua, &text) }
+    })?;
+    let shared = shelf.shared.clone();
+    shelf.add("setScriptSimulationParameter", move |lua, (script, name, value): (i64, String, LuaValue)| {
+        let script = object_with(&shared, index, script, "setScriptSimulationParameter")?;
+        let text = match &value {
+            LuaValue::Boolean(truth) => truth.to_string(),
+            LuaValue::Nil => "nil".to_owned(),
+            other => lua.coerce_string(other.clone())?.map(|text| text.to_string_lossy()).ok_or_else(|| {
+                let what = other.type_name();
+                Error::RuntimeError(format!(
+                    "argument 3 is a {what}, expected text (in function 'sim.setScriptSimulationParameter')"
+                ))
+            })?,
+        };
+        let done = shared.with_desk(script, |desk| {
+            let parameters = &mut desk.table.script_parameters;
+            let key = (script, name);
+            if parameters.len() >= MOST_PARAMETERS && !parameters.contains_key(&key) {
+                return Err(Refusal(format!("there are {MOST_PARAMETERS} parameters already")));
+            }
+            parameters.insert(key, text);
+            Ok(1)
+        });
+        done.map_err(|refusal| super::refused("setScriptSimulationParameter", &refusal))
+    })?;
+    shelf.add("getNameSuffix", |_, name: Option<String>| {
+        let suffix = name.and_then(|name| name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<i64>().ok()));
+        Ok(suffix.unwrap_or(-1))
+    })
+}
+
+/// The object whose parameters are meant: that of a script, by the script's handle or its own.
+fn object_with(shared: &Arc<Shared>, index: usize, handle: i64, function: &str) -> mlua::Result<Handle> {
+    let of_script = place_of(shared, index, handle).map(|k| handle_of(&shared.scripts[k]));
+    let of_object =
+        || i32::try_from(handle).ok().map(Handle).filter(|h| script_on(&shared.scripts, *h, None).is_some());
+    of_script.or_else(of_object).ok_or_else(|| unknown(handle, function))
+}
+
+/// What a stored text stands for: nil, false, true, a number, else the text.
+fn value_of(lua: &mlua::Lua, text: &str) -> mlua::Result<LuaValue> {
+    match text {
+        "nil" => return Ok(LuaValue::Nil),
+        "true" => return Ok(LuaValue::Boolean(true)),
+        "false" => return Ok(LuaValue::Boolean(false)),
+        _ => {}
+    }
+    let string = LuaValue::String(lua.create_string(text)?);
+    if let Ok(n) = text.parse::<i64>() {
+        return Ok(LuaValue::Integer(n));
+    }
+    Ok(match lua.coerce_number(string.clone())? {
+        Some(x) => LuaValue::Number(x),
+        None => string,
+    })
+}

@@ -1,0 +1,39 @@
+//! Threads: a script that waits goes on at the next step.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicI64, Ordering};
+
+use mlua::{MultiValue, Value};
+
+use super::Shelf;
+use crate::sandbox::Waits;
+
+pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
+    for name in ["switchThread", "step", "yield", "handleExtCalls"] {
+        shelf.put(name, waits.switch.clone())?;
+    }
+    shelf.put("wait", waits.wait.clone())?;
+    shelf.put("waitForSignal", waits.wait_for_signal.clone())?;
+    let guard = shelf.guard.clone();
+    shelf.add("setThreadAutomaticSwitch", move |_, by_itself: Value| {
+        let before = guard.set_switching(!matches!(by_itself, Value::Nil | Value::Boolean(false) | Value::Integer(0)));
+        Ok(i64::from(before))
+    })?;
+    // stepping and automatic switching are the same switch, seen from its two sides
+    let (guard, level) = (shelf.guard.clone(), Arc::new(AtomicI64::new(0)));
+    shelf.add("setStepping", move |_, wanted: Value| {
+        let before = level.load(Ordering::Relaxed);
+        let after = match wanted {
+            Value::Integer(n) => n.max(0),
+            Value::Boolean(true) => before + 1,
+            _ => (before - 1).max(0),
+        };
+        level.store(after, Ordering::Relaxed);
+        guard.set_switching(after == 0);
+        Ok(before)
+    })?;
+    for name in ["setThreadSwitchTiming", "setThreadResumeLocation", "setThreadIsFree", "acquireLock", "releaseLock"] {
+        shelf.add(name, |_, _: MultiValue| Ok(0))?;
+    }
+    shelf.add("getThreadId", |_, ()| Ok(0))
+}

@@ -1,0 +1,115 @@
+//! The scripts of a run: made at the first call, called in V-REP's order.
+
+use std::sync::Arc;
+
+use sincro_dynamics::model::ModelBuilder;
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::{MethodKind, World};
+use sincro_sim::script::{Call, Engine, Fault, Host, Kind, Law, LawSpec, Message, Phase, Script, Setting};
+use sincro_sim::session::{Handle, Refusal, Value};
+
+use crate::guard::Guard;
+use crate::law::LuaLaw;
+use crate::machine::{self, Machine};
+use crate::shared::Shared;
+use crate::{api, fault, sandbox};
+
+/// Lua 5.4.
+#[derive(Debug)]
+pub(crate) struct Lua54;
+
+impl Engine for Lua54 {
+    fn check(&self, script: &Script) -> Result<(), Fault> {
+        let guard = Guard::new(script.max_instructions);
+        let compiled = sandbox::new(&guard, script.max_memory).and_then(|lua| machine::compile(&lua, script).map(drop));
+        compiled.map_err(|error| fault::of(script, &guard, &error))
+    }
+
+    fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host> {
+        let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
+        Box::new(Scripts { shared, machines: Vec::new() })
+    }
+
+    fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String> {
+        Ok(Box::new(LuaLaw::new(spec)?))
+    }
+}
+
+/// A world without anything in it.
+fn nothing() -> World {
+    let (model, _) = ModelBuilder::new([0.0; 3]).build().expect("a model of nothing has no problems");
+    let state = State::new(&model);
+    World::new(model, state, MethodKind::SemiImplicitEuler, 1e-6, 1e-3)
+}
+
+#[derive(Debug)]
+struct Scripts {
+    shared: Arc<Shared>,
+    machines: Vec<Machine>,
+}
+
+impl Host for Scripts {
+    fn call(&mut self, mut call: Call<'_>, phase: Phase) -> Result<(), Fault> {
+        self.lend(&mut call);
+        let done = self.run(phase);
+        self.lend(&mut call);
+        done
+    }
+
+    fn call_function(
+        &mut self,
+        mut call: Call<'_>,
+        (object, kind): (Handle, Option<Kind>),
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal> {
+        let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
+        let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
+        self.lend(&mut call);
+        let done = self.machines[place].call_function(function, arguments);
+        self.lend(&mut call);
+        done
+    }
+
+    fn take_messages(&mut self) -> Vec<Message> {
+        self.shared.take_messages()
+    }
+}
+
+impl Scripts {
+    /// Swaps the world of the call with that of the stage.
+    fn lend(&self, call: &mut Call<'_>) {
+        let mut stage = self.shared.stage();
+        std::mem::swap(&mut stage.world, call.world);
+        std::mem::swap(&mut stage.table, call.table);
+        stage.t = call.t;
+    }
+
+    fn run(&mut self, phase: Phase) -> Result<(), Fault> {
+        let step = self.shared.setting.step;
+        if self.machines.is_empty() {
+            self.make()?;
+        }
+        self.machines.iter().for_each(Machine::refill);
+        if phase == Phase::Actuation {
+            self.machines.iter_mut().try_for_each(Machine::resume)?;
+        }
+        if phase == Phase::Sensing {
+            self.machines.iter_mut().try_for_each(|m| m.call_dynamics(step, true))?;
+        }
+        self.machines.iter_mut().try_for_each(|m| m.call(phase))?;
+        if phase == Phase::Actuation {
+            self.machines.iter_mut().try_for_each(|m| m.call_dynamics(step, false))?;
+        }
+        Ok(())
+    }
+
+    fn make(&mut self) -> Result<(), Fault> {
+        for index in 0..self.shared.scripts.len() {
+            self.machines.push(Machine::new(&self.shared, index)?);
+        }
+        let states = self.machines.iter().map(|m| m.lua.weak()).collect();
+        let _ = self.shared.states.set(states);
+        Ok(())
+    }
+}

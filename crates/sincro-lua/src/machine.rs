@@ -1,0 +1,257 @@
+//! One script in its Lua state: how it is called in each phase of the step.
+//!
+//! | style | called |
+//! |---|---|
+//! | old (V-REP up to 3.4) | the whole text is run again, `sim_call_type` tells the phase; globals stay |
+//! | new | `sysCall_init`, `sysCall_actuation`, `sysCall_sensing`, `sysCall_cleanup`, those that are there |
+//! | thread | `sysCall_thread` (an old thread: the whole text) is a coroutine, resumed at each step before any actuation |
+//!
+//! Which style, the first run tells: is there a function `sysCall_…` after it, the style is new.
+
+use std::sync::Arc;
+
+use mlua::chunk::ChunkMode;
+use mlua::{Function, Lua, Thread, Value};
+use sincro_sim::script::{Fault, Kind, Phase, Script, Style};
+use sincro_sim::session::{self, Refusal};
+
+use crate::guard::{Guard, THREAD};
+use crate::sandbox::{self, CHUNK};
+use crate::shared::Shared;
+use crate::{api, convert, fault, power};
+
+/// Names of phases in `sim_call_type`; any numbers will do, scripts compare names.
+pub(crate) const CALL_TYPES: [(&str, Phase, i64); 4] = [
+    ("init", Phase::Initialization, 0),
+    ("actuation", Phase::Actuation, 1),
+    ("sensing", Phase::Sensing, 2),
+    ("cleanup", Phase::Cleanup, 3),
+];
+
+/// See the head of this file.
+#[derive(Debug)]
+pub(crate) struct Machine {
+    /// Its Lua state.
+    pub lua: Lua,
+    index: usize,
+    shared: Arc<Shared>,
+    guard: Arc<Guard>,
+    chunk: Function,
+    style: Style,
+    entries: Entries,
+    thread: Option<Thread>,
+}
+
+/// Functions of a new script that are there.
+#[derive(Debug, Default)]
+struct Entries {
+    actuation: Option<Function>,
+    sensing: Option<Function>,
+    dynamics: Option<Function>,
+}
+
+/// Compiles a text, its lines counted as in its source.
+pub(crate) fn compile(lua: &Lua, script: &Script) -> mlua::Result<Function> {
+    let text = "\n".repeat(script.lines_before) + &power::with_calls(&script.text);
+    lua.load(text).set_name(format!("={CHUNK}")).set_mode(ChunkMode::Text).into_function()
+}
+
+impl Machine {
+    /// The script `index` of a run, not called yet.
+    pub fn new(shared: &Arc<Shared>, index: usize) -> Result<Self, Fault> {
+        let script = &shared.scripts[index];
+        let guard = Guard::new(script.max_instructions);
+        Self::furnished(shared, index, guard.clone()).map_err(|error| fault::of(script, &guard, &error))
+    }
+
+    fn furnished(shared: &Arc<Shared>, index: usize, guard: Arc<Guard>) -> mlua::Result<Self> {
+        let script = &shared.scripts[index];
+        guard.begin(false);
+        let lua = sandbox::new(&guard, script.max_memory)?;
+        let (of_time, of_signals, of_prints) = (shared.clone(), shared.clone(), shared.clone());
+        let own = crate::shared::handle_of(script);
+        let services = sandbox::Services {
+            time: Box::new(move || of_time.t()),
+            signal: Box::new(move |lua, name| api::signal(lua, &of_signals, own, name)),
+            print: Box::new(move |line| of_prints.say(index, line)),
+        };
+        let seed = seed_of(shared.setting.seed, &script.path);
+        let waits = sandbox::furnish(&lua, &guard, seed, services)?;
+        api::offer(&lua, shared, index, &guard, &waits)?;
+        let chunk = compile(&lua, script)?;
+        let (style, entries) = (script.style, Entries::default());
+        Ok(Self { lua, index, shared: shared.clone(), guard, chunk, style, entries, thread: None })
+    }
+
+    fn script(&self) -> &Script {
+        &self.shared.scripts[self.index]
+    }
+
+    /// Gives the script all its instructions again: other scripts may call its functions before it is called itself.
+    pub fn refill(&self) {
+        self.guard.begin(false);
+    }
+
+    /// Calls a function by its name, for a client.
+    pub fn call_function(&mut self, name: &str, arguments: &[session::Value]) -> Result<Vec<session::Value>, Refusal> {
+        let path = self.script().path.clone();
+        let Some(function) = api::function_of(&self.lua, name) else {
+            return Err(Refusal(format!("the script of `{path}` has no function `{name}`")));
+        };
+        let done = self.within(false, |m| {
+            let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
+            convert::list_from_lua(values)
+        });
+        done.map_err(|fault| Refusal(fault.to_string()))
+    }
+
+    /// Runs something of the script within its limits.
+    fn within<T>(&mut self, is_thread: bool, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, Fault> {
+        self.guard.begin(is_thread);
+        let done = run(self).and_then(|value| self.guard.check().map(|()| value));
+        done.map_err(|error| fault::of(self.script(), &self.guard, &error))
+    }
+
+    /// A phase of the step; threads are resumed by [`Machine::resume`].
+    pub fn call(&mut self, phase: Phase) -> Result<(), Fault> {
+        match phase {
+            Phase::Initialization => self.within(false, Self::initialize),
+            _ if self.style == Style::Old => self.within(false, |m| m.call_whole(phase)),
+            Phase::Actuation => self.call_entry(|e| &e.actuation),
+            Phase::Sensing => self.call_entry(|e| &e.sensing),
+            Phase::Cleanup => self.within(false, Self::clean_up),
+        }
+    }
+
+    fn initialize(&mut self) -> mlua::Result<()> {
+        if self.script().is_threaded {
+            self.style = Style::Old;
+            return self.become_thread(self.chunk.clone());
+        }
+        if self.style == Style::New {
+            self.chunk.call::<()>(())?;
+        } else {
+            self.call_whole(Phase::Initialization)?;
+            if self.style == Style::Old || !self.has_entries()? {
+                self.style = Style::Old;
+                return Ok(());
+            }
+            self.style = Style::New;
+            self.lua.globals().set("sim_call_type", Value::Nil)?;
+        }
+        self.begin_new()
+    }
+
+    /// Whether any function `sysCall_…` is there.
+    fn has_entries(&self) -> mlua::Result<bool> {
+        for pair in self.lua.globals().pairs::<Value, Value>() {
+            let (name, value) = pair?;
+            if let (Value::String(name), Value::Function(_)) = (name, value)
+                && name.as_bytes().starts_with(b"sysCall_")
+            {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn entry(&self, names: &[&str]) -> mlua::Result<Option<Function>> {
+        let globals = self.lua.globals();
+        for name in names {
+            if let Value::Function(function) = globals.get(*name)? {
+                return Ok(Some(function));
+            }
+        }
+        Ok(None)
+    }
+
+    fn begin_new(&mut self) -> mlua::Result<()> {
+        self.entries = Entries {
+            actuation: self.entry(&["sysCall_actuation"])?,
+            sensing: self.entry(&["sysCall_sensing"])?,
+            dynamics: self.entry(&["sysCall_dyn", "sysCall_dynCallback"])?,
+        };
+        for name in ["sysCall_joint", "sysCall_jointCallback", "sysCall_contact", "sysCall_contactCallback"] {
+            if self.entry(&[name])?.is_some() {
+                self.shared.say(self.index, format!("{name} is not called: the simulation has no such callback"));
+            }
+        }
+        let mut first = vec!["sysCall_init"];
+        if self.script().kind == Kind::Customization {
+            first.push("sysCall_beforeSimulation");
+        }
+        for name in first {
+            if let Some(function) = self.entry(&[name])? {
+                function.call::<()>(())?;
+            }
+        }
+        // the functions may have been made by sysCall_init
+        self.entries.actuation = self.entry(&["sysCall_actuation"])?;
+        self.entries.sensing = self.entry(&["sysCall_sensing"])?;
+        match self.entry(&["sysCall_thread", "sysCall_threadmain"])? {
+            Some(function) => self.become_thread(function),
+            None => Ok(()),
+        }
+    }
+
+    fn become_thread(&mut self, function: Function) -> mlua::Result<()> {
+        let thread = self.lua.create_thread(function)?;
+        self.lua.set_named_registry_value(THREAD, &thread)?;
+        self.thread = Some(thread);
+        Ok(())
+    }
+
+    fn clean_up(&mut self) -> mlua::Result<()> {
+        let mut last = Vec::new();
+        if self.script().kind == Kind::Customization {
+            last.push("sysCall_afterSimulation");
+        }
+        last.push("sysCall_cleanup");
+        for name in last {
+            if let Some(function) = self.entry(&[name])? {
+                function.call::<()>(())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The text of an old script; one that is a thread is not called.
+    fn call_whole(&mut self, phase: Phase) -> mlua::Result<()> {
+        if self.thread.is_some() {
+            return Ok(());
+        }
+        let call_type = CALL_TYPES.iter().find(|(_, p, _)| *p == phase).map(|(_, _, number)| *number);
+        self.lua.globals().set("sim_call_type", call_type)?;
+        self.chunk.call(())
+    }
+
+    fn call_entry(&mut self, which: fn(&Entries) -> &Option<Function>) -> Result<(), Fault> {
+        let Some(function) = which(&self.entries).clone() else { return Ok(()) };
+        self.within(false, |_| function.call(()))
+    }
+
+    /// Lets the script's thread go on, if it is one and has not ended.
+    pub fn resume(&mut self) -> Result<(), Fault> {
+        let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
+        self.within(true, |_| thread.resume(()))
+    }
+
+    /// Calls `sysCall_dyn` before or after the world's step.
+    pub fn call_dynamics(&mut self, step: f64, is_after: bool) -> Result<(), Fault> {
+        let Some(function) = self.entries.dynamics.clone() else { return Ok(()) };
+        self.within(false, |m| {
+            let info = m.lua.create_table()?;
+            info.set("passCnt", 1)?;
+            info.set("totalPasses", 1)?;
+            info.set("dynStepSize", step)?;
+            info.set("afterStep", is_after)?;
+            function.call(info)
+        })
+    }
+}
+
+/// The run's seed and the object's path, mixed (FNV-1a).
+fn seed_of(seed: u64, path: &str) -> u64 {
+    let bytes = seed.to_le_bytes().into_iter().chain(path.bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}

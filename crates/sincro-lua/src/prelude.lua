@@ -1,0 +1,153 @@
+-- What every script finds beside the libraries: errors that are texts and cannot be swallowed once a limit is reached, tables gone
+-- through in an order that is the same in every run, threads, and the words of older Lua.
+local host = ...
+local raw_next, raw_pcall, raw_xpcall, raw_error = next, pcall, xpcall, error
+local raw_resume, raw_create, yield = coroutine.resume, coroutine.create, coroutine.yield
+local yieldable = coroutine.isyieldable
+local type, rawget, rawlen, select, getmetatable, setmetatable = type, rawget, rawlen, select, getmetatable, setmetatable
+local sort, pack, unpack = table.sort, table.pack, table.unpack
+
+-- errors: after a limit was reached each of these fails at once, so that nothing can go on for long
+local function checked(ok, ...)
+  host.check()
+  if ok then return ok, ... end
+  return false, host.text((...))
+end
+
+function pcall(f, ...)
+  return checked(raw_pcall(f, ...))
+end
+
+function xpcall(f, handler, ...)
+  -- a handler of an error that comes from the limit itself would run unwatched
+  return checked(raw_xpcall(f, function(e)
+    if host.doomed() then return host.text(e) end
+    return handler(host.text(e))
+  end, ...))
+end
+
+function coroutine.resume(co, ...)
+  host.check()
+  return checked(raw_resume(co, ...))
+end
+
+local function passed(co, ok, ...)
+  host.check()
+  if ok then return ... end
+  raw_error((host.text((...))), 0)
+end
+
+function coroutine.wrap(f)
+  local co = raw_create(f)
+  return function(...)
+    host.check()
+    return passed(co, raw_resume(co, ...))
+  end
+end
+
+-- order: as it stands while no key is a text, else truth values, numbers and texts, each in their own order
+local rank = { boolean = 1, number = 2, string = 3 }
+local function before(a, b)
+  local ra, rb = rank[type(a)], rank[type(b)]
+  if ra ~= rb then return ra < rb end
+  if ra == 1 then return b and not a end
+  return a < b
+end
+
+local function keys_of(t)
+  local keys, n, texts, others = {}, 0, false, 0
+  for k in raw_next, t do
+    n = n + 1
+    keys[n] = k
+    local kind = type(k)
+    if kind == 'string' then
+      texts = true
+    elseif not rank[kind] then
+      others = others + 1
+    end
+  end
+  if others > 0 and n > 1 then
+    raw_error('pairs: a table with tables or functions as keys has no order that is the same in every run', 3)
+  end
+  if texts then sort(keys, before) end
+  return keys, n
+end
+
+function pairs(t)
+  local meta = getmetatable(t)
+  local own = type(meta) == 'table' and meta.__pairs
+  if own then
+    local f, s, k = own(t)
+    return f, s, k
+  end
+  if type(t) ~= 'table' then
+    raw_error("bad argument #1 to 'pairs' (table expected, got " .. (t == nil and 'nil' or type(t)) .. ')', 2)
+  end
+  local keys, n = keys_of(t)
+  local i = 0
+  return function()
+    while i < n do
+      i = i + 1
+      local v = rawget(t, keys[i])
+      if v ~= nil then return keys[i], v end
+    end
+  end, t, nil
+end
+
+local walks = setmetatable({}, { __mode = 'k' })
+function next(t, k)
+  if k == nil then
+    if raw_next(t) == nil then return nil end
+    local keys, n = keys_of(t)
+    local place = {}
+    for i = 1, n do place[keys[i]] = i end
+    walks[t] = { keys = keys, n = n, place = place }
+  end
+  local walk = walks[t]
+  local i = k == nil and 0 or walk and walk.place[k]
+  if not i then raw_error("invalid key to 'next'", 2) end
+  while i < walk.n do
+    i = i + 1
+    local v = rawget(t, walk.keys[i])
+    if v ~= nil then return walk.keys[i], v end
+  end
+end
+
+-- threads: where the script is one, it goes on at the next tick
+local function switch()
+  if yieldable() then
+    yield()
+  else
+    raw_error('only a thread can wait for the next step; this script is called by the simulation', 3)
+  end
+end
+
+local function wait(dt, simulated)
+  local start = host.time()
+  local stop = start + dt
+  -- half a nanosecond: times are multiples of the step, sums of them are not
+  while host.time() < stop - 5e-10 do switch() end
+  return stop - host.time()
+end
+
+local function wait_for_signal(name)
+  while true do
+    local value = host.signal(name)
+    if value ~= nil then return value end
+    switch()
+  end
+end
+
+-- what older Lua and V-REP's scripts call
+unpack = table.unpack
+loadstring = load
+table.getn = function(t) return #t end
+table.maxn = function(t)
+  local most = 0
+  for k in raw_next, t do
+    if type(k) == 'number' and k > most then most = k end
+  end
+  return most
+end
+
+return { switch = switch, wait = wait, wait_for_signal = wait_for_signal }

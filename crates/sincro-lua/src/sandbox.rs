@@ -1,0 +1,279 @@
+//! What a script finds in its Lua state: the language, mathematics with the same bits everywhere, and nothing that reaches outside.
+//!
+//! Left out are files, processes, packages, bytecode and the debugger but its traceback. `os` has clocks of the simulation only.
+//! `math` is of [`sincro_math::elementary`], not of the platform; `math.random` is Lua's own generator (xoshiro256**) seeded by the
+//! run and the script's object.
+
+use std::sync::Arc;
+
+use mlua::chunk::ChunkMode;
+use mlua::{Error, Function, Lua, LuaOptions, MultiValue, StdLib, Table, Value, Variadic};
+use sincro_math::elementary;
+
+use crate::guard::Guard;
+use crate::power;
+
+/// The chunk name of a script: positions read `script:12:`.
+pub(crate) const CHUNK: &str = "script";
+
+/// Services that the prelude needs.
+pub(crate) struct Services {
+    /// Time `[s]` as scripts are told it.
+    pub time: Box<dyn Fn() -> f64 + Send>,
+    /// The value of a signal of any kind.
+    pub signal: Box<dyn Fn(&Lua, &str) -> mlua::Result<Value> + Send>,
+    /// Takes what is printed.
+    pub print: Box<dyn Fn(String) + Send>,
+}
+
+/// What the prelude gives back: functions that wait.
+pub(crate) struct Waits {
+    /// Until the next step.
+    pub switch: Function,
+    /// For a time.
+    pub wait: Function,
+    /// For a signal.
+    pub wait_for_signal: Function,
+}
+
+/// A Lua state that is shut off, with its limits.
+pub(crate) fn new(guard: &Arc<Guard>, max_memory: usize) -> mlua::Result<Lua> {
+    let libraries = StdLib::COROUTINE | StdLib::TABLE | StdLib::STRING | StdLib::UTF8 | StdLib::MATH;
+    let lua = Lua::new_with(libraries, LuaOptions::new().catch_rust_panics(false))?;
+    lua.set_memory_limit(max_memory)?;
+    guard.install(&lua)?;
+    Ok(lua)
+}
+
+/// Fills the globals.
+pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Services) -> mlua::Result<Waits> {
+    let globals = lua.globals();
+    mathematics(lua, seed)?;
+    forbid(lua)?;
+    let load = lua.create_function(load)?;
+    globals.set("load", load)?;
+    globals.set(power::POWER, lua.create_function(power_of)?)?;
+    let Services { time, signal, print } = services;
+    globals.set("print", printing(lua, print)?)?;
+    let time = Arc::new(std::sync::Mutex::new(time));
+    clocks(lua, &time)?;
+
+    let host = lua.create_table()?;
+    let checked = guard.clone();
+    host.set("check", lua.create_function(move |_, ()| checked.check())?)?;
+    let doomed = guard.clone();
+    host.set("doomed", lua.create_function(move |_, ()| Ok(doomed.is_doomed()))?)?;
+    host.set("text", lua.create_function(|lua, error: Value| text_of(lua, error))?)?;
+    host.set("time", clock(lua, &time)?)?;
+    host.set("signal", lua.create_function(move |lua, name: String| signal(lua, &name))?)?;
+    let waits: Table = lua.load(include_str!("prelude.lua")).set_name("=sincro").call(host)?;
+    Ok(Waits { switch: waits.get("switch")?, wait: waits.get("wait")?, wait_for_signal: waits.get("wait_for_signal")? })
+}
+
+type Clock = Arc<std::sync::Mutex<Box<dyn Fn() -> f64 + Send>>>;
+
+fn clock(lua: &Lua, time: &Clock) -> mlua::Result<Function> {
+    let time = time.clone();
+    lua.create_function(move |_, ()| Ok(time.lock().map_or(0.0, |time| time())))
+}
+
+/// `os` with the simulation's time: what a script measures is the same in every run.
+fn clocks(lua: &Lua, time: &Clock) -> mlua::Result<()> {
+    let os = lua.create_table()?;
+    os.set("clock", clock(lua, time)?)?;
+    let whole = time.clone();
+    os.set(
+        "time",
+        lua.create_function(move |_, _: MultiValue| Ok(whole.lock().map_or(0.0, |time| time()).floor() as i64))?,
+    )?;
+    os.set("difftime", lua.create_function(|_, (a, b): (f64, Option<f64>)| Ok(a - b.unwrap_or(0.0)))?)?;
+    for name in ["execute", "exit", "getenv", "remove", "rename", "tmpname", "setlocale", "date"] {
+        os.set(name, refused(lua, &format!("os.{name}"))?)?;
+    }
+    lua.globals().set("os", os)
+}
+
+/// A function that fails, saying what it is.
+pub(crate) fn refused(lua: &Lua, name: &str) -> mlua::Result<Function> {
+    let message = format!("{name} is not allowed: scripts reach no files, programs or network");
+    lua.create_function(move |_, _: MultiValue| -> mlua::Result<()> { Err(Error::RuntimeError(message.clone())) })
+}
+
+fn forbid(lua: &Lua) -> mlua::Result<()> {
+    let globals = lua.globals();
+    for name in ["dofile", "loadfile"] {
+        globals.set(name, refused(lua, name)?)?;
+    }
+    let io = lua.create_table()?;
+    for name in ["open", "popen", "lines", "read", "write", "input", "output", "tmpfile", "close", "type"] {
+        io.set(name, refused(lua, &format!("io.{name}"))?)?;
+    }
+    globals.set("io", io)?;
+    globals.get::<Table>("string")?.set("dump", refused(lua, "string.dump")?)?;
+    let debug = lua.create_table()?;
+    let traceback = |lua: &Lua, (message, level): (Value, Option<usize>)| match message {
+        Value::Nil => lua.traceback(None, level.unwrap_or(1)).map(Value::String),
+        Value::String(text) => lua.traceback(Some(&text.to_string_lossy()), level.unwrap_or(1)).map(Value::String),
+        other => Ok(other),
+    };
+    debug.set("traceback", lua.create_function(traceback)?)?;
+    globals.set("debug", debug)
+}
+
+/// As Lua's `load`, for texts only; powers are made calls in them too.
+fn load(
+    lua: &Lua,
+    (chunk, name, mode, env): (Value, Option<String>, Option<String>, Option<Table>),
+) -> mlua::Result<MultiValue> {
+    let text = match chunk {
+        Value::String(text) => text.to_string_lossy(),
+        Value::Function(pieces) => {
+            let mut text = String::new();
+            loop {
+                let piece: Option<mlua::LuaString> = pieces.call(())?;
+                match piece.filter(|piece| !piece.as_bytes().is_empty()) {
+                    Some(piece) => text.push_str(&piece.to_string_lossy()),
+                    None => break text,
+                }
+            }
+        }
+        other => {
+            let message = format!("bad argument #1 to 'load' (text expected, got {})", other.type_name());
+            return Err(Error::RuntimeError(message));
+        }
+    };
+    if mode.is_some_and(|mode| !mode.contains('t')) {
+        return Err(Error::RuntimeError("bytecode is not allowed: load takes text".into()));
+    }
+    let mut chunk =
+        lua.load(power::with_calls(&text)).set_mode(ChunkMode::Text).set_name(name.unwrap_or_else(|| "=load".into()));
+    if let Some(env) = env {
+        chunk = chunk.set_environment(env);
+    }
+    Ok(match chunk.into_function() {
+        Ok(function) => MultiValue::from_iter([Value::Function(function)]),
+        Err(error) => {
+            let message = lua.create_string(syntax_message(&error))?;
+            MultiValue::from_iter([Value::Nil, Value::String(message)])
+        }
+    })
+}
+
+/// What the compiler said, without mlua's words around it.
+fn syntax_message(error: &Error) -> String {
+    match error {
+        Error::SyntaxError { message, .. } => message.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// `a ^ b`: numbers and texts that read as numbers, else the metamethod.
+fn power_of(lua: &Lua, (a, b): (Value, Value)) -> mlua::Result<Value> {
+    if let (Some(x), Some(y)) = (number(lua, &a)?, number(lua, &b)?) {
+        return Ok(Value::Number(power(x, y)));
+    }
+    for operand in [&a, &b] {
+        let meta = match operand {
+            Value::Table(table) => table.metatable(),
+            _ => None,
+        };
+        if let Some(own) = meta.and_then(|meta| meta.get::<Option<Function>>("__pow").ok().flatten()) {
+            return own.call((&a, &b));
+        }
+    }
+    let wrong = if number(lua, &a)?.is_some() { &b } else { &a };
+    Err(Error::RuntimeError(format!("attempt to perform arithmetic on a {} value", wrong.type_name())))
+}
+
+fn number(lua: &Lua, value: &Value) -> mlua::Result<Option<f64>> {
+    match value {
+        Value::Number(x) => Ok(Some(*x)),
+        Value::Integer(x) => Ok(Some(*x as f64)),
+        Value::String(_) => lua.coerce_number(value.clone()),
+        _ => Ok(None),
+    }
+}
+
+/// x to the power y; for y = 2 as Lua has it.
+fn power(x: f64, y: f64) -> f64 {
+    if y == 2.0 { x * x } else { elementary::pow(x, y).0 }
+}
+
+/// The functions of `math` that a platform's library would compute, and those of older Lua.
+fn mathematics(lua: &Lua, seed: u64) -> mlua::Result<()> {
+    let math: Table = lua.globals().get("math")?;
+    let unary: [(&str, fn(f64) -> f64); 10] = [
+        ("sin", |x| elementary::sin_cos(x).0),
+        ("cos", |x| elementary::sin_cos(x).1),
+        ("tan", |x| elementary::tan(x).0),
+        ("asin", |x| elementary::asin(x).0),
+        ("acos", |x| elementary::acos(x).0),
+        ("exp", |x| elementary::exp(x).0),
+        ("log10", |x| elementary::log10(x).0),
+        ("sinh", |x| elementary::sinh(x).0),
+        ("cosh", |x| elementary::cosh(x).0),
+        ("tanh", |x| elementary::tanh(x).0),
+    ];
+    for (name, f) in unary {
+        math.set(name, lua.create_function(move |_, x: f64| Ok(f(x)))?)?;
+    }
+    let atan = |_: &Lua, (y, x): (f64, Option<f64>)| {
+        Ok(match x {
+            Some(x) => elementary::atan2(y, x).0,
+            None => elementary::atan(y).0,
+        })
+    };
+    math.set("atan", lua.create_function(atan)?)?;
+    math.set("atan2", lua.create_function(|_, (y, x): (f64, f64)| Ok(elementary::atan2(y, x).0))?)?;
+    math.set("pow", lua.create_function(|_, (x, y): (f64, f64)| Ok(power(x, y)))?)?;
+    math.set("log", lua.create_function(|_, (x, base): (f64, Option<f64>)| Ok(logarithm(x, base)))?)?;
+    math.set("mod", math.get::<Value>("fmod")?)?;
+    math.set("ldexp", lua.create_function(|_, (x, e): (f64, i32)| Ok(x * elementary::pow(2.0, f64::from(e)).0))?)?;
+    seeded(lua, &math, seed)
+}
+
+/// As Lua has it: base 2 and 10 by themselves, others by division.
+fn logarithm(x: f64, base: Option<f64>) -> f64 {
+    match base {
+        None => elementary::ln(x).0,
+        Some(10.0) => elementary::log10(x).0,
+        Some(base) => elementary::ln(x).0 / elementary::ln(base).0,
+    }
+}
+
+/// Seeds the generator; `math.randomseed` without a number seeds it so again.
+fn seeded(lua: &Lua, math: &Table, seed: u64) -> mlua::Result<()> {
+    let own: Function = math.get("randomseed")?;
+    let seed = i64::from_ne_bytes(seed.to_ne_bytes());
+    own.call::<()>((seed, 0))?;
+    let again = move |_: &Lua, given: Variadic<Value>| {
+        if given.is_empty() { own.call::<()>((seed, 0)) } else { own.call::<()>(given) }
+    };
+    math.set("randomseed", lua.create_function(again)?)
+}
+
+fn printing(lua: &Lua, print: Box<dyn Fn(String) + Send>) -> mlua::Result<Function> {
+    let tostring: Function = lua.globals().get("tostring")?;
+    lua.create_function(move |_, values: Variadic<Value>| {
+        let mut line = String::new();
+        for (k, value) in values.into_iter().enumerate() {
+            if k > 0 {
+                line.push('\t');
+            }
+            line.push_str(&tostring.call::<mlua::LuaString>(value)?.to_string_lossy());
+        }
+        print(line);
+        Ok(())
+    })
+}
+
+/// An error as scripts know it: a text with its position; other values stay.
+fn text_of(lua: &Lua, error: Value) -> mlua::Result<Value> {
+    let Value::Error(error) = error else { return Ok(error) };
+    let (message, line) = crate::fault::words(&error);
+    let text = match line {
+        Some(line) => format!("{CHUNK}:{line}: {message}"),
+        None => message,
+    };
+    Ok(Value::String(lua.create_string(text)?))
+}

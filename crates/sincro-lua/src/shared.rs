@@ -1,0 +1,102 @@
+//! What all scripts of a run share: the world while they are called, what they say, and each other.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use mlua::WeakLua;
+use sincro_dynamics::world::World;
+use sincro_sim::script::{Message, Script, Setting};
+use sincro_sim::session::{Desk, Handle, Refusal, Table};
+
+/// Messages of one phase that are kept: one more than a run keeps, so that the run tells of those that are not.
+const MOST_AT_ONCE: usize = 10_001;
+/// Bytes of a message that are kept.
+const LONGEST: usize = 10_000;
+
+/// The world, lent to the scripts for the time of a call; a world of nothing stands in its place otherwise.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    /// The world.
+    pub world: World,
+    /// The objects.
+    pub table: Option<Box<Table>>,
+    /// Time `[s]` as scripts are told it.
+    pub t: f64,
+}
+
+/// See the head of this file.
+pub(crate) struct Shared {
+    stage: Mutex<Stage>,
+    messages: Mutex<Vec<Message>>,
+    /// The scripts, in the order of calls.
+    pub scripts: Arc<[Script]>,
+    /// Of the run.
+    pub setting: Setting,
+    /// Their Lua states, once all are made.
+    pub states: OnceLock<Vec<WeakLua>>,
+}
+
+impl fmt::Debug for Shared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Shared").field("scripts", &self.scripts.len()).finish_non_exhaustive()
+    }
+}
+
+/// A lock that a panic of ours has left is as good as any: the run is over then.
+fn open<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
+    lock.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Shared {
+    /// Before the first call; `nothing` is a world of nothing.
+    pub fn new(scripts: Arc<[Script]>, setting: Setting, nothing: World) -> Self {
+        let stage = Mutex::new(Stage { world: nothing, table: None, t: 0.0 });
+        Self { stage, messages: Mutex::default(), scripts, setting, states: OnceLock::new() }
+    }
+
+    /// The stage. No Lua may run while it is held.
+    pub fn stage(&self) -> MutexGuard<'_, Stage> {
+        open(&self.stage)
+    }
+
+    /// Lets somebody act on the world for the object `own`.
+    pub fn with_desk<T>(
+        &self,
+        own: Handle,
+        act: impl FnOnce(&mut Desk<'_>) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        let mut stage = self.stage();
+        let Stage { world, table, t } = &mut *stage;
+        let Some(table) = table else {
+            return Err(Refusal::new("the simulation can be reached while a script is called only"));
+        };
+        let mut desk = Desk::new(table, world, *t);
+        desk.own = Some(own);
+        act(&mut desk)
+    }
+
+    /// Time `[s]` as scripts are told it.
+    pub fn t(&self) -> f64 {
+        self.stage().t
+    }
+
+    /// Keeps what a script said.
+    pub fn say(&self, script: usize, text: String) {
+        let t = self.t();
+        let mut messages = open(&self.messages);
+        if messages.len() < MOST_AT_ONCE {
+            let end = text.floor_char_boundary(LONGEST);
+            messages.push(Message { t, object: self.scripts[script].path.clone(), text: text[..end].to_owned() });
+        }
+    }
+
+    /// Takes what scripts have said.
+    pub fn take_messages(&self) -> Vec<Message> {
+        std::mem::take(&mut *open(&self.messages))
+    }
+}
+
+/// The object of a script.
+pub(crate) fn handle_of(script: &Script) -> Handle {
+    Handle(script.object as i32 + 1)
+}

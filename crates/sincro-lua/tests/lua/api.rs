@@ -1,0 +1,98 @@
+//! The functions of `sim` that only scripts have, names of all of them.
+
+use super::world::{EXPERIMENT, PENDULUM, open, run, said, with_script};
+
+#[test]
+fn every_function_has_its_old_name() {
+    let code = "function sysCall_init()
+        local n = 0
+        for name, f in pairs(sim) do
+            if type(f) == 'function' then
+                local old = 'sim' .. name:sub(1, 1):upper() .. name:sub(2)
+                assert(_G[old] == f, old)
+                n = n + 1
+            else
+                assert(_G['sim_' .. name] == f, name)
+            end
+        end
+        print(n > 150, simJointGetForce == sim.getJointForce, simGetIntegerSignal == sim.getInt32Signal)
+    end";
+    assert_eq!(said(code), ["true\ttrue\ttrue"]);
+}
+
+#[test]
+fn parameters_are_texts_that_read_as_values() {
+    let code = "function sysCall_init()
+        local get = function(name, text) return sim.getScriptSimulationParameter(sim.handle_self, name, text) end
+        print(get('gain'), get('count'), get('on'), get('name'), get('nothing'), get('none'), get('gain', true))
+        simSetScriptSimulationParameter(sim_handle_self, 'gain', 3.5)
+        print(get('gain'), simGetObjectAssociatedWithScript(sim_handle_self) == sim.getObject('.'))
+    end";
+    let loaded =
+        with_script(code, "parameters = { gain = 0.1, count = 4, on = true, name = \"x y\", nothing = \"nil\" }")
+            .unwrap();
+    let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said, ["0.1\t4\ttrue\tx y\tnil\tnil\t0.1", "3.5\ttrue"]);
+}
+
+#[test]
+fn scripts_share_signals_and_call_each_other() {
+    let arm = "function twice(x, list) return 2 * x, list[2] end
+        function sysCall_init() sim.setFloatSignal('from arm', 1.5) end";
+    let hinge = "function sysCall_init()
+            print(sim.getFloatSignal('from arm'), sim.getInt32Signal('nothing'))
+        end
+        function sysCall_actuation()
+            local script = sim.getScript(sim.scripttype_childscript, sim.getObject('/hinge/arm'))
+            print(sim.callScriptFunction('twice', script, 4, { 5, 6 }))
+            print(simCallScriptFunction('twice@arm', sim_scripttype_childscript, 0.5, { 5, 6 }))
+            print(select(2, pcall(sim.callScriptFunction, 'thrice', script)))
+        end";
+    let scene = format!(
+        "{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"arm.lua\"\n[[script]]\nobject = \"/hinge\"\nfile = \"hinge.lua\"\n"
+    );
+    let experiment = EXPERIMENT.replace("0.05", "0.01");
+    let loaded =
+        open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("arm.lua", arm), ("hinge.lua", hinge)]);
+    let said: Vec<String> = run(&loaded.unwrap()).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said[..3], ["1.5\tnil", "8\t6", "1.0\t6"]);
+    assert!(said[3].contains("the script of `/hinge/arm` has no function `thrice`"), "{said:?}");
+}
+
+#[test]
+fn a_name_without_suffix_takes_that_of_the_scripts_own_object() {
+    let joint = |k: usize| {
+        format!(
+            "[[frame]]\nname = \"mount{k}\"\n[[joint]]\nname = \"motor\"\nkind = \"revolute\"\nparent = \"/mount{k}\"\nmotor = {{ mode = \"velocity\" }}\n\
+             [[body]]\nname = \"wheel\"\nparent = \"/mount{k}/motor\"\nmass = 1.0\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n\
+             [[script]]\nobject = \"/mount{k}/motor/wheel\"\ncode = \"print(simGetObjectHandle('motor') == sim.getObject('..'), simGetObjectHandle('motor#') == sim.getObject('/mount1/motor'))\"\nstyle = \"new\"\n"
+        )
+    };
+    let scene: String = (1..=3).map(joint).collect();
+    let experiment =
+        EXPERIMENT.replace("\"/hinge.position\", \"/hinge.motor_torque_now\"", "\"/mount1/motor.position\"");
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment)]).unwrap_or_else(|p| panic!("{p}"));
+    let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said, ["true\ttrue"; 3]);
+}
+
+#[test]
+fn matrices_and_buffers_are_as_in_vrep() {
+    let code = "function sysCall_init()
+        local m = sim.buildMatrix({ 1, 2, 3 }, { 0, 0, math.pi / 2 })
+        local p = sim.multiplyVector(m, { 1, 0, 0 })
+        print(string.format('%.3f %.3f %.3f', p[1], p[2], p[3]))
+        simInvertMatrix(m)
+        p = sim.multiplyVector(m, p)
+        print(string.format('%.3f %.3f %.3f', p[1], p[2], p[3]))
+        print(unpack(sim.unpackFloatTable(sim.packFloatTable({ 0.5, 2, -1 }))))
+        print(#simPackInts({ 1, 2, 3 }), unpack(simUnpackInts(simPackInts({ 7, 8, 9 }), 1, 1)))
+        local t = sim.unpackTable(sim.packTable({ a = 1, b = { 2.5, 'x', true }, c = { d = -3 } }))
+        print(t.a, t.b[1], t.b[2], t.b[3], t.c.d)
+        print(#sim.getObjectMatrix(sim.getObject('/hinge/arm/tip'), -1), sim.getObjectPosition(sim.getObject('./tip'), sim.getObject('.'))[3])
+    end";
+    assert_eq!(
+        said(code),
+        ["1.000 3.000 3.000", "1.000 0.000 0.000", "0.5\t2.0\t-1.0", "12\t8", "1\t2.5\tx\ttrue\t-3", "12\t-1.0"]
+    );
+}

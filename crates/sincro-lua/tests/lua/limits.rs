@@ -1,0 +1,151 @@
+//! What a script may not do, and what is said when it does.
+
+use sincro_sim::results::Status;
+
+use super::world::{EXPERIMENT, PENDULUM, open, run, stop, with_script};
+
+/// A script that never comes to an end, stopped by its limit.
+fn endless(code: &str) {
+    let loaded = with_script(code, "max_instructions = 200000").unwrap();
+    match run(&loaded).status {
+        Status::Stopped { reason, help, .. } => {
+            assert!(reason.contains("one call took more than 200000 instructions"), "{code}: {reason}");
+            assert!(help.contains("max_instructions"), "{help}");
+        }
+        other => panic!("{code}: {other:?}"),
+    }
+}
+
+#[test]
+fn no_loop_without_end_goes_on_however_it_catches_errors() {
+    let loops = [
+        "while true do end",
+        "while true do pcall(function() while true do end end) end",
+        "while true do pcall(pcall, function() while true do end end) end",
+        "while true do xpcall(function() while true do end end, function(e) while true do end end) end",
+        "while true do coroutine.resume(coroutine.create(function() while true do end end)) end",
+        "local function deep(n) while true do pcall(coroutine.wrap(function()
+             if n > 0 then deep(n - 1) else while true do end end end)) end end deep(5)",
+        "local t = setmetatable({}, { __index = function(t, k) while true do end end })
+             while true do pcall(function() return t.x end) end",
+        "while true do pcall(table.sort, { 1, 2, 3 }, function(a, b) while true do end end) end",
+        "while true do local x <close> = setmetatable({}, { __close = function() while true do end end }) end",
+        "while true do load('while true do end')() end",
+        "sim.testCB(1, function() while true do end end, 2)",
+    ];
+    for text in loops {
+        endless(&format!("function sysCall_init() {text} end"));
+        endless(&format!("function sysCall_thread() sim.setThreadAutomaticSwitch(false) {text} end"));
+    }
+}
+
+#[test]
+fn the_line_of_an_endless_loop_is_told() {
+    let (reason, _) = stop("function sysCall_actuation()\n  while true do\n    x = 1\n  end\nend");
+    assert!(reason.contains("a.lua:3, `x = 1`") || reason.contains("a.lua:2, `while true do`"), "{reason}");
+}
+
+#[test]
+fn memory_has_an_end() {
+    for text in [
+        "local t = {} while true do t[#t + 1] = ('x'):rep(1000) .. #t end",
+        "local s = 'x' while true do s = s .. s end",
+    ] {
+        let (reason, help) = stop(&format!("function sysCall_init() {text} end"));
+        assert!(reason.contains("it took more than 64 MiB of memory"), "{reason}");
+        assert!(help.contains("max_memory_mib"), "{help}");
+    }
+}
+
+#[test]
+fn nothing_outside_can_be_reached() {
+    let forbidden = [
+        ("io.open('/etc/hostname')", "io.open is not allowed"),
+        ("os.execute('true')", "os.execute is not allowed"),
+        ("os.getenv('HOME')", "os.getenv is not allowed"),
+        ("dofile('b.lua')", "dofile is not allowed"),
+        ("loadfile('b.lua')", "loadfile is not allowed"),
+        ("string.dump(function() end)", "string.dump is not allowed"),
+        ("load('\\27Lua', 'x', 'b')", "bytecode is not allowed"),
+        ("require 'simIK'", "there is no module 'simIK'"),
+        ("require 'socket'", "there is no module 'socket'"),
+        ("package.loadlib('x', 'y')", "attempt to index a nil value (global 'package')"),
+        ("debug.getregistry()", "attempt to call a nil value (field 'getregistry')"),
+    ];
+    for (text, expected) in forbidden {
+        let (reason, _) = stop(&format!("function sysCall_init()\n  {text}\nend"));
+        assert!(reason.contains(expected) && reason.contains("a.lua:2"), "{text}: {reason}");
+    }
+}
+
+#[test]
+fn errors_say_script_line_text_and_cause() {
+    let cases = [
+        ("return a.b.c", "attempt to index a nil value (global 'a')"),
+        ("sim.getJointPosition(77)", "there is no object with the handle 77 (in function 'sim.getJointPosition')"),
+        ("sim.getObject('/hingo')", "Object does not exist: `/hingo`: did you mean `hinge`?"),
+        ("sim.setJointTargetVelocity('x', 1)", "argument 1 is text, expected a handle"),
+        ("sim.setFloatSignal('x', nil)", "argument 2 is nil (in function 'sim.setFloatSignal')"),
+        ("sim.setFloatSignal('x', print)", "a function cannot be passed on (in function 'sim.setFloatSignal')"),
+        ("sim.addForceAndTorque(sim.getObject('/hinge/arm'), {0/0, 0, 0}, {0, 0, 0})", "not finite"),
+        ("sim.wait(1)", "only a thread can wait for the next step"),
+        ("error({})", "an error that is a table, not a text"),
+        ("simNothing()", "attempt to call a nil value (global 'simNothing')"),
+        ("return {} ^ 3", "attempt to perform arithmetic on a table value"),
+        ("for k in pairs({ [{}] = 1, [print] = 2 }) do end", "no order that is the same in every run"),
+    ];
+    for (text, expected) in cases {
+        let (reason, _) = stop(&format!("function sysCall_actuation()\n  {text}\nend"));
+        let place = format!("the script of `/hinge/arm` failed at ");
+        let line = format!("a.lua:2, `{text}`: ");
+        assert!(reason.starts_with(&place) && reason.contains(&line) && reason.contains(expected), "{text}: {reason}");
+    }
+}
+
+#[test]
+fn what_was_recorded_before_a_fault_is_kept() {
+    let code = "function sysCall_actuation() if sim.getSimulationTime() > 0.025 then error('enough') end end";
+    let simulated = run(&with_script(code, "").unwrap());
+    let Status::Stopped { tick, reason, .. } = &simulated.status else { panic!("{:?}", simulated.status) };
+    assert_eq!((*tick, simulated.table.times().len()), (3, 4));
+    assert!(reason.contains("a.lua:1") && reason.contains(": enough"), "{reason}");
+    let sensing = code.replace("actuation", "sensing");
+    let simulated = run(&with_script(&sensing, "").unwrap());
+    // the world had made the step of that sensing
+    assert_eq!(simulated.table.times().len(), 5);
+}
+
+#[test]
+fn a_scene_with_bad_scripts_is_refused_as_a_whole() {
+    let refused = |scripts: &str| {
+        let scene = format!("{PENDULUM}\n{scripts}");
+        let files = [
+            ("scene.toml", scene.as_str()),
+            ("experiment.toml", EXPERIMENT),
+            ("a.lua", "x = = 3\n"),
+            ("b.lua", "x = 3\n"),
+        ];
+        open(&files).unwrap_err().to_string()
+    };
+    let text = refused(
+        "[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\n[[script]]\nobject = \"/hing\"\nfile = \"b.lua\"\n\
+         [[script]]\nobject = \"/hinge\"\nfile = \"c.lua\"\n",
+    );
+    assert!(text.contains("a.lua:1:1: error: script of `/hinge/arm`: unexpected symbol near '='"), "{text}");
+    assert!(
+        text.contains("there is no object `/hing` for the script") && text.contains("did you mean `/hinge`?"),
+        "{text}"
+    );
+    assert!(text.contains("c.lua"), "{text}");
+    let twice = "[[script]]\nobject = \"/hinge\"\nfile = \"b.lua\"\n".repeat(2);
+    assert!(refused(&twice).contains("`/hinge` has two child scripts"));
+    assert!(refused("[[script]]\nobject = \"/hinge\"\n").contains("file"));
+    let inline = "[[script]]\nobject = \"/hinge\"\ncode = '''\nx = 1\nx = = 2\n'''\n";
+    let scene = format!("{PENDULUM}\n{inline}");
+    let line = 1 + scene.lines().position(|l| l == "x = = 2").unwrap();
+    assert!(
+        refused(inline).contains(&format!("scene.toml:{line}:1: error: script of `/hinge`")),
+        "{}",
+        refused(inline)
+    );
+}

@@ -1,0 +1,10 @@
+//! Scripts in scenes, run as `sincro run` runs them.
+
+mod api;
+mod blocks;
+mod language;
+mod limits;
+mod parity;
+mod propeller;
+mod styles;
+mod world;

@@ -1,0 +1,127 @@
+//! When scripts are called: both styles, threads, the order among objects.
+
+use sincro_sim::results::Status;
+
+use super::world::{EXPERIMENT, PENDULUM, open, run, said, with_script};
+
+#[test]
+fn an_old_script_is_run_as_a_whole_for_every_phase_and_keeps_its_globals() {
+    let code = "
+        calls = (calls or 0) + 1
+        local mine = (mine or 0) + 1
+        if sim_call_type == sim_childscriptcall_initialization then print('init', calls, mine) end
+        if sim_call_type == sim_childscriptcall_actuation then print('actuation', calls, mine, simGetSimulationTime()) end
+        if sim_call_type == sim_childscriptcall_sensing then print('sensing', calls, mine, simGetSimulationTime()) end
+        if sim_call_type == sim_childscriptcall_cleanup then print('cleanup', calls, mine) end";
+    let said = said(code);
+    assert_eq!(
+        said[..5],
+        ["init\t1\t1", "actuation\t2\t1\t0.0", "sensing\t3\t1\t0.0", "actuation\t4\t1\t0.01", "sensing\t5\t1\t0.01"]
+    );
+    assert_eq!((said.len(), said.last().unwrap().as_str()), (12, "cleanup\t12\t1"));
+}
+
+#[test]
+fn a_new_script_is_called_by_its_functions() {
+    let code = "
+        sim = require 'sim'
+        print('read', sim_call_type)
+        function sysCall_init() print('init', sim_call_type) end
+        function sysCall_actuation() print('actuation', sim.getSimulationTime()) end
+        function sysCall_dyn(info) print('dyn', info.afterStep, info.dynStepSize) end
+        function sysCall_sensing() print('sensing', sim.getSimulationTime()) end
+        function sysCall_cleanup() print('cleanup') end";
+    let said = said(code);
+    let first = [
+        "read\t0",
+        "init\tnil",
+        "actuation\t0.0",
+        "dyn\tfalse\t0.01",
+        "dyn\ttrue\t0.01",
+        "sensing\t0.0",
+        "actuation\t0.01",
+    ];
+    assert_eq!(said[..7], first);
+    assert_eq!(said.last().unwrap(), "cleanup");
+}
+
+#[test]
+fn a_thread_goes_on_where_it_waited() {
+    let code = "
+        function sysCall_thread()
+            print(sim.getSimulationTime())
+            sim.wait(0.02)
+            print(sim.getSimulationTime())
+            sim.step()
+            print(sim.getSimulationTime())
+        end
+        function sysCall_actuation() print('a') end";
+    assert_eq!(said(code), ["0.0", "a", "a", "0.02", "a", "0.03", "a", "a"]);
+}
+
+#[test]
+fn an_old_thread_runs_its_text_once_also_through_pcall() {
+    let code = "
+        threadFunction = function()
+            while simGetSimulationState() ~= sim_simulation_advancing_abouttostop do
+                print(simGetSimulationTime())
+                simSwitchThread()
+            end
+        end
+        print(xpcall(threadFunction, function(err) return debug.traceback(err) end))";
+    let loaded = with_script(code, "threaded = true").unwrap();
+    let run = run(&loaded);
+    assert_eq!(run.status, Status::Completed);
+    let said: Vec<&str> = run.messages.iter().map(|m| m.text.as_str()).collect();
+    assert_eq!(said, ["0.0", "0.01", "0.02", "0.03", "0.04"]);
+}
+
+#[test]
+fn a_thread_that_never_waits_is_made_to() {
+    let code = "
+        function sysCall_thread() while true do n = (n or 0) + 1 end end
+        function sysCall_cleanup() print(n > 0) end";
+    assert_eq!(said(code), ["true"]);
+}
+
+#[test]
+fn descendants_are_called_before_ancestors_and_siblings_in_their_order() {
+    let script = |object: &str, more: &str| {
+        let code = format!("function sysCall_actuation() print('{object}{more}') end");
+        format!(
+            "[[script]]\nobject = \"{object}\"\ncode = \"{code}\"\n{}\n",
+            if more.is_empty() { "" } else { "kind = \"customization\"" }
+        )
+    };
+    let frame = "[[frame]]\nname = \"second\"\nparent = \"/hinge/arm\"\n";
+    let scripts = ["/hinge", "/hinge/arm/second", "/hinge/arm/tip", "/hinge/arm"].map(|object| script(object, ""));
+    let scene = format!("{PENDULUM}\n{frame}\n{}{}", script("/hinge/arm", " c"), scripts.concat());
+    let experiment = EXPERIMENT.replace("0.05", "0.01");
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment)]).unwrap_or_else(|p| panic!("{p}"));
+    let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said, ["/hinge/arm/tip", "/hinge/arm/second", "/hinge/arm", "/hinge/arm c", "/hinge"]);
+}
+
+#[test]
+fn scripts_may_be_called_less_often_than_the_world_steps() {
+    let code = "function sysCall_actuation() print(sim.getSimulationTime(), sim.getSimulationTimeStep()) end
+        function sysCall_sensing() print(sim.getSimulationTime()) end";
+    let scene = format!("script_step = 0.02\n{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nfile = \"a.lua\"\n");
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap();
+    let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said, ["0.0\t0.02", "0.0", "0.02\t0.02", "0.02", "0.04\t0.02"]);
+    let scene = scene.replace("0.02", "0.015");
+    let problems = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap_err();
+    assert!(
+        problems.to_string().contains("`script_step` is 0.015 s, no whole multiple of the base step, 0.01 s"),
+        "{problems}"
+    );
+}
+
+#[test]
+fn a_script_that_stops_the_simulation_ends_the_run_there() {
+    let code = "function sysCall_sensing() if sim.getSimulationTime() > 0.015 then sim.stopSimulation() end end";
+    let simulated = run(&with_script(code, "").unwrap());
+    assert!(matches!(simulated.status, Status::Stopped { tick: 3, .. }), "{:?}", simulated.status);
+    assert_eq!(simulated.table.times().len(), 4);
+}
