@@ -77,6 +77,7 @@ pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
             floor.act(|session| session.load(name))?;
             done()
         }
+        0x3401 => super::script::run(floor, call),
         0x0005 => {
             floor.act(sincro_sim::session::Session::stop)?;
             done()
@@ -130,7 +131,6 @@ fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
             desk.table.log(450, call.name()?);
             done()
         }
-        0x3401 => Err(Refusal::new("scripts cannot be called through this door yet")),
         0x3003 => Err(Refusal::new("models cannot be loaded into a scene that is open: put them in the scene file")),
         0x3004 | 0x3006 => Err(Refusal::new("files cannot be sent or erased: put the scene where the server finds it")),
         other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),

@@ -5,7 +5,7 @@
 //! | `packet.rs` | messages cut into packets and put together |
 //! | `message.rs` | headers, commands, replies |
 //! | `client.rs` | operation modes: streaming, splitting, discontinuing |
-//! | `functions.rs`, `objects.rs`, `group.rs` | what each command does |
+//! | `functions.rs`, `objects.rs`, `group.rs`, `script.rs` | what each command does |
 //!
 //! Everything in a message is executed before it is answered, the trigger of a synchronous step last, and what is streamed after that:
 //! values read with a trigger are those after the step.
@@ -16,6 +16,7 @@ mod group;
 pub mod message;
 mod objects;
 pub mod packet;
+mod script;
 
 use std::sync::Arc;
 

@@ -4,7 +4,8 @@
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
-use sincro_sim::session::{Arguments, Refusal, Value, api, constants};
+use sincro_sim::script::Kind;
+use sincro_sim::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
 
 use crate::hub::{ClientId, Hub};
 use crate::limits;
@@ -28,6 +29,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("restartServer", "sim.restartServer()"),
     ("readCustomDataBlock", "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)"),
     ("callScriptFunction", "...=sim.callScriptFunction(string functionName,int scriptHandle,...)"),
+    ("getScript", "int scriptHandle=sim.getScript(int scriptType,int objectHandle)"),
     ("testCB", "any result=sim.testCB(any a,func cb,any b,int iterations=99)"),
     ("getApiFunc", "string[] functions=sim.getApiFunc(int scriptHandle,string apiWord)"),
     ("getApiInfo", "string info=sim.getApiInfo(int scriptHandle,string apiWord)"),
@@ -81,11 +83,8 @@ impl Door {
             "getApiFunc" => vec![Value::List(names(a.text(1)?).map(Value::from).collect())],
             "getApiInfo" => vec![tip(a.text(1)?).map_or(Value::Text(String::new()), Value::from)],
             "getSystemTime" => vec![Value::Real(clock())],
-            "callScriptFunction" => {
-                return Err(Refusal::new(
-                    "this scene has no scripts that could be called (in function 'sim.callScriptFunction')",
-                ));
-            }
+            "callScriptFunction" => self.script(a)?,
+            "getScript" | "getScriptHandle" => self.script_of(a)?,
             name if UNSAFE.contains(&name) => {
                 return Err(Refusal(format!("sim.{name} is not allowed over the network")));
             }
@@ -99,6 +98,45 @@ impl Door {
             }
         };
         Ok(Said::Done(results))
+    }
+
+    /// Calls a function of a script: (name, script, …), (script, name, …), or (`name@object`, type, …) of old clients.
+    fn script(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+        let (name, other) =
+            if a.get(0).as_text().is_some() { (a.text(0)?, a.int(1)?) } else { (a.text(1)?, a.int(0)?) };
+        let arguments = a.0.get(2..).unwrap_or_default();
+        let mut floor = self.hub.enter();
+        floor.seen(self.id);
+        let results = floor.act(|session| match name.split_once('@') {
+            Some((function, object)) => {
+                let object = session.table().find(object, Search::default())?;
+                session.call_script(object, kind_of(other), function, arguments)
+            }
+            None => {
+                // scripts have the handles of their objects here
+                let object = i32::try_from(other).map_err(|_| Refusal(format!("{other} is no handle")))?;
+                session.call_script(Handle(object), None, name, arguments)
+            }
+        });
+        drop(floor);
+        self.hub.wake();
+        let mut results =
+            results.map_err(|Refusal(e)| Refusal(format!("{e} (in function 'sim.callScriptFunction')")))?;
+        if results.is_empty() {
+            results.push(Value::Nil);
+        }
+        Ok(results)
+    }
+
+    /// The script of an object: it has the object's handle.
+    fn script_of(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+        let mut floor = self.hub.enter();
+        let table = floor.session.table();
+        let object = match a.get(1) {
+            Value::Text(path) => table.find(path, Search::default())?,
+            _ => table.entry(Handle(a.handle(if a.has(1) { 1 } else { 0 })?))?.handle,
+        };
+        Ok(vec![object.into()])
     }
 
     fn session(&self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
@@ -151,6 +189,15 @@ impl Door {
             }
             self.hub.step(self.id)?;
         }
+    }
+}
+
+/// The kind of script of a number of V-REP; none for those that scenes do not have.
+pub(crate) fn kind_of(number: i64) -> Option<Kind> {
+    match number {
+        1 => Some(Kind::Child),
+        6 => Some(Kind::Customization),
+        _ => None,
     }
 }
 

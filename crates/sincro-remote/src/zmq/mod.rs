@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use crate::hub::Hub;
 use crate::listen::Connection;
-pub(crate) use functions::{Door, Said, info};
+pub(crate) use functions::{Door, Said, info, kind_of};
 pub use steps::Publisher;
 
 /// Serves one connection until it ends.

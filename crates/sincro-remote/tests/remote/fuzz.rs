@@ -5,6 +5,7 @@ use std::net::{Shutdown, SocketAddr, TcpStream};
 use std::time::Duration;
 
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 use sincro_remote::cbor;
 use sincro_remote::legacy::{message, packet};
 use sincro_remote::zmq::wire;
@@ -83,7 +84,7 @@ proptest! {
         }
         let mut greeting = [0; 64];
         greeting[..18].copy_from_slice(&near[..18]);
-        wire::is_greeting(&greeting);
+        let _ = wire::is_greeting(&greeting);
     }
 
     #[test]
@@ -116,7 +117,7 @@ fn throw(address: SocketAddr, bytes: &[u8]) {
     let _ = stream.write_all(bytes);
     let _ = stream.shutdown(Shutdown::Write);
     let mut all = Vec::new();
-    let _ = stream.by_ref().take(1 << 20).read_to_end(&mut all);
+    let _ = (&stream).take(1 << 20).read_to_end(&mut all);
 }
 
 #[test]

@@ -227,7 +227,7 @@ fn large_messages_travel_in_packets_and_large_data_in_pieces() {
         assert_eq!(replies.len(), usize::from(k == 2), "answered when complete");
     }
     let ask = Command { delay: 50_000, ..Command::new(0x3012, SPLIT, &ident, &[]) };
-    let (mut got, mut message) = (Vec::new(), vec![ask]);
+    let (mut got, mut message) = (Vec::<u8>::new(), vec![ask]);
     while got.len() < big.len() {
         let replies = client.exchange(&message);
         let reply = &replies[0].1;

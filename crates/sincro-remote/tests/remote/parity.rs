@@ -1,6 +1,6 @@
 //! The same control law through every door gives the same bits.
 //!
-//! The law is that of a joint that goes to 0.5 rad: velocity 2·(0.5 − q), rounded to 1/64 rad/s because the legacy wire has single precision. It is
+//! The law is that of a joint that goes to 0.5 rad: velocity 1.93·(0.5 − q), rounded to 1/64 rad/s because the legacy wire has single precision. It is
 //! computed 20 times a second by a block diagram, in Rust, by a legacy client and by a ZeroMQ client.
 
 use std::path::Path;
@@ -17,21 +17,21 @@ use super::zmq_client::Client as Zmq;
 
 const DIAGRAM: &str = r#"
 sample_time = 0.05
-block = [
-  { name = "goal", kind = "constant", value = 0.5 },
-  { name = "error", kind = "sum", signs = "+-" },
-  { name = "gain", kind = "gain", gain = 2.0 },
-  { name = "rounded", kind = "quantizer", interval = 0.015625 },
-]
 wires = [
-  "goal -> error", "/joint1.position -> error.2", "error -> gain", "gain -> rounded", "rounded -> /joint1",
+  "goal -> error.u1", "/joint1.position -> error.u2", "error -> gain -> rounded -> /joint1",
+]
+block = [
+  { name = "goal", type = "constant", value = 0.5 },
+  { name = "error", type = "sum", signs = "+-" },
+  { name = "gain", type = "gain", gain = 1.93 },
+  { name = "rounded", type = "quantizer", interval = 0.015625 },
 ]
 "#;
 
 const STEPS: usize = 40;
 
 fn law(q: f64) -> f64 {
-    (2.0 * (0.5 - q) * 64.0).round() / 64.0
+    (1.93 * (0.5 - q) * 64.0).round() / 64.0
 }
 
 fn by_diagram() -> Trace {

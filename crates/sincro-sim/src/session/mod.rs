@@ -211,6 +211,23 @@ impl Session {
         Ok(result)
     }
 
+    /// Calls a function of the script on an object, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// There is no such script or function, or it failed.
+    pub fn call_script(
+        &mut self,
+        object: Handle,
+        kind: Option<crate::script::Kind>,
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal> {
+        let results = self.lockstep.call_script(object, kind, function, arguments)?;
+        self.do_requests()?;
+        Ok(results)
+    }
+
     /// Does what clients and scripts have asked for.
     ///
     /// # Errors
