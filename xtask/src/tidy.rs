@@ -15,8 +15,19 @@ const ARROWS: [(&str, &[&str]); 8] = [
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
     ("sincro-lua", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim"]),
     ("sincro-remote", &["sincro-sim"]),
-    ("sincro-viewer", &["sincro-sim"]),
-    ("sincro", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim", "sincro-lua", "sincro-remote", "sincro-viewer"]),
+    ("sincro-viewer", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
+    (
+        "sincro",
+        &[
+            "sincro-math",
+            "sincro-dynamics",
+            "sincro-blocks",
+            "sincro-sim",
+            "sincro-lua",
+            "sincro-remote",
+            "sincro-viewer",
+        ],
+    ),
 ];
 
 /// The crates that compute.

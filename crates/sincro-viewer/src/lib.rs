@@ -7,5 +7,7 @@ mod base64;
 pub mod embed;
 pub mod film;
 pub mod live;
+pub mod mcap;
+pub mod picture;
 mod save;
 pub mod server;
