@@ -1,7 +1,7 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
 //! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error control of the
-//! integrator, the five vectors of [`State`] with their lengths, the three of the diagram's state (if there is one), and a checksum of
+//! integrator, the six vectors of [`State`] with their lengths, the three of the diagram's state (if there is one), and a checksum of
 //! all that.
 
 use std::fmt;
@@ -14,7 +14,7 @@ use twox_hash::XxHash3_64;
 use crate::load::Loaded;
 use crate::run::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro02";
+const MAGIC: &[u8; 8] = b"sincro03";
 
 /// A moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl Snapshot {
         }
         let s = &self.state;
         let of_diagram = self.diagram.iter().flat_map(|d| [&d.signals, &d.continuous, &d.memory]);
-        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.totals].into_iter().chain(of_diagram) {
+        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals].into_iter().chain(of_diagram) {
             bytes.extend((vector.len() as u64).to_le_bytes());
             vector.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
         }
@@ -103,6 +103,7 @@ impl Snapshot {
             v: reader.vector()?,
             commands: reader.vector()?,
             drives: reader.vector()?,
+            contacts: reader.vector()?,
             totals: reader.vector()?,
             tick,
         };

@@ -198,6 +198,21 @@ impl Mechanism<f64> {
         self.constraint_change = change;
     }
 
+    /// Number of equations of closures that follow from others, at the chart's origin.
+    pub(crate) fn redundant(&mut self, y: &[f64]) -> usize {
+        if !self.prepare(y, false) {
+            return 0;
+        }
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.keep_equations(false);
+        self.factor(true);
+        let mut change = core::mem::take(&mut self.constraint_change);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.project(&self.model, &mut self.scratch, None, &mut change);
+        self.constraint_change = change;
+        c.solver.redundant
+    }
+
     /// Rows at the chart's origin; false if there are none.
     fn prepare(&mut self, y: &[f64], first: bool) -> bool {
         let n = self.model.n_v();

@@ -193,7 +193,8 @@ impl Compiler<'_> {
             .iter()
             .map(|(node, pose, surface, material)| {
                 let Anchor { name, link, pose } = anchor(*node, pose);
-                Collider { name, link, pose, surface: surface.clone(), material: *material }
+                let frame = self.names.frames.iter().position(|f| f.node == *node).unwrap_or(usize::MAX);
+                Collider { name, frame, link, pose, surface: surface.clone(), material: *material }
             })
             .collect();
         let parent = |link: u32| self.model.links[link as usize].parent;

@@ -10,8 +10,8 @@ mod contacts;
 mod drives;
 
 use crate::attachment::{Alone, Attachment, Coupled, Seen};
-use crate::constraint::SolverReport;
 use crate::constraint::events::Closing;
+use crate::constraint::{ContactPoint, SolverReport};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
@@ -131,6 +131,31 @@ impl Observation<'_> {
         friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
     }
 
+    /// Points of contact that press now, with their forces.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
+        contacts_of(self.mechanism)
+    }
+
+    /// How far closure `k` is open (couplings after closures) `[m]` or `[rad]`.
+    #[must_use]
+    pub fn opening(&self, k: usize) -> f64 {
+        let set = self.model().constraints();
+        match set.closures.get(k) {
+            Some(closure) => closure.opening(self.scratch()).0,
+            None => {
+                let coupling = &set.couplings[k - set.closures.len()];
+                let [q1, q2] = coupling.coordinates.map(|k| self.state.q[k]);
+                (q2 - coupling.ratio * q1 - coupling.offset).abs()
+            }
+        }
+    }
+
+    /// Torque [N·m] or force `[N]` of the stops on a degree of freedom now.
+    #[must_use]
+    pub fn limit_torque(&self, dof: usize) -> f64 {
+        self.mechanism.constraints.as_deref().map_or(0.0, |c| c.limit_torque(self.model(), dof))
+    }
+
     /// Poses, twists and accelerations of the links.
     #[must_use]
     pub fn scratch(&self) -> &Scratch<f64> {
@@ -148,6 +173,11 @@ impl Observation<'_> {
     pub fn momentum(&self) -> Force<f64> {
         momentum(self.model(), self.scratch())
     }
+}
+
+fn contacts_of(mechanism: &Mechanism<f64>) -> impl Iterator<Item = ContactPoint> {
+    let constraints = mechanism.constraints.as_deref();
+    constraints.into_iter().flat_map(|c| c.points(mechanism.model(), &mechanism.scratch))
 }
 
 impl World {
@@ -229,6 +259,11 @@ impl World {
     #[must_use]
     pub fn solver_report(&self) -> Option<SolverReport> {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
+    }
+
+    /// Points of contact that press, as of the last [`World::rates`] or [`World::observe`].
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
+        contacts_of(&self.mechanism)
     }
 
     /// The error control of the method, none for fixed steps. Part of what a snapshot holds.

@@ -9,7 +9,7 @@ use sincro_blocks::unit::Unit;
 use sincro_dynamics::force::MotorMode;
 use sincro_dynamics::model::Model;
 
-use crate::record::{EnergyQuantity, Entry, FrameQuantity, Probe, catalogue};
+use crate::record::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, Probe, catalogue};
 
 /// A measurement: where its components are read.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +77,12 @@ pub(crate) fn depends_on_commands(probe: Probe) -> bool {
 
 /// Whether a measurement is known at ticks only: what is summed up over a step.
 pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
-    matches!(probe, Probe::MotorTorqueMean(_) | Probe::Energy(EnergyQuantity::Work | EnergyQuantity::Dissipated))
+    matches!(
+        probe,
+        Probe::MotorTorqueMean(_)
+            | Probe::Contact(..)
+            | Probe::Energy(EnergyQuantity::Work | EnergyQuantity::Dissipated)
+    )
 }
 
 /// Everything that can be commanded, in the order of the world's commands.
@@ -111,6 +116,9 @@ fn can_be_measured(probe: Probe) -> bool {
         Probe::Command(_)
             | Probe::Rotor(..)
             | Probe::FrictionTorque(_)
+            | Probe::LimitTorque(_)
+            | Probe::Opening(_)
+            | Probe::Contact(ContactQuantity::Point | ContactQuantity::Normal, ..)
             | Probe::Energy(EnergyQuantity::Balance)
             | Probe::Signal(_)
     )

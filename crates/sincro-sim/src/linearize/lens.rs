@@ -129,6 +129,7 @@ impl<R: Number> Lens<R> {
             v: cast(&self.state.v),
             commands: cast(&self.commands),
             drives: cast(&self.state.drives),
+            contacts: cast(&self.state.contacts),
             totals: cast(&self.state.totals),
             tick: self.state.tick,
         };

@@ -4,9 +4,11 @@
 //! no look-up and no allocation.
 
 mod catalogue;
+pub(crate) mod contact;
 pub(crate) mod probe;
 
 pub use catalogue::{Entry, catalogue};
+pub use contact::ContactQuantity;
 
 use sincro_dynamics::attachment::Response;
 use sincro_dynamics::energy::Energy;
@@ -49,6 +51,12 @@ pub enum Probe {
     Momentum(usize),
     /// Of a rotor.
     Rotor(RotorQuantity, usize),
+    /// Component of what touches a body.
+    Contact(ContactQuantity, usize, usize),
+    /// Torque of the stops of a joint.
+    LimitTorque(usize),
+    /// How far a closure is open.
+    Opening(usize),
     /// Signal of the diagram.
     Signal(usize),
 }
@@ -173,6 +181,9 @@ impl Recorder {
                 if span > 0.0 { (state.totals[2 + m] - self.motor_impulse[m]) / span } else { 0.0 }
             }
             Probe::FrictionTorque(k) => seen.friction_torque(k),
+            Probe::LimitTorque(k) => seen.limit_torque(k),
+            Probe::Contact(quantity, frame, k) => contact::read(seen.model(), seen.contacts(), quantity, frame, k),
+            Probe::Opening(k) => seen.opening(k),
             Probe::Rotor(quantity, k) => rotor_quantity(seen, quantity, k),
             probe => {
                 let view = View { t, model: seen.model(), q: &state.q, v: &state.v, scratch: seen.scratch() };
