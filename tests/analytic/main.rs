@@ -2,6 +2,7 @@
 
 mod contacts;
 mod drives;
+mod loops;
 mod mechanisms;
 mod orders;
 mod power;

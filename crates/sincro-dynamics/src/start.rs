@@ -136,7 +136,7 @@ pub fn beyond_limits(model: &Model<f64>, x: &State<f64>) -> Vec<Beyond> {
 pub fn freedom(model: &Model<f64>, x: &State<f64>) -> Freedom {
     let set = model.constraints();
     let mut found = Freedom {
-        of_tree: model.n_v(),
+        of_tree: model.n_v() - model.drives().iter().filter(|d| d.kind == crate::drive::DriveKind::Lock).count(),
         loops: set.closures.len() + set.couplings.len(),
         equations: set.n_bilateral(),
         redundant: 0,

@@ -38,6 +38,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use cone::{Block, Grip, Group};
+use dense::PROJECTION_RANK;
 use memory::Memory;
 use row::{Motions, Row, force_at, force_rate};
 use solve::Solver;
@@ -536,6 +537,7 @@ impl Constraints<f64> {
             Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
             None => self.b.extend_from_slice(&self.residual),
         }
+        self.solver.rank = PROJECTION_RANK;
         self.solver.correct(&self.a, &self.b, self.n_free, &[], &mut self.lambda);
         out.fill(0.0);
         self.push(model, scratch, out, false);

@@ -211,7 +211,10 @@ impl Compiler<'_> {
 
     /// Adds the stages of a joint; returns what carries its child frame.
     fn joint(&mut self, node: NodeId, at: Carrier, spec: &JointSpec) -> Carrier {
-        let stages = stages(&spec.kind);
+        let mut stages = stages(&spec.kind);
+        if spec.sensor && stages.is_empty() {
+            stages.push(StageSpec { family: Family::Free, axis: Z, pitch: 0.0 });
+        }
         if stages.is_empty() {
             return at;
         }

@@ -28,6 +28,9 @@ const SAME_INSTANT: f64 = 1e-9;
 /// Changes of drives in one tick beyond which they are said to chatter.
 const MAX_EVENTS: usize = 10_000;
 
+/// Constraint problems without a fitting solution beyond which a run stops.
+const MAX_UNSOLVED: u64 = 100_000;
+
 /// How a world is integrated.
 #[derive(Clone, Debug)]
 pub enum Method {
@@ -59,6 +62,13 @@ pub enum MethodKind {
 pub enum Stop {
     /// The integrator could not go on.
     Integration(Failure),
+    /// Too many constraint problems had no solution that fits.
+    Unsolved {
+        /// Where `[s]`.
+        t: f64,
+        /// The largest misfit, as a share of the largest force or rate.
+        residual: f64,
+    },
     /// Drives changed state too often within one tick.
     Chatter {
         /// Where `[s]`.
@@ -266,6 +276,12 @@ impl World {
         contacts_of(&self.mechanism)
     }
 
+    /// Torque or force that a held degree of freedom needed in the last [`World::rates`] or [`World::observe`] [N·m], `[N]`.
+    #[must_use]
+    pub fn reaction(&self, dof: usize) -> f64 {
+        self.mechanism.scratch.reaction[dof]
+    }
+
     /// The error control of the method, none for fixed steps. Part of what a snapshot holds.
     #[must_use]
     pub fn control(&self) -> Option<Control> {
@@ -429,6 +445,9 @@ impl World {
                 self.touch();
                 self.settle(t, attachment);
                 self.settle_contacts(t, attachment);
+            }
+            if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
+                return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
             }
             let limited = self.has_limited_drives() || self.is_constrained();
             let control = if limited { self.control() } else { None };

@@ -260,7 +260,7 @@ impl Control<f64> {
     }
 
     fn feels_contact(&self) -> bool {
-        self.wiring.early.iter().any(|r| r.probes.iter().any(|p| matches!(p, Probe::Contact(..))))
+        self.wiring.early.iter().any(|r| r.probes.iter().any(|p| matches!(p, Probe::Contact(..) | Probe::Reaction(_))))
     }
 
     /// Means and sums over the step that ended, and forces of contact at its end.
@@ -276,6 +276,7 @@ impl Control<f64> {
                     Probe::Contact(quantity, frame, k) => {
                         crate::record::contact::read(world.model(), world.contacts(), quantity, frame, k)
                     }
+                    Probe::Reaction(k) => world.reaction(k),
                     Probe::Energy(E::Work) => totals[0],
                     Probe::Energy(E::Dissipated) => totals[1],
                     _ => 0.0,

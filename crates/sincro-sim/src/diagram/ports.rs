@@ -81,6 +81,7 @@ pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
         probe,
         Probe::MotorTorqueMean(_)
             | Probe::Contact(..)
+            | Probe::Reaction(_)
             | Probe::Energy(EnergyQuantity::Work | EnergyQuantity::Dissipated)
     )
 }

@@ -80,7 +80,10 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
     let name = &joint.name;
     let (q, v) = (joint.q_idx, joint.v_idx);
     match joint.kind {
-        JointKind::Fixed => {}
+        JointKind::Fixed => {
+            list.vector(&format!("{name}.force"), &XYZ, "N", |k| Probe::Reaction(v + 3 + k));
+            list.vector(&format!("{name}.torque"), &XYZ, "N·m", |k| Probe::Reaction(v + k));
+        }
         JointKind::Revolute { .. } | JointKind::Screw { .. } => scalar(list, name, "", &ANGLE, q, v),
         JointKind::Prismatic { .. } => scalar(list, name, "", &LENGTH, q, v),
         JointKind::Universal { .. } => {

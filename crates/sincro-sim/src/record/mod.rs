@@ -57,6 +57,8 @@ pub enum Probe {
     LimitTorque(usize),
     /// How far a closure is open.
     Opening(usize),
+    /// What a degree of freedom of a force sensor holds.
+    Reaction(usize),
     /// Signal of the diagram.
     Signal(usize),
 }
@@ -184,6 +186,7 @@ impl Recorder {
             Probe::LimitTorque(k) => seen.limit_torque(k),
             Probe::Contact(quantity, frame, k) => contact::read(seen.model(), seen.contacts(), quantity, frame, k),
             Probe::Opening(k) => seen.opening(k),
+            Probe::Reaction(k) => seen.scratch().reaction()[k],
             Probe::Rotor(quantity, k) => rotor_quantity(seen, quantity, k),
             probe => {
                 let view = View { t, model: seen.model(), q: &state.q, v: &state.v, scratch: seen.scratch() };

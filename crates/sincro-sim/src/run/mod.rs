@@ -290,7 +290,27 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
     let wall_time = clock.elapsed().as_secs_f64();
     let world = lockstep.world();
     let energy = ledger.close(world);
+    let mut warnings = warnings;
+    warnings.extend(about_constraints(world));
     Ok(Simulated { table, status, method, trace, energy, effort: world.effort(), warnings, wall_time })
+}
+
+/// What the user should know of the constraint solver's work.
+fn about_constraints(world: &World) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let rough = world.effort().rough_ticks;
+    if rough > 0 {
+        warnings.push(format!(
+            "contacts changed so often that {rough} steps were finished at velocity level, to first order: take a smaller step, or compliant contacts"
+        ));
+    }
+    if let Some(report) = world.solver_report().filter(|r| r.not_converged > 0) {
+        warnings.push(format!(
+            "the constraint solver did not converge in {} of {} problems; forces or rates miss their laws by up to {:.1e} of the largest",
+            report.not_converged, report.solved, report.worst_residual
+        ));
+    }
+    warnings
 }
 
 /// Follows the balance of energy.

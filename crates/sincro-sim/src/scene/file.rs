@@ -106,6 +106,9 @@ pub(crate) struct JointFile {
     pub friction: Option<OneOrList<f64>>,
     /// Applied torque or force as a signal, evaluated continuously; a list for several degrees of freedom [N·m] or [N].
     pub torque: Option<OneOrList<SignalFile>>,
+    /// Fixed joints: whether the force and torque through it are measured.
+    #[serde(default)]
+    pub force_sensor: bool,
     /// Rigid stops; a list for several degrees of freedom.
     pub limits: Option<OneOrList<LimitsFile>>,
     /// Motor, on a joint with one degree of freedom.

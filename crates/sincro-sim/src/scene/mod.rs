@@ -18,12 +18,15 @@ mod tree;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sincro_dynamics::model::{BodySpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId, RotorSpec};
+use sincro_dynamics::model::{BodySpec, ForceSpec, JointSpec, ModelBuilder, NodeId, RotorSpec};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
 
 pub(crate) use file::SceneFile;
+pub use sincro_dynamics::model::Model;
+pub use sincro_dynamics::start::Freedom;
+
 pub use object::{Object, ObjectKind, ShapeInstance};
 pub use text::from_text;
 
@@ -50,6 +53,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Degrees of freedom at the start, closed loops counted.
+    #[must_use]
+    pub fn freedom(&self) -> Freedom {
+        sincro_dynamics::start::freedom(&self.model, &self.initial)
+    }
+
     /// The object of a path.
     #[must_use]
     pub fn object(&self, path: &str) -> Option<&Object> {
