@@ -122,3 +122,128 @@ fn a_ball_slips_then_rolls() {
         assert!((measured - order).abs() < 0.2, "{kind:?} {measured}");
     }
 }
+
+/// Free balls without gravity: (position, velocity, radius), bounced with a restitution.
+fn balls(list: &[([f64; 3], [f64; 3], f64)], m: Material) -> (Model<f64>, State<f64>) {
+    let mut b = ModelBuilder::new([0.0; 3]);
+    for (k, (_, _, radius)) in list.iter().enumerate() {
+        let shape = Shape::Sphere { radius: *radius };
+        let free = b.joint(&format!("free{k}"), NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+        let ball =
+            b.body(&format!("ball{k}"), free, Pose::identity(), BodySpec { mass: shape.mass_properties(1000.0) });
+        b.collider(ball, Pose::identity(), Surface::Solid(shape), m);
+    }
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    for (k, (p, v, _)) in list.iter().enumerate() {
+        x.q[7 * k..7 * k + 3].copy_from_slice(p);
+        x.v[6 * k + 3..6 * k + 6].copy_from_slice(v);
+    }
+    (model, x)
+}
+
+#[test]
+fn free_collisions_keep_momentum_and_lose_what_restitution_says() {
+    let list = [
+        ([0.0, 0.0, 0.0], [1.0, 0.1, 0.0], 0.05),
+        ([0.3, 0.03, 0.01], [-0.5, 0.0, 0.2], 0.07),
+        ([0.1, 0.5, 0.0], [0.0, -2.0, 0.0], 0.06),
+    ];
+    for (friction, restitution) in [(0.0, 1.0), (0.3, 0.7), (0.5, 0.0)] {
+        let (model, x) = balls(&list, material(friction, restitution));
+        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
+        let before = world.observe(0.0).momentum();
+        let energy = world.observe(0.0).energy().total();
+        run(&mut world, 0.01, 60);
+        let seen = world.observe(0.6);
+        let after = seen.momentum();
+        for k in 0..3 {
+            assert!((after.lin[k] - before.lin[k]).abs() < 1e-12, "{friction} {restitution}");
+            assert!((after.ang[k] - before.ang[k]).abs() < 1e-12, "{friction} {restitution}");
+        }
+        let lost = energy - seen.energy().total();
+        assert!((lost - seen.state.totals[1]).abs() < 1e-9, "{friction} {restitution} {lost:e}");
+        assert!(if restitution == 1.0 { lost.abs() < 1e-9 } else { lost > 1e-3 }, "{friction} {restitution} {lost:e}");
+        assert!(world.effort().impacts >= 1);
+    }
+}
+
+#[test]
+fn a_row_of_equal_balls_passes_a_blow_on() {
+    let at = |x: f64, v: f64| ([x, 0.0, 0.0], [v, 0.0, 0.0], 0.05);
+    let (model, x) = balls(&[at(-0.3, 1.0), at(0.0, 0.0), at(0.1001, 0.0), at(0.2002, 0.0)], material(0.0, 1.0));
+    let mut world = World::new(model, x, MethodKind::Rk4, 1e-9, 1e-3);
+    run(&mut world, 0.01, 50);
+    for (k, expected) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate() {
+        assert!((world.state.v[6 * k + 3] - expected).abs() < 1e-12, "{k}: {}", world.state.v[6 * k + 3]);
+    }
+}
+
+#[test]
+fn the_order_of_the_bodies_does_not_matter() {
+    let list = [
+        ([0.0, 0.0, 0.0], [1.0, 0.1, 0.0], 0.05),
+        ([0.3, 0.03, 0.01], [-0.5, 0.0, 0.2], 0.07),
+        ([0.1, 0.5, 0.0], [0.0, -2.0, 0.0], 0.06),
+    ];
+    let end = |order: [usize; 3]| {
+        let (model, x) = balls(&order.map(|k| list[k]), material(0.3, 0.7));
+        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
+        run(&mut world, 0.01, 40);
+        let mut found = [[0.0; 3]; 3];
+        for (place, k) in order.into_iter().enumerate() {
+            found[k].copy_from_slice(&world.state.q[7 * place..7 * place + 3]);
+        }
+        found
+    };
+    let (one, two) = (end([0, 1, 2]), end([2, 0, 1]));
+    for (a, b) in one.iter().flatten().zip(two.iter().flatten()) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn solids_stand_on_a_plane_as_they_should() {
+    let m = material(0.5, 0.0);
+    let turned = |shape, turn: [f64; 3], height: f64| {
+        let model = on_a_plane(shape, 0.0, m, m);
+        let mut x = placed(&model, 0.0, height);
+        Quat::exp(Vec3(turn)).write(&mut x.q[3..7]);
+        let start = x.q.clone();
+        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-9, 1e-3);
+        world.settle_start(0.0);
+        run(&mut world, 0.02, 50);
+        let seen = world.observe(1.0);
+        let force: f64 = seen.contacts().map(|c| c.force[2]).sum();
+        let weight = G * seen.model().total_mass();
+        assert!((force - weight).abs() < 1e-9 * weight, "{shape:?} {turn:?}: {force} {weight}");
+        for k in 0..7 {
+            assert!((seen.state.q[k] - start[k]).abs() < 1e-11, "{shape:?} {turn:?} {k}");
+        }
+    };
+    let half_pi = std::f64::consts::FRAC_PI_2;
+    turned(Shape::Cylinder { radius: 0.1, length: 0.3 }, [0.0; 3], 0.15);
+    turned(Shape::Cylinder { radius: 0.1, length: 0.3 }, [half_pi, 0.0, 0.0], 0.1);
+    turned(Shape::Capsule { radius: 0.1, length: 0.3 }, [half_pi, 0.0, 0.0], 0.1);
+    turned(Shape::Cuboid { size: [0.1, 0.2, 0.3] }, [half_pi, 0.0, 0.0], 0.1);
+    turned(Shape::Cone { radius: 0.1, length: 0.2 }, [0.0; 3], 0.05);
+}
+
+#[test]
+fn a_compliant_floor_bounces_like_a_spring() {
+    // without dissipation the ball leaves as fast as it came, after half a period and a little
+    let (r, h, k) = (0.05, 0.1, 1e4);
+    let soft = Material { stiffness: k, ..material(0.0, 0.0) };
+    let model = on_a_plane(Shape::Sphere { radius: r }, 0.0, soft, material(0.0, 0.0));
+    let m = model.total_mass();
+    let x = placed(&model, 0.0, r + h);
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
+    let t0 = (2.0 * h / G).sqrt();
+    let v0 = G * t0;
+    let w = (k / m).sqrt();
+    // δ'' = g − ω² δ from δ = 0, δ' = v0: back at δ = 0 after (2π − 2 atan2(v0 ω, g))/ω… measured from the static depth
+    let contact = 2.0 * (std::f64::consts::PI - libm::atan2(v0 * w, G)) / w;
+    let t = 2.0 * t0 + contact;
+    run(&mut world, t / 100.0, 100);
+    assert!((world.state.q[2] - r - h).abs() < 1e-8, "{:e}", world.state.q[2] - r - h);
+}

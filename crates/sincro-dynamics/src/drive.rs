@@ -15,6 +15,8 @@ pub enum DriveKind {
     Friction,
     /// Velocity or position motor of this index.
     Motor(usize),
+    /// Nothing moves: a degree of freedom of a force sensor.
+    Lock,
 }
 
 /// One drive of a model; several may act on one degree of freedom.
@@ -31,6 +33,7 @@ impl Drive {
     #[inline(always)]
     pub(crate) fn limit<R: Real>(&self, model: &Model<R>) -> Option<R> {
         let limit = match self.kind {
+            DriveKind::Lock => return None,
             DriveKind::Friction => model.dofs[self.dof].friction,
             DriveKind::Motor(i) => model.motors[i].max_torque,
         };
@@ -41,18 +44,20 @@ impl Drive {
     #[inline(always)]
     pub(crate) fn wanted<R: Real>(&self, model: &Model<R>, q: &[R], commands: &[R]) -> R {
         match self.kind {
-            DriveKind::Friction => R::zero(),
+            DriveKind::Friction | DriveKind::Lock => R::zero(),
             DriveKind::Motor(i) => model.motors[i].wanted_velocity(q[model.dofs[self.dof].q_idx as usize], commands[i]),
         }
     }
 }
 
-/// The drives that a model has: friction first, then motors.
+/// The drives that a model has: friction first, then motors, then what is locked.
 pub(crate) fn drives_of<R: Real>(model: &Model<R>) -> Vec<Drive> {
     let zero = R::zero();
     let friction = model.dofs.iter().enumerate().filter(|(_, d)| d.friction != zero);
     let friction = friction.map(|(dof, _)| Drive { dof, kind: DriveKind::Friction });
     let motors = model.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
     let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(i) });
-    friction.chain(motors).collect()
+    let sensors = model.names.joints.iter().filter(|j| j.kind == crate::joint::JointKind::Fixed);
+    let locked = sensors.flat_map(|j| (j.v_idx..j.v_idx + j.n_v).map(|dof| Drive { dof, kind: DriveKind::Lock }));
+    friction.chain(motors).chain(locked).collect()
 }

@@ -16,6 +16,7 @@
 //! | what touches what | [`contact`] |
 //! | a world that advances | [`integrate`], [`world`] |
 //! | the air that moves | [`wind`] |
+//! | whether it can start so | [`start`] |
 //! | how stiff it is | [`stiffness`] |
 //! | what is integrated along, such as a diagram | [`attachment`] |
 //! | many worlds at once | [`batch`] |
@@ -41,6 +42,7 @@ pub mod rnea;
 pub mod scratch;
 pub mod signal;
 pub mod spatial;
+pub mod start;
 pub mod state;
 pub mod stiffness;
 pub mod wind;

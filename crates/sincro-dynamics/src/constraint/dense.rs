@@ -1,9 +1,14 @@
-//! A small dense system solved by elimination with complete pivoting: it tells the rank, and what is redundant gets nothing.
+//! A small dense system solved by elimination with complete pivoting: it tells the rank, and what is redundant gets nothing. Rows and columns are
+//! first scaled to a diagonal of one, so that rank does not depend on masses and units.
 
 use sincro_math::Real;
 
-/// Pivots smaller than this share of the largest are rounding: their rows depend on the others.
-const RANK_TOLERANCE: f64 = 1e-11;
+/// Scaled pivots below this are rounding: their rows depend on the others.
+pub(crate) const RANK: f64 = 1e-11;
+
+/// Scaled pivots below this are too small to project along: close to a singular position of a loop (0.2° off one for arms of equal length) what is a
+/// thousandth of a micrometre across the loop is a micrometre along it, and taking it away would throw the mechanism off its branch.
+pub(crate) const PROJECTION_RANK: f64 = 1e-5;
 
 /// Matrix, right-hand side and orders of elimination; grows to the largest system it has seen.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +18,7 @@ pub(crate) struct Dense<R> {
     pub rhs: Vec<R>,
     columns: Vec<usize>,
     rows: Vec<usize>,
+    scale: Vec<f64>,
     /// Rank found by the last [`Dense::solve`].
     pub rank: usize,
 }
@@ -40,18 +46,29 @@ impl<R: Real> Dense<R> {
         &self.rows[self.rank..]
     }
 
-    /// Solves; unknowns that nothing determines are zero. The matrix is spent.
-    pub fn solve(&mut self, out: &mut [R]) {
+    fn normalize(&mut self) {
+        let n = self.n;
+        self.scale.clear();
+        for i in 0..n {
+            let d = self.a[i * n + i].lane(0).abs();
+            self.scale.push(if d > 0.0 && d.is_finite() { 1.0 / d.sqrt() } else { 1.0 });
+        }
+        for i in 0..n {
+            for j in 0..n {
+                self.a[i * n + j] *= R::splat(self.scale[i] * self.scale[j]);
+            }
+            self.rhs[i] *= R::splat(self.scale[i]);
+        }
+    }
+
+    /// Solves; unknowns that nothing determines, to the tolerance `rank`, are zero. The matrix is spent.
+    pub fn solve(&mut self, rank: f64, out: &mut [R]) {
+        self.normalize();
         let n = self.n;
         self.rank = n;
-        let mut largest = 0.0;
         for k in 0..n {
             let (p, q, size) = self.pivot(k);
-            if k == 0 {
-                largest = size;
-            }
-            // NaN must not look like a rank
-            if size <= RANK_TOLERANCE * largest {
+            if size <= rank {
                 self.rank = k;
                 break;
             }
@@ -65,6 +82,9 @@ impl<R: Real> Dense<R> {
                 sum -= self.a[k * n + j] * out[self.columns[j]];
             }
             out[self.columns[k]] = sum / self.a[k * n + k];
+        }
+        for (x, scale) in out.iter_mut().zip(&self.scale) {
+            *x *= R::splat(*scale);
         }
     }
 
@@ -133,7 +153,7 @@ mod tests {
             d.rhs[i] = a[i][0] - 2.0 * a[i][1] + a[i][2];
         }
         let mut x = [9.0; 3];
-        d.solve(&mut x);
+        d.solve(RANK, &mut x);
         assert_eq!(d.rank, 2);
         assert_eq!(d.redundant().len(), 1);
         for i in 0..3 {

@@ -164,6 +164,7 @@ impl Mechanism<f64> {
     /// last evaluation found.
     pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
         let n = self.model.n_v();
+        let mut last = f64::INFINITY;
         for k in 0..MAX_PROJECTIONS {
             if !self.prepare(y, k == 0) {
                 return;
@@ -171,9 +172,12 @@ impl Mechanism<f64> {
             let c = self.constraints.as_deref_mut().expect("prepared");
             // sticking has no place to be, only no speed
             c.keep_equations(false);
-            if c.worst(&y[n..2 * n]).0 <= PROJECTED {
+            let worst = c.worst(&y[n..2 * n]).0;
+            // close to a singular position there may be something that must not be taken away
+            if worst <= PROJECTED || worst > 0.5 * last {
                 break;
             }
+            last = worst;
             self.factor(true);
             let mut change = core::mem::take(&mut self.constraint_change);
             let c = self.constraints.as_deref_mut().expect("prepared");
@@ -196,6 +200,21 @@ impl Mechanism<f64> {
             y[n + k] += change[k];
         }
         self.constraint_change = change;
+    }
+
+    /// Number of equations of closures that follow from others, at the chart's origin.
+    pub(crate) fn redundant(&mut self, y: &[f64]) -> usize {
+        if !self.prepare(y, false) {
+            return 0;
+        }
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.keep_equations(false);
+        self.factor(true);
+        let mut change = core::mem::take(&mut self.constraint_change);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.project(&self.model, &mut self.scratch, None, &mut change);
+        self.constraint_change = change;
+        self.constraints.as_deref().map_or(0, |c| c.solver.redundant)
     }
 
     /// Rows at the chart's origin; false if there are none.

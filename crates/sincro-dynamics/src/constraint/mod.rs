@@ -38,6 +38,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use cone::{Block, Grip, Group};
+use dense::PROJECTION_RANK;
 use memory::Memory;
 use row::{Motions, Row, force_at, force_rate};
 use solve::Solver;
@@ -117,6 +118,8 @@ pub(crate) enum Level {
 pub struct ContactPoint {
     /// Index of the pair.
     pub pair: usize,
+    /// Indices of the two surfaces; the force is on the first one.
+    pub surfaces: [usize; 2],
     /// Where `[m]`, world axes.
     pub point: Vec3<f64>,
     /// From the second surface to the first.
@@ -534,9 +537,17 @@ impl Constraints<f64> {
             Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
             None => self.b.extend_from_slice(&self.residual),
         }
+        self.solver.rank = PROJECTION_RANK;
         self.solver.correct(&self.a, &self.b, self.n_free, &[], &mut self.lambda);
         out.fill(0.0);
         self.push(model, scratch, out, false);
+    }
+
+    /// Torque of the stops on a degree of freedom, as of the last evaluation.
+    pub fn limit_torque(&self, model: &Model<f64>, dof: usize) -> f64 {
+        let limits = &model.constraints.limits;
+        let on = |b: &&Block<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
+        self.blocks.iter().filter(on).map(|b| limits[b.slot].sign * self.lambda[b.row]).sum()
     }
 
     /// Points of contact that press, with their forces, as of the last evaluation.
@@ -558,7 +569,10 @@ impl Constraints<f64> {
                 }
             }
             let pair = pair_of(set, k);
-            Some(ContactPoint { pair, point: at.point, normal: at.normal, force, torque, gap: at.gap })
+            let [one, two] = [set.pairs[pair].a, set.pairs[pair].b];
+            // a spot may have its rounded side on either
+            let surfaces = if set.colliders[one].link == self.spots[k]?.a { [one, two] } else { [two, one] };
+            Some(ContactPoint { pair, surfaces, point: at.point, normal: at.normal, force, torque, gap: at.gap })
         })
     }
 }

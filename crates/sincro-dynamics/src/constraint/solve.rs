@@ -9,7 +9,7 @@
 use sincro_math::Real;
 
 use super::cone::{Block, Grip, Problem};
-use super::dense::Dense;
+use super::dense::{Dense, RANK};
 
 /// Share of the largest force or rate that counts as zero in judging a guess.
 const SLACK: f64 = 1e-9;
@@ -47,6 +47,8 @@ pub(crate) struct Solver<R> {
     weights: Vec<R>,
     square: Vec<R>,
     pub report: SolverReport,
+    /// Scaled pivots below this are dropped in corrections.
+    pub rank: f64,
     /// Rows without bounds that the last linear system found redundant.
     pub redundant: usize,
 }
@@ -55,6 +57,7 @@ impl<R: Real> Solver<R> {
     /// Finds λ, which holds the last solution (or zeros) before, and the state of the blocks.
     pub fn solve(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &mut [Block<R>], lambda: &mut [R]) {
         self.report.solved += 1;
+        self.rank = RANK;
         for k in 0..REPAIRS {
             self.correct(a, b, n_free, blocks, lambda);
             self.saved.clear();
@@ -140,7 +143,7 @@ impl<R: Real> Solver<R> {
         }
         self.delta.clear();
         self.delta.resize(n, R::zero());
-        self.dense.solve(&mut self.delta);
+        self.dense.solve(self.rank, &mut self.delta);
         self.redundant = self.dense.redundant().iter().filter(|k| self.kept[**k] < n_free).count();
         for (&row, &change) in self.kept.iter().zip(&self.delta) {
             lambda[row] += change;
@@ -222,7 +225,7 @@ impl<R: Real> Solver<R> {
         }
         self.delta.clear();
         self.delta.resize(n, R::zero());
-        self.dense.solve(&mut self.delta);
+        self.dense.solve(RANK, &mut self.delta);
         for (k, &row) in self.kept.iter().enumerate() {
             let mut sum = R::zero();
             for i in 0..n {

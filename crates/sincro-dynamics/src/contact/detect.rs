@@ -48,7 +48,9 @@ impl Detector {
                 PairKind::CylinderOnPlane => cylinder_on_plane(a, b, (&at(a), &at(b)), slots),
                 PairKind::Balls => slots[0] = Some(balls(a, b)),
                 PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
-                PairKind::General => self.manifolds.find(k, (a, b), (&at(a), &at(b)), margin, slots),
+                PairKind::General => {
+                    self.manifolds.find(k, (pair.a, pair.b), (a, b), (&at(a), &at(b)), margin, slots);
+                }
             }
         }
     }

@@ -1,26 +1,229 @@
-//! Pairs without a closed form of their own: manifolds of the collision library.
+//! Pairs without a closed form of their own: manifolds of the collision library parry, which nothing else here sees.
+//!
+//! A point of a manifold becomes a spot: a rounded point of one body over a plane of the other, so that balls, capsules and the flanks of cylinders
+//! keep their curvature, and flat faces are exact. What the library remembers from one call to the next is thrown away, because a result must
+//! not depend on the past. Its cylinders, cones and height fields have their axis along y: axes are exchanged in cyclic order.
 
-use super::feature::Spot;
-use super::{Collider, Pair};
-use crate::spatial::Pose;
+use parry3d_f64::math::{Pose as LibraryPose, Vector};
+use parry3d_f64::query::{
+    ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
+};
+use parry3d_f64::shape::{SharedShape, TriMeshFlags};
+use parry3d_f64::utils::Array2;
 
-/// The library's shapes and manifolds.
-#[derive(Clone, Debug)]
-pub(crate) struct Manifolds;
+use super::feature::{Feature, Spot};
+use super::{Collider, Pair, PairKind, Surface};
+use crate::model::Shape;
+use crate::spatial::{Mat3, Pose, Quat, Vec3};
+
+/// A normal is across an axis if its component along it is below this.
+const ACROSS: f64 = 1e-9;
+
+/// A surface as the library has it, and where its frame stands in the surface's own.
+#[derive(Clone)]
+struct LibraryShape {
+    shape: SharedShape,
+    pose: Pose<f64>,
+}
+
+/// The library's shapes, one manifold list a pair.
+#[derive(Clone)]
+pub(crate) struct Manifolds {
+    shapes: Vec<Option<LibraryShape>>,
+    pairs: Vec<Vec<ContactManifold<(), ()>>>,
+    workspace: Option<ContactManifoldsWorkspace>,
+    /// Distance and spot of every point found.
+    found: Vec<(f64, Spot)>,
+}
+
+impl std::fmt::Debug for Manifolds {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Manifolds").field("pairs", &self.pairs.len()).finish_non_exhaustive()
+    }
+}
 
 impl Manifolds {
-    pub fn new(_: &[Collider], _: &[Pair]) -> Self {
-        Self
+    pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
+        let general = |k: usize| pairs.iter().any(|p| p.kind == PairKind::General && (p.a == k || p.b == k));
+        let shapes = colliders.iter().enumerate().map(|(k, c)| general(k).then(|| shape_of(&c.surface)).flatten());
+        Self { shapes: shapes.collect(), pairs: vec![Vec::new(); pairs.len()], workspace: None, found: Vec::new() }
     }
 
-    /// The spots of pair `k`.
+    /// Writes the spots of pair `k`: the deepest ones, in the library's order.
     pub fn find(
         &mut self,
-        _k: usize,
-        _: (&Collider, &Collider),
-        _: (&Pose<f64>, &Pose<f64>),
-        _margin: f64,
-        _slots: &mut [Option<Spot>],
+        k: usize,
+        (i, j): (usize, usize),
+        (a, b): (&Collider, &Collider),
+        (at_a, at_b): (&Pose<f64>, &Pose<f64>),
+        margin: f64,
+        slots: &mut [Option<Spot>],
     ) {
+        let (Some(one), Some(two)) = (&self.shapes[i], &self.shapes[j]) else { return };
+        let (x_1, x_2) = (at_a.compose(&one.pose), at_b.compose(&two.pose));
+        let x_12 = x_1.inverse().compose(&x_2);
+        let manifolds = &mut self.pairs[k];
+        self.found.clear();
+        if let [manifold] = &mut manifolds[..]
+            && is_convex(a)
+            && is_convex(b)
+        {
+            // keeps its memory, forgets its points
+            manifold.clear();
+        } else {
+            manifolds.clear();
+        }
+        self.workspace = None;
+        let (g1, g2) = (&*one.shape.0, &*two.shape.0);
+        let done = DefaultQueryDispatcher.contact_manifolds(
+            &library_pose(&x_12),
+            g1,
+            g2,
+            margin,
+            manifolds,
+            &mut self.workspace,
+        );
+        if done.is_err() {
+            return;
+        }
+        for manifold in manifolds.iter() {
+            let side = |pose: Option<&LibraryPose>, p: Vector| vec3(pose.map_or(p, |pose| *pose * p));
+            let turned = |pose: Option<&LibraryPose>, n: Vector| vec3(pose.map_or(n, |pose| pose.rotation * n));
+            let n_1 = turned(manifold.subshape_pos1(), manifold.local_n1);
+            // the normal in both surfaces' frames, out of each
+            let n_a = one.pose.rot.mul_vec(n_1);
+            let n_b = -at_b.rot.tr_mul_vec(at_a.rot.mul_vec(n_a));
+            for point in manifold.points.iter().filter(|p| p.dist <= margin) {
+                let p_a = one.pose.point(side(manifold.subshape_pos1(), point.local_p1));
+                let p_b = two.pose.point(side(manifold.subshape_pos2(), point.local_p2));
+                self.found.push((point.dist, spot((a, p_a, n_a), (b, p_b, n_b))));
+            }
+        }
+        fill(&mut self.found, slots);
     }
+}
+
+/// The deepest spots, in the order found.
+fn fill(found: &mut Vec<(f64, Spot)>, slots: &mut [Option<Spot>]) {
+    while found.len() > slots.len() {
+        let shallowest = (1..found.len()).fold(0, |worst, k| if found[k].0 > found[worst].0 { k } else { worst });
+        found.remove(shallowest);
+    }
+    for (slot, (_, spot)) in slots.iter_mut().zip(found) {
+        *slot = Some(*spot);
+    }
+}
+
+fn is_convex(c: &Collider) -> bool {
+    matches!(c.surface, Surface::Solid(_) | Surface::Hull(_) | Surface::HalfSpace)
+}
+
+/// A spot from the points of two surfaces that are closest, and the normals out of each; all in the surfaces' own frames.
+fn spot((a, p_a, n_a): (&Collider, Vec3<f64>, Vec3<f64>), (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>)) -> Spot {
+    let (core_a, core_b) = (core(a, p_a, n_a), core(b, p_b, n_b));
+    if core_a.radius == 0.0 && core_b.radius > 0.0 {
+        return over_plane((b, core_b), (a, p_a, n_a));
+    }
+    if core_b.radius == 0.0 {
+        return over_plane((a, core_a), (b, p_b, n_b));
+    }
+    let origin = b.pose.point(core_b.point);
+    let feature = match core_b.axis {
+        Some(axis) => Feature::Line { origin, direction: b.pose.rot.mul_vec(axis) },
+        None => Feature::Point { origin },
+    };
+    Spot {
+        a: a.link,
+        b: b.link,
+        point: a.pose.point(core_a.point),
+        radius: core_a.radius + core_b.radius,
+        radius_a: core_a.radius,
+        rim: None,
+        feature,
+    }
+}
+
+fn over_plane((a, core): (&Collider, Core), (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>)) -> Spot {
+    Spot {
+        a: a.link,
+        b: b.link,
+        point: a.pose.point(core.point),
+        radius: core.radius,
+        radius_a: core.radius,
+        rim: None,
+        feature: Feature::Plane { origin: b.pose.point(p_b), normal: b.pose.rot.mul_vec(n_b) },
+    }
+}
+
+/// What is inside a rounded surface at a point of it.
+#[derive(Clone, Copy)]
+struct Core {
+    point: Vec3<f64>,
+    radius: f64,
+    /// Where the core is a line.
+    axis: Option<Vec3<f64>>,
+}
+
+/// The core under the point `p` with normal `n` outwards.
+fn core(c: &Collider, p: Vec3<f64>, n: Vec3<f64>) -> Core {
+    let z = Some(Vec3([0.0, 0.0, 1.0]));
+    let inside = |radius: f64, axis| Core { point: p - n.scale(radius), radius, axis };
+    match c.surface {
+        Surface::Solid(Shape::Sphere { radius }) => inside(radius, None),
+        Surface::Solid(Shape::Capsule { radius, length }) => {
+            let core = inside(radius, None);
+            let on_flank = n[2].abs() < ACROSS && core.point[2].abs() < 0.5 * length;
+            Core { axis: z.filter(|_| on_flank), ..core }
+        }
+        Surface::Solid(Shape::Cylinder { radius, .. }) if n[2].abs() < ACROSS => inside(radius, z),
+        _ => Core { point: p, radius: 0.0, axis: None },
+    }
+}
+
+/// Axes (x, y, z) of ours as (y, z, x) of the library's.
+const CYCLIC: Mat3<f64> = Mat3([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+
+fn shape_of(surface: &Surface) -> Option<LibraryShape> {
+    let points = |list: &[[f64; 3]]| list.iter().map(|p| Vector::from_array(*p)).collect::<Vec<_>>();
+    let plain = |shape: SharedShape| Some(LibraryShape { shape, pose: Pose::identity() });
+    let turned =
+        |shape: SharedShape, z: f64| Some(LibraryShape { shape, pose: Pose { rot: CYCLIC, pos: Vec3([0.0, 0.0, z]) } });
+    match surface {
+        Surface::Solid(Shape::Sphere { radius }) => plain(SharedShape::ball(*radius)),
+        Surface::Solid(Shape::Cuboid { size: [x, y, z] }) => plain(SharedShape::cuboid(0.5 * x, 0.5 * y, 0.5 * z)),
+        Surface::Solid(Shape::Capsule { radius, length }) => plain(SharedShape::capsule_z(0.5 * length, *radius)),
+        Surface::Solid(Shape::Cylinder { radius, length }) => turned(SharedShape::cylinder(0.5 * length, *radius), 0.0),
+        // ours has its centre of mass in the origin, the library's the middle of its height
+        Surface::Solid(Shape::Cone { radius, length }) => {
+            turned(SharedShape::cone(0.5 * length, *radius), 0.25 * length)
+        }
+        Surface::HalfSpace => plain(SharedShape::halfspace(Vector::Z)),
+        Surface::Hull(list) => plain(SharedShape::convex_hull(&points(list))?),
+        Surface::Mesh(vertices, triangles) => {
+            let flags = TriMeshFlags::FIX_INTERNAL_EDGES | TriMeshFlags::ORIENTED;
+            plain(SharedShape::trimesh_with_flags(points(vertices), triangles.clone(), flags).ok()?)
+        }
+        Surface::HeightField { columns, heights, size } => {
+            let rows = heights.len() / columns;
+            // the library's rows go along its z, our x; its columns along its x, our y; stored column by column
+            let stored: Vec<f64> = (0..rows)
+                .flat_map(|j| (0..*columns).map(move |i| (i, j)))
+                .map(|(i, j)| heights[j * columns + i])
+                .collect();
+            let grid = Array2::new(*columns, rows, stored);
+            turned(SharedShape::heightfield(grid, Vector::new(size[1], 1.0, size[0])), 0.0)
+        }
+    }
+}
+
+fn library_pose(x: &Pose<f64>) -> LibraryPose {
+    let q = Quat::from_matrix(&x.rot);
+    let mut pose = LibraryPose::IDENTITY;
+    pose.translation = Vector::from_array(x.pos.0);
+    (pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w) = (q.xyz[0], q.xyz[1], q.xyz[2], q.w);
+    pose
+}
+
+fn vec3(v: Vector) -> Vec3<f64> {
+    Vec3([v.x, v.y, v.z])
 }

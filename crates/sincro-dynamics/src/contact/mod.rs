@@ -91,6 +91,8 @@ pub enum Surface {
 pub struct Collider {
     /// Name of the body.
     pub name: String,
+    /// Its index among the frames of the model's names; `usize::MAX` for the world itself.
+    pub frame: usize,
     /// The link, `WORLD` for none.
     pub(crate) link: u32,
     /// In the link, or the world.

@@ -41,6 +41,8 @@ pub struct JointSpec {
     pub friction: Vec<f64>,
     /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
+    /// Of a fixed joint: whether the wrench through it is measured. It then is a link of its own, whose six degrees of freedom are held.
+    pub sensor: bool,
     /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`, and the restitution of the stops.
     pub limits: Vec<(f64, f64)>,
     /// Speed of leaving a stop over speed of arriving, 0 to 1.
@@ -60,6 +62,7 @@ impl JointSpec {
             damping: Vec::new(),
             friction: Vec::new(),
             torque: Vec::new(),
+            sensor: false,
             limits: Vec::new(),
             limit_restitution: 0.0,
             motor: None,

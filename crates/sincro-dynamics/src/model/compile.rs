@@ -230,7 +230,8 @@ impl Compiler<'_> {
             .iter()
             .map(|(node, pose, surface, material)| {
                 let Anchor { name, link, pose } = anchor(*node, pose);
-                Collider { name, link, pose, surface: surface.clone(), material: *material }
+                let frame = self.names.frames.iter().position(|f| f.node == *node).unwrap_or(usize::MAX);
+                Collider { name, frame, link, pose, surface: surface.clone(), material: *material }
             })
             .collect();
         let parent = |link: u32| self.model.links[link as usize].parent;
@@ -247,7 +248,10 @@ impl Compiler<'_> {
 
     /// Adds the stages of a joint; returns what carries its child frame.
     fn joint(&mut self, node: NodeId, at: Carrier, spec: &JointSpec) -> Carrier {
-        let stages = stages(&spec.kind);
+        let mut stages = stages(&spec.kind);
+        if spec.sensor && stages.is_empty() {
+            stages.push(StageSpec { family: Family::Free, axis: Z, pitch: 0.0 });
+        }
         if stages.is_empty() {
             return at;
         }

@@ -92,6 +92,7 @@ impl World {
             let impulse = self.mechanism.scratch.reaction[drive.dof];
             let work = impulse * (self.wanted[i] - 0.5 * self.mechanism.held_acceleration[drive.dof]);
             match drive.kind {
+                DriveKind::Lock => {}
                 DriveKind::Friction => self.y[2 * n + 1] -= work,
                 DriveKind::Motor(motor) => {
                     self.y[2 * n] += work;

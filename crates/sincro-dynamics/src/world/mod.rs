@@ -10,8 +10,8 @@ mod contacts;
 mod drives;
 
 use crate::attachment::{Alone, Attachment, Coupled, Seen};
-use crate::constraint::SolverReport;
 use crate::constraint::events::Closing;
+use crate::constraint::{ContactPoint, SolverReport};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
 use crate::force::rotor::{RotorLaw, SpeedFrom};
@@ -29,6 +29,9 @@ const SAME_INSTANT: f64 = 1e-9;
 
 /// Changes of drives in one tick beyond which they are said to chatter.
 const MAX_EVENTS: usize = 10_000;
+
+/// Constraint problems without a fitting solution beyond which a run stops.
+const MAX_UNSOLVED: u64 = 100_000;
 
 /// How a world is integrated.
 #[derive(Clone, Debug)]
@@ -61,6 +64,13 @@ pub enum MethodKind {
 pub enum Stop {
     /// The integrator could not go on.
     Integration(Failure),
+    /// Too many constraint problems had no solution that fits.
+    Unsolved {
+        /// Where `[s]`.
+        t: f64,
+        /// The largest misfit, as a share of the largest force or rate.
+        residual: f64,
+    },
     /// Drives changed state too often within one tick.
     Chatter {
         /// Where `[s]`.
@@ -133,6 +143,31 @@ impl Observation<'_> {
         friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
     }
 
+    /// Points of contact that press now, with their forces.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
+        contacts_of(self.mechanism)
+    }
+
+    /// How far closure `k` is open (couplings after closures) `[m]` or `[rad]`.
+    #[must_use]
+    pub fn opening(&self, k: usize) -> f64 {
+        let set = self.model().constraints();
+        match set.closures.get(k) {
+            Some(closure) => closure.opening(self.scratch()).0,
+            None => {
+                let coupling = &set.couplings[k - set.closures.len()];
+                let [q1, q2] = coupling.coordinates.map(|k| self.state.q[k]);
+                (q2 - coupling.ratio * q1 - coupling.offset).abs()
+            }
+        }
+    }
+
+    /// Torque [N·m] or force `[N]` of the stops on a degree of freedom now.
+    #[must_use]
+    pub fn limit_torque(&self, dof: usize) -> f64 {
+        self.mechanism.constraints.as_deref().map_or(0.0, |c| c.limit_torque(self.model(), dof))
+    }
+
     /// Poses, twists and accelerations of the links.
     #[must_use]
     pub fn scratch(&self) -> &Scratch<f64> {
@@ -150,6 +185,11 @@ impl Observation<'_> {
     pub fn momentum(&self) -> Force<f64> {
         momentum(self.model(), self.scratch())
     }
+}
+
+fn contacts_of(mechanism: &Mechanism<f64>) -> impl Iterator<Item = ContactPoint> {
+    let constraints = mechanism.constraints.as_deref();
+    constraints.into_iter().flat_map(|c| c.points(mechanism.model(), &mechanism.scratch))
 }
 
 impl World {
@@ -231,6 +271,17 @@ impl World {
     #[must_use]
     pub fn solver_report(&self) -> Option<SolverReport> {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
+    }
+
+    /// Points of contact that press, as of the last [`World::rates`] or [`World::observe`].
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
+        contacts_of(&self.mechanism)
+    }
+
+    /// Torque or force that a held degree of freedom needed in the last [`World::rates`] or [`World::observe`] [N·m], `[N]`.
+    #[must_use]
+    pub fn reaction(&self, dof: usize) -> f64 {
+        self.mechanism.scratch.reaction[dof]
     }
 
     /// The error control of the method, none for fixed steps. Part of what a snapshot holds.
@@ -447,6 +498,9 @@ impl World {
                 self.touch();
                 self.settle(t, attachment);
                 self.settle_contacts(t, attachment);
+            }
+            if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
+                return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
             }
             let limited = self.has_limited_drives() || self.is_constrained();
             let control = if limited { self.control() } else { None };

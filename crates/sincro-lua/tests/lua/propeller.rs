@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sincro_dynamics::force::rotor::{Drag, RotorSpec, Spin, printed};
-use sincro_dynamics::spatial::{Quat, Vec3};
+use sincro_dynamics::spatial::{Mat3, Quat, Vec3};
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::run::{Halt, LockStep};
 use sincro_sim::session::{Reference, Search};
@@ -103,7 +103,7 @@ fn the_printed_script_gives_what_its_formulas_give() {
         desk.set_target_velocity(joint, speed).unwrap();
         let (velocity, _) = desk.center_velocity(propeller).unwrap();
         let rotation = desk.pose(propeller, Reference::World).unwrap().rot.0;
-        let expected = printed::evaluate(&rotor, 1.225, speed + 1e-5, velocity, rotation);
+        let expected = printed::evaluate(&rotor, 1.225, speed + 1e-5, Vec3(velocity), &Mat3(rotation));
         let advanced = run.advance();
         let table = &run.desk().unwrap().table;
         let signal = |name: &str| *table.floats.get(name).unwrap();

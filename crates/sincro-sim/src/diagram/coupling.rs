@@ -216,6 +216,10 @@ impl Control<f64> {
     /// The first block, in the order of evaluation, whose output is not finite.
     pub fn look(&mut self, world: &mut World, tick: u64, t: f64) -> Result<(), NotFinite> {
         self.tick = tick;
+        if self.feels_contact() {
+            // forces of contact under the commands that led here
+            world.rates(t);
+        }
         self.read_tick_sums(world, tick);
         world.with_seen(t, |mut seen| self.read_state(&mut seen, false));
         self.runner.evaluate(tick, t);
@@ -258,7 +262,11 @@ impl Control<f64> {
         self.runner.evaluate_late(tick, t);
     }
 
-    /// Means and sums over the step that ended.
+    fn feels_contact(&self) -> bool {
+        self.wiring.early.iter().any(|r| r.probes.iter().any(|p| matches!(p, Probe::Contact(..) | Probe::Reaction(_))))
+    }
+
+    /// Means and sums over the step that ended, and forces of contact at its end.
     fn read_tick_sums(&mut self, world: &World, tick: u64) {
         let totals = &world.state.totals;
         let step = self.wiring.program.step;
@@ -268,6 +276,10 @@ impl Control<f64> {
                 let x = match *probe {
                     Probe::MotorTorqueMean(_) if tick == 0 => 0.0,
                     Probe::MotorTorqueMean(m) => (totals[2 + m] - self.impulse[m]) / step,
+                    Probe::Contact(quantity, frame, k) => {
+                        crate::record::contact::read(world.model(), world.contacts(), quantity, frame, k)
+                    }
+                    Probe::Reaction(k) => world.reaction(k),
                     Probe::Energy(E::Work) => totals[0],
                     Probe::Energy(E::Dissipated) => totals[1],
                     _ => 0.0,

@@ -10,7 +10,7 @@ use sincro_dynamics::force::MotorMode;
 use sincro_dynamics::model::Model;
 
 use crate::record::probe::depends_on_command;
-use crate::record::{EnergyQuantity, Entry, FrameQuantity, Probe, catalogue};
+use crate::record::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, Probe, catalogue};
 
 /// A measurement: where its components are read.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +82,13 @@ pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
 
 /// Whether a measurement is known at ticks only: what is summed up over a step.
 pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
-    matches!(probe, Probe::MotorTorqueMean(_) | Probe::Energy(EnergyQuantity::Work | EnergyQuantity::Dissipated))
+    matches!(
+        probe,
+        Probe::MotorTorqueMean(_)
+            | Probe::Contact(..)
+            | Probe::Reaction(_)
+            | Probe::Energy(EnergyQuantity::Work | EnergyQuantity::Dissipated)
+    )
 }
 
 /// Everything that can be commanded, in the order of the world's commands.
@@ -113,6 +119,12 @@ fn unit_of(text: &str) -> Option<Unit> {
 fn can_be_measured(probe: Probe) -> bool {
     !matches!(
         probe,
-        Probe::Command(_) | Probe::FrictionTorque(_) | Probe::Energy(EnergyQuantity::Balance) | Probe::Signal(_)
+        Probe::Command(_)
+            | Probe::FrictionTorque(_)
+            | Probe::LimitTorque(_)
+            | Probe::Opening(_)
+            | Probe::Contact(ContactQuantity::Point | ContactQuantity::Normal, ..)
+            | Probe::Energy(EnergyQuantity::Balance)
+            | Probe::Signal(_)
     )
 }

@@ -84,7 +84,15 @@ pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Li
     let (rates, outputs) = lens.evaluate(None);
     let (rate, output) = (rates.iter().map(|x| x.value).collect(), outputs.iter().map(|x| x.value).collect());
     let (state, input) = (lens.state_values(), lens.input_values());
-    Ok(Linearization { system, state, input, output, rate, notes: names.notes })
+    let mut notes = names.notes;
+    let set = loaded.scene.model.constraints();
+    if !set.pairs.is_empty() || !set.limits.is_empty() {
+        notes.push("contacts and limits of joints are left out: the linearisation is of the free motion".into());
+    }
+    if set.n_bilateral() > 0 {
+        notes.push("closed loops make some of the states depend on others: they show as poles at zero".into());
+    }
+    Ok(Linearization { system, state, input, output, rate, notes })
 }
 
 /// An axis from a name and a unit.

@@ -7,7 +7,7 @@ use sincro_dynamics::force::rotor::RotorLaw;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
 
-use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
+use super::{ContactQuantity, EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
 
 /// A signal on offer.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,6 +87,7 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     if model.wind().is_some() {
         list.vector("wind", &XYZ, "m/s", Probe::Wind);
     }
+    contact_signals(&mut list, model);
     world_signals(&mut list);
     list.0
 }
@@ -101,7 +102,10 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
     let name = &joint.name;
     let (q, v) = (joint.q_idx, joint.v_idx);
     match joint.kind {
-        JointKind::Fixed => {}
+        JointKind::Fixed => {
+            list.vector(&format!("{name}.force"), &XYZ, "N", |k| Probe::Reaction(v + 3 + k));
+            list.vector(&format!("{name}.torque"), &XYZ, "N·m", |k| Probe::Reaction(v + k));
+        }
         JointKind::Revolute { .. } | JointKind::Screw { .. } => scalar(list, name, "", &ANGLE, q, v),
         JointKind::Prismatic { .. } => scalar(list, name, "", &LENGTH, q, v),
         JointKind::Universal { .. } => {
@@ -171,6 +175,36 @@ fn frame_signals(list: &mut List, name: &str, i: usize, is_body: bool) {
     list.vector(&format!("{name}.acceleration"), &XYZ, "m/s²", at(F::Acceleration));
     if is_body {
         list.vector(&format!("{name}.center_of_mass"), &XYZ, "m", at(F::CenterOfMass));
+    }
+}
+
+/// Of every body with a contact, every joint with stops, every closure.
+fn contact_signals(list: &mut List, model: &Model<f64>) {
+    use ContactQuantity as Q;
+    let set = model.constraints();
+    for (i, frame) in model.names().frames.iter().enumerate() {
+        if !set.colliders.iter().any(|c| c.frame == i) {
+            continue;
+        }
+        let at = |quantity: Q| move |k: usize| Probe::Contact(quantity, i, k);
+        let name = &frame.name;
+        list.vector(&format!("{name}.contact_force"), &XYZ, "N", at(Q::Force));
+        list.vector(&format!("{name}.contact_torque"), &XYZ, "N·m", at(Q::Torque));
+        list.vector(&format!("{name}.contact_point"), &XYZ, "m", at(Q::Point));
+        list.vector(&format!("{name}.contact_normal"), &XYZ, "1", at(Q::Normal));
+        list.add(format!("{name}.normal_force"), "N", Probe::Contact(Q::NormalForce, i, 0));
+        list.add(format!("{name}.friction_force"), "N", Probe::Contact(Q::FrictionForce, i, 0));
+        list.add(format!("{name}.contacts"), "1", Probe::Contact(Q::Count, i, 0));
+    }
+    for joint in &model.names().joints {
+        let torque = if matches!(joint.kind, JointKind::Prismatic { .. }) { "N" } else { "N·m" };
+        if joint.n_v == 1 && set.limits.iter().any(|l| l.dof == joint.v_idx) {
+            list.add(format!("{}.limit_torque", joint.name), torque, Probe::LimitTorque(joint.v_idx));
+        }
+    }
+    let closures = set.closures.iter().map(|c| &c.name);
+    for (k, name) in closures.chain(set.couplings.iter().map(|c| &c.name)).enumerate() {
+        list.add(format!("{name}.opening"), if k < set.closures.len() { "m" } else { "" }, Probe::Opening(k));
     }
 }
 

@@ -4,9 +4,11 @@
 //! no look-up and no allocation.
 
 mod catalogue;
+pub(crate) mod contact;
 pub(crate) mod probe;
 
 pub use catalogue::{Entry, catalogue};
+pub use contact::ContactQuantity;
 
 use sincro_dynamics::attachment::Response;
 use sincro_dynamics::energy::Energy;
@@ -52,6 +54,14 @@ pub enum Probe {
     Drag(usize, usize),
     /// Component of the wind at its reference height.
     Wind(usize),
+    /// Component of what touches a body.
+    Contact(ContactQuantity, usize, usize),
+    /// Torque of the stops of a joint.
+    LimitTorque(usize),
+    /// How far a closure is open.
+    Opening(usize),
+    /// What a degree of freedom of a force sensor holds.
+    Reaction(usize),
     /// Signal of the diagram.
     Signal(usize),
 }
@@ -180,6 +190,10 @@ impl Recorder {
                 if span > 0.0 { (state.totals[2 + m] - self.motor_impulse[m]) / span } else { 0.0 }
             }
             Probe::FrictionTorque(k) => seen.friction_torque(k),
+            Probe::LimitTorque(k) => seen.limit_torque(k),
+            Probe::Contact(quantity, frame, k) => contact::read(seen.model(), seen.contacts(), quantity, frame, k),
+            Probe::Opening(k) => seen.opening(k),
+            Probe::Reaction(k) => seen.scratch().reaction()[k],
             probe => {
                 let view = View::observed(seen, t);
                 let response = Response { accelerations: seen.accelerations, motor_torque: seen.motor_torque() };

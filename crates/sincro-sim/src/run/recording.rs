@@ -127,6 +127,7 @@ impl Recording {
         let (energy, effort) = (ledger.close(world), world.effort());
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
+        warnings.extend(about_constraints(world));
         let (messages, n_more) = lockstep.messages();
         if n_more > 0 {
             warnings.push(format!("scripts said {n_more} more things than are kept"));
@@ -134,6 +135,24 @@ impl Recording {
         let messages = messages.to_vec();
         Ok(Simulated { table, status, method, trace, tape, energy, effort, outside, warnings, messages, wall_time })
     }
+}
+
+/// What the user should know of the constraint solver's work.
+fn about_constraints(world: &World) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let rough = world.effort().rough_ticks;
+    if rough > 0 {
+        warnings.push(format!(
+            "contacts changed so often that {rough} steps were finished at velocity level, to first order: take a smaller step, or compliant contacts"
+        ));
+    }
+    if let Some(report) = world.solver_report().filter(|r| r.not_converged > 0) {
+        warnings.push(format!(
+            "the constraint solver did not converge in {} of {} problems; forces or rates miss their laws by up to {:.1e} of the largest",
+            report.not_converged, report.solved, report.worst_residual
+        ));
+    }
+    warnings
 }
 
 /// Follows the balance of energy.

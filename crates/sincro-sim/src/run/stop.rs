@@ -64,6 +64,9 @@ fn explain(
         Stop::Integration(Failure::StepTooSmall { h, .. }) => {
             format!("`{}` found no step small enough (down to {h:.1e} s)", method_word(method))
         }
+        Stop::Unsolved { residual, .. } => {
+            format!("the constraint solver found no forces that fit 100,000 times (misfit up to {residual:.1e})")
+        }
         Stop::Chatter { .. } => "a limited motor or a friction changed too often within one step".to_owned(),
     };
     if let Some(rotor) = world.rotor_without_load() {

@@ -26,7 +26,7 @@ impl Trace {
     /// Adds the state after one more tick.
     pub fn add(&mut self, state: &State<f64>) {
         let mut hasher = XxHash3_64::with_seed(self.0);
-        let parts = [&state.q, &state.v, &state.commands, &state.drives, &state.totals, &state.rotors];
+        let parts = [&state.q, &state.v, &state.commands, &state.drives, &state.contacts, &state.totals, &state.rotors];
         for x in parts.into_iter().flatten() {
             hasher.write(&x.to_bits().to_le_bytes());
         }

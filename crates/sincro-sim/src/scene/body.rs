@@ -18,6 +18,13 @@ use crate::problem::{Problem, Problems};
 const UNIT: MassProperties =
     MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 1.0] };
 
+/// Whether a body has shapes that others touch and nothing that says what it weighs: then it must be fixed in the world.
+pub(super) fn is_fixture(file: &BodyFile) -> bool {
+    let weighs = file.mass.is_some() || file.density.is_some() || file.inertia.is_some();
+    let densities = file.shape.iter().any(|s| s.density.is_some());
+    file.contact.is_some() && !file.shape.is_empty() && !weighs && !densities
+}
+
 /// The solids of a body.
 pub(super) fn shapes(
     file: &BodyFile,
@@ -25,6 +32,7 @@ pub(super) fn shapes(
     document: &Document,
     problems: &mut Problems,
 ) -> Vec<ShapeInstance> {
+    let solids = file.shape.iter().enumerate().filter(|(_, s)| s.plane.is_none() && s.hull.is_none());
     let one = |(k, shape): (usize, &ShapeFile)| {
         let pointer = format!("{pointer}/shape/{k}");
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
@@ -35,7 +43,7 @@ pub(super) fn shapes(
             color: shape.color.as_ref().and_then(|text| color(text, &pointer, document, problems)),
         }
     };
-    file.shape.iter().enumerate().map(one).collect()
+    solids.map(one).collect()
 }
 
 fn solid(file: &ShapeFile) -> Shape {

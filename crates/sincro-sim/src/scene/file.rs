@@ -43,6 +43,19 @@ pub(crate) struct SceneFile {
     /// Time between two calls of the scripts, a whole multiple of the base step; default each base step [s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub script_step: Option<f64>,
+    /// What keeps two objects together that the tree leaves apart: closed loops.
+    #[serde(default)]
+    pub closure: Vec<ClosureFile>,
+    /// Pairs of joints that move together: gears.
+    #[serde(default)]
+    pub coupling: Vec<CouplingFile>,
+    /// Approach slower than this does not bounce [m/s].
+    #[serde(default = "rest_speed")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub rest_speed: f64,
+    /// Whether a run may start with objects that overlap: they are then pushed apart in its first step.
+    #[serde(default)]
+    pub allow_overlap: bool,
     /// Density of the air that rotors turn in [kg/m³].
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]
@@ -106,6 +119,11 @@ pub(crate) struct JointFile {
     pub friction: Option<OneOrList<f64>>,
     /// Applied torque or force as a signal, evaluated continuously; a list for several degrees of freedom [N·m] or [N].
     pub torque: Option<OneOrList<SignalFile>>,
+    /// Fixed joints: whether the force and torque through it are measured.
+    #[serde(default)]
+    pub force_sensor: bool,
+    /// Rigid stops; a list for several degrees of freedom.
+    pub limits: Option<OneOrList<LimitsFile>>,
     /// Motor, on a joint with one degree of freedom.
     pub motor: Option<MotorFile>,
 }
@@ -140,6 +158,97 @@ pub(crate) struct InitialFile {
     pub position: Option<OneOrList<f64>>,
     /// Rates: a number, universal 2, planar 3, ball 3 (angular, child axes), free 6 (angular first, child axes) [rad/s] or [m/s].
     pub velocity: Option<OneOrList<f64>>,
+}
+
+/// Rigid stops of a joint.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LimitsFile {
+    /// Smallest coordinate; none if left out [rad] or [m].
+    pub lower: Option<f64>,
+    /// Largest coordinate; none if left out [rad] or [m].
+    pub upper: Option<f64>,
+    /// Speed of leaving a stop over speed of arriving.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: f64,
+}
+
+/// How the surface of a body answers to contact. Of two bodies: friction is the geometric mean, restitution and lengths the larger, compliances add.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactFile {
+    /// Coulomb's coefficient, sliding and sticking.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+    /// Newton's coefficient: speed of leaving over speed of arriving.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: f64,
+    /// Lever arm of rolling resistance: its torque is at most this times the normal force [m].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub rolling_friction: f64,
+    /// Lever arm of the friction torque about the normal [m].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub spinning_friction: f64,
+    /// Force a metre of penetration; rigid if left out or inf [N/m].
+    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    pub stiffness: Option<f64>,
+    /// Of a compliant contact: force = stiffness·δ·(1 + dissipation·δ̇) [s/m].
+    #[schemars(range(min = 0.0))]
+    pub dissipation: Option<f64>,
+    /// Bodies of the same group (other than 0) do not touch each other.
+    #[serde(default)]
+    pub group: u32,
+}
+
+/// What keeps two objects together.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ClosureFile {
+    /// Letters, digits, `_` and `-`; its path is `/` and the name.
+    pub name: String,
+    /// How they are kept together.
+    pub kind: ClosureKindFile,
+    /// Paths of two bodies or frames, or `/`: their origins are kept together.
+    pub between: [String; 2],
+    /// Kind `distance`: the distance [m].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub length: Option<f64>,
+    /// Kind `hinge`: axis that the two frames share, in the axes of each; default z.
+    pub axis: Option<[f64; 3]>,
+}
+
+/// How two objects are kept together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ClosureKindFile {
+    /// Their origins coincide: a ball joint.
+    Point,
+    /// Their origins and `axis` coincide.
+    Hinge,
+    /// Their frames coincide.
+    Weld,
+    /// Their origins keep the distance `length`.
+    Distance,
+}
+
+/// Two joints of one degree of freedom that move together: second = ratio·first + offset.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CouplingFile {
+    /// Letters, digits, `_` and `-`; its path is `/` and the name.
+    pub name: String,
+    /// Paths of the two joints.
+    pub joints: [String; 2],
+    /// Rate of the second over rate of the first.
+    pub ratio: f64,
+    /// Coordinate of the second where that of the first is zero [rad] or [m].
+    #[serde(default)]
+    pub offset: f64,
 }
 
 /// A linear spring.
@@ -225,6 +334,8 @@ pub(crate) struct BodyFile {
     /// Solids it consists of.
     #[serde(default)]
     pub shape: Vec<ShapeFile>,
+    /// Makes its shapes touch others that have a contact, too; without it they only show.
+    pub contact: Option<ContactFile>,
 }
 
 /// Inertia about the centre of mass, body axes.
@@ -254,7 +365,7 @@ pub(crate) struct InertiaFile {
 #[schemars(extend(
     "oneOf" = [
         {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
-        {"required": ["sphere"]}
+        {"required": ["sphere"]}, {"required": ["plane"]}, {"required": ["hull"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
 ))]
@@ -269,6 +380,10 @@ pub(crate) struct ShapeFile {
     pub cone: Option<RoundFile>,
     /// A ball.
     pub sphere: Option<SphereFile>,
+    /// Everything below z = 0 of its frame; of bodies fixed in the world.
+    pub plane: Option<PlaneFile>,
+    /// Convex hull of points.
+    pub hull: Option<HullFile>,
     /// Origin of the shape in the body frame [m].
     #[serde(default)]
     pub position: [f64; 3],
@@ -312,6 +427,19 @@ pub(crate) struct SphereFile {
     /// Radius [m].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub radius: f64,
+}
+
+/// A half space below z = 0.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaneFile {}
+
+/// The convex hull of points.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HullFile {
+    /// Corners, four or more that span a volume [m].
+    pub points: Vec<[f64; 3]>,
 }
 
 /// A named point without mass.
@@ -372,6 +500,10 @@ pub(crate) fn standard_gravity() -> [f64; 3] {
 
 fn world() -> String {
     "/".into()
+}
+
+fn rest_speed() -> f64 {
+    sincro_dynamics::model::REST_SPEED
 }
 
 fn sea_level() -> f64 {

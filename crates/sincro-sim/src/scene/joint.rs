@@ -21,6 +21,15 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
     spec.friction = numbers(&file.friction);
     let springs = file.spring.as_ref().map(OneOrList::as_slice).unwrap_or_default();
     spec.spring = springs.iter().map(|s| (s.stiffness, s.rest)).collect();
+    spec.sensor = file.force_sensor;
+    if file.force_sensor && file.kind != JointKindFile::Fixed {
+        let word = kind_word(file.kind);
+        refuse_key(&format!("{pointer}/force_sensor"), "force_sensor", &format!("a {word} joint"), signals);
+    }
+    if let Some(limits) = &file.limits {
+        spec.limits = super::contact::limits(limits.as_slice(), pointer, signals);
+        spec.limit_restitution = limits.as_slice().iter().map(|l| l.restitution).fold(0.0, f64::max);
+    }
     spec.torque = torques(file, pointer, signals);
     let command = file.motor.as_ref().map(|file| {
         let pointer = format!("{pointer}/motor");

@@ -5,6 +5,7 @@
 
 mod air;
 mod body;
+mod contact;
 mod file;
 mod initial;
 mod joint;
@@ -19,12 +20,15 @@ mod tree;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, Model, ModelBuilder, NodeId};
+use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
 
 pub(crate) use file::SceneFile;
+pub use sincro_dynamics::model::Model;
+pub use sincro_dynamics::start::Freedom;
+
 pub use object::{Object, ObjectKind, ShapeInstance};
 pub use text::from_text;
 
@@ -56,6 +60,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Degrees of freedom at the start, closed loops counted.
+    #[must_use]
+    pub fn freedom(&self) -> Freedom {
+        sincro_dynamics::start::freedom(&self.model, &self.initial)
+    }
+
     /// The object of a path.
     #[must_use]
     pub fn object(&self, path: &str) -> Option<&Object> {
@@ -66,7 +76,8 @@ impl Scene {
 /// What the builder is told of an object.
 enum Spec {
     Joint(JointSpec, Option<Signal>),
-    Body(BodySpec, Vec<ShapeInstance>),
+    Body(BodySpec, Vec<ShapeInstance>, contact::Skin),
+    Fixture(Vec<ShapeInstance>, contact::Skin),
     Frame,
     Force(ForceSpec),
     Rotor(Box<rotor::RotorMade>, Signal),
@@ -101,9 +112,10 @@ pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result
         let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
         assembly.add(&entries[place.entry], place, spec, pose, document);
     }
+    assembly.join(&file, document, &mut problems);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
     let step = file.script_step.map(|value| Located { value, at: document.at("/script_step") });
-    let scene = assembly.finish(&entries, scripts, document, problems)?;
+    let scene = assembly.finish(&entries, &file, scripts, document, problems)?;
     Ok(Scene { script_step: step, ..scene })
 }
 
@@ -125,8 +137,12 @@ impl Maker<'_> {
             }
             tree::AnyFile::Body(file) => {
                 let shapes = body::shapes(file, &entry.pointer, self.document, self.problems);
+                let skin = contact::skin(file, &entry.pointer, self.document, self.problems);
+                if body::is_fixture(file) {
+                    return Spec::Fixture(shapes, skin);
+                }
                 let mass = body::mass(file, &shapes, &entry.pointer, self.document, self.problems);
-                Spec::Body(BodySpec { mass }, shapes)
+                Spec::Body(BodySpec { mass }, shapes, skin)
             }
             tree::AnyFile::Frame(_) => Spec::Frame,
             tree::AnyFile::Rotor(file) => rotor::spec(file, &entry.pointer, self.air_density, &mut self.signals()),
@@ -184,7 +200,7 @@ impl Assembly {
     fn add(&mut self, entry: &Entry<'_>, place: &tree::PlaceInTree, spec: Spec, pose: Pose<f64>, document: &Document) {
         let parent = place.parent.map_or(NodeId::WORLD, |k| self.nodes[k]);
         let path = place.path.clone();
-        let mut shapes = Vec::new();
+        let (mut shapes, mut skin) = (Vec::new(), contact::Skin::default());
         let (node, kind) = match spec {
             Spec::Joint(spec, command) => {
                 let kind = ObjectKind::Joint { kind: spec.kind, motor: None };
@@ -193,8 +209,12 @@ impl Assembly {
                 }
                 (self.builder.joint(&path, parent, pose, spec), kind)
             }
-            Spec::Body(spec, of_body) => {
-                shapes = of_body;
+            Spec::Fixture(of_body, of_skin) => {
+                (shapes, skin) = (of_body, of_skin);
+                (self.builder.frame(&path, parent, pose), ObjectKind::Fixture)
+            }
+            Spec::Body(spec, of_body, of_skin) => {
+                (shapes, skin) = (of_body, of_skin);
                 let kind = ObjectKind::Body { mass: spec.mass };
                 (self.builder.body(&path, parent, pose, spec), kind)
             }
@@ -210,14 +230,33 @@ impl Assembly {
         };
         let name = entry.name.to_owned();
         let location = document.title_at(&entry.pointer);
-        self.objects.push(Object { path, name, kind, parent: place.parent, pose, shapes, location });
+        skin.add_to(&mut self.builder, node, &shapes);
+        let contact::Skin { material: contact, surfaces } = skin;
+        self.objects.push(Object { path, name, kind, parent: place.parent, pose, contact, surfaces, shapes, location });
         self.nodes.push(node);
         self.entry_of.push(place.entry);
+    }
+
+    /// Closures and couplings, which name objects by their paths.
+    fn join(&mut self, file: &SceneFile, document: &Document, problems: &mut Problems) {
+        self.builder.set_rest_speed(file.rest_speed);
+        let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, problems };
+        for (k, closure) in file.closure.iter().enumerate() {
+            if let Some(spec) = joiner.closure(closure, &format!("/closure/{k}")) {
+                self.builder.closure(&format!("/{}", closure.name), spec);
+            }
+        }
+        for (k, coupling) in file.coupling.iter().enumerate() {
+            if let Some(spec) = joiner.coupling(coupling, &format!("/coupling/{k}")) {
+                self.builder.coupling(&format!("/{}", coupling.name), spec);
+            }
+        }
     }
 
     fn finish(
         mut self,
         entries: &[Entry<'_>],
+        file: &SceneFile,
         scripts: Vec<Script>,
         document: &Document,
         mut problems: Problems,
@@ -237,6 +276,8 @@ impl Assembly {
             }
         }
         let initial = initial::state(&model, &starts, document, &mut problems);
+        self.check_fixtures(&model, &mut problems);
+        contact::check_start(&model, &initial, file, &self.objects, document, &mut problems);
         let commands = self.motors(&model);
         self.warn_of_idle_forces(&model, &mut problems);
         if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
@@ -276,6 +317,25 @@ impl Assembly {
             }
         }
         commands
+    }
+
+    /// A body without mass can only stand in the world.
+    fn check_fixtures(&self, model: &Model<f64>, problems: &mut Problems) {
+        for object in self.objects.iter().filter(|o| o.kind == ObjectKind::Fixture || !o.surfaces.is_empty()) {
+            let moves = model.names().frame(&object.path).is_some_and(|f| f.link.is_some());
+            let only_fixed =
+                object.surfaces.iter().any(|(s, _)| matches!(s, sincro_dynamics::contact::Surface::HalfSpace));
+            if moves && object.kind == ObjectKind::Fixture {
+                let problem = Problem::error(&object.location, format!("body `{}`: it has no mass", object.path));
+                let help =
+                    "give `density` and shapes, or `mass` and `inertia`; only what is fixed in the world needs none";
+                problems.push(problem.with_help(help));
+            } else if moves && only_fixed {
+                let problem = Problem::error(&object.location, format!("body `{}` moves and has a plane", object.path));
+                problems
+                    .push(problem.with_help("planes are fixed in the world; use a cuboid, or hang the body on `/`"));
+            }
+        }
     }
 
     fn warn_of_idle_forces(&self, model: &Model<f64>, problems: &mut Problems) {

@@ -1,5 +1,6 @@
 //! Objects of a scene as the user named them: for trees, viewers and paths.
 
+use sincro_dynamics::contact::{Material, Surface};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{MassProperties, Shape};
 use sincro_dynamics::spatial::Pose;
@@ -19,6 +20,10 @@ pub struct Object {
     pub parent: Option<usize>,
     /// Where its frame stands in its parent's (at zero coordinates, if it hangs on a joint).
     pub pose: Pose<f64>,
+    /// What a body touches others with; beside its shapes there are surfaces that enclose nothing, such as planes.
+    pub contact: Option<Material>,
+    /// Surfaces of a body that are not solids with mass.
+    pub surfaces: Vec<(Surface, Pose<f64>)>,
     /// What a body looks like.
     pub shapes: Vec<ShapeInstance>,
     /// Its name in the file.
@@ -40,6 +45,8 @@ pub enum ObjectKind {
         /// In its own frame.
         mass: MassProperties,
     },
+    /// Body without mass, fixed in the world: a floor, a wall.
+    Fixture,
     /// Named point.
     Frame,
     /// External force on its parent.
@@ -66,6 +73,7 @@ impl ObjectKind {
                 JointKind::Free => "free joint",
             },
             Self::Body { .. } => "body",
+            Self::Fixture => "fixture",
             Self::Frame => "frame",
             Self::Force => "force",
             Self::Rotor => "rotor",

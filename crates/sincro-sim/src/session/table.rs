@@ -216,6 +216,10 @@ impl Table {
                     let at = of_frame().unwrap_or(beside);
                     (Kind::Frame, at, at)
                 }
+                ObjectKind::Fixture => {
+                    let at = of_frame().unwrap_or(beside);
+                    (Kind::Body(0.0), at, at)
+                }
                 ObjectKind::Force | ObjectKind::Drag => (Kind::Force, beside, beside),
                 ObjectKind::Rotor => (Kind::Rotor, beside, beside),
             };

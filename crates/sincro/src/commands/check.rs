@@ -7,7 +7,7 @@ use sincro_blocks::program::Rate;
 use sincro_sim::diagram::Controller;
 use sincro_sim::record::catalogue;
 use sincro_sim::run::{method_for, method_word, model_hash};
-use sincro_sim::scene::{Object, ObjectKind, Scene};
+use sincro_sim::scene::{Freedom, Model, Object, ObjectKind, Scene};
 use sincro_sim::script::Kind;
 use sincro_sim::{Loaded, load};
 
@@ -55,13 +55,15 @@ fn print(loaded: &Loaded) {
     }
     print_scripts(loaded);
     let model = &scene.model;
+    let freedom = scene.freedom();
     say!("model");
     say!(
         "  {}, {}, {} kg",
-        degrees(model.n_v()),
+        degrees(freedom.left()),
         diagnostics::count(model.links().len(), "moving link"),
         short(model.total_mass())
     );
+    print_constraints(model, &freedom);
     say!("  hash {}", model_hash(model));
     if let Some(controller) = &loaded.controller {
         print_diagram(controller, experiment.step);
@@ -106,6 +108,31 @@ fn print_scripts(loaded: &Loaded) {
         };
         let parameters = diagnostics::count(script.parameters.len(), "parameter");
         say!("  {} {kind} script, {}, {parameters}", script.path, script.source.path.display());
+    }
+}
+
+/// Loops, limits and contacts, if there are any.
+fn print_constraints(model: &Model<f64>, freedom: &Freedom) {
+    let set = model.constraints();
+    if freedom.loops > 0 {
+        say!(
+            "  {} of the tree, {} with {}, {} redundant",
+            freedom.of_tree,
+            diagnostics::count(freedom.loops, "loop"),
+            diagnostics::count(freedom.equations, "equation"),
+            freedom.redundant
+        );
+    }
+    if !set.limits.is_empty() {
+        say!("  {}", diagnostics::count(set.limits.len(), "stop"));
+    }
+    if !set.pairs.is_empty() {
+        say!(
+            "  {}, {} of them that can touch, in up to {}",
+            diagnostics::count(set.colliders.len(), "surface"),
+            diagnostics::count(set.pairs.len(), "pair"),
+            diagnostics::count(set.n_contacts(), "point")
+        );
     }
 }
 

@@ -1,0 +1,274 @@
+//! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot start.
+
+use sincro_dynamics::constraint::ClosureKind;
+use sincro_dynamics::contact::{Material, Surface};
+use sincro_dynamics::model::{ClosureSpec, CouplingSpec, Model, ModelBuilder, NodeId};
+use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+use sincro_dynamics::start;
+use sincro_dynamics::state::State;
+
+use super::file::{BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, LimitsFile, SceneFile};
+use super::object::{Object, ObjectKind, ShapeInstance};
+use super::placement::{self, Placement};
+use super::signal_file::SignalReader;
+use crate::document::Document;
+use crate::problem::{Problem, Problems};
+use crate::suggest;
+
+/// A closure open by more than this at the start is closed by moving joints, and a warning says so `[m]`, `[rad]`.
+const CLOSED: f64 = 1e-6;
+
+/// Overlap at the start that is put down to rounding of figures in the file `[m]`.
+const OVERLAP: f64 = 1e-9;
+
+/// What a body touches others with.
+#[derive(Default)]
+pub(super) struct Skin {
+    pub material: Option<Material>,
+    /// Surfaces that are no solids.
+    pub surfaces: Vec<(Surface, Pose<f64>)>,
+}
+
+impl Skin {
+    /// Tells the builder of all surfaces of the body `node`.
+    pub fn add_to(&self, builder: &mut ModelBuilder, node: NodeId, shapes: &[ShapeInstance]) {
+        let Some(material) = self.material else { return };
+        for (surface, pose) in &self.surfaces {
+            builder.collider(node, *pose, surface.clone(), material);
+        }
+        for shape in shapes {
+            builder.collider(node, shape.pose, Surface::Solid(shape.shape), material);
+        }
+    }
+}
+
+/// Material and surfaces of a body.
+pub(super) fn skin(file: &BodyFile, pointer: &str, document: &Document, problems: &mut Problems) -> Skin {
+    let mut surfaces = Vec::new();
+    for (k, shape) in file.shape.iter().enumerate() {
+        let pointer = format!("{pointer}/shape/{k}");
+        let surface = match (&shape.plane, &shape.hull) {
+            (Some(_), _) => Surface::HalfSpace,
+            (None, Some(hull)) => {
+                check_hull(&hull.points, &format!("{pointer}/hull/points"), &file.name, document, problems);
+                Surface::Hull(hull.points.clone())
+            }
+            (None, None) => continue,
+        };
+        if file.contact.is_none() {
+            let at = document.at(&pointer);
+            let problem = Problem::error(&at, format!("body `{}` has a surface that nothing can touch", file.name));
+            problems.push(problem.with_help("give the body a `contact`, such as contact = { friction = 0.5 }"));
+        }
+        let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
+        surfaces.push((surface, placement::pose(&placement, &pointer, document, problems)));
+    }
+    let material = file.contact.as_ref().map(|contact| {
+        if file.shape.is_empty() {
+            let at = document.key_at(&format!("{pointer}/contact"));
+            let problem = Problem::error(&at, format!("body `{}` has a contact and no shape", file.name));
+            problems.push(problem.with_help("give it the shapes that touch"));
+        }
+        material(contact, &format!("{pointer}/contact"), document, problems)
+    });
+    Skin { material, surfaces }
+}
+
+fn material(file: &ContactFile, pointer: &str, document: &Document, problems: &mut Problems) -> Material {
+    if file.dissipation.is_some() && file.stiffness.is_none_or(f64::is_infinite) {
+        let at = document.key_at(&format!("{pointer}/dissipation"));
+        let problem = Problem::error(&at, "`dissipation` has no meaning for a rigid contact");
+        problems.push(problem.with_help("give `stiffness` [N/m] too, or `restitution` instead"));
+    }
+    Material {
+        friction: file.friction,
+        restitution: file.restitution,
+        rolling_friction: file.rolling_friction,
+        spinning_friction: file.spinning_friction,
+        stiffness: file.stiffness.unwrap_or(f64::INFINITY),
+        dissipation: file.dissipation.unwrap_or(0.0),
+        group: file.group,
+    }
+}
+
+/// A hull needs finite points that span a volume.
+fn check_hull(points: &[[f64; 3]], pointer: &str, name: &str, document: &Document, problems: &mut Problems) {
+    let p: Vec<Vec3<f64>> = points.iter().map(|p| Vec3(*p)).collect();
+    let spans = p.len() >= 4 && {
+        let far =
+            |f: &dyn Fn(Vec3<f64>) -> f64| p.iter().copied().max_by(|a, b| f(*a).total_cmp(&f(*b))).unwrap_or(p[0]);
+        let a = far(&|x| (x - p[0]).norm()) - p[0];
+        let b = far(&|x| a.cross(x - p[0]).norm()) - p[0];
+        let n = a.cross(b);
+        let c = far(&|x| n.dot(x - p[0]).abs()) - p[0];
+        n.dot(c).abs() > 1e-9 * a.norm() * a.norm() * a.norm()
+    };
+    if !spans {
+        let problem = Problem::error(&document.at(pointer), format!("the hull of body `{name}` has no volume"));
+        problems.push(problem.with_help("give four points or more that do not lie in one plane [m]"));
+    }
+}
+
+/// Lower and upper limits of each coordinate.
+pub(super) fn limits(list: &[LimitsFile], pointer: &str, signals: &mut SignalReader<'_>) -> Vec<(f64, f64)> {
+    let one = |limits: &LimitsFile| {
+        let (lower, upper) = (limits.lower.unwrap_or(f64::NEG_INFINITY), limits.upper.unwrap_or(f64::INFINITY));
+        if lower >= upper {
+            let at = signals.document.at(&format!("{pointer}/limits"));
+            let problem = Problem::error(&at, format!("lower limit {lower} is not below the upper limit {upper}"));
+            signals.problems.push(problem.with_help("exchange them, or use a fixed joint"));
+        }
+        (lower, upper)
+    };
+    list.iter().map(one).collect()
+}
+
+/// Finds the objects that closures and couplings name.
+pub(super) struct Joiner<'a> {
+    pub objects: &'a [Object],
+    pub nodes: &'a [NodeId],
+    pub document: &'a Document,
+    pub problems: &'a mut Problems,
+}
+
+impl Joiner<'_> {
+    pub fn closure(&mut self, file: &ClosureFile, pointer: &str) -> Option<ClosureSpec> {
+        let fits =
+            |kind: &Object| matches!(kind.kind, ObjectKind::Body { .. } | ObjectKind::Frame | ObjectKind::Fixture);
+        let ends =
+            [0, 1].map(|k| self.find(&file.between[k], &format!("{pointer}/between/{k}"), fits, "body or frame"));
+        let length = file.length.filter(|_| file.kind == ClosureKindFile::Distance);
+        if (file.kind == ClosureKindFile::Distance) != file.length.is_some() {
+            let at = self.document.title_at(pointer);
+            let message =
+                format!("closure `{}`: `length` belongs to the kind `distance`, and is needed there", file.name);
+            self.problems.push(Problem::error(&at, message).with_help("give `length` [m] for `distance` only"));
+        }
+        if file.axis.is_some() && file.kind != ClosureKindFile::Hinge {
+            let at = self.document.key_at(&format!("{pointer}/axis"));
+            let problem = Problem::error(&at, format!("closure `{}`: `axis` belongs to the kind `hinge`", file.name));
+            self.problems.push(problem.with_help("leave it out"));
+        }
+        let axis = Vec3(file.axis.unwrap_or([0.0, 0.0, 1.0]));
+        if axis.norm() < 1e-12 || !axis.norm().is_finite() {
+            let at = self.document.at(&format!("{pointer}/axis"));
+            let problem = Problem::error(&at, format!("axis {:?} of closure `{}` has no direction", axis.0, file.name));
+            self.problems.push(problem.with_help("give three finite numbers, not all zero"));
+            return None;
+        }
+        let kind = match file.kind {
+            ClosureKindFile::Point => ClosureKind::Point,
+            ClosureKindFile::Hinge => ClosureKind::Hinge,
+            ClosureKindFile::Weld => ClosureKind::Weld,
+            ClosureKindFile::Distance => ClosureKind::Distance(length?),
+        };
+        let pose = Pose { rot: with_z_along(axis), pos: Vec3::zero() };
+        let [Some(a), Some(b)] = ends else { return None };
+        Some(ClosureSpec { kind, ends: [a, b], poses: [pose, pose] })
+    }
+
+    pub fn coupling(&mut self, file: &CouplingFile, pointer: &str) -> Option<CouplingSpec> {
+        use sincro_dynamics::joint::JointKind as K;
+        let fits = |o: &Object| {
+            let ObjectKind::Joint { kind, .. } = o.kind else { return false };
+            matches!(kind, K::Revolute { .. } | K::Prismatic { .. } | K::Screw { .. })
+        };
+        let what = "joint with one degree of freedom";
+        let joints = [0, 1].map(|k| self.find(&file.joints[k], &format!("{pointer}/joints/{k}"), fits, what));
+        if file.joints[0] == file.joints[1] {
+            let at = self.document.at(&format!("{pointer}/joints"));
+            let problem = Problem::error(&at, format!("coupling `{}` is of a joint with itself", file.name));
+            self.problems.push(problem.with_help("give two joints"));
+            return None;
+        }
+        let [Some(a), Some(b)] = joints else { return None };
+        Some(CouplingSpec { joints: [a, b], ratio: file.ratio, offset: file.offset })
+    }
+
+    fn find(&mut self, path: &str, pointer: &str, fits: impl Fn(&Object) -> bool, what: &str) -> Option<NodeId> {
+        if path == "/" && what.starts_with("body") {
+            return Some(NodeId::WORLD);
+        }
+        let found = self.objects.iter().position(|o| o.path == path);
+        if let Some(k) = found.filter(|k| fits(&self.objects[*k])) {
+            return Some(self.nodes[k]);
+        }
+        let at = self.document.at(pointer);
+        let known: Vec<&str> = self.objects.iter().filter(|o| fits(o)).map(|o| o.path.as_str()).collect();
+        let problem = match found {
+            Some(k) => Problem::error(&at, format!("`{path}` is a {}, not a {what}", self.objects[k].kind.word())),
+            None => Problem::error(&at, format!("there is no object `{path}`")),
+        };
+        self.problems.push(problem.with_help(suggest::help(path, &known, "objects")));
+        None
+    }
+}
+
+/// A rotation whose z axis is along `n`.
+fn with_z_along(n: Vec3<f64>) -> Mat3<f64> {
+    let z = n.scale(1.0 / n.norm());
+    if z.0 == [0.0, 0.0, 1.0] {
+        return Mat3::identity();
+    }
+    let k = (1..3).fold(0, |best, k| if z[k].abs() < z[best].abs() { k } else { best });
+    let e = Vec3::along(k, 1.0);
+    let x = e - z.scale(z[k]);
+    let x = x.scale(1.0 / x.norm());
+    Mat3([x.0, z.cross(x).0, z.0]).transpose()
+}
+
+/// Closes the loops of the initial state, and looks for what overlaps or is beyond its stops.
+pub(super) fn check_start(
+    model: &Model<f64>,
+    initial: &State<f64>,
+    file: &SceneFile,
+    objects: &[Object],
+    document: &Document,
+    problems: &mut Problems,
+) {
+    for opening in start::openings(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED) {
+        let k = file.closure.iter().position(|c| format!("/{}", c.name) == opening.name);
+        let at = document.title_at(&k.map_or(String::new(), |k| format!("/closure/{k}")));
+        let gap = if opening.angle > CLOSED && opening.distance <= CLOSED {
+            format!("its axes are {:.6e} rad apart", opening.angle)
+        } else {
+            format!("its ends are {:.6e} m apart", opening.distance)
+        };
+        let problem = Problem::error(&at, format!("closure `{}` is open at the start: {gap}", opening.name));
+        problems.push(problem.with_help(match start::assembled(model, initial) {
+            Some(q) => format!("it closes if the joints start at {}", names(model, initial, &q)),
+            None => "no position of the joints near the given ones closes it: check lengths and places".into(),
+        }));
+    }
+    for beyond in start::beyond_limits(model, initial) {
+        let object = objects.iter().find(|o| o.path == beyond.joint);
+        let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
+        let message =
+            format!("joint `{}` starts at {}, beyond its limit {}", beyond.joint, beyond.position, beyond.limit);
+        problems.push(Problem::error(&at, message).with_help("start within the limits, or move them"));
+    }
+    if file.allow_overlap {
+        return;
+    }
+    for overlap in start::overlaps(model, initial).into_iter().filter(|o| o.depth > OVERLAP) {
+        let object = objects.iter().find(|o| o.path == overlap.a || o.path == overlap.b);
+        let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
+        let message = format!("`{}` and `{}` overlap at the start by {:.6e} m", overlap.a, overlap.b, overlap.depth);
+        let help = "move one of them, give both the same `group` in `contact`, or set allow_overlap = true";
+        problems.push(Problem::error(&at, message).with_help(help));
+    }
+}
+
+/// The joints that would start elsewhere, and where.
+fn names(model: &Model<f64>, initial: &State<f64>, q: &[f64]) -> String {
+    let mut list = Vec::new();
+    for joint in &model.names().joints {
+        for k in joint.q_idx..joint.q_idx + joint.n_q {
+            if (q[k] - initial.q[k]).abs() > 1e-9 {
+                list.push(format!("{} = {:.12}", joint.name, q[k]));
+            }
+        }
+    }
+    list.truncate(6);
+    list.join(", ")
+}

@@ -1,0 +1,158 @@
+//! Stops of joints, closed loops and couplings against closed forms.
+
+use sincro_dynamics::constraint::ClosureKind;
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::{
+    BodySpec, ClosureSpec, CouplingSpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape,
+};
+use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_dynamics::start;
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::{MethodKind, World};
+
+use crate::mechanisms::{ALL, cart, run, slider};
+
+const LOCATING: [MethodKind; 4] = [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff];
+
+#[test]
+fn a_cart_bounces_between_its_stops() {
+    for kind in LOCATING {
+        let model = cart(2.0, JointSpec { limits: vec![(-0.5, 0.5)], limit_restitution: 0.5, ..slider() });
+        let mut x = State::new(&model);
+        x.v[0] = 1.0;
+        let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+        run(&mut world, 0.01, 300);
+        // 0.5 s to the upper stop, 2 s back at half the speed, then a quarter of it
+        assert!((world.state.q[0] - (-0.5 + 0.25 * 0.5)).abs() < 1e-12, "{kind:?} {}", world.state.q[0]);
+        assert_eq!(world.effort().impacts, 2, "{kind:?}");
+    }
+}
+
+#[test]
+fn a_stop_holds_a_load_and_says_how_much() {
+    for kind in ALL {
+        let spec = JointSpec {
+            limits: vec![(f64::NEG_INFINITY, 0.2)],
+            torque: vec![sincro_dynamics::signal::Signal::Constant(3.0)],
+            ..slider()
+        };
+        let mut world = World::new(cart(2.0, spec), State::new(&cart(2.0, slider())), kind, 1e-9, 1e-3);
+        world.state = State::new(world.model());
+        run(&mut world, 0.01, 100);
+        assert!((world.state.q[0] - 0.2).abs() < 1e-9, "{kind:?} {}", world.state.q[0]);
+        let seen = world.observe(1.0);
+        assert!((seen.limit_torque(0) + 3.0).abs() < 1e-9, "{kind:?}");
+    }
+}
+
+/// A point mass on two coordinates that a distance closure makes a pendulum.
+fn pendulum(length: f64) -> (Model<f64>, State<f64>) {
+    let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+    let along = |axis| JointSpec { armature: vec![1e-300], ..JointSpec::new(JointKind::Prismatic { axis }) };
+    let x = b.joint("x", NodeId::WORLD, Pose::identity(), along([1.0, 0.0, 0.0]));
+    let z = b.joint("z", x, Pose::identity(), along([0.0, 0.0, 1.0]));
+    let mass = MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
+    let bob = b.body("bob", z, Pose::identity(), BodySpec { mass });
+    let spec = ClosureSpec {
+        kind: ClosureKind::Distance(length),
+        ends: [bob, NodeId::WORLD],
+        poses: [Pose::identity(), Pose::identity()],
+    };
+    b.closure("string", spec);
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    x.q[0] = length * libm::sin(1.0);
+    x.q[1] = -length * libm::cos(1.0);
+    (model, x)
+}
+
+/// The same pendulum with a hinge.
+fn hinged(length: f64) -> (Model<f64>, State<f64>) {
+    let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+    let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, -1.0, 0.0] });
+    let hinge = b.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+    let mass = MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
+    b.body("bob", hinge, Pose::translation(Vec3([0.0, 0.0, -length])), BodySpec { mass });
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    x.q[0] = 1.0;
+    (model, x)
+}
+
+#[test]
+fn a_closed_loop_keeps_the_order_of_the_integrator_and_does_not_drift() {
+    let exact = {
+        let (model, x) = hinged(0.8);
+        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-13, 1e-3);
+        run(&mut world, 0.01, 300);
+        0.8 * libm::sin(world.state.q[0])
+    };
+    let error = |kind: MethodKind, n: u32| {
+        let (model, x) = pendulum(0.8);
+        let mut world = World::new(model, x, kind, 1e-12, 1e-3);
+        world.settle_start(0.0);
+        let mut worst = 0.0_f64;
+        for k in 0..n {
+            world.advance(3.0 / f64::from(n) * f64::from(k), 3.0 / f64::from(n)).unwrap();
+            let open = start::openings(world.model(), &world.state)[0].distance;
+            worst = worst.max(open);
+        }
+        assert!(worst < 1e-10, "{kind:?} drifts {worst:e}");
+        (world.state.q[0] - exact).abs()
+    };
+    assert!(error(MethodKind::DormandPrince, 300) < 1e-9);
+    assert!(error(MethodKind::Stiff, 300) < 1e-9);
+    for (kind, order) in [(MethodKind::Rk4, 4.0), (MethodKind::Implicit, 2.0), (MethodKind::SemiImplicitEuler, 1.0)] {
+        let measured = libm::log2(error(kind, 300) / error(kind, 600));
+        assert!(measured > order - 0.25, "{kind:?}: order {measured}");
+    }
+}
+
+#[test]
+fn a_coupling_makes_two_shafts_one() {
+    // I1 + ratio² I2 under a torque
+    let mut b = ModelBuilder::new([0.0; 3]);
+    let wheel = |i: f64| BodySpec {
+        mass: MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [i, 0.0, 0.0, i, 0.0, i] },
+    };
+    let shaft = |torque: f64| JointSpec {
+        torque: vec![sincro_dynamics::signal::Signal::Constant(torque)],
+        ..JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] })
+    };
+    let one = b.joint("one", NodeId::WORLD, Pose::identity(), shaft(2.0));
+    b.body("first", one, Pose::identity(), wheel(0.3));
+    let two = b.joint("two", NodeId::WORLD, Pose::translation(Vec3([1.0, 0.0, 0.0])), shaft(0.0));
+    b.body("second", two, Pose::identity(), wheel(0.05));
+    b.coupling("gear", CouplingSpec { joints: [one, two], ratio: -3.0, offset: 0.0 });
+    let model = b.build().unwrap().0;
+    for kind in LOCATING {
+        let mut world = World::new(model.clone(), State::new(&model), kind, 1e-10, 1e-3);
+        run(&mut world, 0.01, 100);
+        let a = 2.0 / (0.3 + 9.0 * 0.05);
+        assert!((world.state.q[0] - 0.5 * a).abs() < 1e-9, "{kind:?}");
+        assert!((world.state.q[1] + 3.0 * world.state.q[0]).abs() < 1e-12, "{kind:?}");
+    }
+}
+
+#[test]
+fn redundant_equations_are_counted() {
+    // a plane four-bar linkage closed by a hinge: 5 equations, 3 of them redundant
+    let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+    let hinge = || JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    let bar = || BodySpec { mass: Shape::Cuboid { size: [0.02, 0.02, 1.0] }.mass_properties(1000.0) };
+    let up = Pose::translation(Vec3([0.0, 0.0, 0.5]));
+    let left = b.joint("left", NodeId::WORLD, Pose::identity(), hinge());
+    b.body("rod", left, up, bar());
+    let top = b.joint("top", left, Pose::translation(Vec3([0.0, 0.0, 1.0])), hinge());
+    b.body("coupler", top, Pose::translation(Vec3([0.5, 0.0, 0.0])), bar());
+    let right = b.joint("right", NodeId::WORLD, Pose::translation(Vec3([1.0, 0.0, 0.0])), hinge());
+    b.body("other", right, up, bar());
+    let end = b.frame("end", top, Pose::translation(Vec3([1.0, 0.0, 0.0])));
+    let tip = b.frame("tip", right, Pose::translation(Vec3([0.0, 0.0, 1.0])));
+    let turn = sincro_dynamics::spatial::Mat3::rotation::<0>(-1.0, 0.0);
+    let pose = Pose { rot: turn, pos: Vec3::zero() };
+    b.closure("pin", ClosureSpec { kind: ClosureKind::Hinge, ends: [end, tip], poses: [pose, pose] });
+    let model = b.build().unwrap().0;
+    let freedom = start::freedom(&model, &State::new(&model));
+    assert_eq!((freedom.of_tree, freedom.equations, freedom.redundant, freedom.left()), (3, 5, 3, 1));
+}
