@@ -218,7 +218,8 @@ impl Table {
                 }
                 ObjectKind::Fixture => {
                     let at = of_frame().unwrap_or(beside);
-                    (Kind::Body(0.0), at, at)
+                    let none = MassProperties { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
+                    (Kind::Body(none), at, at)
                 }
                 ObjectKind::Force | ObjectKind::Drag => (Kind::Force, beside, beside),
                 ObjectKind::Rotor => (Kind::Rotor, beside, beside),
