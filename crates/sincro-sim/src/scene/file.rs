@@ -35,9 +35,9 @@ pub(crate) struct SceneFile {
     /// Drag of bodies in the air.
     #[serde(default)]
     pub drag: Vec<DragFile>,
-    /// Wind; none if left out.
+    /// Wind, felt by rotors and drag elements: a table of `mean`, `profile`, `gust` and `turbulence`; none if left out.
     pub wind: Option<WindFile>,
-    /// Density of the air that rotors turn in [kg/m³].
+    /// Density of the air, for rotors and drag [kg/m³].
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]
     pub air_density: f64,
