@@ -32,6 +32,8 @@ pub struct Mechanism<R> {
     pub drives: Vec<R>,
     /// Whether work, dissipation and motor impulses are integrated along.
     tracks_totals: bool,
+    /// Where in y the states of rotors stand.
+    rotor_states: (usize, usize),
     /// q₀ of the chart.
     pub(crate) base: Vec<R>,
     pub(crate) q: Vec<R>,
@@ -58,10 +60,12 @@ impl<R: Real> Mechanism<R> {
     #[must_use]
     pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
         let zero = vec![R::zero(); model.n_v()];
+        let n_totals = if tracks_totals { 2 + model.motors.len() } else { 0 };
         Self {
             commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
             tracks_totals,
+            rotor_states: (2 * model.n_v() + n_totals, 2 * model.n_v() + n_totals + model.n_rotor_states()),
             base: vec![R::zero(); model.n_q()],
             q: vec![R::zero(); model.n_q()],
             torque: zero.clone(),
@@ -146,10 +150,10 @@ impl<R: Real> Mechanism<R> {
     }
 
     /// Where in y the states of rotors stand.
+    #[inline(always)]
     #[must_use]
     pub fn rotor_states(&self) -> core::ops::Range<usize> {
-        let first = 2 * self.model.n_v() + if self.tracks_totals { 2 + self.model.motors.len() } else { 0 };
-        first..first + self.model.n_rotor_states()
+        self.rotor_states.0..self.rotor_states.1
     }
 
     /// Coordinates of the chart's origin.

@@ -158,12 +158,12 @@ const REFUSED: &[(&str, &str, &str)] = &[
     (
         "turbulence = { low_altitude = { wind_at_20_feet = 5.0, height = 20.0 } }",
         "turbulence = { deviation = [1.0, 1.0, 0.5], length = [1.0, 0.0, 1.0] }",
-        "scene.toml:4:1: error: wind: `length` is [1.0, 0.0, 1.0] m: expected three numbers from 0.001 to 1000000 m",
+        "scene.toml:8:54: error: wind: `length` is [1.0, 0.0, 1.0] m: expected three numbers from 0.001 to 1000000 m",
     ),
     (
         "height = 20.0",
         "height = 1.0",
-        "scene.toml:4:1: error: wind: `height` is 1 m: the spectra hold from 3.048 to 304.8 m",
+        "scene.toml:8:65: error: wind: `height` is 1 m: the spectra hold from 3.048 to 304.8 m",
     ),
     (
         "mean = [4.0, -3.0, 0.0]\nprofile",
@@ -174,7 +174,7 @@ const REFUSED: &[(&str, &str, &str)] = &[
     (
         "profile = { linear = { reference = 10.0 } }",
         "profile = { logarithmic = { reference = 0.1, roughness = 0.5 } }",
-        "scene.toml:4:1: error: wind: `reference` is 0.1 m: expected a height above the roughness",
+        "scene.toml:6:41: error: wind: `reference` is 0.1 m: expected a height above the roughness",
     ),
     (
         "area = [1.0, 1.0, 1.0]",
@@ -199,7 +199,7 @@ area"#,
         "air_density = 1.2",
         "air_density = -1.2",
         r#"scene.toml:2:15: error: `air_density` is -1.2, expected a number in kg/m³, at least 0
-  help: Density of the air that rotors turn in [kg/m³]."#,
+  help: Density of the air, for rotors and drag [kg/m³]."#,
     ),
     (
         "gust = [",

@@ -109,3 +109,35 @@ pub(super) fn words(found: &[Outside], n_steps: u64) -> Vec<String> {
 fn number(x: f64) -> f64 {
     (x * 1e9).round() / 1e9
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotors_that_left_together_are_told_together() {
+        let outside = |rotor: &str, reason, steps| Outside {
+            rotor: rotor.into(),
+            reason,
+            steps,
+            duration: 0.1 * steps as f64,
+            first: 0.30000000000000004,
+            last: 1.1,
+        };
+        let found = [
+            outside("/a", Validity::SteepDescent, 3),
+            outside("/a", Validity::NegativeThrust, 2),
+            outside("/b", Validity::SteepDescent, 3),
+            outside("/c", Validity::SteepDescent, 4),
+        ];
+        assert_eq!(
+            words(&found, 20),
+            [
+                "rotors `/a`, `/b` were outside what the theory holds for (steep descent) in 3 of 20 steps, 0.3 s in all, between 0.3 s \
+                 and 1.1 s",
+                "rotor `/a` was outside what the theory holds for (negative thrust) in 2 of 20 steps, 0.2 s in all, between 0.3 s and 1.1 s",
+                "rotor `/c` was outside what the theory holds for (steep descent) in 4 of 20 steps, 0.4 s in all, between 0.3 s and 1.1 s",
+            ]
+        );
+    }
+}

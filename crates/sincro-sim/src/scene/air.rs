@@ -144,7 +144,12 @@ pub(super) fn wind(file: &WindFile, seed: u64, document: &Document, problems: &m
         Ok(wind) => Some(wind),
         Err(reasons) => {
             for reason in reasons {
-                problems.push(Problem::error(&document.at("/wind"), format!("wind: {reason}")));
+                // a reason begins with the key that it is about, or with the number of a gust
+                let key = reason.split('`').nth(1).unwrap_or("");
+                let inner = ["turbulence/low_altitude", "turbulence", "profile/linear", "profile/logarithmic"];
+                let mut pointers = inner.iter().map(|table| format!("/wind/{table}/{key}"));
+                let written = pointers.find(|p| document.get(p).is_some()).unwrap_or_else(|| "/wind".into());
+                problems.push(Problem::error(&document.at(&written), format!("wind: {reason}")));
             }
             None
         }

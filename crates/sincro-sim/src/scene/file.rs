@@ -35,7 +35,7 @@ pub(crate) struct SceneFile {
     /// Drag of bodies in the air.
     #[serde(default)]
     pub drag: Vec<DragFile>,
-    /// Wind; none if left out.
+    /// Wind, felt by rotors and drag elements: a table of `mean`, `profile`, `gust` and `turbulence`; none if left out.
     pub wind: Option<WindFile>,
     /// Scripts, each on an object.
     #[serde(default)]
@@ -56,7 +56,7 @@ pub(crate) struct SceneFile {
     /// Whether a run may start with objects that overlap: they are then pushed apart in its first step.
     #[serde(default)]
     pub allow_overlap: bool,
-    /// Density of the air that rotors turn in [kg/m³].
+    /// Density of the air, for rotors and drag [kg/m³].
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]
     pub air_density: f64,
