@@ -25,6 +25,15 @@ const PID: &[(&str, &str)] = &[
     ("step", "0.00025"),
 ];
 
+/// With an IMU, and a step at which the explicit methods are stable.
+const FLIGHT: &[(&str, &str)] = &[
+    (
+        "sensor",
+        "[{ name = \"imu\", parent = \"/air/quadrotor\", sample_time = 0.01, imu = { gyro_noise_density = 1e-3 } }]",
+    ),
+    ("step", "0.0025"),
+];
+
 #[test]
 fn a_step_and_a_row_allocate_nothing() {
     // jumps of motors every tick, limits and events, quaternions, external signals
@@ -37,6 +46,8 @@ fn a_step_and_a_row_allocate_nothing() {
         // sampled blocks on ideal motors, continuous ones on torque motors
         ("two-dof-position", &[]),
         ("two-dof-position", PID),
+        // rotors, a sub-diagram with everything sampled, a sensor
+        ("quadrotor-flight-1", FLIGHT),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
         let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();

@@ -19,6 +19,7 @@ pub mod rollout;
 pub mod run;
 pub mod scene;
 pub mod schema;
+pub mod sensor;
 mod series;
 pub mod snapshot;
 mod suggest;

@@ -163,6 +163,9 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         }
     }
     if let Some(experiment) = &experiment {
+        if let Some(scene) = &scene {
+            problems.merge(crate::sensor::check(&scene.sensors, experiment));
+        }
         problems.merge(experiment::stop::check_recorded(experiment));
         problems.merge(too_large(experiment));
     }

@@ -201,9 +201,9 @@ fn run_sweep(
         let finals: Vec<f64> =
             run.table.columns.iter().skip(1).map(|c| c.values.last().copied().unwrap_or(f64::NAN)).collect();
         match &run.status {
-            Status::Completed => sweep.push(plan.values[k], &finals),
+            // at a bound a run is at its end: the values there are its final ones
+            Status::Completed | Status::Ended { .. } => sweep.push(plan.values[k], &finals),
             Status::Stopped { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
-            Status::Ended { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
             Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
         }
     }

@@ -8,6 +8,7 @@ use super::trace::Trace;
 use super::world_with_room;
 use crate::diagram::{Control, NotFinite};
 use crate::load::Loaded;
+use crate::sensor::Sensors;
 use crate::snapshot::Snapshot;
 
 /// A world with its controller.
@@ -15,6 +16,9 @@ use crate::snapshot::Snapshot;
 pub struct LockStep {
     world: World,
     control: Option<Control<f64>>,
+    sensors: Sensors,
+    /// Signals of the diagram, then values of sensors, as they were last observed.
+    signals: Vec<f64>,
     commands: Vec<Signal>,
     step: f64,
     tick: u64,
@@ -51,7 +55,11 @@ impl LockStep {
         let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
         let world = world_with_room(scene, experiment, method, refined, n_states);
-        let mut new = Self { world, control, commands: scene.commands.clone(), step: experiment.step, tick: 0 };
+        let sensors = Sensors::new(scene, experiment);
+        let room = control.as_ref().map_or(0, |c| c.signals().len()) + sensors.values.len();
+        let signals = Vec::with_capacity(room);
+        let mut new =
+            Self { world, control, sensors, signals, commands: scene.commands.clone(), step: experiment.step, tick: 0 };
         match &mut new.control {
             Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
             _ => new.world.settle_start(0.0),
@@ -163,13 +171,21 @@ impl LockStep {
 
     fn look(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
+        self.sensors.sample(&mut self.world, tick, t);
         let Some(control) = &mut self.control else { return Ok(()) };
+        control.sense(&self.sensors.values);
         control.look(&mut self.world, tick, t).map_err(|culprit| Halt::Block { tick, t, culprit })
     }
 
-    /// Everything that can be looked at: the world, and the diagram's signals.
+    /// Everything that can be looked at: the world, and the diagram's signals with the values of all sensors after them.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], Control::signals);
+        if !self.sensors.values.is_empty() {
+            self.signals.clear();
+            self.signals.extend_from_slice(signals);
+            self.signals.extend_from_slice(&self.sensors.values);
+            return (self.world.observe(t), &self.signals);
+        }
         (self.world.observe(t), signals)
     }
 
@@ -191,7 +207,13 @@ impl LockStep {
     #[must_use]
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
         let diagram = self.control.as_ref().map(|c| c.runner.state.clone());
-        Snapshot { state: self.world.state.clone(), trace, control: self.world.control(), diagram }
+        Snapshot {
+            state: self.world.state.clone(),
+            trace,
+            control: self.world.control(),
+            sensors: self.sensors.values.clone(),
+            diagram,
+        }
     }
 
     /// Goes back to a snapshot of the same scene and diagram.
@@ -201,6 +223,7 @@ impl LockStep {
             self.world.set_control(control);
         }
         self.tick = snapshot.state.tick;
+        self.sensors.values.copy_from_slice(&snapshot.sensors);
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
             control.resume(state.clone(), &snapshot.state);
         }

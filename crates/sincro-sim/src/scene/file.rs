@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
+use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
@@ -34,6 +35,9 @@ pub(crate) struct SceneFile {
     /// Drag of bodies in the air.
     #[serde(default)]
     pub drag: Vec<DragFile>,
+    /// Sensors: sampled at rates of their own, with errors.
+    #[serde(default)]
+    pub sensor: Vec<SensorFile>,
     /// Wind; none if left out.
     pub wind: Option<WindFile>,
     /// Density of the air that rotors turn in [kg/m³].

@@ -48,6 +48,8 @@ pub enum ObjectKind {
     Rotor,
     /// Drag of its parent, along its own axes.
     Drag,
+    /// Sensor on its parent.
+    Sensor,
 }
 
 impl ObjectKind {
@@ -70,6 +72,7 @@ impl ObjectKind {
             Self::Force => "force",
             Self::Rotor => "rotor",
             Self::Drag => "drag",
+            Self::Sensor => "sensor",
         }
     }
 }
