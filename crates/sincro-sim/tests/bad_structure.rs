@@ -265,7 +265,7 @@ target = 1.0"#,
         r#"value = "2*k"
 "#,
         "",
-        "experiment.toml:11:8: error: one of `value`, `reference`, `at_most`, `at_least` is missing in check `angle`",
+        "experiment.toml:11:8: error: one of `value`, `reference`, `at_most`, `at_least`, `diverges` is missing in check `angle`",
     ),
     (
         "experiment.toml",

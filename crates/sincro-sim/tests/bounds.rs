@@ -178,7 +178,11 @@ const REFUSED: &[(&str, &str, &[&str])] = &[
             "help: add `/hinge/ball.velocity.x`, `/hinge/ball.velocity.y` and `/hinge/ball.velocity.z` to `record`",
         ],
     ),
-    ("kind = \"path\"", "kind = \"orbit\"", &["experiment.toml:21:8"]),
+    (
+        "kind = \"path\"",
+        "kind = \"orbit\"",
+        &["experiment.toml:20:8: error: `kind` is \"orbit\", expected one of `lines`, `path`"],
+    ),
     (
         "kind = \"path\"",
         "kind = \"path\"\ndifference = \"variants\"",
