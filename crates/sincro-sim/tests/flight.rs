@@ -134,3 +134,15 @@ fn what_the_mixer_cannot_give_is_told() {
         negative.warnings
     );
 }
+
+/// Gains belong to the controller that they were said for: the variant with a cascaded PID has no such blocks.
+#[test]
+fn gains_of_one_controller_do_not_reach_the_other() {
+    let set = settings(&[("attitude_loop.gamma1_xy", "8.0"), ("parameters.y1", "0.2"), ("duration", "0.1")]);
+    let folder = scene("quadrotor-flight-1");
+    let loaded = load(&folder, &set).unwrap_or_else(|problems| panic!("{problems}"));
+    let campaign = run_campaign(&folder, &set, &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
+    assert!(campaign.report.variants.iter().any(|v| v.name == "pid" && v.status.is_good()));
+    let wrong = settings(&[("attitude_loop.gamma9", "8.0")]);
+    assert!(load(&folder, &wrong).unwrap_err().to_string().contains("has no parameter `gamma9`"));
+}

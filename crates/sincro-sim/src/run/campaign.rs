@@ -9,7 +9,7 @@ use super::{Manner, RunError, Simulated, Watch, method_word, model_hash, refine,
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::diagram::Controller;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
-use crate::load::{Loaded, load};
+use crate::load::{Loaded, load, settings_with};
 use crate::overrides::Override;
 use crate::results::{
     CheckReport, ColumnReport, Override as Setting, RunReport, Settings, Status, SweepReport, VariantReport,
@@ -74,7 +74,7 @@ pub fn run_campaign(
         if interrupted(&main) {
             break;
         }
-        let settings: Vec<Override> = overrides.iter().chain(&variant.set).cloned().collect();
+        let settings = settings_with(overrides, &variant.set);
         let other = load(folder, &settings)?;
         let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
         if let Some(dir) = &dir {
