@@ -37,6 +37,15 @@ const ROUGH: &[(&str, &str)] = &[
     ("step", "0.01"),
 ];
 
+/// With an IMU, and a step at which the explicit methods are stable.
+const FLIGHT: &[(&str, &str)] = &[
+    (
+        "sensor",
+        "[{ name = \"imu\", parent = \"/air/quadrotor\", sample_time = 0.01, imu = { gyro_noise_density = 1e-3 } }]",
+    ),
+    ("step", "0.0025"),
+];
+
 #[test]
 fn a_step_and_a_row_allocate_nothing() {
     // jumps of motors every tick, limits and events, quaternions, external signals
@@ -51,6 +60,8 @@ fn a_step_and_a_row_allocate_nothing() {
         ("two-dof-position", PID),
         ("quadrotor-open-loop", ROUGH),
         ("stock-propeller", &[]),
+        // rotors, a sub-diagram with everything sampled, a sensor
+        ("quadrotor-flight-1", FLIGHT),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
         let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();

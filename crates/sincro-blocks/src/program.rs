@@ -296,8 +296,9 @@ fn between_ticks(flat: &Flat, order: &[usize], rates: &[Rate]) -> Vec<bool> {
     (0..flat.nodes.len()).map(|n| needed[n] && rates[n] == Rate::Continuous && n > LATE).collect()
 }
 
-/// A seed for a block: of the run's seed and the path (FNV-1a).
-fn seed_of(seed: u64, path: &str) -> u64 {
+/// A seed for whatever has a path and is random: of the run's seed and the path (FNV-1a).
+#[must_use]
+pub fn seed_of(seed: u64, path: &str) -> u64 {
     path.bytes()
         .fold(seed ^ 0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }

@@ -21,6 +21,7 @@ pub mod run;
 pub mod scene;
 pub mod schema;
 pub mod script;
+pub mod sensor;
 mod series;
 pub mod session;
 pub mod snapshot;

@@ -79,7 +79,7 @@ pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
     let is_variant = overrides.iter().any(|setting| setting.path.at.source.path == file);
     let further = if is_variant { Vec::new() } else { further_settings(&loaded.experiment) };
     for setting in further {
-        let settings: Vec<Override> = overrides.iter().cloned().chain(setting).collect();
+        let settings = settings_with(overrides, &setting);
         match open(&folder, &settings) {
             Ok(variant) => problems.merge(Problems(variant.warnings)),
             Err(found) => problems.merge(found),
@@ -97,6 +97,14 @@ pub(crate) fn folder_name(path: &Path) -> String {
         if path.file_name().is_some_and(|name| name == EXPERIMENT) { path.parent().unwrap_or(path) } else { path };
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was said for: a variant
+/// that exchanges the diagram does not take it.
+pub(crate) fn settings_with(overrides: &[Override], variant: &[Override]) -> Vec<Override> {
+    let exchanges = variant.iter().any(|setting| setting.path.value == "diagram");
+    let outer = overrides.iter().filter(|setting| !(exchanges && setting.target() == Target::Diagram));
+    outer.chain(variant).cloned().collect()
 }
 
 /// Settings of the variants, and of the first and last run of the sweep.
@@ -191,6 +199,9 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         }
     }
     if let Some(experiment) = &experiment {
+        if let Some(scene) = &scene {
+            problems.merge(crate::sensor::check(&scene.sensors, experiment));
+        }
         problems.merge(experiment::stop::check_recorded(experiment));
         problems.merge(too_large(experiment));
     }

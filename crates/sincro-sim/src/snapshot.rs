@@ -1,7 +1,7 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
 //! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error control of the
-//! integrator, the seven vectors of [`State`] with their lengths, the three of the diagram's state (if there is one), and a checksum of
+//! integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the three of the diagram's state (if there is one), and a checksum of
 //! all that.
 
 use std::fmt;
@@ -14,7 +14,7 @@ use twox_hash::XxHash3_64;
 use crate::load::Loaded;
 use crate::run::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro03";
+const MAGIC: &[u8; 8] = b"sincro04";
 
 /// A moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,8 @@ pub struct Snapshot {
     pub trace: Trace,
     /// Error control of the integrator, none for fixed steps.
     pub control: Option<Control>,
+    /// What sensors gave last.
+    pub sensors: Vec<f64>,
     /// State of the diagram, if there is one.
     pub diagram: Option<sincro_blocks::runner::State<f64>>,
 }
@@ -68,8 +70,9 @@ impl Snapshot {
         }
         let s = &self.state;
         let of_diagram = self.diagram.iter().flat_map(|d| [&d.signals, &d.continuous, &d.memory]);
-        for vector in
-            [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals, &s.rotors].into_iter().chain(of_diagram)
+        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals, &s.rotors, &self.sensors]
+            .into_iter()
+            .chain(of_diagram)
         {
             bytes.extend((vector.len() as u64).to_le_bytes());
             vector.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
@@ -110,6 +113,7 @@ impl Snapshot {
             rotors: reader.vector()?,
             tick,
         };
+        let sensors = reader.vector()?;
         let diagram = match loaded.controller {
             None => None,
             Some(_) => Some(sincro_blocks::runner::State {
@@ -118,7 +122,7 @@ impl Snapshot {
                 memory: reader.vector()?,
             }),
         };
-        Ok(Self { state, trace, control, diagram })
+        Ok(Self { state, trace, control, sensors, diagram })
     }
 }
 

@@ -499,15 +499,15 @@ diagram.toml:6:1: error: block `a`: `constant` has no parameter `vaule`
     ),
     (
         &["a -> f"],
-        "a constant value = 1\nf delay samples = 0",
-        r##"diagram.toml:11:11: error: block `f`: `samples` is 0
-  help: it must be a whole number from 1 on"##,
+        "a constant value = 1\nf delay samples = -1",
+        r##"diagram.toml:11:11: error: block `f`: `samples` is -1
+  help: it must be a whole number from 0 on"##,
     ),
     (
         &["a -> f"],
         "a constant value = 1\nf delay samples = 1.5",
         r##"diagram.toml:11:11: error: block `f`: `samples` is 1.5
-  help: it must be a whole number from 1 on"##,
+  help: it must be a whole number from 0 on"##,
     ),
     (
         &["a -> f"],
@@ -885,7 +885,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "pid=3",
         r##"--set:1:1: error: `pid`: a scene or experiment has no `pid`
-  help: keys: `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint`, `variant` and 18 more"##,
+  help: keys: `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint`, `variant` and 20 more"##,
     ),
     (
         "diagram.pid=3",
@@ -907,7 +907,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `frame`, `step`, `seed`, `duration`, `scene`, `title` and 18 more"##,
+  help: keys: `plot`, `parameters`, `frame`, `step`, `seed`, `duration`, `scene`, `title` and 20 more"##,
     ),
     (
         "diagram.sample_time=0.003",

@@ -163,7 +163,7 @@ quaternion_wxyz = [1, 0, 0, 0]"#,
         "[[frame]]",
         "[[frme]]",
         r#"scene.toml:17:3: error: unknown key `frme`
-  help: did you mean `frame`? keys here: `frame`, `force`, `air_density`, `drag`, `rotor`, `gravity`, `body`, `joint` and 1 more"#,
+  help: did you mean `frame`? keys here: `frame`, `force`, `air_density`, `drag`, `rotor`, `sensor`, `gravity`, `body` and 2 more"#,
     ),
     (
         "experiment.toml",
@@ -265,7 +265,7 @@ target = 1.0"#,
         r#"value = "2*k"
 "#,
         "",
-        "experiment.toml:11:8: error: one of `value`, `reference`, `at_most`, `at_least` is missing in check `angle`",
+        "experiment.toml:11:8: error: one of `value`, `reference`, `at_most`, `at_least`, `diverges` is missing in check `angle`",
     ),
     (
         "experiment.toml",

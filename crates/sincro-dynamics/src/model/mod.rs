@@ -24,7 +24,7 @@ pub use builder::{
     RotorSpec,
 };
 pub use mass::MassProperties;
-pub use names::{FrameInfo, JointInfo, Names};
+pub use names::{FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 pub use problem::{Problem, Severity};
 pub use shape::Shape;
@@ -271,6 +271,18 @@ impl<R: Real> Model<R> {
     #[must_use]
     pub fn gravity(&self) -> Vec3<R> {
         self.gravity
+    }
+
+    /// Names sensors, each of which is a frame of the same name.
+    ///
+    /// # Panics
+    ///
+    /// If one of them is no frame.
+    pub fn set_sensors(&mut self, sensors: Vec<SensorInfo>) {
+        for sensor in &sensors {
+            assert!(self.names.frame(&sensor.name).is_some(), "the sensor `{}` is no frame", sensor.name);
+        }
+        Arc::make_mut(&mut self.names).sensors = sensors;
     }
 
     /// The user's objects: joints, bodies, frames.

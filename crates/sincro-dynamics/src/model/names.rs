@@ -45,6 +45,15 @@ pub struct FrameInfo {
     pub body: Option<([f64; 3], f64)>,
 }
 
+/// A sensor on a frame: what its values are called.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SensorInfo {
+    /// Name given by the user (a path in a scene).
+    pub name: String,
+    /// Names of its values and their units, in their order.
+    pub values: Vec<(String, String)>,
+}
+
 /// All names of a model.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
@@ -58,6 +67,8 @@ pub struct Names {
     pub rotors: Vec<String>,
     /// Drag elements, in the order of [`super::Model::drags`].
     pub drags: Vec<String>,
+    /// Sensors, which are frames too; the model does not measure, it only knows what they are called.
+    pub sensors: Vec<SensorInfo>,
     /// For each degree of freedom, the joint it belongs to.
     pub dof_joint: Vec<usize>,
 }

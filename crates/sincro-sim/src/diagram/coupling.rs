@@ -78,6 +78,8 @@ pub struct Control<R: Number> {
     late_torque: Vec<R>,
     late_accelerations: Vec<R>,
     impulse: Vec<f64>,
+    /// What sensors gave last.
+    sensed: Vec<f64>,
     held: Vec<f64>,
 }
 
@@ -110,6 +112,7 @@ impl<R: Number> Control<R> {
             late_torque: zeros(model.motors().len()),
             late_accelerations: zeros(model.n_v()),
             impulse: vec![0.0; model.motors().len()],
+            sensed: vec![0.0; model.names().sensors.iter().map(|s| s.values.len()).sum()],
             held: vec![0.0; model.n_commands()],
         }
     }
@@ -274,6 +277,7 @@ impl Control<f64> {
             for (k, probe) in reading.probes.iter().enumerate().filter(|(_, p)| is_known_at_ticks_only(**p)) {
                 use crate::record::EnergyQuantity as E;
                 let x = match *probe {
+                    Probe::Sensor(i) => self.sensed[i],
                     Probe::MotorTorqueMean(_) if tick == 0 => 0.0,
                     Probe::MotorTorqueMean(m) => (totals[2 + m] - self.impulse[m]) / step,
                     Probe::Contact(quantity, frame, k) => {
@@ -296,6 +300,11 @@ impl Control<f64> {
         world.with_seen(t, |mut seen| self.read_state(&mut seen, true));
         self.runner.minor(self.tick, t, self.corner);
         self.write_commands(&mut world.state.commands, true);
+    }
+
+    /// What sensors gave last, to be measured at the next tick.
+    pub fn sense(&mut self, values: &[f64]) {
+        self.sensed.copy_from_slice(values);
     }
 
     /// The continuous commands as they were last evaluated; sampled ones are not seen before they act.

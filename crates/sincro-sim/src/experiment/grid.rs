@@ -60,7 +60,7 @@ impl Grid {
 }
 
 /// A number without the dust of binary arithmetic.
-pub(super) fn short(x: f64) -> String {
+pub(crate) fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
     rounded.to_string()
 }

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 pub(crate) use file::ExperimentFile;
+pub(crate) use grid::short;
 pub(crate) use resolve::resolve;
 
 use crate::overrides::Override;

@@ -166,6 +166,7 @@ fn output(all: &[Entry], name: &Located<String>) -> Result<Output, Problem> {
     let is_sum = matches!(
         entry.probe,
         Probe::MotorTorqueMean(_)
+            | Probe::Sensor(_)
             | Probe::FrictionTorque(_)
             | Probe::Command(_)
             | Probe::Energy(EnergyQuantity::Work | EnergyQuantity::Dissipated | EnergyQuantity::Balance)

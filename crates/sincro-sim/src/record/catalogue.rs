@@ -88,6 +88,10 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
         list.vector("wind", &XYZ, "m/s", Probe::Wind);
     }
     contact_signals(&mut list, model);
+    let values = model.names().sensors.iter().flat_map(|s| s.values.iter().map(move |value| (&s.name, value)));
+    for (k, (name, (value, unit))) in values.enumerate() {
+        list.0.push(Entry { name: format!("{name}.{value}"), unit: unit.clone().into(), probe: Probe::Sensor(k) });
+    }
     world_signals(&mut list);
     list.0
 }

@@ -62,6 +62,8 @@ pub enum Probe {
     Opening(usize),
     /// What a degree of freedom of a force sensor holds.
     Reaction(usize),
+    /// Value of a sensor, as it was last sampled.
+    Sensor(usize),
     /// Signal of the diagram.
     Signal(usize),
 }
@@ -123,6 +125,8 @@ pub struct Recorder {
     motor_impulse: Vec<f64>,
     last_t: f64,
     energy_at_start: f64,
+    /// Values of all sensors.
+    n_sensed: usize,
     row: Vec<f64>,
 }
 
@@ -147,7 +151,8 @@ impl Recorder {
         }
         let row = Vec::with_capacity(entries.len() + 1);
         let motor_impulse = vec![0.0; model.motors().len()];
-        Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, row })
+        let n_sensed = model.names().sensors.iter().map(|s| s.values.len()).sum();
+        Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, row })
     }
 
     /// Names and units of the columns, `t` first.
@@ -155,7 +160,7 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), &*e.unit)))
     }
 
-    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's. To be called at every recorded instant, in order, the start included.
+    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, with the values of all sensors after them. To be called at every recorded instant, in order, the start included.
     pub fn row(&mut self, seen: &Observation<'_>, signals: &[f64], t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {
@@ -170,6 +175,7 @@ impl Recorder {
                 Probe::Momentum(k) if k < 3 => momentum.ang[k],
                 Probe::Momentum(k) => momentum.lin[k - 3],
                 Probe::Signal(k) => signals[k],
+                Probe::Sensor(k) => signals[signals.len() - self.n_sensed + k],
                 probe => self.read(seen, probe, t),
             };
             self.row.push(value);

@@ -9,7 +9,7 @@ use super::{Manner, RunError, Simulated, Watch, method_word, model_hash, refine,
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::diagram::Controller;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
-use crate::load::{Loaded, load};
+use crate::load::{Loaded, load, settings_with};
 use crate::overrides::Override;
 use crate::replay::SceneView;
 use crate::results::{
@@ -79,7 +79,7 @@ pub fn run_campaign(
         if interrupted(&main) {
             break;
         }
-        let settings: Vec<Override> = overrides.iter().chain(&variant.set).cloned().collect();
+        let settings = settings_with(overrides, &variant.set);
         let other = load(folder, &settings)?;
         let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
         if let Some(dir) = &dir {
@@ -224,9 +224,9 @@ fn run_sweep(
         let finals: Vec<f64> =
             run.table.columns.iter().skip(1).map(|c| c.values.last().copied().unwrap_or(f64::NAN)).collect();
         match &run.status {
-            Status::Completed => sweep.push(plan.values[k], &finals),
+            // at a bound a run is at its end: the values there are its final ones
+            Status::Completed | Status::Ended { .. } => sweep.push(plan.values[k], &finals),
             Status::Stopped { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
-            Status::Ended { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
             Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
         }
     }

@@ -9,6 +9,7 @@ use super::world_with_room;
 use crate::diagram::{Control, NotFinite};
 use crate::load::Loaded;
 use crate::script::{self, Fault, Message, Phase, Scripts, Setting};
+use crate::sensor::Sensors;
 use crate::session::{self, Desk, Handle, Refusal, Table, Value};
 use crate::snapshot::Snapshot;
 
@@ -17,6 +18,9 @@ use crate::snapshot::Snapshot;
 pub struct LockStep {
     world: World,
     control: Option<Control<f64>>,
+    sensors: Sensors,
+    /// Signals of the diagram, then values of sensors, as they were last observed.
+    signals: Vec<f64>,
     commands: Vec<Signal>,
     step: f64,
     tick: u64,
@@ -97,8 +101,12 @@ impl LockStep {
             table.phase = session::Phase::Running;
             Box::new(table)
         });
+        let sensors = Sensors::new(scene, experiment);
+        let room = control.as_ref().map_or(0, |c| c.signals().len()) + sensors.values.len();
+        let signals = Vec::with_capacity(room);
         let (commands, scripts) = (scene.commands.clone(), OwnScripts(scripts));
-        let mut new = Self { world, control, commands, step: experiment.step, tick: 0, table, scripts };
+        let step = experiment.step;
+        let mut new = Self { world, control, sensors, signals, commands, step, tick: 0, table, scripts };
         match &mut new.control {
             Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
             _ => new.world.settle_start(0.0),
@@ -299,13 +307,21 @@ impl LockStep {
 
     fn look(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
+        self.sensors.sample(&mut self.world, tick, t);
         let Some(control) = &mut self.control else { return Ok(()) };
+        control.sense(&self.sensors.values);
         control.look(&mut self.world, tick, t).map_err(|culprit| Halt::Block { tick, t, culprit })
     }
 
-    /// Everything that can be looked at: the world, and the diagram's signals.
+    /// Everything that can be looked at: the world, and the diagram's signals with the values of all sensors after them.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], Control::signals);
+        if !self.sensors.values.is_empty() {
+            self.signals.clear();
+            self.signals.extend_from_slice(signals);
+            self.signals.extend_from_slice(&self.sensors.values);
+            return (self.world.observe(t), &self.signals);
+        }
         (self.world.observe(t), signals)
     }
 
@@ -327,7 +343,13 @@ impl LockStep {
     #[must_use]
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
         let diagram = self.control.as_ref().map(|c| c.runner.state.clone());
-        Snapshot { state: self.world.state.clone(), trace, control: self.world.control(), diagram }
+        Snapshot {
+            state: self.world.state.clone(),
+            trace,
+            control: self.world.control(),
+            sensors: self.sensors.values.clone(),
+            diagram,
+        }
     }
 
     /// Goes back to a snapshot of the same scene and diagram.
@@ -337,6 +359,7 @@ impl LockStep {
             self.world.set_control(control);
         }
         self.tick = snapshot.state.tick;
+        self.sensors.values.copy_from_slice(&snapshot.sensors);
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
             control.resume(state.clone(), &snapshot.state);
         }

@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
 use super::rotor::RotorFile;
+use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
@@ -35,6 +36,9 @@ pub(crate) struct SceneFile {
     /// Drag of bodies in the air.
     #[serde(default)]
     pub drag: Vec<DragFile>,
+    /// Sensors: sampled at rates of their own, with errors.
+    #[serde(default)]
+    pub sensor: Vec<SensorFile>,
     /// Wind, felt by rotors and drag elements: a table of `mean`, `profile`, `gust` and `turbulence`; none if left out.
     pub wind: Option<WindFile>,
     /// Scripts, each on an object.

@@ -13,6 +13,7 @@ mod object;
 mod placement;
 mod rotor;
 mod script;
+mod sensor;
 mod signal_file;
 mod text;
 mod tree;
@@ -36,6 +37,7 @@ use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Located, Problem, Problems};
 use crate::script::Script;
+use crate::sensor::SensorSpec;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
 use tree::Entry;
@@ -49,6 +51,8 @@ pub struct Scene {
     pub initial: State<f64>,
     /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of rotors.
     pub commands: Vec<Signal>,
+    /// Its sensors, in the order in which their values are kept.
+    pub sensors: Vec<SensorSpec>,
     /// Every object, parents before children, children in the order of the file.
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
@@ -82,6 +86,7 @@ enum Spec {
     Force(ForceSpec),
     Rotor(Box<rotor::RotorMade>, Signal),
     Drag(DragSpec),
+    Sensor(Option<SensorSpec>),
 }
 
 /// Compiles a document that fits the schema; `seed` is that of the turbulence.
@@ -150,6 +155,10 @@ impl Maker<'_> {
                 let (density, document) = (self.air_density, self.document);
                 Spec::Drag(air::drag(file, &entry.pointer, density, document, self.problems))
             }
+            tree::AnyFile::Sensor(file) => {
+                let (path, pointer) = (&entry.path, &entry.pointer);
+                Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.problems))
+            }
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
     }
@@ -182,6 +191,7 @@ struct Assembly {
     objects: Vec<Object>,
     /// Command of the motor of the joint, or speed of the rotor, that is object k.
     commands: BTreeMap<usize, Signal>,
+    sensors: Vec<SensorSpec>,
     /// Entry that is object k.
     entry_of: Vec<usize>,
 }
@@ -193,6 +203,7 @@ impl Assembly {
             nodes: Vec::new(),
             objects: Vec::new(),
             commands: BTreeMap::new(),
+            sensors: Vec::new(),
             entry_of: Vec::new(),
         }
     }
@@ -217,6 +228,10 @@ impl Assembly {
                 (shapes, skin) = (of_body, of_skin);
                 let kind = ObjectKind::Body { mass: spec.mass };
                 (self.builder.body(&path, parent, pose, spec), kind)
+            }
+            Spec::Sensor(spec) => {
+                self.sensors.extend(spec);
+                (self.builder.frame(&path, parent, pose), ObjectKind::Sensor)
             }
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
@@ -268,7 +283,8 @@ impl Assembly {
         for problem in found {
             problems.push(self.place(problem, entries, document));
         }
-        let Some(model) = model else { return Err(problems.sorted()) };
+        let Some(mut model) = model else { return Err(problems.sorted()) };
+        crate::sensor::register(&mut model, &self.sensors);
         let mut starts = Vec::new();
         for (object, &entry) in self.objects.iter().zip(&self.entry_of) {
             if let tree::AnyFile::Joint(file) = entries[entry].file {
@@ -292,6 +308,7 @@ impl Assembly {
             model: Arc::new(model),
             initial,
             commands,
+            sensors: self.sensors,
             objects: self.objects,
             scripts,
             script_step: None,

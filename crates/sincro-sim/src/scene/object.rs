@@ -55,6 +55,8 @@ pub enum ObjectKind {
     Rotor,
     /// Drag of its parent, along its own axes.
     Drag,
+    /// Sensor on its parent.
+    Sensor,
 }
 
 impl ObjectKind {
@@ -78,6 +80,7 @@ impl ObjectKind {
             Self::Force => "force",
             Self::Rotor => "rotor",
             Self::Drag => "drag",
+            Self::Sensor => "sensor",
         }
     }
 }

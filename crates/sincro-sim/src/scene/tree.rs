@@ -9,6 +9,7 @@ use super::air::DragFile;
 use super::file::{BodyFile, ForceFile, FrameFile, JointFile, SceneFile};
 use super::placement::Placement;
 use super::rotor::RotorFile;
+use super::sensor::SensorFile;
 use crate::document::Document;
 use crate::problem::{Problem, Problems};
 use crate::suggest;
@@ -33,6 +34,7 @@ pub(super) enum AnyFile<'a> {
     Force(&'a ForceFile),
     Rotor(&'a RotorFile),
     Drag(&'a DragFile),
+    Sensor(&'a SensorFile),
 }
 
 impl AnyFile<'_> {
@@ -45,6 +47,7 @@ impl AnyFile<'_> {
             Self::Force(_) => "force",
             Self::Rotor(_) => "rotor",
             Self::Drag(_) => "drag",
+            Self::Sensor(_) => "sensor",
         }
     }
 }
@@ -67,6 +70,7 @@ impl Entry<'_> {
             AnyFile::Frame(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Rotor(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Drag(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Sensor(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Force(_) => Placement::new([0.0; 3], None, None),
         }
     }
@@ -80,6 +84,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
     let forces = file.force.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Force(f))).enumerate();
     let rotors = file.rotor.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Rotor(f))).enumerate();
     let drags = file.drag.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Drag(f))).enumerate();
+    let sensors = file.sensor.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Sensor(f))).enumerate();
     let named = |list: &'static str| {
         move |(k, (name, parent, file))| Entry {
             name,
@@ -95,6 +100,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
         .chain(forces.map(named("force")))
         .chain(rotors.map(named("rotor")))
         .chain(drags.map(named("drag")))
+        .chain(sensors.map(named("sensor")))
         .collect()
 }
 
@@ -175,7 +181,7 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
     let at = document.at(&format!("{}/parent", entry.pointer));
     let carrier = parent.map(|p| p.file);
     match (entry.file, carrier) {
-        (_, Some(AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_))) => {
+        (_, Some(AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_) | AnyFile::Sensor(_))) => {
             let word = carrier.map_or("", AnyFile::word);
             let problem = Problem::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
             problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));

@@ -212,7 +212,7 @@ impl Table {
                     let at = of_frame().unwrap_or(beside);
                     (Kind::Body(*mass), at, at)
                 }
-                ObjectKind::Frame => {
+                ObjectKind::Frame | ObjectKind::Sensor => {
                     let at = of_frame().unwrap_or(beside);
                     (Kind::Frame, at, at)
                 }

@@ -33,6 +33,8 @@ pub(crate) enum FigureKind {
     Growth,
     /// What a block diagram adds to a step
     Diagram,
+    /// A minute of the quadrotor's flight test, controller and recording included
+    Flight,
     /// Bytes of one world
     Memory,
     /// Errors at default settings
@@ -172,6 +174,25 @@ impl<'a> Session<'a> {
         if both && self.wants(FigureKind::Growth) {
             self.measure_growth();
         }
+        if self.options.only.is_empty() && self.wants(FigureKind::Flight) {
+            self.measure_flight();
+        }
+    }
+
+    /// A minute of flight: processor time, as everywhere here, and beside it the wall, which is what a user waits for.
+    fn measure_flight(&mut self) {
+        let mut meter = match super::flight::flight() {
+            Ok(subject) => Meter::new(subject),
+            Err(problem) => return complain(&problem),
+        };
+        (0..ROUNDS).for_each(|_| {
+            meter.round(self.options.seconds_per_figure / ROUNDS as f64);
+        });
+        let timing = meter.timing();
+        let (value, wall) = (timing.median.cpu * 1e-9, timing.median.wall * 1e-9);
+        let note = format!("{:.0} times real time; {wall:.3} s on the wall", super::flight::SECONDS / value);
+        let (model, figure) = ("quadrotor", "flight of 60 s");
+        self.push(Row { model, figure, value, unit: "s", timing: Some(timing), note, rivals: Vec::new() });
     }
 
     fn push(&mut self, row: Row) {

@@ -9,6 +9,7 @@ mod bars;
 mod clock;
 mod diagrams;
 mod figures;
+mod flight;
 mod models;
 mod peer;
 mod subjects;

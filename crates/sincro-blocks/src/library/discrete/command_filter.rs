@@ -11,8 +11,7 @@
 //! ζ > 1: c = cosh(ω_d·T), s = sinh(ω_d·T)/ω_d,   ω_d = ω·√(ζ² − 1)
 //! ```
 //!
-//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference (Farrell, Polycarpou,
-//! Sharma, Dong 2009).
+//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference (`farrell2009`).
 
 use sincro_math::{Real, elementary};
 

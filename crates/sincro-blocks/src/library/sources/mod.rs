@@ -7,7 +7,7 @@ mod cycle;
 mod noise;
 mod pulse;
 mod ramp;
-mod random;
+pub mod random;
 mod sawtooth;
 mod sine;
 mod step;

@@ -8,7 +8,8 @@
 const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Number `n`, from 0 on, of the generator of a seed.
-pub(super) fn splitmix(seed: u64, n: u64) -> u64 {
+#[must_use]
+pub fn splitmix(seed: u64, n: u64) -> u64 {
     let mut z = seed.wrapping_add(n.wrapping_add(1).wrapping_mul(GAMMA));
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -16,13 +17,15 @@ pub(super) fn splitmix(seed: u64, n: u64) -> u64 {
 }
 
 /// A number evenly distributed in (0, 1): neither end is reached, so that its logarithm is finite.
-pub(super) fn uniform(seed: u64, n: u64) -> f64 {
+#[must_use]
+pub fn uniform(seed: u64, n: u64) -> f64 {
     // the upper 52 bits, each interval represented by its middle
     ((splitmix(seed, n) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
 }
 
 /// A number of the normal distribution with mean 0 and variance 1 (Box–Muller), from the uniform numbers `2n` and `2n+1`.
-pub(super) fn gaussian(seed: u64, n: u64) -> f64 {
+#[must_use]
+pub fn gaussian(seed: u64, n: u64) -> f64 {
     let (u1, u2) = (uniform(seed, n.wrapping_mul(2)), uniform(seed, n.wrapping_mul(2).wrapping_add(1)));
     let radius = (-2.0 * sincro_math::elementary::ln(u1).0).sqrt();
     radius * sincro_math::elementary::sin_cos(core::f64::consts::TAU * u2).1

@@ -1,0 +1,148 @@
+//! Sensors: places on bodies where something is measured at a rate of its own, with errors.
+//!
+//! A sensor takes a sample at the multiples of its sample time, from the state at the tick and from the accelerations under the commands that
+//! acted up to it: what a controller answers at a tick it cannot have measured at that tick, so that no sensor closes an algebraic loop.
+//! Between samples its values are held. They are recorded and wired under the sensor's path:
+//!
+//! | sensor | values |
+//! |---|---|
+//! | `imu` | `.accelerometer.x y z` [m/s²] specific force Rᵀ(a − g), `.gyro.x y z` [rad/s] angular velocity, both in its own axes |
+//! | `pose` | `.measured_position.x y z` `[m]`, `.measured_quaternion.w x y z`, `.measured_roll` `.measured_pitch` `.measured_yaw` `[rad]` |
+//! | `velocity` | `.measured_velocity.x y z` [m/s] of its origin, world axes |
+//! | `height` | `.measured_height` `[m]` |
+//!
+//! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's path, the component and
+//! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
+//! N/√(sample time).
+
+mod running;
+
+pub(crate) use running::Sensors;
+
+use sincro_dynamics::model::{Model, SensorInfo};
+
+use crate::experiment::Experiment;
+use crate::problem::{Located, Problem, Problems};
+
+/// A sensor as the scene has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorSpec {
+    /// Its path; a frame of the model has the same.
+    pub path: String,
+    /// What it measures.
+    pub kind: SensorKind,
+    /// Time between two samples `[s]`; none: every base step.
+    pub sample_time: Option<Located<f64>>,
+}
+
+/// What a sensor measures, and how wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SensorKind {
+    /// Specific force and angular velocity, own axes.
+    Imu {
+        /// [m/s²]; its noise is a density [m/s²/√Hz].
+        accelerometer: Errors,
+        /// [rad/s]; its noise is a density [rad/s/√Hz].
+        gyro: Errors,
+    },
+    /// Position and attitude in the world.
+    Pose {
+        /// Standard deviation of each coordinate `[m]`.
+        position_noise: f64,
+        /// Standard deviation of a small turn about each axis `[rad]`.
+        angle_noise: f64,
+    },
+    /// Velocity of its origin, world axes.
+    Velocity {
+        /// Standard deviation of each component [m/s].
+        noise: f64,
+    },
+    /// Height over z = 0.
+    Height {
+        /// Added `[m]`.
+        bias: f64,
+        /// Standard deviation `[m]`.
+        noise: f64,
+    },
+}
+
+/// Errors of three components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Added to every sample.
+    pub bias: [f64; 3],
+    /// How noisy they are.
+    pub noise: f64,
+}
+
+impl SensorKind {
+    /// Names of its values after its path, each with its unit, in the order in which they are kept.
+    #[must_use]
+    pub fn values(self) -> Vec<(&'static str, &'static str)> {
+        match self {
+            Self::Imu { .. } => vec![
+                ("accelerometer.x", "m/s²"),
+                ("accelerometer.y", "m/s²"),
+                ("accelerometer.z", "m/s²"),
+                ("gyro.x", "rad/s"),
+                ("gyro.y", "rad/s"),
+                ("gyro.z", "rad/s"),
+            ],
+            Self::Pose { .. } => vec![
+                ("measured_position.x", "m"),
+                ("measured_position.y", "m"),
+                ("measured_position.z", "m"),
+                ("measured_quaternion.w", "1"),
+                ("measured_quaternion.x", "1"),
+                ("measured_quaternion.y", "1"),
+                ("measured_quaternion.z", "1"),
+                ("measured_roll", "rad"),
+                ("measured_pitch", "rad"),
+                ("measured_yaw", "rad"),
+            ],
+            Self::Velocity { .. } => {
+                vec![("measured_velocity.x", "m/s"), ("measured_velocity.y", "m/s"), ("measured_velocity.z", "m/s")]
+            }
+            Self::Height { .. } => vec![("measured_height", "m")],
+        }
+    }
+}
+
+/// The sensors in the names of their model.
+pub(crate) fn register(model: &mut Model<f64>, specs: &[SensorSpec]) {
+    let info = |spec: &SensorSpec| SensorInfo {
+        name: spec.path.clone(),
+        values: spec.kind.values().into_iter().map(|(name, unit)| (name.to_owned(), unit.to_owned())).collect(),
+    };
+    model.set_sensors(specs.iter().map(info).collect());
+}
+
+/// Base steps between two samples.
+fn every(spec: &SensorSpec, step: f64) -> Option<u64> {
+    let Some(sample_time) = &spec.sample_time else { return Some(1) };
+    let n = (sample_time.value / step).round();
+    (n >= 1.0 && (n * step - sample_time.value).abs() <= 1e-9 * sample_time.value).then_some(n as u64)
+}
+
+/// Refuses sample times that are no whole number of base steps.
+pub(crate) fn check(specs: &[SensorSpec], experiment: &Experiment) -> Problems {
+    let mut problems = Problems::new();
+    for spec in specs {
+        let Some(sample_time) = spec.sample_time.as_ref().filter(|_| every(spec, experiment.step).is_none()) else {
+            continue;
+        };
+        let (step, ratio) = (experiment.step, sample_time.value / experiment.step);
+        let message = format!(
+            "the sample time of sensor `{}`, {} s, is no whole number of base steps of {step} s",
+            spec.path, sample_time.value
+        );
+        let near = [ratio.floor().max(1.0), ratio.ceil().max(1.0)].map(|n| crate::experiment::short(n * step));
+        let help = if near[0] == near[1] {
+            format!("use {} or a smaller `step`", near[0])
+        } else {
+            format!("use {} or {}, or another `step`", near[0], near[1])
+        };
+        problems.push(Problem::error(&sample_time.at, message).with_help(help));
+    }
+    problems
+}

@@ -1,0 +1,110 @@
+//! Sensors in a run: due samples are taken, the others held.
+
+use sincro_blocks::library::sources::random::{gaussian, splitmix};
+use sincro_blocks::program::seed_of;
+use sincro_dynamics::attachment::Seen;
+use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
+use sincro_dynamics::spatial::{Quat, Vec3};
+use sincro_dynamics::world::World;
+
+use super::{Errors, SensorKind, every};
+use crate::experiment::Experiment;
+use crate::record::probe::attached;
+use crate::scene::Scene;
+
+/// All sensors of a scene with what they gave last.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensors {
+    list: Vec<Sensor>,
+    /// Values of all sensors, one after the other.
+    pub values: Vec<f64>,
+    accelerations: Vec<f64>,
+}
+
+#[derive(Clone, Debug)]
+struct Sensor {
+    kind: SensorKind,
+    at: Attached<f64>,
+    every: u64,
+    /// 1/√(sample time).
+    root_rate: f64,
+    seed: u64,
+    first: usize,
+    n: usize,
+}
+
+impl Sensors {
+    /// Before their first sample.
+    pub fn new(scene: &Scene, experiment: &Experiment) -> Self {
+        let (mut list, mut first) = (Vec::new(), 0);
+        for spec in &scene.sensors {
+            let frames = &scene.model.names().frames;
+            let frame = frames.iter().position(|f| f.name == spec.path).expect("a sensor is a frame of the model");
+            let every = every(spec, experiment.step).expect("sample times have been checked");
+            let n = spec.kind.values().len();
+            list.push(Sensor {
+                kind: spec.kind,
+                at: attached(&scene.model, frame),
+                every,
+                root_rate: 1.0 / (every as f64 * experiment.step).sqrt(),
+                seed: seed_of(experiment.seed, &spec.path),
+                first,
+                n,
+            });
+            first += n;
+        }
+        Self { list, values: vec![0.0; first], accelerations: vec![0.0; scene.model.n_v()] }
+    }
+
+    /// Takes the samples that are due at a tick.
+    pub fn sample(&mut self, world: &mut World, tick: u64, t: f64) {
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every);
+        if !self.list.iter().any(|s| due(&s)) {
+            return;
+        }
+        if self.list.iter().filter(due).any(|s| matches!(s.kind, SensorKind::Imu { .. })) {
+            self.accelerations.copy_from_slice(world.rates(t).0);
+        }
+        let (list, values, accelerations) = (&self.list, &mut self.values, &self.accelerations);
+        world.with_seen(t, |seen| {
+            kinematics::motions(seen.model, seen.q, seen.v, accelerations, seen.scratch);
+            for sensor in list.iter().filter(due) {
+                sensor.measure(&seen, tick / sensor.every, &mut values[sensor.first..][..sensor.n]);
+            }
+        });
+    }
+}
+
+impl Sensor {
+    /// Sample `k`, after the kinematics.
+    fn measure(&self, seen: &Seen<'_, f64>, k: u64, y: &mut [f64]) {
+        let noise = |component: usize| gaussian(splitmix(self.seed, component as u64), k);
+        let three = |first: usize, x: Vec3<f64>, errors: &Errors, scale: f64| -> [f64; 3] {
+            core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * noise(first + i))
+        };
+        let plain = |noise: f64| Errors { bias: [0.0; 3], noise };
+        let pose = frame_pose(seen.scratch, &self.at);
+        match &self.kind {
+            SensorKind::Imu { accelerometer, gyro } => {
+                let own = |v: Vec3<f64>| pose.rot.transpose().mul_vec(v);
+                let force = own(frame_acceleration(seen.scratch, &self.at).lin - seen.model.gravity());
+                let rate = own(frame_velocity(seen.scratch, &self.at).ang);
+                y[..3].copy_from_slice(&three(0, force, accelerometer, self.root_rate));
+                y[3..].copy_from_slice(&three(3, rate, gyro, self.root_rate));
+            }
+            SensorKind::Pose { position_noise, angle_noise } => {
+                y[..3].copy_from_slice(&three(0, pose.pos, &plain(*position_noise), 1.0));
+                let half = Vec3(core::array::from_fn(|i| 0.5 * angle_noise * noise(3 + i)));
+                let turned = Quat::from_matrix(&pose.rot).mul(&Quat { w: 1.0, xyz: half }.normalized());
+                y[3] = turned.w;
+                y[4..7].copy_from_slice(&turned.xyz.0);
+                y[7..].copy_from_slice(&kinematics::roll_pitch_yaw(&turned.matrix()).0);
+            }
+            SensorKind::Velocity { noise } => {
+                let velocity = frame_velocity(seen.scratch, &self.at).lin;
+                y.copy_from_slice(&three(0, velocity, &plain(*noise), 1.0));
+            }
+            SensorKind::Height { bias, noise: std } => y[0] = pose.pos[2] + bias + std * noise(0),
+        }
+    }
+}
