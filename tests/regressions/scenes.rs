@@ -36,6 +36,7 @@ fn all_checks(report: &RunReport) -> impl Iterator<Item = &CheckReport> {
 
 #[test]
 fn every_scene_holds_its_checks_and_its_bits() {
+    sincro_lua::install();
     let mut traces = String::new();
     for folder in folders() {
         let report = run(&folder);

@@ -5,7 +5,7 @@ local raw_next, raw_pcall, raw_xpcall, raw_error = next, pcall, xpcall, error
 local raw_resume, raw_create, yield = coroutine.resume, coroutine.create, coroutine.yield
 local yieldable = coroutine.isyieldable
 local type, rawget, rawlen, select, getmetatable, setmetatable = type, rawget, rawlen, select, getmetatable, setmetatable
-local sort, pack, unpack = table.sort, table.pack, table.unpack
+local sort = table.sort
 
 -- errors: after a limit was reached each of these fails at once, so that nothing can go on for long
 local function checked(ok, ...)

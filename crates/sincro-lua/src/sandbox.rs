@@ -39,7 +39,8 @@ pub(crate) struct Waits {
 /// A Lua state that is shut off, with its limits.
 pub(crate) fn new(guard: &Arc<Guard>, max_memory: usize) -> mlua::Result<Lua> {
     let libraries = StdLib::COROUTINE | StdLib::TABLE | StdLib::STRING | StdLib::UTF8 | StdLib::MATH;
-    let lua = Lua::new_with(libraries, LuaOptions::new().catch_rust_panics(false))?;
+    // so `pcall` and `xpcall` stay Lua's own, through which threads can wait
+    let lua = Lua::new_with(libraries, LuaOptions::new().catch_rust_panics(true))?;
     lua.set_memory_limit(max_memory)?;
     guard.install(&lua)?;
     Ok(lua)

@@ -163,7 +163,7 @@ quaternion_wxyz = [1, 0, 0, 0]"#,
         "[[frame]]",
         "[[frme]]",
         r#"scene.toml:17:3: error: unknown key `frme`
-  help: did you mean `frame`? keys here: `air_density`, `body`, `force`, `frame`, `gravity`, `joint`, `rotor`"#,
+  help: did you mean `frame`? keys here: `frame`, `force`, `air_density`, `rotor`, `script`, `gravity`, `script_step`, `body` and 1 more"#,
     ),
     (
         "experiment.toml",

@@ -20,6 +20,7 @@ fn scenes() -> Vec<PathBuf> {
 
 #[test]
 fn every_scene_loads_without_warnings() {
+    sincro_lua::install();
     let scenes = scenes();
     assert!(scenes.len() >= 10);
     for scene in scenes {
