@@ -106,7 +106,9 @@ fn main() {
     round_trips_once(&mut client, &legacy(&[(0x0001, vec![], vec![]), (0x1007, vec![0], vec![])]), 24 + 56);
     let step = legacy(&[(0x1008, vec![1], vec![0.0]), (0x0003, vec![], vec![]), (0x1001, vec![1], vec![])]);
     measure("legacy, set + trigger + get, step included", &mut client, &step, 24 + 30 + 26 + 34);
-    round_trips_once(&mut client, &legacy(&[(0x1007, vec![2], vec![])]), 24 + 30);
+    let answer = round_trips_once(&mut client, &legacy(&[(0x1007, vec![2], vec![])]), 24 + 30);
+    let stopped = server.hub().enter().steps();
+    assert!(stopped >= N as u64 && answer[24 + 24] == 0, "every trigger was a step: {stopped}");
 
     let mut client = connect(ports.zmq.expect("it was asked for"));
     client.write_all(&[&wire::greeting()[..], &wire::ready("REQ")].concat()).expect("the server takes it");
@@ -125,7 +127,10 @@ fn main() {
     );
 }
 
-fn round_trips_once(stream: &mut TcpStream, request: &[u8], n: usize) {
+/// Sends a request and gives its answer of `n` bytes.
+fn round_trips_once(stream: &mut TcpStream, request: &[u8], n: usize) -> Vec<u8> {
+    let mut answer = vec![0; n];
     stream.write_all(request).expect("the server takes it");
-    stream.read_exact(&mut vec![0; n]).expect("the server answers");
+    stream.read_exact(&mut answer).expect("the server answers");
+    answer
 }
