@@ -4,9 +4,9 @@
 //! thread completes the condition, as soon as every such client has asked and nobody holds a lock. Without any such client the simulation
 //! runs by itself, between the calls of the others.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -14,6 +14,9 @@ use sincro_sim::session::{Finished, Phase, Refusal, Session};
 
 /// Longest wait before the state of the server is looked at again.
 const GLANCE: Duration = Duration::from_millis(100);
+
+/// Runs that wait to be taken.
+const MOST_RUNS: usize = 64;
 
 /// A client, as the hub knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,7 +50,9 @@ pub struct Floor {
     next_client: u64,
     /// Why the last run ended by itself.
     failure: Option<Refusal>,
-    events: Sender<Event>,
+    events: SyncSender<Event>,
+    /// Runs that nobody has taken yet.
+    backlog: VecDeque<Finished>,
     publish: Option<Box<dyn FnMut(u64) + Send>>,
 }
 
@@ -75,9 +80,17 @@ pub struct Hub {
 impl Hub {
     /// Over a session; events go to `events`.
     #[must_use]
-    pub fn new(session: Session, manner: Manner, events: Sender<Event>) -> Arc<Self> {
-        let floor =
-            Floor { session, clients: BTreeMap::new(), step: 0, next_client: 0, failure: None, events, publish: None };
+    pub fn new(session: Session, manner: Manner, events: SyncSender<Event>) -> Arc<Self> {
+        let floor = Floor {
+            session,
+            clients: BTreeMap::new(),
+            step: 0,
+            next_client: 0,
+            failure: None,
+            events,
+            backlog: VecDeque::new(),
+            publish: None,
+        };
         Arc::new(Self {
             floor: Mutex::new(floor),
             moved: Condvar::new(),
@@ -400,17 +413,26 @@ impl Floor {
     }
 
     fn log(&mut self, level: i64, text: String) {
-        // nobody may listen any more
-        let _ = self.events.send(Event::Log(level, text));
+        // nobody may listen, or not fast enough: lines are dropped then
+        let _ = self.events.try_send(Event::Log(level, text));
     }
 
-    /// Passes on what the session has to say.
+    /// Passes on what the session has to say. Runs wait until they are taken, up to [`MOST_RUNS`]; then the oldest are dropped.
     fn pass_on(&mut self) {
         for line in self.session.table().take_log() {
-            let _ = self.events.send(Event::Log(line.level, line.text));
+            self.log(line.level, line.text);
         }
-        for finished in self.session.take_finished() {
-            let _ = self.events.send(Event::Finished(Box::new(finished)));
+        self.backlog.extend(self.session.take_finished());
+        while let Some(finished) = self.backlog.pop_front() {
+            if let Err(TrySendError::Full(Event::Finished(finished))) =
+                self.events.try_send(Event::Finished(Box::new(finished)))
+            {
+                self.backlog.push_front(*finished);
+                break;
+            }
+        }
+        while self.backlog.len() > MOST_RUNS {
+            self.backlog.pop_front();
         }
     }
 }

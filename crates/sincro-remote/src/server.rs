@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -12,6 +12,9 @@ use sincro_sim::session::Session;
 
 use crate::hub::{Event, Hub, Manner};
 use crate::{legacy, listen, ws, zmq};
+
+/// Events that wait to be taken.
+const EVENTS: usize = 1_024;
 
 /// What to serve, and how.
 #[derive(Clone, Debug)]
@@ -101,7 +104,7 @@ impl Server {
             zmq_steps: steps.as_ref().map(address),
             ws: ws.as_ref().map(address),
         };
-        let (send, events) = channel();
+        let (send, events) = sync_channel(EVENTS);
         let manner = Manner { real_time: options.real_time, patience: options.patience };
         let hub = Hub::new(session, manner, send);
         let mut threads = Vec::new();

@@ -138,17 +138,35 @@ fn shake_hands(connection: &mut Connection) -> io::Result<()> {
         head.push(byte[0]);
     }
     let head = String::from_utf8_lossy(&head);
-    let fields = head.lines().filter_map(|line| line.split_once(':'));
-    let key = fields.into_iter().find(|(name, _)| name.eq_ignore_ascii_case("sec-websocket-key"));
-    let Some((_, key)) = key else {
+    let field = |wanted: &str| {
+        let fields = head.lines().filter_map(|line| line.split_once(':'));
+        fields.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(wanted)).map(|(_, value)| value.trim())
+    };
+    if field("origin").is_some_and(|origin| !is_friend(origin, field("host").unwrap_or_default())) {
+        connection.stream().write_all(b"HTTP/1.1 403 Forbidden\r\nConnection: close\r\n\r\npage of another host\n")?;
+        return Err(ErrorKind::PermissionDenied.into());
+    }
+    let Some(key) = field("sec-websocket-key") else {
         connection.stream().write_all(b"HTTP/1.1 400 Bad Request\r\nConnection: close\r\n\r\nWebSocket only\n")?;
         return Err(ErrorKind::InvalidData.into());
     };
-    let accept = base64(&sha1(format!("{}{GUID}", key.trim()).as_bytes()));
+    let accept = base64(&sha1(format!("{}{GUID}", key).as_bytes()));
     let answer = format!(
         "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: {accept}\r\n\r\n"
     );
     connection.stream().write_all(answer.as_bytes())
+}
+
+/// Whether a page may connect: one from this machine or from the host that it connects to. Any page that a browser has open could else
+/// drive the simulation behind its user's back.
+fn is_friend(origin: &str, host: &str) -> bool {
+    let name = |text: &str| {
+        let text = text.split_once("://").map_or(text, |(_, rest)| rest);
+        let end = if text.starts_with('[') { text.find(']').map(|k| k + 1) } else { text.find([':', '/']) };
+        text[..end.unwrap_or(text.len())].to_owned()
+    };
+    let page = name(origin);
+    origin == "null" || ["localhost", "127.0.0.1", "[::1]"].contains(&&*page) || page == name(host)
 }
 
 /// The next message; none when the client says goodbye.
@@ -274,6 +292,15 @@ mod tests {
         // RFC 6455, section 1.3
         let accept = base64(&sha1(format!("dGhlIHNhbXBsZSBub25jZQ=={GUID}").as_bytes()));
         assert_eq!(accept, "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
+    }
+
+    #[test]
+    fn pages_of_other_hosts_are_not_let_in() {
+        assert!(is_friend("http://localhost:8000", "127.0.0.1:23050") && is_friend("null", "x"));
+        assert!(is_friend("https://lab.example", "lab.example:23050") && is_friend("http://[::1]:80", "x"));
+        assert!(
+            !is_friend("https://evil.example", "127.0.0.1:23050") && !is_friend("http://localhost.evil.example", "x")
+        );
     }
 
     #[test]

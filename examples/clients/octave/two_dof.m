@@ -5,7 +5,7 @@
 %
 %     sincro serve scenes/two-dof-remote
 
-k_pos = 2;  goal = [1, -0.5];  duration = 6;  step = 0.005;
+k_pos = 2.03;  goal = [1, -0.5];  duration = 6;  step = 0.005;
 
 vrep = remApi('remoteApi');
 vrep.simxFinish(-1);                                         % 1 close what an earlier run has left open

@@ -13,7 +13,7 @@ import sys
 
 from coppeliasim_zmqremoteapi_client import RemoteAPIClient
 
-K_POS = 2.0  # position gain [1/s]
+K_POS = 2.03  # position gain [1/s]
 GOAL = (1.0, -0.5)  # [rad]
 DURATION = 6.0  # [s]
 

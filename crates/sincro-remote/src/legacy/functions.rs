@@ -184,6 +184,9 @@ fn signal(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     let (name, of_run) = (call.name()?, desk.is_running());
     let unset = || Refusal(format!("there is no signal `{name}`"));
     let table = &mut *desk.table;
+    if matches!(call.function, 0x3015 | 0x3016) {
+        table.make_room(call.data.len())?;
+    }
     match call.function {
         0x3010 => reals([*table.floats.get(name).ok_or_else(unset)?]),
         0x3013 => table.floats.set(name, call.float(0)?, of_run).and_then(|()| done()),

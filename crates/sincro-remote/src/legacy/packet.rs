@@ -38,7 +38,7 @@ pub(crate) fn receive(connection: &mut Connection, message: &mut Vec<u8>) -> io:
 pub fn parse_head(head: &[u8; HEAD]) -> Option<(usize, u16)> {
     let word = |k: usize| i16::from_le_bytes([head[k], head[k + 1]]);
     let (length, left) = (word(2), word(4));
-    (word(0) == 1 && length >= 0 && left >= 0).then(|| (length as usize, left as u16))
+    (word(0) == 1 && length >= 0 && left >= 0).then_some((length as usize, left as u16))
 }
 
 /// Sends a message; all its packets but the last are of the same length.

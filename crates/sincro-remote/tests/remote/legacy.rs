@@ -210,7 +210,7 @@ fn a_blocking_call_does_not_end_a_stream_of_the_same() {
 fn large_messages_travel_in_packets_and_large_data_in_pieces() {
     let server = serve("large");
     let mut client = client(&server);
-    let big: Vec<u8> = (0..200_000_u32).map(|k| (k * 7919 >> 3) as u8).collect();
+    let big: Vec<u8> = (0..200_000_u32).map(|k| ((k * 7919) >> 3) as u8).collect();
     client.call(0x3015, &text("big"), &big).unwrap();
     assert_eq!(client.call(0x3012, &text("big"), &[]).unwrap().data, big);
     assert_eq!(client.packets, (200_000 + 26 + 4 + 18_usize).div_ceil(1294));

@@ -30,7 +30,7 @@ pub(crate) struct ExperimentFile {
     /// Base step: commands are held over it, rows are recorded at its ends [s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub step: f64,
-    /// Step of remote clients and scripts, V-REP's simulation time step: a whole number of base steps, the base step if left out [s].
+    /// Step of remote clients, where the scene has no `script_step`: a whole number of base steps; one base step if left out [s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub client_step: Option<f64>,
     /// Base steps for each recorded row.

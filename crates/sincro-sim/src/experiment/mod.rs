@@ -36,7 +36,7 @@ pub struct Experiment {
     pub step: f64,
     /// Base steps in `duration`; at least one.
     pub n_steps: u64,
-    /// Base steps in one step of remote clients and scripts; at least one.
+    /// Base steps in one step of remote clients, where the scene has no step of scripts; at least one.
     pub client_ticks: u64,
     /// Base steps for each recorded row; at least one.
     pub record_every: u64,

@@ -101,7 +101,7 @@ impl Resolver<'_> {
     fn client_ticks(&mut self) -> u64 {
         let (Some(dt), step) = (self.file.client_step, self.file.step) else { return 1 };
         let ticks = (dt / step).round();
-        if ticks < 1.0 || ticks > 1e9 || (ticks * step - dt).abs() > 1e-9 * dt {
+        if !(1.0..=1e9).contains(&ticks) || (ticks * step - dt).abs() > 1e-9 * dt {
             let message = format!("client_step {dt} s is no whole number of steps of {step} s");
             let near = ticks.max(1.0) * step;
             let help = format!("use {near} s, or another step");

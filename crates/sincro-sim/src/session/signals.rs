@@ -70,6 +70,12 @@ impl<T> Signals<T> {
 }
 
 impl Signals<Vec<u8>> {
+    /// Bytes of all of them.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.by_name.values().map(|held| held.value.len()).sum()
+    }
+
     /// Adds to the end of a string signal, which is made if there is none.
     ///
     /// # Errors

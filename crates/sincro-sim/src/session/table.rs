@@ -21,6 +21,8 @@ pub struct Handle(pub i32);
 
 /// Objects that may exist at once, beyond those of the scene.
 const MOST_CREATED: usize = 10_000;
+/// Bytes that clients and scripts may store: string signals, data with objects, named parameters.
+const MOST_BYTES: usize = 256 << 20;
 /// Lines of the log that are kept until somebody takes them.
 const MOST_LINES: usize = 1_000;
 
@@ -440,6 +442,20 @@ impl Table {
             return Err(Refusal(format!("`{}` belongs to the scene: it cannot be {what}", entry.path)));
         }
         Ok(self.entries[handle.0 as usize - 1].as_mut().expect("it was found"))
+    }
+
+    /// Refuses bytes that would be too many together with those that clients and scripts have stored already.
+    ///
+    /// # Errors
+    ///
+    /// They would.
+    pub fn make_room(&self, n: usize) -> Result<(), Refusal> {
+        let stored = self.strings.total() + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
+        if stored + n > MOST_BYTES {
+            let mib = MOST_BYTES >> 20;
+            return Err(Refusal(format!("signals and data of clients would take more than {mib} MiB: clear some")));
+        }
+        Ok(())
     }
 
     /// A line for whoever runs the simulator; the oldest are dropped if nobody takes them.

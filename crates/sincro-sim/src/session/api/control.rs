@@ -113,6 +113,7 @@ fn set_named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     if desk.table.named.len() >= 1_000 && !desk.table.named.contains_key(name) {
         return Err(crate::session::Refusal::new("there are 1000 named parameters already"));
     }
+    desk.table.make_room(bytes.len())?;
     desk.table.named.insert(name.to_owned(), bytes.to_vec());
     done()
 }

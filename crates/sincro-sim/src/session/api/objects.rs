@@ -290,6 +290,7 @@ fn write_data(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     } else if desk.table.data.len() >= 10_000 && !desk.table.data.contains_key(&key) {
         return Err(Refusal::new("there are 10000 blocks of data already"));
     } else {
+        desk.table.make_room(a.bytes(2)?.len())?;
         desk.table.data.insert(key, a.bytes(2)?.to_vec());
     }
     done()

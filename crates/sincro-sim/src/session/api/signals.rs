@@ -60,6 +60,7 @@ fn float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn set_string(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.make_room(a.bytes(1)?.len())?;
     desk.table.strings.set(a.text(0)?, a.bytes(1)?.to_vec(), desk.table.phase.is_on())?;
     done()
 }
