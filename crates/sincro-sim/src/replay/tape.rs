@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | for each joint: position of its last link, quaternion x, y, z, w | 7 | m, 1 |
 //! | for each rotor: speed, thrust, torque | 3 | rad/s, N, N·m |
+//! | for each external force: its components in the world | 3 | N |
 //! | coordinates q | `n_q` | rad, m |
 //! | rates v | `n_v` | rad/s, m/s |
 //!
@@ -29,6 +30,7 @@ pub struct Layout {
     /// The link that each joint of the model moves last.
     links: Vec<usize>,
     n_rotors: usize,
+    n_forces: usize,
     n_q: usize,
     n_v: usize,
 }
@@ -45,6 +47,7 @@ impl Layout {
         Self {
             links: model.names().joints.iter().map(|j| last_link(j.v_idx + j.n_v)).collect(),
             n_rotors: model.rotors().len(),
+            n_forces: model.wrenches().len(),
             n_q: model.n_q(),
             n_v: model.n_v(),
         }
@@ -59,7 +62,7 @@ impl Layout {
     /// Numbers of a frame.
     #[must_use]
     pub fn width(&self) -> usize {
-        7 * self.links.len() + 3 * self.n_rotors + self.n_q + self.n_v
+        7 * self.links.len() + 3 * (self.n_rotors + self.n_forces) + self.n_q + self.n_v
     }
 
     /// Adds what is seen at time `t` `[s]` to `out`; `width` numbers.
@@ -76,6 +79,11 @@ impl Layout {
         for k in 0..self.n_rotors {
             let (speed, load, _) = probe::rotor(&view, k);
             out.extend([speed, load.thrust, load.torque].map(|x| x as f32));
+        }
+        for wrench in seen.model().wrenches() {
+            let r_wl = &poses[wrench.link].rot;
+            let force = r_wl.mul_vec(wrench.wrench(t, r_wl, &seen.state.commands).lin);
+            out.extend(force.0.map(|x| x as f32));
         }
         out.extend(seen.state.q.iter().chain(&seen.state.v).map(|x| *x as f32));
     }

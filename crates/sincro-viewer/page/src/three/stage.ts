@@ -33,8 +33,9 @@ export class Stage {
   private readonly push: Push;
   private readonly legend = el("div", { class: "sv-legend" });
   private isStale = true;
-  /** The reader has turned the camera, or named one. */
+  /** The reader has turned the camera. */
   private wasMoved = false;
+  private named = "perspective";
   private followed = new Vector3();
   /** Size of all that happens [m], and its middle. */
   private bounds = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
@@ -62,7 +63,8 @@ export class Stage {
   private followFar(): void {
     const flight = this.bounds.getSize(new Vector3()).length();
     const body = this.session.view.objects.findIndex((o) => o.kind === "body" && o.mover !== null);
-    if (body < 0 || flight < 5 * this.main.size) return;
+    const flies = this.session.view.objects.some((o) => o.kind === "free joint");
+    if (body < 0 || (flight < 5 * this.main.size && !(this.session.link && flies))) return;
     this.session.follow = true;
     this.session.select(body);
     this.session.tell("shown");
@@ -77,7 +79,7 @@ export class Stage {
       this.renderer.setSize(w, h, false);
       this.camera.aspect = w / h;
       this.camera.updateProjectionMatrix();
-      if (size.x !== w && !this.wasMoved) this.frame("perspective");
+      if (size.x !== w && !this.wasMoved) this.frame(this.named);
       this.isStale = true;
     }
     if (!this.isStale) return;
@@ -88,6 +90,8 @@ export class Stage {
 
   /** A named camera that sees everything. */
   frame(name: string): void {
+    this.named = name;
+    this.wasMoved = false;
     const [, direction] = CAMERAS.find(([known]) => known === name) ?? (CAMERAS[0] as (typeof CAMERAS)[number]);
     const center = this.bounds.getCenter(new Vector3());
     let box = this.bounds;
@@ -166,11 +170,14 @@ export class Stage {
   /** Ground below everything, its squares of a round size. */
   private lay(): void {
     for (const old of this.ground) old.removeFromParent();
+    const { shown } = this.session;
     const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
     const size = this.bounds.getSize(new Vector3());
     const span = Math.max(size.x, size.y, 0.6 * size.z, this.main.size);
     const cell = nice(span / 8);
-    const low = this.bounds.min.z < -0.12 * this.main.size ? Math.floor(this.bounds.min.z / cell) * cell : 0;
+    // a little below zero it touches what is lowest; far below it stands at a round height
+    const { z: lowest } = this.bounds.min;
+    const low = lowest < -0.12 * this.main.size ? Math.floor(lowest / cell) * cell : Math.min(0, lowest);
     const n = 2 * Math.ceil((1.6 * span) / cell);
     const center = this.bounds.getCenter(new Vector3());
     const [x, y] = [Math.round(center.x / cell) * cell, Math.round(center.y / cell) * cell];
@@ -183,6 +190,7 @@ export class Stage {
     this.axes.scale.setScalar(1.4 * cell);
     (this.axes.material as Material).depthTest = true;
     this.ground = [grid, floor];
+    for (const part of this.ground) part.visible = shown.grid;
     this.scene.add(grid, floor, this.axes);
     this.scene.background = new Color(isDark ? "#14181d" : "#f7f8fa");
     const at = low === 0 ? "" : `, ground at z = ${String(+low.toPrecision(3)).replace("-", "−")} m`;
@@ -224,6 +232,14 @@ export class Stage {
     session.on("time", () => this.place());
     session.on("frames", () => this.place());
     session.on("runs", () => this.rebuild());
+    session.on("playing", () => {
+      if (!session.link || session.link.isRunning || session.playing) return;
+      // a live run stands still: the ground and paths are laid for what has been recorded by now
+      this.measure();
+      this.lay();
+      this.overlays.rebuild(this.main);
+      this.place();
+    });
     session.on("selection", () => {
       this.main.highlight(session.selected, session.hovered);
       this.overlays.rebuild(this.main);
