@@ -37,6 +37,12 @@ fn a_step_and_a_row_allocate_nothing() {
         // sampled blocks on ideal motors, continuous ones on torque motors
         ("two-dof-position", &[]),
         ("two-dof-position", PID),
+        // impacts, sticking, sliding, rolling; closed loops; motors that jump through them
+        ("bouncing-ball", &[]),
+        ("incline", &[]),
+        ("rolling-sphere", &[]),
+        ("slider-crank", &[]),
+        ("four-bar", &[]),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
         let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::document::Document;
 
 /// The lists of a scene file that hold objects.
-pub(crate) const KINDS: [&str; 4] = ["joint", "body", "frame", "force"];
+pub(crate) const KINDS: [&str; 6] = ["joint", "body", "frame", "force", "closure", "coupling"];
 
 /// An object as the file has it.
 #[derive(Clone, Debug)]

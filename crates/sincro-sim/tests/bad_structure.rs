@@ -13,7 +13,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "damping = 0.5",
         "dampng = 0.5",
         r#"scene.toml:8:1: error: unknown key `dampng` in joint `shoulder`
-  help: did you mean `damping`? keys here: `damping`, `spring`, `name`, `parent`, `armature`, `position`, `rotation_deg`, `quaternion_wxyz` and 8 more"#,
+  help: did you mean `damping`? keys here: `damping`, `spring`, `name`, `parent`, `armature`, `position`, `rotation_deg`, `quaternion_wxyz` and 10 more"#,
     ),
     (
         "scene.toml",
@@ -163,7 +163,7 @@ quaternion_wxyz = [1, 0, 0, 0]"#,
         "[[frame]]",
         "[[frme]]",
         r#"scene.toml:17:3: error: unknown key `frme`
-  help: did you mean `frame`? keys here: `air_density`, `body`, `force`, `frame`, `gravity`, `joint`, `rotor`"#,
+  help: did you mean `frame`? keys here: `frame`, `force`, `rest_speed`, `air_density`, `rotor`, `gravity`, `allow_overlap`, `body` and 3 more"#,
     ),
     (
         "experiment.toml",

@@ -46,6 +46,9 @@ use solve::Solver;
 /// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
 pub const SLOT: usize = 7;
 
+/// Rows of contacts that memory is reserved for beforehand.
+const RESERVED: usize = 48;
+
 /// A limit of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
@@ -194,8 +197,25 @@ impl<R: Real> Constraints<R> {
             sub_step: 0.0,
             solver: Solver::default(),
         };
-        new.rows.reserve(set.n_bilateral() + 6 * set.n_slots().min(16));
+        // what is more than this in contact at once grows the memory, once for every new record
+        let groups = |p: &Pair| 1 + 2 * usize::from(p.material.friction > 0.0);
+        let of_contacts: usize = set.pairs.iter().map(|p| p.slots * groups(p)).sum();
+        new.reserve(set.n_bilateral() + set.limits.len() + of_contacts.min(RESERVED), model.n_v());
         Some(Box::new(new))
+    }
+
+    /// Memory for `m` rows.
+    fn reserve(&mut self, m: usize, n: usize) {
+        self.rows.reserve(m);
+        self.blocks.reserve(m);
+        self.kept.reserve(m);
+        for list in [&mut self.residual, &mut self.b, &mut self.lambda, &mut self.before] {
+            list.reserve(m);
+        }
+        self.jacobian.reserve(m * n);
+        self.responses.reserve(m * n);
+        self.a.reserve(m * m);
+        self.solver.reserve(m);
     }
 
     /// Makes the accelerations that forward dynamics found obey the constraints.
@@ -276,7 +296,7 @@ impl<R: Real> Constraints<R> {
                 self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::model::WORLD, R::zero())]));
                 self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
                 let row = self.rows.len() - 1;
-                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3] });
+                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3], effect: 0 });
             }
         }
         for pair in &set.pairs {
@@ -344,7 +364,7 @@ impl<R: Real> Constraints<R> {
             }
             groups[g] = Some(group);
         }
-        self.blocks.push(Block { slot, row, open: false, given, groups });
+        self.blocks.push(Block { slot, row, open: false, given, groups, effect: 0 });
     }
 
     fn add(&mut self, row: Row<R>, residual: R) {
@@ -397,6 +417,7 @@ impl<R: Real> Constraints<R> {
     /// Jacobian, responses and A of the rows.
     pub fn respond(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         let (m, n) = (self.rows.len(), model.n_v());
+        self.solver.reserve(m);
         for list in [&mut self.jacobian, &mut self.responses] {
             list.clear();
             list.resize(m * n, R::zero());
