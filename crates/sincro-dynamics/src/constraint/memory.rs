@@ -142,12 +142,6 @@ impl<R: Real> Memory<R> {
     fn has_reversed(&self, slot: usize) -> bool {
         (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
     }
-
-    /// Forces of the last solution in a slot: normal, then friction.
-    #[cfg(test)]
-    pub fn forces(&self, slot: usize) -> &[R] {
-        &self.numbers[slot * SLOT..slot * SLOT + 6]
-    }
 }
 
 /// What of a code can be seen from outside.

@@ -13,9 +13,6 @@ const MAX_BLOWS: usize = 50;
 /// Events of contacts in one tick beyond which the rest of it is done at velocity level.
 pub(super) const MAX_CONTACT_EVENTS: usize = 400;
 
-/// Step over a singular position `[s]`.
-const STRIDE: f64 = 1e-3;
-
 /// Steps at velocity level that the rest of such a tick is divided into.
 const FINE_STEPS: u32 = 16;
 
@@ -92,22 +89,6 @@ impl World {
         }
     }
 
-    /// One step of fixed length from the start of the sub-step, where error control finds none: over a singular position of a loop, at which
-    /// accelerations are not determined. Returns the length made.
-    pub(super) fn stride<A: Attachment<f64> + ?Sized>(&mut self, t: f64, h_max: f64, attachment: &mut A) -> f64 {
-        self.restore();
-        let h = h_max.min(STRIDE);
-        self.effort.strides += 1;
-        let Some((_, rk4)) = &mut self.fallback else { return h };
-        let system = &mut Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
-        rk4.step(system, t, h, &mut self.y);
-        if let Some(mut control) = self.control() {
-            control.h = h;
-            self.set_control(control);
-        }
-        h
-    }
-
     /// The rest of a tick, `span` from `t`, in steps at velocity level.
     pub(super) fn finish_roughly<A: Attachment<f64> + ?Sized>(
         &mut self,
@@ -135,7 +116,7 @@ impl World {
         self.settle(t, attachment);
         self.mechanism.touch(&self.y[n..2 * n], Closing::Within(h));
         let own = self.mechanism.dim();
-        let Some((fallback, _)) = &mut self.fallback else { return Ok(()) };
+        let Some(fallback) = &mut self.fallback else { return Ok(()) };
         let system = &mut Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
         fallback.step(system, t, h, &mut self.y);
         if !self.y[..own].iter().all(|x| x.is_finite()) {

@@ -85,8 +85,6 @@ pub struct Effort {
     pub events: u64,
     /// Impacts.
     pub impacts: u64,
-    /// Steps of fixed length over a singular position of a loop.
-    pub strides: u64,
     /// Ticks that were finished at velocity level because events came too thick.
     pub rough_ticks: u64,
 }
@@ -108,7 +106,7 @@ pub struct World {
     decay: Vec<f64>,
     attached_before: Vec<f64>,
     substeps: u32,
-    fallback: Option<(SemiImplicitEuler<f64>, Rk4<f64>)>,
+    fallback: Option<SemiImplicitEuler<f64>>,
     effort: Effort,
 }
 
@@ -233,8 +231,7 @@ impl World {
             MethodKind::DormandPrince => Method::DormandPrince(DormandPrince::new(dim, control)),
             MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, 6, control)),
         };
-        let fallback =
-            (!mechanism.model().constraints().is_empty()).then(|| (SemiImplicitEuler::new(dim), Rk4::new(dim)));
+        let fallback = (!mechanism.model().constraints().is_empty()).then(|| SemiImplicitEuler::new(dim));
         let base_before = vec![0.0; mechanism.model().n_q()];
         let accelerations = vec![0.0; mechanism.model().n_v()];
         Self {
@@ -457,11 +454,7 @@ impl World {
             if limited {
                 self.keep();
             }
-            let h = match self.method_step(t, h_max, attachment) {
-                // error control runs into a singular position of a loop, which a step passes over
-                Err(Failure::StepTooSmall { .. }) if self.is_constrained() => self.stride(t, h_max, attachment),
-                made => made.map_err(|failure| (t, Stop::Integration(failure)))?,
-            };
+            let h = self.method_step(t, h_max, attachment).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
                 // the attachment has last seen a trial state: its own is the one that was kept
                 let own = self.mechanism.dim();
