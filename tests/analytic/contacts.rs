@@ -151,7 +151,8 @@ fn free_collisions_keep_momentum_and_lose_what_restitution_says() {
     ];
     for (friction, restitution) in [(0.0, 1.0), (0.3, 0.7), (0.5, 0.0)] {
         let (model, x) = balls(&list, material(friction, restitution));
-        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
+        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-13, 1e-3);
+        // tight: between impacts a spinning ball keeps its momentum to the accuracy of the integrator
         let before = world.observe(0.0).momentum();
         let energy = world.observe(0.0).energy().total();
         run(&mut world, 0.01, 60);

@@ -51,13 +51,25 @@ impl Constraints<f64> {
         lost
     }
 
-    /// Keeps the rows that hold as equations: closures, what presses, and with `sticking` what sticks.
-    pub fn keep_equations(&mut self, sticking: bool) {
+    /// Keeps the rows of closures.
+    pub fn keep_closures(&mut self) {
+        self.rows.truncate(self.n_free);
+        self.residual.truncate(self.n_free);
+        self.blocks.clear();
+        self.lambda.clear();
+        self.lambda.resize(self.n_free, 0.0);
+    }
+
+    /// Keeps the rows that hold as equations: closures, what presses (with `inside` only where it has gone in), and with `sticking` what
+    /// sticks.
+    pub fn keep_equations(&mut self, sticking: bool, inside: bool) {
         let n_free = self.n_free;
         let mut keep = core::mem::take(&mut self.kept);
         keep.clear();
         keep.extend(0..n_free);
-        for block in self.blocks.iter().filter(|b| !b.open && b.given.is_none()) {
+        let residual = &self.residual;
+        let holds = |b: &&Block<f64>| !b.open && b.given.is_none() && (!inside || residual[b.row] < 0.0);
+        for block in self.blocks.iter().filter(holds) {
             keep.push(block.row);
             for group in block.groups.iter().flatten() {
                 if sticking && group.grip == Grip::Stick {
