@@ -62,6 +62,12 @@ fn a_step_and_a_row_allocate_nothing() {
         ("stock-propeller", &[]),
         // rotors, a sub-diagram with everything sampled, a sensor
         ("quadrotor-flight-1", FLIGHT),
+        // impacts, sticking, sliding, rolling; closed loops; motors that jump through them
+        ("bouncing-ball", &[]),
+        ("incline", &[]),
+        ("rolling-sphere", &[]),
+        ("slider-crank", &[]),
+        ("four-bar", &[]),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
         let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();

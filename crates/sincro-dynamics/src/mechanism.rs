@@ -79,7 +79,8 @@ impl<R: Real> Mechanism<R> {
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
-            constraints: Constraints::new(&model),
+            // what branches is not done in lanes
+            constraints: if R::LANES == 1 { Constraints::new(&model) } else { None },
             model,
         }
     }
@@ -246,7 +247,9 @@ impl<R: Real> Mechanism<R> {
         let input =
             aba::Input { q: &self.q, v, torque: &self.torque, diagonal: &self.diagonal, held, external, gravity: true };
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
-        if let Some(constraints) = &mut self.constraints {
+        if R::LANES == 1
+            && let Some(constraints) = &mut self.constraints
+        {
             // a step of semi-implicit Euler is a step at velocity level
             let level = match implicit {
                 Some((h, Implicit::Dampers)) => Level::Velocity(h),
@@ -392,7 +395,9 @@ impl<R: Real> Mechanism<R> {
             work += self.motor_torque[i] * v[motor.dof];
             rates[2 + i] = self.motor_torque[i];
         }
-        if let Some(constraints) = &self.constraints {
+        if R::LANES == 1
+            && let Some(constraints) = &self.constraints
+        {
             dissipation += constraints.dissipation(v);
         }
         rates[0] = work;

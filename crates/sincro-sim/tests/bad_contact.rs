@@ -10,13 +10,13 @@ use common::refused;
 const CASES: &[(&str, &str)] = &[
     (
         "contact = { friction = -0.1 }\nshape = [ { sphere = { radius = 0.1 } } ]",
-        r#"scene.toml:33:24: error: `friction` is -0.1, expected at least 0
-  help: Coulomb's coefficient, sliding and sticking"#,
+        r#"scene.toml:33:24: error: `friction` is -0.1, expected a number, at least 0
+  help: Coulomb's coefficient, sliding and sticking."#,
     ),
     (
         "contact = { restitution = 1.5 }\nshape = [ { sphere = { radius = 0.1 } } ]",
-        r#"scene.toml:33:27: error: `restitution` is 1.5, expected at most 1
-  help: Newton's coefficient: speed of leaving over speed of arriving"#,
+        r#"scene.toml:33:27: error: `restitution` is 1.5, expected 0 to 1
+  help: above 1 an impact would add energy"#,
     ),
     (
         "contact = { dissipation = 0.5 }\nshape = [ { sphere = { radius = 0.1 } } ]",
@@ -30,7 +30,7 @@ const CASES: &[(&str, &str)] = &[
     ),
     (
         "shape = [ { plane = {} } ]\ncontact = {}",
-        r#"scene.toml:30:8: error: body `/shoulder/rod/tip/wrist/hand` moves and has a plane
+        r#"scene.toml:29:8: error: body `/shoulder/rod/tip/wrist/hand` moves and has a plane
   help: planes are fixed in the world; use a cuboid, or hang the body on `/`"#,
     ),
     (
@@ -46,12 +46,12 @@ const CASES: &[(&str, &str)] = &[
     (
         "\n[[closure]]\nname = \"pin\"\nkind = \"distance\"\nbetween = [\"/shoulder/rod/tp\", \"/\"]\nlength = 0.5",
         r#"scene.toml:37:12: error: there is no object `/shoulder/rod/tp`
-  help: did you mean `/shoulder/rod/tip`?"#,
+  help: did you mean `/shoulder/rod/tip`? objects: `/shoulder/rod`, `/shoulder/rod/tip`, `/shoulder/rod/tip/wrist/hand`"#,
     ),
     (
         "\n[[coupling]]\nname = \"gear\"\njoints = [\"/shoulder\", \"/shoulder/rod\"]\nratio = 2.0",
         r#"scene.toml:36:24: error: `/shoulder/rod` is a body, not a joint with one degree of freedom
-  help: objects here: `/shoulder`, `/shoulder/rod/tip/wrist`"#,
+  help: did you mean `/shoulder`? objects: `/shoulder`, `/shoulder/rod/tip/wrist`"#,
     ),
 ];
 
@@ -74,10 +74,9 @@ fn what_overlaps_at_the_start_is_refused_with_pair_and_depth() {
     let message = refused("scene.toml", "inertia = { xx = 0.001, yy = 0.001, zz = 0.001 }\n", two);
     assert!(message.contains("`/shoulder/rod/tip/wrist/hand` and `/floor` overlap at the start by "), "{message}");
     assert!(message.contains("or set allow_overlap = true"), "{message}");
-    let allowed = format!("{two}\n");
     let message =
         refused("scene.toml", "gravity = [0.0, 0.0, -9.81]\n", "gravity = [0.0, 0.0, -9.81]\nallow_overlap = true\n");
-    assert!(message.starts_with("loads"), "{message} {allowed}");
+    assert!(message.starts_with("loads"), "{message}");
 }
 
 #[test]

@@ -13,7 +13,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "damping = 0.5",
         "dampng = 0.5",
         r#"scene.toml:8:1: error: unknown key `dampng` in joint `shoulder`
-  help: did you mean `damping`? keys here: `damping`, `spring`, `name`, `parent`, `armature`, `position`, `rotation_deg`, `quaternion_wxyz` and 8 more"#,
+  help: did you mean `damping`? keys here: `damping`, `spring`, `name`, `parent`, `armature`, `position`, `rotation_deg`, `quaternion_wxyz` and 10 more"#,
     ),
     (
         "scene.toml",

@@ -25,12 +25,12 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "/shoulder.masss=2",
         r#"--set:1:1: error: `/shoulder.masss`: `/shoulder` has no `masss`
-  help: keys: `axis`, `axis2`, `motor`, `spring`, `position`, `rotation_deg`, `quaternion_wxyz`, `damping` and 6 more"#,
+  help: keys: `axis`, `axis2`, `limits`, `force_sensor`, `motor`, `spring`, `position`, `rotation_deg` and 8 more"#,
     ),
     (
         "/shoulder.sprng.stiffness=2",
         r#"--set:1:1: error: `/shoulder.sprng.stiffness`: `/shoulder` has no `sprng`
-  help: did you mean `spring`? keys: `spring`, `damping`, `rotation_deg`, `quaternion_wxyz`, `kind`, `pitch`, `torque`, `initial` and 6 more"#,
+  help: did you mean `spring`? keys: `spring`, `damping`, `force_sensor`, `rotation_deg`, `quaternion_wxyz`, `kind`, `pitch`, `torque` and 8 more"#,
     ),
     (
         "k=3",
@@ -45,7 +45,7 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "/shoulder=2",
         r#"--set:1:1: error: the path names an object, none of its keys
-  help: keys: `armature`, `axis`, `axis2`, `damping`, `friction`, `initial`, `kind`, `motor` and 8 more"#,
+  help: keys: `armature`, `axis`, `axis2`, `damping`, `force_sensor`, `friction`, `initial`, `kind` and 10 more"#,
     ),
     (
         "/shoulder/rod.inertia.xx=2",

@@ -47,6 +47,9 @@ pub(crate) struct Block<R> {
     /// A normal force that is given, of a compliant contact.
     pub given: Option<R>,
     pub groups: [Option<Group<R>>; 3],
+    /// What can be seen of it: bit 0, it leaves; bits 1 to 3, a group starts to move. One of several redundant contacts may bear nothing and
+    /// still neither leave nor move.
+    pub effect: u8,
 }
 
 /// Most sweeps of one solution.

@@ -24,6 +24,16 @@ pub(crate) struct Dense<R> {
 }
 
 impl<R: Real> Dense<R> {
+    /// Memory for systems of `n` unknowns.
+    pub fn reserve(&mut self, n: usize) {
+        let more = |len: usize, wanted: usize| wanted.saturating_sub(len);
+        self.a.reserve(more(self.a.len(), n * n));
+        self.rhs.reserve(more(self.rhs.len(), n));
+        self.scale.reserve(more(self.scale.len(), n));
+        self.columns.reserve(more(self.columns.len(), n));
+        self.rows.reserve(more(self.rows.len(), n));
+    }
+
     /// A system of `n` unknowns, all zero.
     pub fn reset(&mut self, n: usize) {
         self.n = n;

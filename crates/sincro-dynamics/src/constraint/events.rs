@@ -171,7 +171,7 @@ impl Mechanism<f64> {
             }
             let c = self.constraints.as_deref_mut().expect("prepared");
             // sticking has no place to be, only no speed
-            c.keep_equations(false);
+            c.keep_equations(false, !sticking);
             let worst = c.worst(&y[n..2 * n]).0;
             // close to a singular position there may be something that must not be taken away
             if worst <= PROJECTED || worst > 0.5 * last {
@@ -188,7 +188,12 @@ impl Mechanism<f64> {
         }
         self.prepare(y, false);
         let c = self.constraints.as_deref_mut().expect("prepared");
-        c.keep_equations(sticking);
+        if sticking {
+            c.keep_equations(true, false);
+        } else {
+            // at velocity level what bounces has its speed already
+            c.keep_closures();
+        }
         if c.worst(&y[n..2 * n]).1 <= PROJECTED {
             return;
         }
@@ -208,7 +213,7 @@ impl Mechanism<f64> {
             return 0;
         }
         let c = self.constraints.as_deref_mut().expect("prepared");
-        c.keep_equations(false);
+        c.keep_closures();
         self.factor(true);
         let mut change = core::mem::take(&mut self.constraint_change);
         let c = self.constraints.as_deref_mut().expect("prepared");

@@ -3,7 +3,7 @@
 //! | per slot | meaning | kept in the state |
 //! |---|---|---|
 //! | forces | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
-//! | code | 0 never seen, else 1 + 1·open + 2, 4, 8·slipping group | yes |
+//! | code | 0 never seen, else 1 + 1·open + 2, 4, 8·slipping group + 16·what can be seen of it | yes |
 //! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
 
 use sincro_math::Real;
@@ -118,6 +118,7 @@ impl<R: Real> Memory<R> {
                     code += 2 << g;
                 }
             }
+            code += 16 * u32::from(block.effect);
             kept[6] = R::splat(f64::from(code));
         }
     }
@@ -133,17 +134,17 @@ impl<R: Real> Memory<R> {
     /// Whether a closed slot does something else than at the start of the sub-step.
     pub fn has_changed(&self) -> bool {
         let closed = || (0..self.start.len()).filter(|slot| self.closed[*slot]);
-        closed().any(|slot| self.start[slot] as u32 != self.code(slot)) || closed().any(|slot| self.has_reversed(slot))
+        closed().any(|slot| effect(self.start[slot] as u32) != effect(self.code(slot)))
+            || closed().any(|slot| self.has_reversed(slot))
     }
 
     /// Whether a sliding group now slides the other way.
     fn has_reversed(&self, slot: usize) -> bool {
         (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
     }
+}
 
-    /// Forces of the last solution in a slot: normal, then friction.
-    #[cfg(test)]
-    pub fn forces(&self, slot: usize) -> &[R] {
-        &self.numbers[slot * SLOT..slot * SLOT + 6]
-    }
+/// What of a code can be seen from outside.
+fn effect(code: u32) -> u32 {
+    code.saturating_sub(1) >> 4
 }

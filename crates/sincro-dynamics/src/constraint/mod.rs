@@ -13,6 +13,7 @@
 //! | [`dense`] | elimination with rank |
 //! | [`cone`] | friction: blocks, sweeps |
 //! | [`solve`] | the problem of one instant |
+//! | [`impact`] | impacts, projections, points of contact |
 //! | [`memory`] | who does what |
 //! | [`events`] | what the world asks of a mechanism: touch, strike, project |
 //!
@@ -22,6 +23,7 @@ pub mod closure;
 mod cone;
 mod dense;
 pub(crate) mod events;
+mod impact;
 mod memory;
 mod respond;
 pub(crate) mod row;
@@ -38,13 +40,15 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use cone::{Block, Grip, Group};
-use dense::PROJECTION_RANK;
 use memory::Memory;
 use row::{Motions, Row, force_at, force_rate};
 use solve::Solver;
 
 /// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
 pub const SLOT: usize = 7;
+
+/// Rows of contacts that memory is reserved for beforehand.
+const RESERVED: usize = 48;
 
 /// A limit of a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -194,8 +198,25 @@ impl<R: Real> Constraints<R> {
             sub_step: 0.0,
             solver: Solver::default(),
         };
-        new.rows.reserve(set.n_bilateral() + 6 * set.n_slots().min(16));
+        // what is more than this in contact at once grows the memory, once for every new record
+        let groups = |p: &Pair| 1 + 2 * usize::from(p.material.friction > 0.0);
+        let of_contacts: usize = set.pairs.iter().map(|p| p.slots * groups(p)).sum();
+        new.reserve(set.n_bilateral() + set.limits.len() + of_contacts.min(RESERVED), model.n_v());
         Some(Box::new(new))
+    }
+
+    /// Memory for `m` rows.
+    fn reserve(&mut self, m: usize, n: usize) {
+        self.rows.reserve(m);
+        self.blocks.reserve(m);
+        self.kept.reserve(m);
+        for list in [&mut self.residual, &mut self.b, &mut self.lambda, &mut self.before] {
+            list.reserve(m);
+        }
+        self.jacobian.reserve(m * n);
+        self.responses.reserve(m * n);
+        self.a.reserve(m * m);
+        self.solver.reserve(m);
     }
 
     /// Makes the accelerations that forward dynamics found obey the constraints.
@@ -276,7 +297,7 @@ impl<R: Real> Constraints<R> {
                 self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::model::WORLD, R::zero())]));
                 self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
                 let row = self.rows.len() - 1;
-                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3] });
+                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3], effect: 0 });
             }
         }
         for pair in &set.pairs {
@@ -344,7 +365,7 @@ impl<R: Real> Constraints<R> {
             }
             groups[g] = Some(group);
         }
-        self.blocks.push(Block { slot, row, open: false, given, groups });
+        self.blocks.push(Block { slot, row, open: false, given, groups, effect: 0 });
     }
 
     fn add(&mut self, row: Row<R>, residual: R) {
@@ -397,6 +418,7 @@ impl<R: Real> Constraints<R> {
     /// Jacobian, responses and A of the rows.
     pub fn respond(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         let (m, n) = (self.rows.len(), model.n_v());
+        self.solver.reserve(m);
         for list in [&mut self.jacobian, &mut self.responses] {
             list.clear();
             list.resize(m * n, R::zero());
@@ -449,131 +471,6 @@ impl<R: Real> Constraints<R> {
             sum += *lambda * dot(&self.jacobian[i * n..(i + 1) * n], v);
         }
         -sum
-    }
-}
-
-impl Constraints<f64> {
-    /// Velocity changes of an impact: approaching contacts bounce, nothing goes into what it touches, closures stay closed. `scratch` holds what an
-    /// impulse meets. Returns the energy that is lost `[J]`.
-    pub fn impact(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) -> f64 {
-        let n = model.n_v();
-        // no forces of the motion before are meant here
-        self.lambda.fill(0.0);
-        self.blocks.iter_mut().for_each(|b| b.open = false);
-        for block in &mut self.blocks {
-            for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.grip, group.give) = (false, Grip::Stick, None);
-            }
-            // what is compliant takes its time
-            if block.given.is_some() {
-                block.given = Some(0.0);
-            }
-        }
-        self.respond(model, scratch);
-        self.b.clear();
-        self.b.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
-        self.before.clone_from(&self.b);
-        for k in 0..self.blocks.len() {
-            let block = &self.blocks[k];
-            if self.b[block.row] < -model.constraints.rest_speed && block.given.is_none() {
-                self.b[block.row] += restitution(model, block.slot) * self.before[block.row];
-            }
-        }
-        self.solver.solve(&self.a, &self.b, self.n_free, &mut self.blocks, &mut self.lambda);
-        let mut change = core::mem::take(&mut self.kick);
-        change.fill(0.0);
-        self.push(model, scratch, &mut change, has_drives);
-        let mut lost = 0.0;
-        for i in 0..self.rows.len() {
-            let row = &self.jacobian[i * n..(i + 1) * n];
-            lost -= self.lambda[i] * (self.before[i] + 0.5 * dot(row, &change));
-        }
-        for (v, change) in v.iter_mut().zip(&change) {
-            *v += *change;
-        }
-        self.kick = change;
-        lost
-    }
-
-    /// Keeps the rows that hold as equations: closures, what presses, and with `sticking` what sticks.
-    pub fn keep_equations(&mut self, sticking: bool) {
-        let n_free = self.n_free;
-        let mut keep = core::mem::take(&mut self.kept);
-        keep.clear();
-        keep.extend(0..n_free);
-        for block in self.blocks.iter().filter(|b| !b.open && b.given.is_none()) {
-            keep.push(block.row);
-            for group in block.groups.iter().flatten() {
-                if sticking && group.grip == Grip::Stick {
-                    keep.extend(group.row..group.row + group.dim);
-                }
-            }
-        }
-        for (into, from) in keep.iter().enumerate() {
-            self.rows[into] = self.rows[*from];
-            self.residual[into] = self.residual[*from];
-        }
-        self.rows.truncate(keep.len());
-        self.residual.truncate(keep.len());
-        self.n_free = keep.len();
-        self.blocks.clear();
-        self.lambda.clear();
-        self.lambda.resize(keep.len(), 0.0);
-        self.kept = keep;
-    }
-
-    /// Largest residual, and largest rate for joint rates `v`, of the rows.
-    pub fn worst(&self, v: &[f64]) -> (f64, f64) {
-        let gap = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        let rate = self.rows.iter().map(|row| self.motions.rate(row, v).abs()).fold(0.0, f64::max);
-        (gap, rate)
-    }
-
-    /// The smallest change (in the metric of the mass matrix) of positions that undoes the residuals, or of rates that stops them.
-    pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
-        self.respond(model, scratch);
-        self.b.clear();
-        match v {
-            Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
-            None => self.b.extend_from_slice(&self.residual),
-        }
-        self.solver.rank = PROJECTION_RANK;
-        self.solver.correct(&self.a, &self.b, self.n_free, &[], &mut self.lambda);
-        out.fill(0.0);
-        self.push(model, scratch, out, false);
-    }
-
-    /// Torque of the stops on a degree of freedom, as of the last evaluation.
-    pub fn limit_torque(&self, model: &Model<f64>, dof: usize) -> f64 {
-        let limits = &model.constraints.limits;
-        let on = |b: &&Block<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
-        self.blocks.iter().filter(on).map(|b| limits[b.slot].sign * self.lambda[b.row]).sum()
-    }
-
-    /// Points of contact that press, with their forces, as of the last evaluation.
-    pub fn points(&self, model: &Model<f64>, scratch: &Scratch<f64>) -> impl Iterator<Item = ContactPoint> {
-        let set = &model.constraints;
-        self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open).filter_map(move |block| {
-            let k = block.slot - set.limits.len();
-            let at = self.spots[k]?.gap(scratch, &self.motions);
-            let (t1, t2) = tangents(at.normal);
-            let mut force = at.normal.scale(self.lambda[block.row]);
-            let mut torque = Vec3::zero();
-            for (g, group) in block.groups.iter().enumerate() {
-                let Some(group) = group else { continue };
-                let l = |k: usize| self.lambda[group.row + k];
-                match g {
-                    0 => force = force + t1.scale(l(0)) + t2.scale(l(1)),
-                    1 => torque = torque + t1.scale(l(0)) + t2.scale(l(1)),
-                    _ => torque = torque + at.normal.scale(l(0)),
-                }
-            }
-            let pair = pair_of(set, k);
-            let [one, two] = [set.pairs[pair].a, set.pairs[pair].b];
-            // a spot may have its rounded side on either
-            let surfaces = if set.colliders[one].link == self.spots[k]?.a { [one, two] } else { [two, one] };
-            Some(ContactPoint { pair, surfaces, point: at.point, normal: at.normal, force, torque, gap: at.gap })
-        })
     }
 }
 

@@ -54,10 +54,27 @@ pub(crate) struct Solver<R> {
 }
 
 impl<R: Real> Solver<R> {
+    /// Memory for problems of `m` rows.
+    pub fn reserve(&mut self, m: usize) {
+        self.dense.reserve(m);
+        let more = |len: usize, wanted: usize| wanted.saturating_sub(len);
+        self.kept.reserve(more(self.kept.len(), m));
+        for list in [&mut self.delta, &mut self.weights] {
+            list.reserve(more(list.len(), m));
+        }
+        self.square.reserve(more(self.square.len(), m * m));
+        self.saved.reserve(more(self.saved.len(), m));
+    }
+
     /// Finds λ, which holds the last solution (or zeros) before, and the state of the blocks.
     pub fn solve(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &mut [Block<R>], lambda: &mut [R]) {
         self.report.solved += 1;
         self.rank = RANK;
+        self.search(a, b, n_free, blocks, lambda);
+        note_effects(a, b, blocks, lambda);
+    }
+
+    fn search(&mut self, a: &[R], b: &[R], n_free: usize, blocks: &mut [Block<R>], lambda: &mut [R]) {
         for k in 0..REPAIRS {
             self.correct(a, b, n_free, blocks, lambda);
             self.saved.clear();
@@ -246,6 +263,7 @@ impl<R: Real> Solver<R> {
         self.blocks.clear();
         self.blocks.extend(blocks.iter().map(|block| Block {
             slot: block.slot,
+            effect: block.effect,
             row: block.row,
             open: block.open,
             given: block.given.map(|x| x.lane(0)),
@@ -322,6 +340,23 @@ fn impose<R: Real>(block: &Block<R>, lambda: &mut [R]) {
 fn scales<R: Real>(b: &[R], lambda: &[R]) -> (f64, f64) {
     let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
     (SLACK * largest(lambda) + f64::MIN_POSITIVE, SLACK * largest(b) + f64::MIN_POSITIVE)
+}
+
+/// Notes what can be seen of every block.
+fn note_effects<R: Real>(a: &[R], b: &[R], blocks: &mut [Block<R>], lambda: &[R]) {
+    let small = 10.0 * scales(b, lambda).1;
+    for block in blocks.iter_mut() {
+        block.effect = 0;
+        if block.open {
+            block.effect = u8::from(w(a, b, block.row, lambda).lane(0) > small);
+            continue;
+        }
+        for (g, group) in block.groups.iter().enumerate() {
+            let Some(group) = group.filter(|g| !g.slides && g.grip == Grip::Slip) else { continue };
+            let rate: f64 = (0..group.dim).map(|k| w(a, b, group.row + k, lambda).lane(0).abs()).fold(0.0, f64::max);
+            block.effect |= u8::from(rate > small) << (g + 1);
+        }
+    }
 }
 
 /// Whether a guess does not fit its forces.

@@ -80,6 +80,11 @@ fn material(file: &ContactFile, pointer: &str, document: &Document, problems: &m
         let problem = Problem::error(&at, "`dissipation` has no meaning for a rigid contact");
         problems.push(problem.with_help("give `stiffness` [N/m] too, or `restitution` instead"));
     }
+    if file.restitution > 1.0 {
+        let at = document.at(&format!("{pointer}/restitution"));
+        let message = format!("`restitution` is {}, expected 0 to 1", file.restitution);
+        problems.push(Problem::error(&at, message).with_help("above 1 an impact would add energy"));
+    }
     Material {
         friction: file.friction,
         restitution: file.restitution,
@@ -113,6 +118,11 @@ fn check_hull(points: &[[f64; 3]], pointer: &str, name: &str, document: &Documen
 pub(super) fn limits(list: &[LimitsFile], pointer: &str, signals: &mut SignalReader<'_>) -> Vec<(f64, f64)> {
     let one = |limits: &LimitsFile| {
         let (lower, upper) = (limits.lower.unwrap_or(f64::NEG_INFINITY), limits.upper.unwrap_or(f64::INFINITY));
+        if limits.restitution > 1.0 {
+            let at = signals.document.at(&format!("{pointer}/limits"));
+            let message = format!("`restitution` of a stop is {}, expected 0 to 1", limits.restitution);
+            signals.problems.push(Problem::error(&at, message).with_help("above 1 an impact would add energy"));
+        }
         if lower >= upper {
             let at = signals.document.at(&format!("{pointer}/limits"));
             let problem = Problem::error(&at, format!("lower limit {lower} is not below the upper limit {upper}"));
