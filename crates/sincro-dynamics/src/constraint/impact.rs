@@ -131,9 +131,9 @@ impl Constraints<f64> {
                 let Some(group) = group else { continue };
                 let l = |k: usize| self.lambda[group.row + k];
                 match g {
-                    0 => force = force + t1.scale(l(0)) + t2.scale(l(1)),
-                    1 => torque = torque + t1.scale(l(0)) + t2.scale(l(1)),
-                    _ => torque = torque + at.normal.scale(l(0)),
+                    0 => force += t1.scale(l(0)) + t2.scale(l(1)),
+                    1 => torque += t1.scale(l(0)) + t2.scale(l(1)),
+                    _ => torque += at.normal.scale(l(0)),
                 }
             }
             let pair = pair_of(set, k);

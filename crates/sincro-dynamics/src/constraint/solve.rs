@@ -203,7 +203,6 @@ impl<R: Real> Solver<R> {
     }
 
     /// How much each force may be, from the normal forces found last: where all slide alike, friction in proportion to load.
-
     fn set_weights(&mut self, blocks: &[Block<R>], lambda: &[R]) {
         let largest = lambda.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
         self.weights.fill(R::splat(largest));

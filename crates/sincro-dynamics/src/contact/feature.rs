@@ -84,7 +84,7 @@ impl Spot {
             }
             Feature::Point { origin } => {
                 let o = x_b.point(Vec3::splat(origin.0));
-                self.from_distance(p, p_dot, p - o, p_dot - motions.velocity_of(self.b, o))
+                self.of_distance(p, p_dot, p - o, p_dot - motions.velocity_of(self.b, o))
             }
             Feature::Line { origin, direction } => {
                 let o = x_b.point(Vec3::splat(origin.0));
@@ -93,13 +93,13 @@ impl Spot {
                 let (rho, rho_dot) = (p - o, p_dot - motions.velocity_of(self.b, o));
                 let along = d.dot(rho);
                 let along_dot = d_dot.dot(rho) + d.dot(rho_dot);
-                self.from_distance(p, p_dot, rho - d.scale(along), rho_dot - d_dot.scale(along) - d.scale(along_dot))
+                self.of_distance(p, p_dot, rho - d.scale(along), rho_dot - d_dot.scale(along) - d.scale(along_dot))
             }
         }
     }
 
     /// From the vector D to the point P from what it may touch.
-    fn from_distance<R: Real>(&self, p: Vec3<R>, p_dot: Vec3<R>, d: Vec3<R>, d_dot: Vec3<R>) -> Gap<R> {
+    fn of_distance<R: Real>(&self, p: Vec3<R>, p_dot: Vec3<R>, d: Vec3<R>, d_dot: Vec3<R>) -> Gap<R> {
         let length = d.norm();
         let inverse = R::one() / length;
         let n = d.scale(inverse);
