@@ -99,7 +99,7 @@ pub enum Takes {
     Names,
     /// One of these words.
     Choice(&'static [&'static str]),
-    /// A file of the scene folder: CSV, unless its meaning says otherwise.
+    /// A file of the scene folder.
     File,
 }
 

@@ -16,12 +16,18 @@ use crate::power;
 /// The chunk name of a script: positions read `script:12:`.
 pub(crate) const CHUNK: &str = "script";
 
+/// Finds the value of a signal.
+type Signal = dyn Fn(&Lua, &str) -> mlua::Result<Value> + Send;
+
+/// A function of `math` with its name.
+type Named = (&'static str, fn(f64) -> f64);
+
 /// Services that the prelude needs.
 pub(crate) struct Services {
     /// Time `[s]` as scripts are told it.
     pub time: Box<dyn Fn() -> f64 + Send>,
     /// The value of a signal of any kind.
-    pub signal: Box<dyn Fn(&Lua, &str) -> mlua::Result<Value> + Send>,
+    pub signal: Box<Signal>,
     /// Takes what is printed.
     pub print: Box<dyn Fn(String) + Send>,
 }
@@ -203,7 +209,7 @@ fn power(x: f64, y: f64) -> f64 {
 /// The functions of `math` that a platform's library would compute, and those of older Lua.
 fn mathematics(lua: &Lua, seed: u64) -> mlua::Result<()> {
     let math: Table = lua.globals().get("math")?;
-    let unary: [(&str, fn(f64) -> f64); 10] = [
+    let unary: [Named; 10] = [
         ("sin", |x| elementary::sin_cos(x).0),
         ("cos", |x| elementary::sin_cos(x).1),
         ("tan", |x| elementary::tan(x).0),

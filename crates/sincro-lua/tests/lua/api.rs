@@ -96,3 +96,19 @@ fn matrices_and_buffers_are_as_in_vrep() {
         ["1.000 3.000 3.000", "1.000 0.000 0.000", "0.5\t2.0\t-1.0", "12\t8", "1\t2.5\tx\ttrue\t-3", "12\t-1.0"]
     );
 }
+
+#[test]
+fn rotations_go_about_their_axis() {
+    let code = "function sysCall_init()
+        local a, b = sim.buildMatrix({ 0, 0, 0 }, { 0, 0, 0.2 }), sim.buildMatrix({ 2, 0, 4 }, { 0, 0, 1.2 })
+        local axis, angle = sim.getRotationAxis(a, b)
+        print(string.format('%.6f %.6f', axis[3], angle))
+        local half = sim.interpolateMatrices(a, b, 0.5)
+        print(string.format('%.6f %.6f %.6f', half[4], half[12], sim.getEulerAnglesFromMatrix(half)[3]))
+        local turned = sim.rotateAroundAxis(a, { 0, 0, 2 }, { 1, 0, 0 }, math.pi / 2)
+        print(string.format('%.6f %.6f %.6f', turned[4], turned[8], sim.getEulerAnglesFromMatrix(turned)[3]))
+        print(#sim.rotateAroundAxis(sim.matrixToPose(a), { 1, 0, 0 }, { 0, 0, 0 }, 1), (pcall(sim.rotateAroundAxis, a, { 0, 0, 0 }, { 0, 0, 0 }, 1)))
+    end";
+    let expected = ["1.000000 1.000000", "1.000000 2.000000 0.700000", "1.000000 -1.000000 1.770796", "7\tfalse"];
+    assert_eq!(said(code), expected);
+}

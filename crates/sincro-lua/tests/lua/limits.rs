@@ -96,9 +96,9 @@ fn errors_say_script_line_text_and_cause() {
     ];
     for (text, expected) in cases {
         let (reason, _) = stop(&format!("function sysCall_actuation()\n  {text}\nend"));
-        let place = format!("the script of `/hinge/arm` failed at ");
+        let place = "the script of `/hinge/arm` failed at ";
         let line = format!("a.lua:2, `{text}`: ");
-        assert!(reason.starts_with(&place) && reason.contains(&line) && reason.contains(expected), "{text}: {reason}");
+        assert!(reason.starts_with(place) && reason.contains(&line) && reason.contains(expected), "{text}: {reason}");
     }
 }
 

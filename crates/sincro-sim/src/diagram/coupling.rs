@@ -93,7 +93,7 @@ pub struct NotFinite {
     /// Its inputs.
     pub inputs: Vec<f64>,
     /// What the block itself says of it.
-    pub fault: Option<String>,
+    pub fault: Option<Box<str>>,
 }
 
 impl<R: Number> Control<R> {
@@ -236,7 +236,7 @@ impl Control<f64> {
             kind: step.template.kind().name,
             outputs: signals[step.out.clone()].to_vec(),
             inputs: inputs.copied().collect(),
-            fault: step.template.fault(),
+            fault: step.template.fault().map(String::into_boxed_str),
         })
     }
 

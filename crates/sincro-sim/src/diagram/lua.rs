@@ -38,7 +38,7 @@ impl Described for LuaBlock {
                 "Lua text with `output` and, if there is memory, `update`",
                 "none",
             ),
-            Parameter::optional("file", Takes::File, "Lua file of the scene folder, in place of `code`", "none"),
+            Parameter::optional("file", Takes::Text, "Lua file of the scene folder, in place of `code`", "none"),
             Parameter::optional(
                 "inputs",
                 Takes::Texts,

@@ -10,6 +10,7 @@ mod joints;
 mod names;
 mod objects;
 mod poses;
+mod rotations;
 mod signals;
 mod transforms;
 
@@ -41,6 +42,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         objects::FUNCTIONS,
         poses::FUNCTIONS,
         transforms::FUNCTIONS,
+        rotations::FUNCTIONS,
         joints::FUNCTIONS,
         bodies::FUNCTIONS,
         signals::FUNCTIONS,

@@ -88,7 +88,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// A matrix or a pose, told by how many numbers there are.
-fn any(a: Arguments<'_>, k: usize) -> Result<Pose<f64>, Refusal> {
+pub(super) fn any(a: Arguments<'_>, k: usize) -> Result<Pose<f64>, Refusal> {
     match a.get(k).as_reals().map(|list| list.len()) {
         Some(7) => pose_of_seven(a.reals(k)?).ok_or_else(|| Refusal::new("the quaternion has no direction")),
         _ => Ok(pose_of_matrix(&a.reals(k)?)),
