@@ -35,7 +35,7 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "stpe=0.1",
         r#"--set:1:1: error: `stpe`: a scene or experiment has no `stpe`
-  help: did you mean `step`? keys: `step`, `seed`, `scene`, `sweep`, `title`, `integrator`, `parameters`, `description` and 16 more"#,
+  help: did you mean `step`? keys: `step`, `seed`, `scene`, `sweep`, `title`, `script`, `integrator`, `parameters` and 18 more"#,
     ),
     (
         "/shoulder=2",
