@@ -7,5 +7,6 @@ mod base64;
 pub mod embed;
 pub mod film;
 pub mod live;
+pub mod mcap;
 mod save;
 pub mod server;

@@ -40,6 +40,8 @@ enum Command {
     View(commands::view::Arguments),
     /// Show a finished run in the browser
     Replay(commands::view::ReplayArguments),
+    /// Compare two finished runs: where they part, and how far apart they come
+    Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
     /// Run every experiment of the thesis and put measured beside expected on one page
@@ -81,6 +83,7 @@ fn main() -> ExitCode {
         Command::Trim(arguments) => commands::trim::run(&arguments),
         Command::View(arguments) => commands::view::run(&arguments),
         Command::Replay(arguments) => commands::view::replay(&arguments),
+        Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match bench::run(&options) {

@@ -88,6 +88,8 @@ export interface Film {
   plots: [string, string[]][];
   diagram: string | null;
   runs: Reel[];
+  /** All runs are drawn over each other from the start. */
+  overlaid?: boolean;
 }
 
 function bytes(text: string): Uint8Array<ArrayBuffer> {

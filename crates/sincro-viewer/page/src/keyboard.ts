@@ -5,7 +5,7 @@ import { forward } from "./ui/transport";
 import { CAMERAS, type Stage } from "./three/stage";
 import type { Session } from "./session";
 
-export const KEYS = "space play · ← → one frame · shift ten · home end · 1–4 cameras · F follow · Z / Y undo, redo";
+export const KEYS = "space play · ← → one frame · shift ten · home end · 1–4 cameras · F follow · Z / Y undo, redo · Ctrl-drag pulls a body while a live run plays";
 
 export function keyboard(root: HTMLElement, session: Session, stage: Stage): void {
   root.addEventListener("keydown", (event) => {

@@ -40,6 +40,7 @@ export class Session {
 
   constructor(readonly film: Film) {
     this.runs = film.runs.map((reel, k) => Run.ofReel(film, reel, k));
+    if (film.overlaid) this.runs.forEach((run) => (run.isVisible = true));
     this.properties = film.properties;
     this.shown = Object.fromEntries(Object.entries(SHOWN).map(([key, { on }]) => [key, on])) as Record<Shown, boolean>;
   }

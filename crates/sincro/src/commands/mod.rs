@@ -11,6 +11,7 @@ macro_rules! say {
 pub(crate) mod blocks;
 pub(crate) mod check;
 pub(crate) mod console;
+pub(crate) mod diff;
 pub(crate) mod draw;
 pub(crate) mod linearize;
 pub(crate) mod reproduce;

@@ -40,6 +40,9 @@ pub(crate) struct Arguments {
     /// Seed of everything random
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// Write run.mcap too, for Foxglove, Lichtblick or Rerun
+    #[arg(long)]
+    mcap: bool,
     /// Print run.json on standard output instead of the summary
     #[arg(long)]
     json: bool,
@@ -62,6 +65,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(campaign) => campaign,
         Err(exit) => return exit,
     };
+    if arguments.mcap
+        && let Err(error) = sincro_viewer::mcap::write(&campaign.main, &out.join("run.mcap"))
+    {
+        return diagnostics::refuse_file(&error);
+    }
     if arguments.json {
         say!("{}", campaign.report.to_json());
     } else {

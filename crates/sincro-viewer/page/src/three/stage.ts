@@ -9,6 +9,7 @@ import { el, nice } from "../format";
 import type { Session } from "../session";
 import { Bodies } from "./bodies";
 import { Overlays } from "./overlays";
+import { Push } from "./push";
 
 /** Where the named cameras stand, seen from what they look at. */
 export const CAMERAS: [string, [number, number, number]][] = [
@@ -29,6 +30,7 @@ export class Stage {
   private ground: Object3D[] = [];
   private bodies = new Map<number, Bodies>();
   private readonly overlays: Overlays;
+  private readonly push: Push;
   private readonly legend = el("div", { class: "sv-legend" });
   private isStale = true;
   /** The reader has turned the camera, or named one. */
@@ -46,7 +48,8 @@ export class Stage {
     this.controls.addEventListener("change", () => (this.isStale = true));
     this.controls.addEventListener("start", () => (this.wasMoved = true));
     this.overlays = new Overlays(session, this.scene);
-    if (this.renderer) this.node.append(this.renderer.domElement, this.legend);
+    this.push = new Push(session, this.camera, this.scene);
+    if (this.renderer) this.node.append(this.renderer.domElement, this.legend, this.push.label);
     else this.node.append(el("p", { class: "sv-nogl", text: "This browser shows no WebGL: the 3-D view is missing, everything else works." }));
     this.light();
     this.listen();
@@ -204,6 +207,7 @@ export class Stage {
     for (const run of session.runs) this.bodies.get(run.id)?.place(run, session.t);
     this.scene.updateMatrixWorld(true);
     this.overlays.place(session.t);
+    this.push.pull();
     if (session.follow && session.selected !== null) {
       const now = this.main.position(session.selected);
       const move = now.clone().sub(this.followed);
@@ -240,13 +244,38 @@ export class Stage {
   /** A click without a drag selects; hovering tells. */
   private pick(canvas: HTMLCanvasElement): void {
     const ray = new Raycaster();
-    const hit = (event: PointerEvent): number | null => {
+    const place = (event: PointerEvent): Vector2 => {
       const box = canvas.getBoundingClientRect();
-      const at = new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
-      ray.setFromCamera(at, this.camera);
-      const found = ray.intersectObjects(this.main.targets, false)[0];
+      return new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
+    };
+    const find = (event: PointerEvent) => {
+      ray.setFromCamera(place(event), this.camera);
+      return ray.intersectObjects(this.main.targets, false)[0];
+    };
+    const hit = (event: PointerEvent): number | null => {
+      const found = find(event);
       return found ? (found.object.userData["object"] as number) : null;
     };
+    canvas.addEventListener("pointerdown", (event) => {
+      const found = event.ctrlKey && this.session.link?.isRunning ? find(event) : undefined;
+      if (!found) return;
+      const object = found.object.userData["object"] as number;
+      this.push.seize(object, this.main.nodes[object] as Object3D, found.point, place(event));
+      this.controls.enabled = false;
+      canvas.setPointerCapture(event.pointerId);
+    }, { capture: true });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!this.push.isHeld) return;
+      this.push.move(place(event));
+      this.isStale = true;
+    });
+    for (const end of ["pointerup", "pointercancel"] as const) {
+      canvas.addEventListener(end, () => {
+        this.push.letGo();
+        this.controls.enabled = true;
+        this.isStale = true;
+      });
+    }
     let down: [number, number] = [0, 0];
     canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
     canvas.addEventListener("pointerup", (event) => {

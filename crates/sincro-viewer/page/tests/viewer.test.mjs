@@ -1,0 +1,161 @@
+// Drives `sincro view` in a real browser: load, play, pause, scrub, select, plot, edit, branch; and a report without a server.
+// Needs CHROMIUM (default /usr/bin/chromium) and SINCRO, the program; skips with a word where there is no browser.
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../../..");
+const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const sincro = process.env.SINCRO ?? join(root, "target/release/sincro");
+const skip = existsSync(executablePath) ? false : `there is no browser at ${executablePath}`;
+const options = { skip, timeout: 120_000 };
+
+let browser;
+const children = [];
+const folder = mkdtempSync(join(tmpdir(), "sincro-viewer-"));
+
+before(async () => {
+  if (skip) return;
+  browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+});
+
+after(async () => {
+  await browser?.close();
+  for (const child of children) child.kill();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** Starts `sincro view` and waits for its address. */
+async function view(what, ...more) {
+  const child = spawn(sincro, ["view", what, "--no-browser", ...more], { stdio: ["ignore", "pipe", "inherit"] });
+  children.push(child);
+  const url = await new Promise((done, failed) => {
+    child.stdout.once("data", (data) => done(String(data).trim()));
+    child.once("exit", (code) => failed(new Error(`sincro view ended with ${code}`)));
+  });
+  return url;
+}
+
+/** A page that notes what goes wrong in it. */
+async function open(url, size = { width: 1280, height: 720 }) {
+  const page = await browser.newPage({ viewport: size });
+  const wrong = [];
+  page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
+  page.on("pageerror", (error) => wrong.push(error.message));
+  const begin = Date.now();
+  await page.goto(url);
+  await page.waitForSelector(".sv-stage[data-drawn]");
+  return { page, wrong, first: Date.now() - begin };
+}
+
+const clock = (page) => page.locator(".sv-clock").innerText().then((text) => Number.parseFloat(text));
+const state = (page) => page.locator(".sv-play").getAttribute("data-state");
+const until = (page, what, ...more) => page.waitForFunction(what, ...more, { timeout: 60_000 });
+
+async function scrub(page, share) {
+  await page.locator(".sv-timeline").evaluate((slider, value) => {
+    slider.value = String(1000 * value);
+    slider.dispatchEvent(new Event("input"));
+  }, share);
+}
+
+for (const [scene, object, signal, number] of [
+  ["quadrotor-open-loop", "/air/quadrotor", "/air.velocity.z", "/air/quadrotor.mass"],
+  ["two-dof-position", "/shoulder/elbow/forearm", "/shoulder.velocity", "/shoulder/elbow/forearm.mass"],
+]) {
+  test(`${scene} live: load, play, pause, scrub, select, plot, edit, branch`, options, async () => {
+    const { page, wrong, first } = await open(await view(join(root, "scenes", scene)));
+    console.log(`# ${scene}: first picture after ${first} ms`);
+    await page.selectOption(".sv-speed", "2");
+    await page.click(".sv-play");
+    await until(page, () => document.querySelector(".sv-play").dataset.state === "playing");
+    await until(page, () => Number.parseFloat(document.querySelector(".sv-clock").textContent) > 0.8);
+    await page.keyboard.press("Space");
+    await until(page, () => document.querySelector(".sv-play").dataset.state === "stopped");
+    const paused = await clock(page);
+    assert.ok(paused > 0.5, `paused at ${paused} s`);
+
+    await scrub(page, 0.05);
+    const back = await clock(page);
+    assert.ok(back < paused, `${back} s is before ${paused} s`);
+    await page.keyboard.press("ArrowRight");
+    assert.ok((await clock(page)) > back || (await clock(page)) === paused, "an arrow goes one frame on");
+
+    await page.click(`[data-path="${object}"]`);
+    assert.equal(await page.locator(".sv-properties h3").innerText(), object);
+    await page.fill('input[aria-label="search signals"]', signal);
+    await page.click(`[data-signal="${signal}"]`);
+    assert.equal(await page.locator(`[data-signal="${signal}"]`).getAttribute("aria-pressed"), "true");
+    assert.ok(await page.locator(".sv-scope canvas").count() > 0, "there are plots");
+
+    const input = page.locator(`input[aria-label="${number}"]`);
+    const before = await input.inputValue();
+    await input.fill(String(2 * Number(before)));
+    await input.press("Enter");
+    await page.click("text=undo");
+    assert.equal(await page.locator(`input[aria-label="${number}"]`).inputValue(), before, "undo");
+    await page.click("text=redo");
+    await page.click("button:has-text('run from')");
+    await until(page, () => document.querySelectorAll(".sv-run").length === 2);
+    await until(page, (t) => Number.parseFloat(document.querySelector(".sv-clock").textContent) > t + 0.2, back);
+    await page.click(".sv-play");
+    await until(page, () => document.querySelector(".sv-play").dataset.state === "stopped");
+    assert.equal(await page.locator(".sv-run.sv-active").innerText(), "run 1");
+
+    const refused = page.locator(`input[aria-label="${number}"]`);
+    await refused.fill("-1");
+    await refused.press("Enter");
+    await page.click("button:has-text('run from')");
+    await page.waitForSelector(".sv-notice:not([hidden])");
+    assert.match(await page.locator(".sv-notice").innerText(), /mass/);
+    assert.deepEqual(wrong, []);
+    await page.close();
+  });
+}
+
+test("a finished run: the report opens without a server, and `sincro view` shows the folder", options, async () => {
+  const out = join(folder, "quadrotor");
+  const ran = spawnSync(sincro, ["run", join(root, "scenes/quadrotor-open-loop"), "--out", out], { encoding: "utf8" });
+  assert.equal(ran.status, 0, ran.stderr);
+  for (const url of [`file://${out}/report.html`, await view(out)]) {
+    const { page, wrong } = await open(url);
+    if (url.startsWith("file:")) await page.click("text=whole window");
+    await page.click("text=lag-from-rest");
+    assert.equal(await page.locator(".sv-run.sv-active").innerText(), "lag-from-rest");
+    await page.locator(".sv-play").click();
+    await until(page, () => Number.parseFloat(document.querySelector(".sv-clock").textContent) > 0.3);
+    await page.locator(".sv-play").click();
+    assert.equal(await state(page), "stopped");
+    await scrub(page, 1);
+    assert.equal(await clock(page), 6);
+    assert.deepEqual(wrong, []);
+    await page.close();
+  }
+});
+
+test("on a phone everything is within the width", options, async () => {
+  const { page, wrong } = await open(await view(join(root, "scenes/two-dof-position")), { width: 390, height: 800 });
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(wide <= 390, `${wide} px`);
+  assert.deepEqual(wrong, []);
+  await page.close();
+});
+
+test("names are text, never markup", options, async () => {
+  const out = join(folder, "pendulum");
+  const { mkdirSync, writeFileSync } = await import("node:fs");
+  mkdirSync(out, { recursive: true });
+  const evil = "<img src=x onerror=document.title='broken'></script><b>";
+  writeFileSync(join(out, "scene.toml"), '[[joint]]\nname = "hinge"\nkind = "revolute"\n[[body]]\nname = "rod"\nparent = "/hinge"\nmass = 1.0\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }\n');
+  writeFileSync(join(out, "experiment.toml"), `title = "${evil}"\ndescription = "${evil}"\nduration = 0.1\nstep = 0.01\nrecord = ["/hinge.position"]\n[[plot]]\ntitle = "${evil}"\nsignals = ["/hinge.position"]\n`);
+  const { page, wrong } = await open(await view(out));
+  assert.equal(await page.locator(".sv-heading").innerText(), evil);
+  assert.equal(await page.locator("#sincro-viewer img, #sincro-viewer b").count(), 0);
+  assert.deepEqual(wrong, []);
+  await page.close();
+});

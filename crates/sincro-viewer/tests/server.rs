@@ -1,0 +1,220 @@
+//! The server from outside: who is let in, what is refused, and that nobody who looks changes or slows a run.
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::SyncSender;
+use std::time::{Duration, Instant};
+
+use sincro_sim::load;
+use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_viewer::live::{Board, Command, Engine, Source};
+use sincro_viewer::server::{Server, Show};
+use tungstenite::stream::MaybeTlsStream;
+use tungstenite::{Message, WebSocket};
+
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
+}
+
+fn engine(name: &str) -> (Arc<Board>, SyncSender<Command>) {
+    let source = Source { folder: scene(name), settings: Vec::new(), draw: Box::new(|_| String::new()) };
+    let engine = Engine::open(source).unwrap();
+    (engine.board(), engine.start())
+}
+
+/// A server on loopback that ends with the test's process.
+fn serve(show: Show) -> SocketAddr {
+    let server = Server::bind(SocketAddr::from(([127, 0, 0, 1], 0)), show).unwrap();
+    let url = server.url();
+    std::thread::spawn(move || server.run());
+    url.trim_start_matches("http://").trim_end_matches('/').parse().unwrap()
+}
+
+/// The first line and the body of the answer to a raw request.
+fn ask(address: SocketAddr, request: &str) -> (String, String) {
+    let mut stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut answer = Vec::new();
+    stream.read_to_end(&mut answer).unwrap();
+    let text = String::from_utf8_lossy(&answer).into_owned();
+    let status = text.lines().next().unwrap_or("").to_owned();
+    (status, text.split_once("\r\n\r\n").map_or(String::new(), |(_, body)| body.to_owned()))
+}
+
+fn get(address: SocketAddr, path: &str, more: &str) -> (String, String) {
+    ask(address, &format!("GET {path} HTTP/1.1\r\nHost: {address}\r\n{more}Connection: close\r\n\r\n"))
+}
+
+type Line = WebSocket<MaybeTlsStream<TcpStream>>;
+
+fn connect(address: SocketAddr) -> Line {
+    let (line, _) = tungstenite::connect(format!("ws://{address}/live")).unwrap();
+    if let MaybeTlsStream::Plain(stream) = line.get_ref() {
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    }
+    line
+}
+
+/// The next text of a kind.
+fn next(line: &mut Line, kind: &str) -> serde_json::Value {
+    loop {
+        if let Message::Text(text) = line.read().unwrap() {
+            let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+            if value["type"] == kind {
+                return value;
+            }
+        }
+    }
+}
+
+/// Waits until the present run has come to its end; its hash.
+fn finish(board: &Board, run: usize) -> String {
+    let begin = Instant::now();
+    loop {
+        let standing = board.read().standing.clone();
+        if standing.run == run && standing.done && !standing.playing {
+            return standing.trace;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "{standing:?}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn send(commands: &SyncSender<Command>, text: &str) {
+    commands.send(Command::parse(text).unwrap()).unwrap();
+}
+
+fn hash_of(name: &str) -> String {
+    let loaded = load(&scene(name), &[]).unwrap();
+    let interrupt = std::sync::atomic::AtomicBool::new(false);
+    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
+    simulate(&loaded, Manner::default(), &mut watch).unwrap().trace.to_string()
+}
+
+#[test]
+fn only_this_page_is_let_in() {
+    let address = serve(Show::Film("{\"format\":\"sincro-film-1\"}".into()));
+    let port = address.port();
+    assert!(get(address, "/", "").0.contains("200"));
+    assert!(get(address, "/film.json", "").1.contains("sincro-film-1"));
+    assert!(get(address, "/film.json", &format!("Origin: http://{address}\r\n")).0.contains("200"));
+    for origin in ["http://evil.example", "null", "https://127.0.0.1"] {
+        let (status, body) = get(address, "/film.json", &format!("Origin: {origin}\r\n"));
+        assert!(status.contains("403") && !body.contains("sincro-film"), "{origin}: {status}");
+    }
+    for host in [format!("evil.example:{port}"), "127.0.0.1".into(), String::new()] {
+        let (status, body) =
+            ask(address, &format!("GET /film.json HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"));
+        assert!(!status.contains("200") && !body.contains("sincro-film"), "{host}: {status}");
+    }
+}
+
+#[test]
+fn no_path_leads_to_a_file() {
+    let address = serve(Show::Film("{}".into()));
+    for path in [
+        "/Cargo.toml",
+        "/../Cargo.toml",
+        "/%2e%2e/Cargo.toml",
+        "/..%2fCargo.toml",
+        "//etc/passwd",
+        "/viewer.js/../../Cargo.toml",
+        "/live",
+    ] {
+        let (status, body) = get(address, path, "");
+        assert!(!status.contains("200") && !body.contains("[package]") && !body.contains("root:"), "{path}: {status}");
+    }
+    assert!(ask(address, "POST /film.json HTTP/1.1\r\nHost: x\r\n\r\n").0.contains("40"));
+}
+
+#[test]
+fn a_live_line_is_refused_to_other_sites() {
+    let (board, commands) = engine("free-body");
+    let address = serve(Show::Live(board, commands));
+    let upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+    let request = format!("GET /live HTTP/1.1\r\nHost: {address}\r\nOrigin: http://evil.example\r\n{upgrade}\r\n");
+    let mut stream = TcpStream::connect(address).unwrap();
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut answer = [0; 12];
+    stream.read_exact(&mut answer).unwrap();
+    assert_eq!(&answer, b"HTTP/1.1 403");
+}
+
+#[test]
+fn malformed_messages_are_refused_and_the_run_goes_on() {
+    let (board, commands) = engine("motor-step");
+    let address = serve(Show::Live(board.clone(), commands.clone()));
+    let mut line = connect(address);
+    for text in
+        ["", "play", "{\"do\":\"fly\"}", "{\"do\":\"play\",\"now\":1}", "{\"do\":\"speed\",\"speed\":-1}", "[1e999]"]
+    {
+        line.send(Message::text(text)).unwrap();
+        assert_eq!(next(&mut line, "refused")["type"], "refused", "{text}");
+    }
+    line.send(Message::binary(vec![0_u8; 64])).unwrap();
+    next(&mut line, "refused");
+    line.send(Message::text("{\"do\":\"branch\",\"run\":7,\"t\":0,\"set\":[],\"joints\":[],\"play\":false}")).unwrap();
+    assert!(next(&mut line, "refused")["message"].as_str().unwrap().contains("no run 7"));
+    let nonsense = r#"{"do":"branch","run":0,"t":0,"set":[["/nobody.mass","1"]],"joints":[],"play":false}"#;
+    line.send(Message::text(nonsense)).unwrap();
+    assert!(next(&mut line, "refused")["message"].as_str().unwrap().contains("/nobody"));
+    send(&commands, r#"{"do":"speed","speed":null}"#);
+    send(&commands, r#"{"do":"play"}"#);
+    assert_eq!(finish(&board, 0), hash_of("motor-step"));
+}
+
+#[test]
+fn viewers_neither_change_nor_slow_a_run() {
+    let name = "two-dof-position";
+    let expected = hash_of(name);
+    for n_viewers in [0, 1, 5] {
+        let (board, commands) = engine(name);
+        let address = serve(Show::Live(board.clone(), commands.clone()));
+        // one of them reads, the others stop after the handshake
+        let mut lines: Vec<Line> = (0..n_viewers).map(|_| connect(address)).collect();
+        let begin = Instant::now();
+        send(&commands, r#"{"do":"speed","speed":null}"#);
+        send(&commands, r#"{"do":"play"}"#);
+        assert_eq!(finish(&board, 0), expected, "{n_viewers} viewers");
+        assert!(begin.elapsed() < Duration::from_secs(30), "{n_viewers} viewers");
+        if let Some(line) = lines.first_mut() {
+            let last = loop {
+                let state = next(line, "state");
+                if state["done"] == true {
+                    break state;
+                }
+            };
+            assert_eq!(last["trace"], expected.as_str());
+        }
+    }
+}
+
+#[test]
+fn a_branch_without_a_change_is_the_same_run() {
+    for name in ["two-dof-position", "quadrotor-open-loop", "flexible-position"] {
+        let (board, commands) = engine(name);
+        send(&commands, r#"{"do":"speed","speed":null}"#);
+        send(&commands, r#"{"do":"play"}"#);
+        let whole = finish(&board, 0);
+        send(&commands, r#"{"do":"branch","run":0,"t":0.7,"set":[],"joints":[],"play":true}"#);
+        assert_eq!(finish(&board, 1), whole, "{name}");
+        assert!(board.read().runs[1].times[0] > 0.5, "{name}: it starts where the other one was");
+    }
+}
+
+#[test]
+fn a_changed_number_makes_another_run_and_the_first_one_stays() {
+    let (board, commands) = engine("quadrotor-open-loop");
+    send(&commands, r#"{"do":"speed","speed":null}"#);
+    send(&commands, r#"{"do":"play"}"#);
+    let first = finish(&board, 0);
+    let heavier = r#"{"do":"branch","run":0,"t":2.0,"set":[["/air/quadrotor.mass","12"]],"joints":[],"play":true}"#;
+    send(&commands, heavier);
+    assert_ne!(finish(&board, 1), first);
+    let content = board.read();
+    let end = |run: usize| content.runs[run].times.len();
+    assert!(end(0) > end(1) && content.runs[1].times[0] >= 1.9);
+}
