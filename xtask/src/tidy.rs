@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 const MOST_LINES: usize = 1000;
 
 /// Which crates of ours each crate may use.
-const ARROWS: [(&str, &[&str]); 5] = [
+const ARROWS: [(&str, &[&str]); 6] = [
     ("sincro-math", &[]),
     ("sincro-dynamics", &["sincro-math"]),
     ("sincro-blocks", &["sincro-math"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
-    ("sincro", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim"]),
+    ("sincro-viewer", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
+    ("sincro", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim", "sincro-viewer"]),
 ];
 
 /// The crates that compute.

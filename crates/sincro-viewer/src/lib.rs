@@ -8,5 +8,6 @@ pub mod embed;
 pub mod film;
 pub mod live;
 pub mod mcap;
+pub mod picture;
 mod save;
 pub mod server;

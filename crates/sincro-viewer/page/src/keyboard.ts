@@ -8,8 +8,10 @@ import type { Session } from "./session";
 export const KEYS = "space play · ← → one frame · shift ten · home end · 1–4 cameras · F follow · Z / Y undo, redo · Ctrl-drag pulls a body while a live run plays";
 
 export function keyboard(root: HTMLElement, session: Session, stage: Stage): void {
-  root.addEventListener("keydown", (event) => {
+  document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
+    // within a report keys are the report's, unless the reader works in the viewer
+    if (!root.classList.contains("sv-full") && !root.contains(target)) return;
     const types = target instanceof HTMLInputElement && target.type !== "checkbox" && target.type !== "range";
     if (types || target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) return;
     if (target instanceof HTMLButtonElement && event.key === " ") target.blur();

@@ -47,6 +47,8 @@ async function open(url, size = { width: 1280, height: 720 }) {
   const wrong = [];
   page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
   page.on("pageerror", (error) => wrong.push(error.message));
+  // while working on the page: the bundle on disk in place of the one in the program
+  if (process.env.BUNDLE) for (const file of ["viewer.js", "viewer.css"]) await page.route(`**/${file}`, (route) => route.fulfill({ path: join(process.env.BUNDLE, file) }));
   const begin = Date.now();
   await page.goto(url);
   await page.waitForSelector(".sv-stage[data-drawn]");

@@ -60,11 +60,22 @@ pub(crate) fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
         source: report.scene.clone(),
         summary: loaded.experiment.description.clone(),
         href: href.to_owned(),
+        replay: format!("{href}#sincro-viewer"),
+        picture: picture(campaign),
         figure: figures.into_iter().next(),
         checks: checks(campaign),
         stop: stop(&report.status),
         run_time: format!("{} s", plot::number::significant(report.wall_time_s, 2)),
     }
+}
+
+/// The scene half way through the run.
+fn picture(campaign: &Campaign) -> String {
+    let main = &campaign.main;
+    let half = |tape: &sincro_sim::replay::Tape| {
+        sincro_viewer::picture::still(&main.view, tape.frame(tape.n_frames() / 2), (320.0, 150.0))
+    };
+    main.simulated.tape.as_ref().filter(|tape| tape.n_frames() > 0).map(half).unwrap_or_default()
 }
 
 fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(String, String)>) -> Page {

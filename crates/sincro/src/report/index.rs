@@ -100,15 +100,24 @@ fn link(card: &Card) -> String {
 fn card(card: &Card) -> String {
     let outcome = outcome(card);
     let picture = card.figure.as_ref().map(|figure| thumbnail(figure, THUMBNAIL)).unwrap_or_default();
+    let scene = match (card.picture.is_empty(), card.replay.is_empty()) {
+        (true, _) => String::new(),
+        (_, true) => format!("<div class=\"still\">{}</div>\n", card.picture),
+        _ => {
+            let (href, picture) = (escape(&card.replay), &card.picture);
+            format!("<a class=\"still\" href=\"{href}\" title=\"see it move\">{picture}<span>▶ replay</span></a>\n")
+        }
+    };
     let stop = card.stop.as_ref().map(|stop| paragraph("stop", &stop.reason)).unwrap_or_default();
     format!(
         concat!(
-            "<article class=\"card\">\n<div class=\"card-head\"><h3>{}</h3>{}</div>\n{}",
+            "<article class=\"card\">\n<div class=\"card-head\"><h3>{}</h3>{}</div>\n{}{}",
             "<figure>{}</figure>\n{}{}{}<p class=\"outcome\">{}</p>\n</article>\n"
         ),
         link(card),
         outcome.badge(),
         paragraph("source", &card.source),
+        scene,
         picture,
         paragraph("", &card.summary),
         stop,

@@ -151,6 +151,10 @@ pub(crate) struct Card {
     pub(crate) summary: String,
     /// Address of its report, relative to the index.
     pub(crate) href: String,
+    /// Address of its replay, relative to the index; may be empty.
+    pub(crate) replay: String,
+    /// A picture of the scene as SVG; may be empty.
+    pub(crate) picture: String,
     /// Its first panel becomes the thumbnail.
     pub(crate) figure: Option<Figure>,
     /// All its checks. The card shows four: those that fail first, then in this order.

@@ -87,6 +87,8 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
         source: evil.into(),
         summary: evil.into(),
         href: evil.into(),
+        replay: evil.into(),
+        picture: "<svg></svg>".into(),
         figure: Some(page.figures[0].clone()),
         checks: vec![row],
         stop: page.stop.clone(),
