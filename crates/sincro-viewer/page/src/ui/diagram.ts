@@ -33,8 +33,8 @@ export function diagram(session: Session, scopes: Scopes): HTMLElement | null {
     for (const { group, label } of wires) {
       const names = columnsOf(group);
       group.classList.toggle("sv-recorded-wire", names.length > 0);
-      const values = names.slice(0, 3).map((name) => format(session.run.value(session.t, name), 3));
-      label.textContent = values.length === 0 ? "" : values.join("  ") + (names.length > 3 ? " …" : "");
+      const values = names.slice(0, 2).map((name) => format(session.run.value(session.t, name), 3));
+      label.textContent = values.length === 0 ? "" : values.join("  ") + (names.length > 2 ? " …" : "");
     }
   };
   session.on("time", draw);
