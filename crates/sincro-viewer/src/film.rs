@@ -18,9 +18,9 @@ use crate::base64;
 pub const FORMAT: &str = "sincro-film-1";
 
 /// Bytes that the frames of all runs in a film may have, before base 64.
-const MOST_FRAME_BYTES: usize = 600_000;
+const MOST_FRAME_BYTES: usize = 450_000;
 /// Bytes that the signals of all runs in a film may have, before base 64.
-const MOST_SIGNAL_BYTES: usize = 600_000;
+const MOST_SIGNAL_BYTES: usize = 450_000;
 
 /// The whole text.
 #[derive(Clone, Debug, Serialize)]

@@ -9,7 +9,7 @@ use sincro_sim::table::Table;
 
 use crate::plot::escape;
 use crate::plot::number::{short, significant};
-use crate::report::shell::{cell, document, section, settings, table};
+use crate::report::shell::{cell, document, paragraph, section, settings, table};
 use crate::{Exit, diagnostics, present};
 
 /// What `diff` takes.
@@ -239,9 +239,9 @@ fn page(a: &Run, b: &Run, found: &[Difference], film: Option<String>) -> String 
         facts(a, b).into_iter().map(|(name, x, y)| (name, format!("{x} against {y}"))).collect();
     let title = format!("{} against {}", a.report.title, b.report.title);
     let head = format!(
-        "<header>\n<h1>Two runs</h1>\n<p class=\"lead\">{}</p>\n<p>{}</p>\n</header>\n",
+        "<header>\n<h1>Two runs</h1>\n<p class=\"lead\">{}</p>\n{}</header>\n",
         escape(&title),
-        escape(&verdict(a, b, found))
+        paragraph("", &verdict(a, b, found))
     );
     let body = [
         head,

@@ -121,7 +121,9 @@ fn carrier(graph: &Graph, net: &graph::Net, path: &str, (x, y): route::Point) ->
         graph::Shape::World => (port.clone(), String::new()),
         _ => (format!("{path}{}.{port}", node.name), format!("{path}{}", node.name)),
     };
-    format!("<g data-signal=\"{}\" data-block=\"{}\" data-at=\"{x} {y}\">\n", escape(&signal), escape(&block))
+    let part = node.outputs[net.from.port].range.as_ref();
+    let part = part.map_or(String::new(), |part| format!(" data-part=\"{} {}\"", part.start, part.end));
+    format!("<g data-signal=\"{}\" data-block=\"{}\" data-at=\"{x} {y}\"{part}>\n", escape(&signal), escape(&block))
 }
 
 fn is_wide(graph: &Graph, net: &graph::Net, path: &str, options: &Options) -> bool {

@@ -62,7 +62,8 @@ export class Stage {
   private followFar(): void {
     const flight = this.bounds.getSize(new Vector3()).length();
     const body = this.session.view.objects.findIndex((o) => o.kind === "body" && o.mover !== null);
-    if (body < 0 || flight < 5 * this.main.size) return;
+    const flies = this.session.view.objects.some((o) => o.kind === "free joint");
+    if (body < 0 || (flight < 5 * this.main.size && !(this.session.link && flies))) return;
     this.session.follow = true;
     this.session.select(body);
     this.session.tell("shown");
@@ -170,7 +171,9 @@ export class Stage {
     const size = this.bounds.getSize(new Vector3());
     const span = Math.max(size.x, size.y, 0.6 * size.z, this.main.size);
     const cell = nice(span / 8);
-    const low = this.bounds.min.z < -0.12 * this.main.size ? Math.floor(this.bounds.min.z / cell) * cell : 0;
+    // a little below zero it touches what is lowest; far below it stands at a round height
+    const { z: lowest } = this.bounds.min;
+    const low = lowest < -0.12 * this.main.size ? Math.floor(lowest / cell) * cell : Math.min(0, lowest);
     const n = 2 * Math.ceil((1.6 * span) / cell);
     const center = this.bounds.getCenter(new Vector3());
     const [x, y] = [Math.round(center.x / cell) * cell, Math.round(center.y / cell) * cell];

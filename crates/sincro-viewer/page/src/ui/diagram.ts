@@ -17,7 +17,9 @@ export function diagram(session: Session, scopes: Scopes): HTMLElement | null {
     const names = [group.dataset["signal"] ?? "", group.dataset["block"] ?? ""];
     for (const name of names) {
       const found = session.run.columns.filter((c) => c.name === name || c.name.startsWith(`${name}[`)).map((c) => c.name);
-      if (name && found.length > 0) return found;
+      // a wire that carries some of the components only
+      const [from, to] = (group.dataset["part"] ?? "0 9999").split(" ").map(Number) as [number, number];
+      if (name && found.length > 0) return found.slice(from, to);
     }
     return [];
   };
