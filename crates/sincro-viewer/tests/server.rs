@@ -218,3 +218,32 @@ fn a_changed_number_makes_another_run_and_the_first_one_stays() {
     let end = |run: usize| content.runs[run].times.len();
     assert!(end(0) > end(1) && content.runs[1].times[0] >= 1.9);
 }
+
+#[test]
+fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
+    let top = std::env::temp_dir().join(format!("sincro-save-{}", std::process::id()));
+    let copy = top.join("quadrotor");
+    std::fs::create_dir_all(&copy).unwrap();
+    for file in std::fs::read_dir(scene("quadrotor-open-loop")).unwrap().flatten() {
+        std::fs::copy(file.path(), copy.join(file.file_name())).unwrap();
+    }
+    let engine = Engine::open(Source { folder: copy, settings: Vec::new(), draw: Box::new(|_| String::new()) }).unwrap();
+    let (board, commands) = (engine.board(), engine.start());
+    let mut changes = board.watch();
+    changes.mark_unchanged();
+    for set in [r#"[["/air/quadrotor.mass","12"]]"#, r#"[["/air/quadrotor.mass","12"],["duration","2"]]"#, r#"[["scene","x.toml"]]"#] {
+        send(&commands, &format!(r#"{{"do":"save","set":{set}}}"#));
+    }
+    let begin = Instant::now();
+    while board.read().last_words() < 3 {
+        assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", board.read().words);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let text = std::fs::read_to_string(top.join("quadrotor-edited/scene.toml")).unwrap();
+    assert!(text.contains("mass = 12 ") && text.contains("# [kg] [T]"), "{text}");
+    let second = std::fs::read_to_string(top.join("quadrotor-edited-2/experiment.toml")).unwrap();
+    assert!(second.contains("duration = 2 ") && second.contains("# Ts [s] [T]"), "{second}");
+    assert!(!top.join("quadrotor-edited-3").exists(), "what is no number is refused");
+    assert!(board.read().words[2].1.contains("refused"));
+    std::fs::remove_dir_all(&top).unwrap();
+}

@@ -192,6 +192,12 @@ impl<R: Real> Model<R> {
         &self.rotors
     }
 
+    /// The external forces on links, in the order in which they were added.
+    #[must_use]
+    pub fn wrenches(&self) -> &[AppliedWrench<R>] {
+        &self.wrenches
+    }
+
     /// Whether anything pushes on links from outside.
     pub(crate) fn has_external(&self) -> bool {
         !self.wrenches.is_empty() || !self.rotors.is_empty()

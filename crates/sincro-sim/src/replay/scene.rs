@@ -24,6 +24,8 @@ pub struct SceneView {
     pub n_movers: usize,
     /// Number of rotors.
     pub n_rotors: usize,
+    /// Number of external forces.
+    pub n_forces: usize,
     /// Number of coordinates.
     pub n_q: usize,
     /// Number of degrees of freedom.
@@ -55,6 +57,8 @@ pub struct ObjectView {
     pub joint: Option<JointView>,
     /// Of a rotor.
     pub rotor: Option<RotorView>,
+    /// Index in the frames of a force that moves something.
+    pub force: Option<usize>,
 }
 
 /// A solid in the frame of its body.
@@ -111,12 +115,13 @@ impl SceneView {
         let model = &*scene.model;
         let mut scratch = Scratch::new(model);
         kinematics::poses(model, &State::new(model).q, &mut scratch);
-        let mut maker = Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new() };
+        let mut maker = Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new(), n_forces: 0 };
         let objects = scene.objects.iter().map(|object| maker.object(object)).collect();
         Self {
             objects,
             n_movers: maker.links.len(),
             n_rotors: model.rotors().len(),
+            n_forces: maker.n_forces,
             n_q: model.n_q(),
             n_v: model.n_v(),
             gravity: model.gravity().0,
@@ -133,6 +138,8 @@ struct Maker<'a> {
     scratch: Scratch<f64>,
     /// Of each object so far: its mover, and its pose in the world at zero coordinates.
     placed: Vec<(Option<usize>, Pose<f64>)>,
+    /// External forces so far; those on what is fixed in the world are not in the model.
+    n_forces: usize,
 }
 
 impl Maker<'_> {
@@ -142,6 +149,8 @@ impl Maker<'_> {
         let joint = self.model.names().joints.iter().position(|j| j.name == object.path);
         let mover = joint.or(base_mover);
         self.placed.push((mover, x_wo));
+        let force = (matches!(object.kind, ObjectKind::Force) && mover.is_some()).then_some(self.n_forces);
+        self.n_forces += usize::from(force.is_some());
         ObjectView {
             path: object.path.clone(),
             name: object.name.clone(),
@@ -156,6 +165,7 @@ impl Maker<'_> {
             },
             joint: joint.map(|k| self.joint(k, base_mover, &x_wo)),
             rotor: self.rotor(object),
+            force,
         }
     }
 

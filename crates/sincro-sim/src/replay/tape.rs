@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | for each joint: position of its last link, quaternion x, y, z, w | 7 | m, 1 |
 //! | for each rotor: speed, thrust, torque | 3 | rad/s, N, N·m |
+//! | for each external force: its components in the world | 3 | N |
 //! | coordinates q | `n_q` | rad, m |
 //! | rates v | `n_v` | rad/s, m/s |
 //!
@@ -28,6 +29,7 @@ pub struct Layout {
     /// The link that each joint of the model moves last.
     links: Vec<usize>,
     n_rotors: usize,
+    n_forces: usize,
     n_q: usize,
     n_v: usize,
 }
@@ -44,6 +46,7 @@ impl Layout {
         Self {
             links: model.names().joints.iter().map(|j| last_link(j.v_idx + j.n_v)).collect(),
             n_rotors: model.rotors().len(),
+            n_forces: model.wrenches().len(),
             n_q: model.n_q(),
             n_v: model.n_v(),
         }
@@ -58,11 +61,11 @@ impl Layout {
     /// Numbers of a frame.
     #[must_use]
     pub fn width(&self) -> usize {
-        7 * self.links.len() + 3 * self.n_rotors + self.n_q + self.n_v
+        7 * self.links.len() + 3 * (self.n_rotors + self.n_forces) + self.n_q + self.n_v
     }
 
-    /// Adds what is seen to `out`; `width` numbers.
-    pub fn write(&self, seen: &Observation<'_>, out: &mut Vec<f32>) {
+    /// Adds what is seen at time `t` `[s]` to `out`; `width` numbers.
+    pub fn write(&self, seen: &Observation<'_>, t: f64, out: &mut Vec<f32>) {
         let poses = seen.scratch().link_poses();
         for &link in &self.links {
             let (pose, rot) = (&poses[link], Quat::from_matrix(&poses[link].rot));
@@ -75,6 +78,11 @@ impl Layout {
             let speed = seen.state.commands[rotor.command];
             let load = rotor.load(speed, &seen.scratch().twist(rotor.link));
             out.extend([speed, load.thrust, load.torque].map(|x| x as f32));
+        }
+        for wrench in seen.model().wrenches() {
+            let r_wl = &poses[wrench.link].rot;
+            let force = r_wl.mul_vec(wrench.wrench(t, r_wl, &seen.state.commands).lin);
+            out.extend(force.0.map(|x| x as f32));
         }
         out.extend(seen.state.q.iter().chain(&seen.state.v).map(|x| *x as f32));
     }
@@ -116,7 +124,7 @@ impl Tape {
     pub fn look(&mut self, seen: &Observation<'_>, tick: u64, t: f64) {
         self.ticks.push(tick);
         self.times.push(t);
-        self.layout.write(seen, &mut self.numbers);
+        self.layout.write(seen, t, &mut self.numbers);
     }
 
     /// Number of frames.

@@ -40,12 +40,14 @@ export interface ObjectView {
   mass: [number, [number, number, number], [number, number, number, number, number, number]] | null;
   joint: JointView | null;
   rotor: RotorView | null;
+  force: number | null;
 }
 
 export interface SceneView {
   objects: ObjectView[];
   n_movers: number;
   n_rotors: number;
+  n_forces: number;
   n_q: number;
   n_v: number;
   gravity: [number, number, number];

@@ -32,7 +32,7 @@ export class Run {
     readonly view: SceneView,
     readonly columns: Column[],
   ) {
-    this.frames = Rows.singles(7 * view.n_movers + 3 * view.n_rotors + view.n_q + view.n_v);
+    this.frames = Rows.singles(7 * view.n_movers + 3 * (view.n_rotors + view.n_forces) + view.n_q + view.n_v);
     this.rowTimes = Rows.doubles(1);
     this.rows = Rows.doubles(columns.length);
     this.isVisible = id === 0;
@@ -88,11 +88,17 @@ export class Run {
   }
 
   q(t: number, index: number): number {
-    return this.number(t, 7 * this.view.n_movers + 3 * this.view.n_rotors + index);
+    return this.number(t, 7 * this.view.n_movers + 3 * (this.view.n_rotors + this.view.n_forces) + index);
   }
 
   v(t: number, index: number): number {
-    return this.number(t, 7 * this.view.n_movers + 3 * this.view.n_rotors + this.view.n_q + index);
+    return this.q(t, this.view.n_q + index);
+  }
+
+  /** Components of an external force in the world [N]. */
+  force(t: number, index: number): [number, number, number] {
+    const at = 7 * this.view.n_movers + 3 * (this.view.n_rotors + index);
+    return [this.number(t, at), this.number(t, at + 1), this.number(t, at + 2)];
   }
 
   /** Speed, thrust or torque (0, 1, 2) of a rotor. */

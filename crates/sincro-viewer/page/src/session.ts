@@ -15,7 +15,7 @@ export const SHOWN = {
   frames: { label: "frames", on: false },
   springs: { label: "springs", on: true },
   rotors: { label: "thrust", on: true },
-  forces: { label: "contacts and forces", on: true },
+  forces: { label: "external forces", on: true },
   trace: { label: "path", on: true },
   grid: { label: "ground", on: true },
   shadows: { label: "shadows", on: true },

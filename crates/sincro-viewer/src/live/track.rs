@@ -133,7 +133,7 @@ impl Track {
         let mut frame = Vec::with_capacity(self.layout.width());
         let (seen, signals) = self.lockstep.observe(t);
         let row = self.recorder.row(&seen, signals, t, is_start)[1..].to_vec();
-        self.layout.write(&seen, &mut frame);
+        self.layout.write(&seen, t, &mut frame);
         Taken { t, row, frame }
     }
 

@@ -13,11 +13,13 @@ const AXIS = "#d55e00";
 const CENTER = "#cc79a7";
 const SPRING = "#b58900";
 const THRUST = "#009e73";
+const FORCE = "#d55e00";
 const PATH = "#0072b2";
 
 export class Overlays {
   private readonly made: Object3D[] = [];
-  private arrows: { object: number; rotor: number; arrow: ArrowHelper }[] = [];
+  private arrows: { rotor: number; arrow: ArrowHelper }[] = [];
+  private forces: { force: number; node: Object3D; arrow: ArrowHelper; most: number }[] = [];
   private bodies: Bodies | null = null;
 
   constructor(private readonly session: Session, private readonly scene: Scene) {}
@@ -34,6 +36,7 @@ export class Overlays {
       old.removeFromParent();
     }
     this.arrows = [];
+    this.forces = [];
     this.bodies = bodies;
     const { shown, view } = this.session;
     view.objects.forEach((object, k) => {
@@ -43,7 +46,8 @@ export class Overlays {
       if (object.mass && shown.inertia) this.hang(node, this.box(object));
       if (shown.frames && object.kind !== "force") this.frame(node, 0.12 * bodies.size);
       if (shown.springs && object.joint) this.springs(object, node, bodies.size);
-      if (shown.rotors && object.rotor) this.thrust(object.rotor.index, k, node, bodies.size);
+      if (shown.rotors && object.rotor) this.thrust(object.rotor.index, node, bodies.size);
+      if (shown.forces && object.force !== null) this.force(object.force, node, bodies.size);
     });
     if (shown.trace && this.session.selected !== null) this.path(this.session.selected, bodies);
   }
@@ -52,6 +56,7 @@ export class Overlays {
   place(t: number): void {
     const { run, view } = this.session;
     if (!this.bodies || run.times.n === 0) return;
+    this.placeForces(t, this.bodies.size);
     const weight = view.objects.reduce((sum, o) => sum + (o.mass?.[0] ?? 0), 0) * Math.hypot(...view.gravity);
     for (const { rotor, arrow } of this.arrows) {
       const thrust = run.rotor(t, rotor, 1);
@@ -62,6 +67,30 @@ export class Overlays {
       arrow.setDirection(new Vector3(0, 0, Math.sign(length)));
       arrow.setLength(Math.abs(length), 0.22 * Math.min(Math.abs(length), this.bodies.size), 0.1 * Math.min(Math.abs(length), this.bodies.size));
     }
+  }
+
+  private placeForces(t: number, size: number): void {
+    for (const known of this.forces) {
+      const components = new Vector3(...this.session.run.force(t, known.force));
+      known.most = Math.max(known.most, components.length());
+      const length = known.most > 0 ? (size * components.length()) / known.most : 0;
+      known.arrow.visible = length > 1e-3 * size;
+      if (!known.arrow.visible) continue;
+      known.arrow.position.copy(known.node.getWorldPosition(new Vector3()));
+      known.arrow.setDirection(components.normalize());
+      known.arrow.setLength(length, 0.2 * length, 0.09 * length);
+    }
+  }
+
+  /** An arrow in the world, as long as the mechanism where the force is greatest in the run. */
+  private force(force: number, node: Object3D, size: number): void {
+    const { run } = this.session;
+    let most = 0;
+    for (let k = 0; k < run.times.n; k++) most = Math.max(most, Math.hypot(...run.force(run.times.at(k, 0), force)));
+    const arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), size, FORCE);
+    this.made.push(arrow);
+    this.scene.add(arrow);
+    this.forces.push({ force, node, arrow, most });
   }
 
   private hang(node: Object3D, what: Object3D): void {
@@ -126,10 +155,10 @@ export class Overlays {
     }
   }
 
-  private thrust(rotor: number, object: number, node: Object3D, size: number): void {
+  private thrust(rotor: number, node: Object3D, size: number): void {
     const arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), size, THRUST);
     this.hang(node, arrow);
-    this.arrows.push({ object, rotor, arrow });
+    this.arrows.push({ rotor, arrow });
   }
 
   /** Where an object goes in the whole run. */

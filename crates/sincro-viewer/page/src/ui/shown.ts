@@ -5,7 +5,7 @@ import { SHOWN, type Session, type Shown } from "../session";
 import { CAMERAS, type Stage } from "../three/stage";
 
 export function shown(session: Session, stage: Stage): HTMLElement {
-  const toggles = (Object.keys(SHOWN) as Shown[]).filter((key) => key !== "forces").map((key) =>
+  const toggles = (Object.keys(SHOWN) as Shown[]).map((key) =>
     el("label", { class: "sv-toggle" },
       el("input", {
         type: "checkbox", checked: session.shown[key], "data-shown": key,
