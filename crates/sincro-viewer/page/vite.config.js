@@ -11,5 +11,5 @@ export default defineConfig({
     reportCompressedSize: true,
     lib: { entry: "src/main.ts", formats: ["iife"], name: "SincroViewer", fileName: () => "viewer.js", cssFileName: "viewer" },
   },
-  esbuild: { legalComments: "none", charset: "utf8" },
+  esbuild: { legalComments: "inline", charset: "utf8" },
 });
