@@ -127,7 +127,7 @@ fn no_path_leads_to_a_file() {
         let (status, body) = get(address, path, "");
         assert!(!status.contains("200") && !body.contains("[package]") && !body.contains("root:"), "{path}: {status}");
     }
-    assert!(ask(address, "POST /film.json HTTP/1.1\r\nHost: x\r\n\r\n").0.contains("40"));
+    assert!(ask(address, "POST /film.json HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").0.contains("40"));
 }
 
 #[test]
@@ -227,11 +227,16 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
     for file in std::fs::read_dir(scene("quadrotor-open-loop")).unwrap().flatten() {
         std::fs::copy(file.path(), copy.join(file.file_name())).unwrap();
     }
-    let engine = Engine::open(Source { folder: copy, settings: Vec::new(), draw: Box::new(|_| String::new()) }).unwrap();
+    let engine =
+        Engine::open(Source { folder: copy, settings: Vec::new(), draw: Box::new(|_| String::new()) }).unwrap();
     let (board, commands) = (engine.board(), engine.start());
     let mut changes = board.watch();
     changes.mark_unchanged();
-    for set in [r#"[["/air/quadrotor.mass","12"]]"#, r#"[["/air/quadrotor.mass","12"],["duration","2"]]"#, r#"[["scene","x.toml"]]"#] {
+    for set in [
+        r#"[["/air/quadrotor.mass","12"]]"#,
+        r#"[["/air/quadrotor.mass","12"],["duration","2"]]"#,
+        r#"[["scene","x.toml"]]"#,
+    ] {
         send(&commands, &format!(r#"{{"do":"save","set":{set}}}"#));
     }
     let begin = Instant::now();

@@ -297,3 +297,38 @@ fn blocks_lists_the_library_and_shows_one() {
     let none = sincro(&["blocks", "gian"]);
     assert!(status(&none) == 2 && text(&none.stderr).contains("did you mean `gain`?"));
 }
+
+#[test]
+fn runs_are_compared_to_the_bit() {
+    let folder = Folder::new("diff");
+    let scene = folder.pendulum("", "");
+    let [a, b, c] = ["a", "b", "c"].map(|name| folder.path(name));
+    run(&scene, &a, &["--mcap"]);
+    run(&scene, &b, &[]);
+    run(&scene, &c, &["--set", "/hinge.initial.position=1.1"]);
+    assert!(fs::read(a.join("run.mcap")).unwrap().starts_with(b"\x89MCAP0\r\n") && !b.join("run.mcap").exists());
+    let page = folder.path("diff.html");
+    let diff = |first: &Path, second: &Path| {
+        let words = [first, second, &page].map(|path| path.to_str().unwrap());
+        let output = sincro(&["diff", words[0], words[1], "--out", words[2]]);
+        (text(&output.stdout), text(&output.stderr), status(&output))
+    };
+    let (stdout, _, exit) = diff(&a, &b);
+    assert!(exit == 0 && stdout.contains("the same, bit for bit"), "{stdout}");
+    let (stdout, _, exit) = diff(&a, &c);
+    assert!(exit == 1 && stdout.contains("they part in tick 0") && stdout.contains("/hinge.position"), "{stdout}");
+    let html = fs::read_to_string(&page).unwrap();
+    assert!(html.contains("id=\"sincro-film\"") && html.contains("/hinge.initial.position = 1.1"));
+    let (_, stderr, exit) = diff(&a, &folder.path("nothing"));
+    assert!(exit != 0 && stderr.contains("cannot read"), "{stderr}");
+}
+
+#[test]
+fn a_folder_that_is_no_run_is_not_shown() {
+    let folder = Folder::new("replay");
+    let output = sincro(&["replay", folder.0.to_str().unwrap(), "--no-browser"]);
+    assert!(status(&output) == 2 && text(&output.stderr).contains("replay.json"), "{}", text(&output.stderr));
+    fs::write(folder.path("replay.json"), "{}").unwrap();
+    let output = sincro(&["view", folder.0.to_str().unwrap(), "--no-browser"]);
+    assert!(status(&output) == 2 && text(&output.stderr).contains("no replay of sincro"), "{}", text(&output.stderr));
+}

@@ -115,7 +115,8 @@ impl SceneView {
         let model = &*scene.model;
         let mut scratch = Scratch::new(model);
         kinematics::poses(model, &State::new(model).q, &mut scratch);
-        let mut maker = Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new(), n_forces: 0 };
+        let mut maker =
+            Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new(), n_forces: 0 };
         let objects = scene.objects.iter().map(|object| maker.object(object)).collect();
         Self {
             objects,

@@ -2,23 +2,23 @@
 
 use serde::Deserialize;
 
-/// A message of a viewer.
+/// A message of a viewer. The empty braces matter: without them serde would let any other key pass.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Command {
     /// Go on.
-    Play,
+    Play {},
     /// Stand still.
-    Pause,
+    Pause {},
     /// One base step.
-    Step,
+    Step {},
     /// Simulated seconds a second; none: as fast as it goes.
     Speed {
         /// Greater than zero.
         speed: Option<f64>,
     },
     /// A new run from the start with the settings of the last one.
-    Restart,
+    Restart {},
     /// A new run from a frame of another.
     Branch {
         /// The other run.
@@ -42,7 +42,7 @@ pub enum Command {
         force: [f64; 3],
     },
     /// No force any more.
-    Release,
+    Release {},
     /// Writes the scene's files with these settings beside the old ones.
     Save {
         /// Everything that is set.

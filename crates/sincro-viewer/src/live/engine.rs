@@ -135,15 +135,15 @@ impl Engine {
     /// Does what a viewer asks; refusals go to all viewers.
     fn obey(&mut self, command: Command) {
         let done = match command {
-            Command::Play => {
+            Command::Play {} => {
                 self.go();
                 Ok(())
             }
-            Command::Pause => {
+            Command::Pause {} => {
                 self.halt();
                 Ok(())
             }
-            Command::Step => {
+            Command::Step {} => {
                 self.step();
                 Ok(())
             }
@@ -153,12 +153,12 @@ impl Engine {
                 self.stand();
                 Ok(())
             }
-            Command::Restart => self.restart(),
+            Command::Restart {} => self.restart(),
             Command::Branch { run, t, set, joints, play } => self.branch((run, t), &set, &joints, play),
             Command::Push { object, point, force } => {
                 self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(Some((object, point, force))))
             }
-            Command::Release => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
+            Command::Release {} => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
             Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set))
                 .map(|folder| self.board.say("saved", &format!("saved as {}", folder.display()))),
         };

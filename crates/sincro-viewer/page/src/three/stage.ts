@@ -33,8 +33,9 @@ export class Stage {
   private readonly push: Push;
   private readonly legend = el("div", { class: "sv-legend" });
   private isStale = true;
-  /** The reader has turned the camera, or named one. */
+  /** The reader has turned the camera. */
   private wasMoved = false;
+  private named = "perspective";
   private followed = new Vector3();
   /** Size of all that happens [m], and its middle. */
   private bounds = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
@@ -78,7 +79,7 @@ export class Stage {
       this.renderer.setSize(w, h, false);
       this.camera.aspect = w / h;
       this.camera.updateProjectionMatrix();
-      if (size.x !== w && !this.wasMoved) this.frame("perspective");
+      if (size.x !== w && !this.wasMoved) this.frame(this.named);
       this.isStale = true;
     }
     if (!this.isStale) return;
@@ -89,6 +90,8 @@ export class Stage {
 
   /** A named camera that sees everything. */
   frame(name: string): void {
+    this.named = name;
+    this.wasMoved = false;
     const [, direction] = CAMERAS.find(([known]) => known === name) ?? (CAMERAS[0] as (typeof CAMERAS)[number]);
     const center = this.bounds.getCenter(new Vector3());
     let box = this.bounds;
@@ -167,6 +170,7 @@ export class Stage {
   /** Ground below everything, its squares of a round size. */
   private lay(): void {
     for (const old of this.ground) old.removeFromParent();
+    const { shown } = this.session;
     const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
     const size = this.bounds.getSize(new Vector3());
     const span = Math.max(size.x, size.y, 0.6 * size.z, this.main.size);
@@ -186,6 +190,7 @@ export class Stage {
     this.axes.scale.setScalar(1.4 * cell);
     (this.axes.material as Material).depthTest = true;
     this.ground = [grid, floor];
+    for (const part of this.ground) part.visible = shown.grid;
     this.scene.add(grid, floor, this.axes);
     this.scene.background = new Color(isDark ? "#14181d" : "#f7f8fa");
     const at = low === 0 ? "" : `, ground at z = ${String(+low.toPrecision(3)).replace("-", "−")} m`;
@@ -227,6 +232,14 @@ export class Stage {
     session.on("time", () => this.place());
     session.on("frames", () => this.place());
     session.on("runs", () => this.rebuild());
+    session.on("playing", () => {
+      if (!session.link || session.link.isRunning || session.playing) return;
+      // a live run stands still: the ground and paths are laid for what has been recorded by now
+      this.measure();
+      this.lay();
+      this.overlays.rebuild(this.main);
+      this.place();
+    });
     session.on("selection", () => {
       this.main.highlight(session.selected, session.hovered);
       this.overlays.rebuild(this.main);

@@ -53,6 +53,7 @@ function label(group: SVGGElement): SVGTextElement {
   text.setAttribute("x", String(x + 4));
   text.setAttribute("y", String(y - 4));
   text.setAttribute("class", "sv-carried");
-  group.append(text);
+  // after the blocks, so that none lies over it
+  group.parentNode?.append(text);
   return text;
 }

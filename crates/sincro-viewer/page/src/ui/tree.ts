@@ -31,7 +31,7 @@ export function tree(session: Session): HTMLElement {
       items.push(
         el("li", {
           role: "treeitem", "aria-selected": String(isSelected), "data-path": object.path, class: isSelected ? "sv-selected" : "", title: `${object.path}: ${object.kind}`,
-          tabindex: "0", style: `--depth: ${wanted ? 0 : (depths[k] as number)}`, onclick: () => session.select(isSelected ? null : k),
+          tabindex: "0", style: `--depth: ${wanted ? 0 : (depths[k] as number)}`, onclick: () => session.select(k),
           onkeydown: (event) => {
             if ((event as KeyboardEvent).key === "Enter") session.select(k);
           },
