@@ -164,7 +164,7 @@ fn paint(faces: &[Face], width: f64, height: f64) -> String {
 fn element(face: &Face, back: V, place: &dyn Fn(&V) -> (f64, f64)) -> Option<(f64, String)> {
     let n = face.corners.len() as f64;
     let depth = face.corners.iter().map(|p| dot(*p, back)).sum::<f64>() / n;
-    let data: Vec<String> = face.corners.iter().map(|p| place(p)).map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
+    let data: Vec<String> = face.corners.iter().map(place).map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
     let hex = |shade: f64| {
         let part = |k: usize| (255.0 * (face.color[k] * shade).clamp(0.0, 1.0)).round() as u8;
         format!("#{:02x}{:02x}{:02x}", part(0), part(1), part(2))

@@ -5,7 +5,6 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use serde::Serialize;
 use serde_json::Value;
@@ -13,7 +12,7 @@ use serde_json::Value;
 use crate::document::{Document, escape};
 use crate::load::Loaded;
 use crate::overrides::{Override, Target, apply_all};
-use crate::problem::{Location, SourceText};
+use crate::problem::Location;
 use crate::schema::{alternatives, description, experiment_schema, property, scene_schema, units};
 use crate::tree;
 
@@ -68,16 +67,15 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
 pub fn edited(loaded: &Loaded, settings: &[Override]) -> Result<BTreeMap<PathBuf, String>, Vec<String>> {
     let known = properties(loaded, &[]);
     // the last setting of a path wins; keyed by file and place
-    let mut edits: BTreeMap<(PathBuf, usize), (Arc<SourceText>, std::ops::Range<usize>, &str)> = BTreeMap::new();
+    let mut edits: BTreeMap<(PathBuf, usize), (&Location, &str)> = BTreeMap::new();
     let mut refused = Vec::new();
     for setting in settings {
         let (path, value) = (setting.path.value.as_str(), setting.value.value.as_str());
         let flat = path.replace('[', ".").replace(']', "");
         let property = known.iter().find(|p| p.path == flat || p.path.strip_prefix("diagram.") == Some(&flat));
         match (property, value.parse::<f64>()) {
-            (Some(property), Ok(_)) => {
-                let (source, span) = (&property.at.source, &property.at.span);
-                edits.insert((source.path.clone(), span.start), (source.clone(), span.clone(), value));
+            (Some(Property { at, .. }), Ok(_)) => {
+                edits.insert((at.source.path.clone(), at.span.start), (at, value));
             }
             (None, _) => refused.push(format!("`{path}` does not stand in a file as a number: write it there by hand")),
             (_, Err(_)) => refused.push(format!("`{path}` takes a number: `{value}` is none")),
@@ -88,8 +86,8 @@ pub fn edited(loaded: &Loaded, settings: &[Override]) -> Result<BTreeMap<PathBuf
     }
     let mut texts = BTreeMap::new();
     // from the end on, so that places before stay where they are
-    for ((path, _), (source, span, value)) in edits.into_iter().rev() {
-        texts.entry(path).or_insert_with(|| source.text.clone()).replace_range(span, value);
+    for ((path, _), (at, value)) in edits.into_iter().rev() {
+        texts.entry(path).or_insert_with(|| at.source.text.clone()).replace_range(at.span.clone(), value);
     }
     Ok(texts)
 }

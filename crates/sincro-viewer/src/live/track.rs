@@ -33,7 +33,7 @@ pub(super) struct Track {
     every: u64,
     /// Base steps done at each frame, and the state.
     snapshots: Vec<Snapshot>,
-    push: Option<(usize, [f64; 3], [f64; 3])>,
+    push: Option<Push<f64>>,
 }
 
 /// What a frame adds to the board.
@@ -112,7 +112,9 @@ impl Track {
 
     /// One base step; whether a frame is due then.
     pub fn advance(&mut self) -> bool {
-        self.apply_push();
+        if let Some(push) = self.push {
+            self.lockstep.world().push(push);
+        }
         let advanced = self.lockstep.advance();
         self.lockstep.world().release();
         let is_world_halt = matches!(advanced, Err(sincro_sim::run::Halt::World { .. }));
@@ -144,26 +146,19 @@ impl Track {
         n.checked_sub(1).map(|k| &self.snapshots[k])
     }
 
+    /// Seizes an object at a point of the world, which then goes with it; the force keeps its direction in the world.
     pub fn set_push(&mut self, push: Option<(usize, [f64; 3], [f64; 3])>) -> Result<(), String> {
-        if let Some((object, ..)) = push {
-            let found = self.view.objects.get(object).ok_or_else(|| format!("there is no object {object}"))?;
-            if found.mover.is_none() {
-                return Err(format!("`{}` is fixed in the world: no force moves it", found.path));
-            }
-        }
-        self.push = push;
-        Ok(())
-    }
-
-    /// The force of a viewer's hand, for one step.
-    fn apply_push(&mut self) {
-        let Some((object, point, force)) = self.push else { return };
-        let Some(mover) = self.view.objects[object].mover else { return };
-        let link = self.layout.links()[mover];
-        let t = self.lockstep.t();
+        self.push = None;
+        let Some((object, point, force)) = push else { return Ok(()) };
+        let found = self.view.objects.get(object).ok_or_else(|| format!("there is no object {object}"))?;
+        let Some(mover) = found.mover else {
+            return Err(format!("`{}` is fixed in the world: no force moves it", found.path));
+        };
+        let (link, t) = (self.layout.links()[mover], self.lockstep.t());
         let x_wl = self.lockstep.observe(t).0.scratch().link_poses()[link];
         let point = x_wl.inverse().point(Vec3(point));
-        self.lockstep.world().push(Push { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
+        self.push = Some(Push { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
+        Ok(())
     }
 }
 
