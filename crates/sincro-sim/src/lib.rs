@@ -28,4 +28,4 @@ pub mod sweep;
 pub mod table;
 mod tree;
 
-pub use load::{Loaded, load};
+pub use load::{Loaded, load, load_alone};

@@ -43,13 +43,26 @@ pub struct Loaded {
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
 pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
+    open_all(folder, overrides, true)
+}
+
+/// As [`load`], without opening variants and sweep: for a live run, whose settings need not fit the others' scenes.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_alone(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
+    open_all(folder, overrides, false)
+}
+
+fn open_all(folder: &Path, overrides: &[Override], with_others: bool) -> Result<Loaded, Problems> {
     let folder = Folder::new(&find_folder(folder)?);
     let mut loaded = open(&folder, overrides)?;
     let mut problems = Problems(std::mem::take(&mut loaded.warnings));
     // a variant was opened with the main run: its own settings must not meet those of the others
     let file = folder.path_of(EXPERIMENT);
     let is_variant = overrides.iter().any(|setting| setting.path.at.source.path == file);
-    let further = if is_variant { Vec::new() } else { further_settings(&loaded.experiment) };
+    let further = if is_variant || !with_others { Vec::new() } else { further_settings(&loaded.experiment) };
     for setting in further {
         let settings: Vec<Override> = overrides.iter().cloned().chain(setting).collect();
         match open(&folder, &settings) {

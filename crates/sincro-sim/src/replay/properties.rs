@@ -204,7 +204,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::load;
+    use crate::{load, load_alone};
 
     #[test]
     fn every_number_on_offer_can_be_set() {
@@ -214,7 +214,8 @@ mod tests {
             assert!(all.len() > 10, "{scene}: {}", all.len());
             for one in &all {
                 let same = Override::new(&one.path, &format!("{:?}", one.value));
-                let loaded = load(&folder, std::slice::from_ref(&same)).unwrap_or_else(|p| panic!("{}: {p}", one.path));
+                let loaded =
+                    load_alone(&folder, std::slice::from_ref(&same)).unwrap_or_else(|p| panic!("{}: {p}", one.path));
                 let again = properties(&loaded, &[same]);
                 let numbers = |list: &[Property]| list.iter().map(|p| (p.path.clone(), p.value)).collect::<Vec<_>>();
                 assert_eq!(numbers(&again), numbers(&all), "{}", one.path);

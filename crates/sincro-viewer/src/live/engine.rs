@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use sincro_sim::diagram::Controller;
 use sincro_sim::experiment::check::{Expected, Subject};
-use sincro_sim::load;
 use sincro_sim::overrides::Override;
 use sincro_sim::problem::Problems;
 use sincro_sim::replay::{SceneView, properties};
+use sincro_sim::{load, load_alone};
 
 use super::board::{Board, RunLog};
 use super::command::Command;
@@ -206,7 +206,7 @@ impl Engine {
 
     fn restart(&mut self) -> Result<(), String> {
         let settings = self.present().settings.clone();
-        let loaded = load(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
+        let loaded = load_alone(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
         let track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
         self.begin_next(track, "from the start");
         Ok(())
@@ -227,7 +227,7 @@ impl Engine {
         let from = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
         let settings = self.settings(set);
         let snapshot = from.snapshot_at(t).filter(|s| s.state.tick > 0 || !joints.is_empty()).cloned();
-        let loaded = load(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
+        let loaded = load_alone(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
         let mut track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
         if let Some(snapshot) = &snapshot {
             track = track.from(snapshot, joints)?;
