@@ -55,7 +55,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let runs = [&arguments.first, &arguments.second].map(|folder| Run::read(folder));
     let [a, b] = match runs {
         [Ok(a), Ok(b)] => [a, b],
-        [Err(error), _] | [_, Err(error)] => return diagnostics::refuse_file(&error),
+        [Err(error), _] | [_, Err(error)] => {
+            return diagnostics::refuse(&error.to_string(), Some("name two folders that `sincro run` wrote"));
+        }
     };
     let found = compare(&a.table, &b.table, &a.report);
     print(&a, &b, &found);
