@@ -1,6 +1,7 @@
 //! Whether a state can be a start: loops that are open, joints beyond their stops, bodies that overlap; and how redundant the closures are.
 
 use crate::constraint::events::Closing;
+use crate::integrate::System;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::state::State;
@@ -61,7 +62,7 @@ impl Freedom {
 
 fn placed(model: &Model<f64>, x: &State<f64>) -> (Mechanism<f64>, Vec<f64>) {
     let mut mechanism = Mechanism::new(model.clone(), false);
-    let mut y = vec![0.0; 2 * model.n_v()];
+    let mut y = vec![0.0; mechanism.dim()];
     mechanism.load(x, &mut y);
     (mechanism, y)
 }

@@ -213,7 +213,7 @@ mod tests {
             let all = properties(&load(&folder, &[]).unwrap(), &[]);
             assert!(all.len() > 10, "{scene}: {}", all.len());
             for one in &all {
-                let same = Override::new(&one.path, &format!("{:?}", one.value));
+                let same = Override::new(&one.path, &one.value.to_string());
                 let loaded =
                     load_alone(&folder, std::slice::from_ref(&same)).unwrap_or_else(|p| panic!("{}: {p}", one.path));
                 let again = properties(&loaded, &[same]);
