@@ -160,10 +160,10 @@ fn arrows(root: &Path, found: &mut Vec<String>) {
     }
 }
 
-/// Every scene folder is whole.
+/// Every scene folder is whole. (The scene file may be that of another folder: who loads the experiment finds it.)
 fn scenes(root: &Path, found: &mut Vec<String>) {
     for folder in children(&root.join("scenes")).into_iter().filter(|p| p.is_dir()) {
-        for file in ["README.md", "experiment.toml", "scene.toml"] {
+        for file in ["README.md", "experiment.toml"] {
             if !folder.join(file).is_file() {
                 found.push(format!("{} has no {file}", folder.display()));
             }

@@ -159,7 +159,7 @@ fn poses_follow_the_conventions_of_vrep() {
     let near =
         |got: &[f64], want: &[f64]| got.len() == want.len() && got.iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-12);
     // about −y, x goes up
-    let p = call(&mut arm, "sim.getObjectPosition", &[tip.clone()]);
+    let p = call(&mut arm, "sim.getObjectPosition", std::slice::from_ref(&tip));
     assert!(near(&p, &[0.0, 0.0, 1.0]), "{p:?}");
     let m = call(&mut arm, "simGetObjectMatrix", &[joint2.clone(), Value::Int(-1)]);
     assert!(near(&[m[2], m[6], m[10]], &[0.0, -1.0, 0.0]), "z of a joint is its axis: {m:?}");
@@ -197,11 +197,18 @@ fn a_free_body_can_be_put_anywhere_and_a_link_cannot() {
     let [ball, link] = ["ball", "link2"].map(|name| Value::from(find(&mut arm, name)));
     let list = Value::reals([1.0, 2.0, 3.0]);
     arm.call("sim.setObjectPosition", &[ball.clone(), Value::Int(-1), list.clone()]).unwrap();
-    assert_eq!(arm.call("sim.getObjectPosition", &[ball.clone(), Value::Int(-1)]).unwrap(), [list.clone()]);
+    assert_eq!(
+        arm.call("sim.getObjectPosition", &[ball.clone(), Value::Int(-1)]).unwrap(),
+        *std::slice::from_ref(&list)
+    );
     arm.start().unwrap();
     arm.step().unwrap();
     arm.stop().unwrap();
-    assert_eq!(arm.call("sim.getObjectPosition", &[ball]).unwrap(), [list.clone()], "edits while stopped stay");
+    assert_eq!(
+        arm.call("sim.getObjectPosition", &[ball]).unwrap(),
+        *std::slice::from_ref(&list),
+        "edits while stopped stay"
+    );
     let message = arm.call("sim.setObjectPosition", &[link, list]).unwrap_err().0;
     assert!(message.contains("cannot be put anywhere"), "{message}");
 }

@@ -1,21 +1,21 @@
 //! The one constraint solver: closed loops, couplings, limits of joints and contacts, over the reduced coordinates.
 //!
 //! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built column
-//! by column from responses of the articulated-body recursion ([`respond`]), so that held degrees of freedom (ideal motors, sticking joint
+//! by column from responses of the articulated-body recursion (`respond`), so that held degrees of freedom (ideal motors, sticking joint
 //! friction) and the implicit terms of an integrator are in it for nothing. Nothing is soft: no gain, no penalty, no drift to tune. After each
 //! accepted sub-step the world projects positions and velocities in the metric of the mass matrix.
 //!
 //! | file | what |
 //! |---|---|
-//! | [`row`] | rows in world coordinates, their rates, their Jacobians |
-//! | [`closure`] | loops and couplings |
-//! | [`respond`] | M⁻¹ times a vector |
-//! | [`dense`] | elimination with rank |
-//! | [`cone`] | friction: blocks, sweeps |
-//! | [`solve`] | the problem of one instant |
-//! | [`impact`] | impacts, projections, points of contact |
-//! | [`memory`] | who does what |
-//! | [`events`] | what the world asks of a mechanism: touch, strike, project |
+//! | `row` | rows in world coordinates, their rates, their Jacobians |
+//! | `closure` | loops and couplings |
+//! | `respond` | M⁻¹ times a vector |
+//! | `dense` | elimination with rank |
+//! | `cone` | friction: blocks, sweeps |
+//! | `solve` | the problem of one instant |
+//! | `impact` | impacts, projections, points of contact |
+//! | `memory` | who does what |
+//! | `events` | what the world asks of a mechanism: touch, strike, project |
 //!
 //! Sources: keys `featherstone2008` (chapter 8, loops; section 11, contact), `acary2008` (chapters 3 and 13).
 

@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
 }
 
 /// The order of the thesis; what is not named follows by name.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 22] = [
     "motor-step",
     "motor-ramp",
     "spring-static",
@@ -38,7 +38,16 @@ const ORDER: [&str; 13] = [
     "flexible-velocity-step",
     "flexible-position",
     "alexandros-release",
+    "alexandros-position",
+    "alexandros-force",
+    "alexandros-force-feedback",
+    "stock-propeller",
+    "rotor-bemt",
+    "propeller-lua",
     "quadrotor-open-loop",
+    "quadrotor-flight-1",
+    "quadrotor-flight-2",
+    "quadrotor-wind",
 ];
 
 /// Runs the command.
@@ -90,7 +99,7 @@ fn one(scene: &Path, out: &Path) -> Result<(crate::report::Card, Exit), Exit> {
     let up = Some(("all experiments".to_owned(), "../index.html".to_owned()));
     let campaign: Campaign = Job { scene, overrides: &[], loaded: &loaded, out: &folder, up }.run()?;
     let exit = verdict(&campaign);
-    say!("{:<24} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
+    say!("{:<25} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
     Ok((present::card(&loaded, &campaign, &format!("{name}/report.html")), exit))
 }
 
