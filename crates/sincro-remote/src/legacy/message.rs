@@ -14,9 +14,9 @@ pub const VERSION: u8 = 11;
 pub struct Head {
     /// Number of the message.
     pub id: i32,
-    /// Clock of the client [ms].
+    /// Clock of the client `[ms]`.
     pub client_time: i32,
-    /// Clock of the server [ms].
+    /// Clock of the server `[ms]`.
     pub server_time: i32,
     /// Number of the scene.
     pub scene: u16,
@@ -74,7 +74,7 @@ pub struct Command<'a> {
     pub full_size: i32,
     /// Where the data stands in the whole.
     pub offset: i32,
-    /// Shortest time between two executions [ms], or longest piece.
+    /// Shortest time between two executions `[ms]`, or longest piece.
     pub delay: u16,
     /// Bit 0: keep it beside one like it.
     pub status: u8,
@@ -156,7 +156,7 @@ pub fn commands(message: &[u8]) -> Result<Vec<Command<'_>>, &'static str> {
 pub struct ReplyHead {
     /// As in the command.
     pub code: i32,
-    /// Simulation time at execution [ms]; 0 while stopped.
+    /// Simulation time at execution `[ms]`; 0 while stopped.
     pub time: i32,
     /// Whether it failed.
     pub failed: bool,

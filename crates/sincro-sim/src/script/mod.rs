@@ -36,7 +36,7 @@ pub struct Script {
     pub kind: Kind,
     /// Whether an old script is a thread of its own.
     pub is_threaded: bool,
-    /// Memory that it may take [bytes].
+    /// Memory that it may take `[bytes]`.
     pub max_memory: usize,
     /// Instructions that one call may take.
     pub max_instructions: u64,
