@@ -219,8 +219,10 @@ impl<R: Real> Constraints<R> {
         self.solver.reserve(m);
     }
 
-    /// Makes the accelerations that forward dynamics found obey the constraints.
+    /// Makes the accelerations that forward dynamics found obey the constraints. Out of line: mechanisms without constraints have no room
+    /// for it in their loop.
     #[allow(clippy::too_many_arguments)]
+    #[inline(never)]
     pub fn apply(
         &mut self,
         model: &Model<R>,

@@ -498,9 +498,9 @@ impl World {
                 self.touch();
                 self.settle(t, attachment);
                 self.settle_contacts(t, attachment);
-            }
-            if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
-                return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
+                if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
+                    return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
+                }
             }
             let limited = self.has_limited_drives() || self.is_constrained();
             let control = if limited { self.control() } else { None };
