@@ -1,64 +1,9 @@
-//! Tables as bytes: the part of CBOR (RFC 8949) that they need. Numbers are 64 bits wide, lengths definite.
+//! Tables from bytes: the part of CBOR (RFC 8949) that [`sincro_sim::session::cbor`] writes.
 
 use sincro_sim::session::Value;
 
 /// Lists and maps inside each other beyond which bytes are refused.
 const MAX_DEPTH: usize = 64;
-
-/// Appends a value.
-pub(crate) fn write(value: &Value, out: &mut Vec<u8>) {
-    match value {
-        Value::Nil => out.push(0xf6),
-        Value::Bool(truth) => out.push(0xf4 + u8::from(*truth)),
-        Value::Int(n) if *n >= 0 => head(0, n.unsigned_abs(), out),
-        Value::Int(n) => head(1, n.unsigned_abs() - 1, out),
-        Value::Real(x) => {
-            out.push(0xfb);
-            out.extend(x.to_be_bytes());
-        }
-        Value::Bytes(bytes) => {
-            head(2, bytes.len() as u64, out);
-            out.extend(bytes);
-        }
-        Value::Text(text) => {
-            head(3, text.len() as u64, out);
-            out.extend(text.as_bytes());
-        }
-        Value::List(list) => {
-            head(4, list.len() as u64, out);
-            list.iter().for_each(|item| write(item, out));
-        }
-        Value::Map(map) => {
-            head(5, map.len() as u64, out);
-            for (name, item) in map {
-                head(3, name.len() as u64, out);
-                out.extend(name.as_bytes());
-                write(item, out);
-            }
-        }
-    }
-}
-
-/// Major type and argument, in the shortest form.
-fn head(major: u8, n: u64, out: &mut Vec<u8>) {
-    let major = major << 5;
-    match n {
-        0..24 => out.push(major | n as u8),
-        24..0x100 => out.extend([major | 24, n as u8]),
-        0x100..0x1_0000 => {
-            out.push(major | 25);
-            out.extend((n as u16).to_be_bytes());
-        }
-        0x1_0000..0x1_0000_0000 => {
-            out.push(major | 26);
-            out.extend((n as u32).to_be_bytes());
-        }
-        _ => {
-            out.push(major | 27);
-            out.extend(n.to_be_bytes());
-        }
-    }
-}
 
 /// The value that bytes stand for.
 ///
@@ -134,6 +79,8 @@ impl<'a> Reader<'a> {
 
 #[cfg(test)]
 mod tests {
+    use sincro_sim::session::cbor::encode;
+
     use super::*;
 
     #[test]
@@ -145,7 +92,7 @@ mod tests {
             ("d".into(), Value::Bool(true)),
         ]);
         let mut bytes = Vec::new();
-        write(&value, &mut bytes);
+        encode(&value, &mut bytes);
         assert_eq!(read(&bytes), Ok(value));
         for n in 0..bytes.len() {
             assert!(read(&bytes[..n]).is_err(), "cut at {n}");

@@ -1,11 +1,12 @@
 //! Values as CBOR (RFC 8949), in the subset that the clients of CoppeliaSim understand.
 //!
-//! Written: definite lengths, whole numbers for handles and counts, 64-bit floats for every quantity, no tags. Read: every width of numbers,
-//! indefinite lengths, tags (ignored), `undefined` as nil. Depth is limited; lengths that the message does not have take no memory.
+//! Written ([`encode`]): definite lengths, whole numbers for handles and counts, 64-bit floats for every quantity, no tags. Read: every width of
+//! numbers, indefinite lengths, tags (ignored), `undefined` as nil. Depth is limited; lengths that the message does not have take no memory.
 
 use std::fmt;
 
 use sincro_sim::session::Value;
+pub use sincro_sim::session::cbor::encode;
 
 use crate::limits::DEPTH;
 
@@ -193,60 +194,6 @@ fn half(bits: u16) -> f64 {
         e => (1024.0 + mantissa) * f64::from(1_u32 << (e - 25)),
     };
     if bits & 0x8000 == 0 { size } else { -size }
-}
-
-/// Writes a value onto the end of `out`.
-pub fn encode(value: &Value, out: &mut Vec<u8>) {
-    match value {
-        Value::Nil => out.push(0xf6),
-        Value::Bool(x) => out.push(0xf4 + u8::from(*x)),
-        Value::Int(x) if *x >= 0 => head(0, *x as u64, out),
-        Value::Int(x) => head(1, !*x as u64, out),
-        Value::Real(x) => {
-            out.push(0xfb);
-            out.extend(x.to_be_bytes());
-        }
-        Value::Text(text) => {
-            head(3, text.len() as u64, out);
-            out.extend(text.as_bytes());
-        }
-        Value::Bytes(bytes) => {
-            head(2, bytes.len() as u64, out);
-            out.extend(bytes);
-        }
-        Value::List(list) => {
-            head(4, list.len() as u64, out);
-            list.iter().for_each(|x| encode(x, out));
-        }
-        Value::Map(map) => {
-            head(5, map.len() as u64, out);
-            for (key, x) in map {
-                head(3, key.len() as u64, out);
-                out.extend(key.as_bytes());
-                encode(x, out);
-            }
-        }
-    }
-}
-
-fn head(major: u8, n: u64, out: &mut Vec<u8>) {
-    let major = major << 5;
-    match n {
-        0..24 => out.push(major | n as u8),
-        24..0x100 => out.extend([major | 24, n as u8]),
-        0x100..0x1_0000 => {
-            out.push(major | 25);
-            out.extend((n as u16).to_be_bytes());
-        }
-        0x1_0000..0x1_0000_0000 => {
-            out.push(major | 26);
-            out.extend((n as u32).to_be_bytes());
-        }
-        _ => {
-            out.push(major | 27);
-            out.extend(n.to_be_bytes());
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Numbers and tables as bytes, little-endian, and back.
 
 use mlua::{Error, LuaString, Table, Value as LuaValue};
+use sincro_sim::session::cbor;
 
 use super::Shelf;
 use crate::{bytes, convert};
@@ -69,7 +70,7 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
     shelf.add("packTable", |lua, (table, _): (LuaValue, LuaValue)| {
         let value = convert::from_lua(table)?;
         let mut packed = Vec::new();
-        bytes::write(&value, &mut packed);
+        cbor::encode(&value, &mut packed);
         lua.create_string(packed)
     })?;
     shelf.add("unpackTable", |lua, packed: LuaString| {

@@ -12,6 +12,7 @@
 
 pub mod api;
 mod bodies;
+pub mod cbor;
 pub mod constants;
 pub mod convention;
 mod desk;
