@@ -7,6 +7,7 @@
 
 mod api;
 mod bytes;
+mod callback;
 mod convert;
 mod fault;
 mod guard;

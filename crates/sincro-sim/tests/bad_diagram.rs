@@ -907,7 +907,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `frame`, `rest_speed`, `script`, `client_step`, `script_step`, `step` and 27 more"##,
+  help: keys: `plot`, `parameters`, `frame`, `rest_speed`, `script`, `simulation_step`, `step` and 27 more"##,
     ),
     (
         "diagram.sample_time=0.003",

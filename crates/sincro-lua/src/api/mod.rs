@@ -61,6 +61,7 @@ pub(crate) fn offer(
     callbacks::offer(&shelf)?;
     buffers::offer(&shelf)?;
     windows::offer(&shelf)?;
+    absent(&shelf)?;
     lua.globals().set("sim", &shelf.sim)?;
     modules(&shelf)
 }
@@ -163,6 +164,19 @@ fn refused(name: &str, Refusal(message): &Refusal) -> Error {
 
 fn named(name: &str, error: Error) -> Error {
     Error::RuntimeError(format!("{} (in function 'sim.{name}')", crate::fault::words(&error).0))
+}
+
+/// Functions that are not here, as such that say why.
+fn absent(shelf: &Shelf<'_>) -> mlua::Result<()> {
+    for name in api::absent() {
+        if shelf.sim.get::<Option<Function>>(name)?.is_none() {
+            let why = api::why_absent(name).unwrap_or_default();
+            let message = format!("sim.{name} is not offered: {why}");
+            shelf
+                .add(name, move |_, _: MultiValue| -> mlua::Result<()> { Err(Error::RuntimeError(message.clone())) })?;
+        }
+    }
+    Ok(())
 }
 
 /// Numbers by name: `sim.x` and `sim_x`.

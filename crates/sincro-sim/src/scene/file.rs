@@ -44,9 +44,6 @@ pub(crate) struct SceneFile {
     /// Scripts, each on an object.
     #[serde(default)]
     pub script: Vec<ScriptFile>,
-    /// Time between two calls of the scripts, a whole multiple of the base step; default each base step [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub script_step: Option<f64>,
     /// What keeps two objects together that the tree leaves apart: closed loops.
     #[serde(default)]
     pub closure: Vec<ClosureFile>,

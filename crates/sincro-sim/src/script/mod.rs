@@ -185,6 +185,13 @@ pub trait Host: Send + fmt::Debug {
         arguments: &[Value],
     ) -> Result<Vec<Value>, Refusal>;
 
+    /// Runs a text in the script on an object, with what that script knows and within its limits; gives what the text returns.
+    ///
+    /// # Errors
+    ///
+    /// There is no such script, or the text failed.
+    fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, Refusal>;
+
     /// What scripts have said since the last time it was asked.
     fn take_messages(&mut self) -> Vec<Message>;
 }

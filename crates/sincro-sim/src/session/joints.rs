@@ -4,6 +4,7 @@
 //! control `spring`, force control `torque`. A target that the present mode does not use is kept for when the mode changes.
 
 use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::joint::JointKind;
 
 use super::table::{Handle, JointEntry};
 use super::{Desk, Refusal};
@@ -40,6 +41,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint.
     pub fn joint_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+        if let Some(rotor) = self.rotor(handle)? {
+            return Ok(self.rotor_speed(rotor));
+        }
         Ok(self.world.state.v[self.table.joint(handle)?.v_idx])
     }
 
@@ -83,6 +87,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint.
     pub fn joint_mode(&self, handle: Handle) -> Result<MotorMode, Refusal> {
+        if self.rotor(handle)?.is_some() {
+            return Ok(MotorMode::Velocity);
+        }
         Ok(self.joint_motor(handle)?.map_or(MotorMode::Free, |m| m.mode))
     }
 
@@ -125,6 +132,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint.
     pub fn target_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+        if let Some(rotor) = self.rotor(handle)? {
+            return Ok(self.rotor_target(rotor));
+        }
         let joint = self.table.joint(handle)?;
         Ok(joint.target_velocity.unwrap_or_else(|| self.commanded(joint, MotorMode::Velocity)))
     }
@@ -135,6 +145,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint, it has no motor, or the number is not finite.
     pub fn set_target_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), Refusal> {
+        if let Some(rotor) = self.rotor(handle)? {
+            return self.set_rotor_target(rotor, finite(velocity, "target velocity")?);
+        }
         self.joint_with_motor(handle)?.target_velocity = Some(finite(velocity, "target velocity")?);
         self.command(handle)
     }
@@ -196,6 +209,39 @@ impl Desk<'_> {
         let along = if direction < 0.0 { -force.abs() } else { force.abs() };
         joint.target_force = Some(if signed { force } else { along });
         self.command(handle)
+    }
+
+    /// Where a joint may go: whether it turns without end, its lower limit and its range `[rad]` or `[m]`; infinite where there is no stop.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_interval(&self, handle: Handle) -> Result<(bool, [f64; 2]), Refusal> {
+        let joint = self.table.joint(handle)?;
+        let limits = &self.world.model().constraints().limits;
+        let bound = |sign: f64| limits.iter().find(|l| l.dof == joint.v_idx && l.sign == sign).map(|l| l.bound);
+        Ok(match (bound(1.0), bound(-1.0)) {
+            (None, None) if matches!(joint.kind, JointKind::Revolute { .. }) => {
+                (true, [-std::f64::consts::PI, 2.0 * std::f64::consts::PI])
+            }
+            (low, high) => {
+                let low = low.unwrap_or(f64::NEG_INFINITY);
+                (false, [low, high.map_or(f64::INFINITY, |high| high - low)])
+            }
+        })
+    }
+
+    /// What a joint follows: another joint, offset and factor, if the scene couples them.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, Refusal> {
+        let joint = self.table.joint(handle)?;
+        let mut couplings = self.world.model().constraints().couplings.iter();
+        let Some(coupling) = couplings.find(|c| c.dofs[1] == joint.v_idx) else { return Ok(None) };
+        let master = self.table.joints().iter().find(|j| j.v_idx == coupling.dofs[0]);
+        Ok(master.map(|master| (master.handle, coupling.offset, coupling.ratio)))
     }
 
     /// The command of a motor whose mode is `mode`; 0 in any other.

@@ -4,14 +4,17 @@
 //! between. Units and conventions are the API's own: SI, radians, quaternions x y z w. What a door must do itself (stepping, waiting,
 //! scripts) is not here.
 
+mod absent;
 mod bodies;
 mod control;
 mod joints;
 mod names;
 mod objects;
+mod paths;
 mod poses;
 mod rotations;
 mod signals;
+mod touching;
 mod transforms;
 
 use std::collections::BTreeMap;
@@ -20,6 +23,7 @@ use std::sync::OnceLock;
 use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
 use super::{Arguments, Desk, Handle, Reference, Refusal, Value};
 
+pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
 
 /// What a function gives.
@@ -46,6 +50,8 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         joints::FUNCTIONS,
         bodies::FUNCTIONS,
         signals::FUNCTIONS,
+        touching::FUNCTIONS,
+        paths::FUNCTIONS,
     ];
     shelves.into_iter().flatten()
 }
@@ -66,6 +72,10 @@ pub fn function(name: &str) -> Option<&'static Function> {
 /// There is none of that name, or it refused: the message then names it.
 pub fn call(desk: &mut Desk<'_>, name: &str, arguments: &[Value]) -> Outcome {
     let function = function(name).ok_or_else(|| {
+        let present = present_name(name);
+        if let Some(why) = why_absent(&present) {
+            return Refusal(format!("sim.{present} is not offered: {why}"));
+        }
         let short: String = name.chars().take(100).collect();
         Refusal(format!("No such function: {short}"))
     })?;
