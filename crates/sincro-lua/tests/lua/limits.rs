@@ -67,7 +67,7 @@ fn nothing_outside_can_be_reached() {
         ("loadfile('b.lua')", "loadfile is not allowed"),
         ("string.dump(function() end)", "string.dump is not allowed"),
         ("load('\\27Lua', 'x', 'b')", "bytecode is not allowed"),
-        ("require 'simIK'", "there is no module 'simIK'"),
+        ("require 'simOMPL'", "there is no module 'simOMPL'"),
         ("require 'socket'", "there is no module 'socket'"),
         ("package.loadlib('x', 'y')", "attempt to index a nil value (global 'package')"),
         ("debug.getregistry()", "attempt to call a nil value (field 'getregistry')"),

@@ -60,6 +60,11 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
             }
             _ => all.floats.extend([0.0; 2]),
         },
+        // there are no proximity sensors: nothing is detected
+        13 => {
+            all.ints.extend([0, -1]);
+            all.floats.extend([0.0; 6]);
+        }
         14 => match entry.kind {
             Kind::ForceSensor(_) => {
                 let (force, torque) = desk.force_sensor(handle)?;

@@ -11,7 +11,7 @@ use crate::hub::{ClientId, Hub};
 use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
-const MODULES: &str = "only the module sim is offered";
+const MODULES: &str = "the modules sim and simIK are offered";
 /// Longest real wait of one call.
 const LONGEST_WAIT: f64 = 3_600.0;
 
@@ -264,22 +264,30 @@ fn tip(name: &str) -> Option<&'static str> {
 /// The module is not offered.
 pub(crate) fn info(module: &str) -> Result<Value, Refusal> {
     static SIM: OnceLock<Value> = OnceLock::new();
+    static IK: OnceLock<Value> = OnceLock::new();
     if !is_offered(module) {
         return Err(Refusal(format!("there is no module {module}: {MODULES}")));
     }
-    let build = || {
-        let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
-        let constant = |x: i64| Value::Map(vec![("const".into(), Value::Int(x))]);
-        let functions = all().map(|name| (name.to_owned(), func()));
-        let constants = constants::CONSTANTS.iter().map(|(name, x)| ((*name).to_owned(), constant(*x)));
-        Value::Map(functions.chain(constants).collect())
-    };
-    Ok(SIM.get_or_init(build).clone())
+    if module.starts_with("simIK") {
+        let names = api::ik_functions().map(|f| f.name).chain(api::old_ik_names().map(|(old, _)| old));
+        return Ok(IK.get_or_init(|| members(names, api::ik::CONSTANTS)).clone());
+    }
+    Ok(SIM.get_or_init(|| members(all(), constants::CONSTANTS)).clone())
 }
 
-/// Whether a module is here: `sim`, with or without a version.
+/// A module as clients build their own from it.
+fn members<'a>(names: impl Iterator<Item = &'a str>, constants: &[(&str, i64)]) -> Value {
+    let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
+    let constant = |x: i64| Value::Map(vec![("const".into(), Value::Int(x))]);
+    let functions = names.map(|name| (name.to_owned(), func()));
+    let constants = constants.iter().map(|(name, x)| ((*name).to_owned(), constant(*x)));
+    Value::Map(functions.chain(constants).collect())
+}
+
+/// Whether a module is here: `sim` and `simIK`, with or without a version.
 pub(crate) fn is_offered(module: &str) -> bool {
-    module == "sim" || module.strip_prefix("sim-").is_some_and(|version| version.parse::<u32>().is_ok_and(|v| v == 1))
+    let (name, version) = module.split_once('-').unwrap_or((module, "1"));
+    matches!(name, "sim" | "simIK") && version.parse() == Ok(1)
 }
 
 /// `require`

@@ -14,13 +14,14 @@ use super::{Desk, Refusal};
 const POSITION_GAIN: f64 = 20.0;
 
 impl Desk<'_> {
-    /// Position `[rad]` or `[m]`.
+    /// Position `[rad]` or `[m]`; of a joint that turns without end within (−π, π], as V-REP tells it.
     ///
     /// # Errors
     ///
     /// There is no such joint.
     pub fn joint_position(&self, handle: Handle) -> Result<f64, Refusal> {
-        Ok(self.world.state.q[self.table.joint(handle)?.q_idx])
+        let q = self.world.state.q[self.table.joint(handle)?.q_idx];
+        Ok(if self.joint_interval(handle)?.0 { within_a_turn(q) } else { q })
     }
 
     /// Puts a joint somewhere, its velocity kept `[rad]` or `[m]`.
@@ -284,6 +285,28 @@ impl Desk<'_> {
     }
 }
 
+/// An angle within (−π, π]; what is there already stays as it is.
+fn within_a_turn(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    if angle > -PI && angle <= PI { angle } else { angle - TAU * ((angle - PI) / TAU).ceil() }
+}
+
 fn finite(x: f64, what: &str) -> Result<f64, Refusal> {
     if x.is_finite() { Ok(x) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::within_a_turn;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn angles_are_told_within_a_turn() {
+        for (angle, told) in
+            [(0.5, 0.5), (PI, PI), (-PI, PI), (3.0 * PI, PI), (7.0, 7.0 - 2.0 * PI), (-4.0, 2.0 * PI - 4.0)]
+        {
+            assert!((within_a_turn(angle) - told).abs() < 1e-15, "{angle}");
+        }
+        assert!(within_a_turn(f64::NAN).is_nan());
+    }
 }

@@ -19,6 +19,7 @@ pub mod convention;
 mod desk;
 mod files;
 mod find;
+pub mod ik;
 mod joints;
 mod note;
 mod parameters;

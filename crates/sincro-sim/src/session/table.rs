@@ -152,6 +152,8 @@ pub struct Table {
     pub scene_path: String,
     /// How often a stop was asked for.
     pub stop_requests: i64,
+    /// Environments of inverse kinematics.
+    pub(super) environments: Vec<Option<super::ik::Environment>>,
     pub(super) zero: Vec<f64>,
 }
 
@@ -183,6 +185,7 @@ impl Table {
             phase: Phase::Stopped,
             scene_path: loaded.experiment.scene_path.display().to_string(),
             stop_requests: 0,
+            environments: Vec::new(),
             zero: vec![0.0; scene.model.n_v()],
         };
         for object in &scene.objects {

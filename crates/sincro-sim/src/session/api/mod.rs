@@ -7,6 +7,7 @@
 mod absent;
 mod bodies;
 mod control;
+pub mod ik;
 mod joints;
 mod names;
 mod objects;
@@ -56,11 +57,30 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
     shelves.into_iter().flatten()
 }
 
+/// Every function of `simIK`, without it.
+pub fn ik_functions() -> impl Iterator<Item = &'static Function> {
+    ik::FUNCTIONS.iter()
+}
+
+/// Older names of functions of `simIK`, with their present ones.
+pub fn old_ik_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    ik::OLD.iter().copied()
+}
+
+/// The function of `simIK` of a name without it, present or older.
+fn ik_function(name: &str) -> Option<&'static Function> {
+    let present = ik::OLD.iter().find(|(old, _)| *old == name).map_or(name, |(_, present)| present);
+    ik::FUNCTIONS.iter().find(|f| f.name == present)
+}
+
 /// The function of a name: present or old, with or without `sim.`.
 #[must_use]
 pub fn function(name: &str) -> Option<&'static Function> {
     static BY_NAME: OnceLock<BTreeMap<&'static str, &'static Function>> = OnceLock::new();
     let by_name = BY_NAME.get_or_init(|| functions().map(|f| (f.name, f)).collect());
+    if let Some(name) = name.strip_prefix("simIK.") {
+        return ik_function(name);
+    }
     let bare = name.strip_prefix("sim.").unwrap_or(name);
     by_name.get(bare).or_else(|| by_name.get(&*present_name(name))).copied()
 }
@@ -80,7 +100,12 @@ pub fn call(desk: &mut Desk<'_>, name: &str, arguments: &[Value]) -> Outcome {
         Refusal(format!("No such function: {short}"))
     })?;
     (function.run)(desk, Arguments(arguments))
-        .map_err(|Refusal(message)| Refusal(format!("{message} (in function 'sim.{}')", function.name)))
+        .map_err(|Refusal(message)| Refusal(format!("{message} (in function '{}.{}')", module_of(name), function.name)))
+}
+
+/// The module that a name belongs to.
+fn module_of(name: &str) -> &'static str {
+    if name.starts_with("simIK.") { "simIK" } else { "sim" }
 }
 
 /// Nothing to give.
