@@ -35,6 +35,8 @@ fn a_dead_zone_takes_its_width_away() {
 fn a_quantizer_rounds_halves_away_from_zero() {
     let y = value(&[0.124, 0.125, -0.125, 0.7], block("quantizer", &[("interval", 0.25.into())]));
     assert_eq!(y, [0.0, 0.25, -0.25, 0.75]);
+    let zero = value(&[-0.1, -0.0], block("quantizer", &[("interval", 0.25.into())]));
+    assert!(zero.iter().all(|y| y.is_sign_positive()), "{zero:?}");
 }
 
 #[test]

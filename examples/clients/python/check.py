@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 
 from coppeliasim_zmqremoteapi_client import RemoteAPIClient
 from coppeliasim_zmqremoteapi_client.asyncio import RemoteAPIClient as AsyncClient
@@ -59,6 +60,35 @@ async def many(port):
         await asyncio.gather(*[sim.removeObject(handle) for handle in handles])
 
 
+STEPPER = """
+import sys
+from coppeliasim_zmqremoteapi_client import RemoteAPIClient
+sim = RemoteAPIClient(port=int(sys.argv[1])).require('sim')
+sim.setStepping(True)
+print('ready', flush=True)
+while True:
+    sim.step()
+"""
+
+
+def together(sim, port):
+    """Time advances when both clients have stepped; when one is killed, the other goes on."""
+    other = subprocess.Popen([sys.executable, '-c', STEPPER, str(port)], stdout=subprocess.PIPE, text=True)
+    assert other.stdout.readline() == 'ready\n'
+    sim.setStepping(True)
+    sim.startSimulation()
+    for k in range(5):
+        sim.step()
+        assert abs(sim.getSimulationTime() - (k + 1) * sim.getSimulationTimeStep()) < 1e-12
+    other.kill()
+    other.wait()
+    start = time.monotonic()
+    sim.step()
+    sim.step()
+    assert time.monotonic() - start < 1, 'a client that was killed holds the others'
+    sim.stopSimulation()
+
+
 def serve(sincro, scene, out):
     """A server on free ports, and the port for this client; the ports of others are free ones too."""
     ports = ['--legacy-port', '0', '--zmq-port', '0', '--ws-port', '0']
@@ -95,7 +125,8 @@ def main():
                     sim = RemoteAPIClient(port=port).require('sim')
                     points(sim)
                     runs(sim)
-                    n_before = 2
+                    together(sim, port)
+                    n_before = 3
                     asyncio.run(many(port))
                 subprocess.run([sys.executable, HERE / program, str(port)], check=True)
                 expect_trace(server, n_before + 1, expected)

@@ -291,8 +291,9 @@ fn within_a_turn(angle: f64) -> f64 {
     if angle > -PI && angle <= PI { angle } else { angle - TAU * ((angle - PI) / TAU).ceil() }
 }
 
+/// A finite number; a negative zero is a zero, since some clients can send no other.
 fn finite(x: f64, what: &str) -> Result<f64, Refusal> {
-    if x.is_finite() { Ok(x) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
+    if x.is_finite() { Ok(x + 0.0) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
 }
 
 #[cfg(test)]
