@@ -129,6 +129,7 @@ impl Machine {
             let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
             convert::list_from_lua(values)
         });
+        self.guard.forgive(&self.lua);
         done.map_err(|fault| Refusal(fault.to_string()))
     }
 
@@ -139,6 +140,7 @@ impl Machine {
             let values = m.lua.load(text).set_name("=text").set_mode(ChunkMode::Text).call(())?;
             convert::list_from_lua(values)
         });
+        self.guard.forgive(&self.lua);
         done.map_err(|fault| Refusal(fault.message))
     }
 

@@ -7,6 +7,7 @@ mod arm;
 #[allow(dead_code)]
 mod legacy_client;
 mod quadrotor;
+mod scripts;
 #[path = "../../../sincro-remote/tests/remote/zmq_client.rs"]
 #[allow(dead_code)]
 mod zmq_client;
