@@ -4,7 +4,7 @@
 //!
 //!     Δq = Jᵀ·(J·Jᵀ + λ²·I)⁻¹·e          (key `wampler1986`)
 //!
-//! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most [`MOST_TURN`] or [`MOST_SLIDE`] an iteration and
+//! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most 0.2 rad or 0.1 m an iteration and
 //! within its limits. Environments are no worlds of their own here: objects keep their handles, joints start from where they are.
 
 use sincro_dynamics::joint::JointKind;
@@ -158,7 +158,7 @@ impl Desk<'_> {
     ///
     /// There is no such group, or a number makes no sense.
     pub fn set_calculation(&mut self, environment: i64, group: i64, damping: f64, n: i64) -> Result<(), Refusal> {
-        if !(damping.is_finite() && damping >= 0.0) || !(1..=MOST_ITERATIONS).contains(&n) {
+        if !(damping.is_finite() && damping >= 0.0 && (1..=MOST_ITERATIONS).contains(&n)) {
             let expected = format!("damping 0 or more, 1 to {MOST_ITERATIONS} iterations");
             return Err(Refusal(format!("damping {damping} and {n} iterations, expected {expected}")));
         }

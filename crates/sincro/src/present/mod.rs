@@ -9,7 +9,6 @@ use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
 use sincro_sim::run::Campaign;
 use sincro_viewer::film::Film;
 
-use crate::plot::number::significant;
 use crate::plot::{self, Figure, Size};
 use crate::report::{self, Card, CheckRow, CheckVerdict, Energy, Page, SignalRow, Stop};
 
@@ -122,7 +121,7 @@ const MOST_MESSAGES: usize = 200;
 fn messages(campaign: &Campaign) -> Vec<(String, String, String)> {
     let all = &campaign.report.messages;
     let shown = all.iter().take(MOST_MESSAGES);
-    let time = |t: f64| format!("{} s", significant(t, 6));
+    let time = |t: f64| format!("{} s", (t * 1e6).round() / 1e6);
     let mut list: Vec<_> = shown.map(|m| (time(m.t), m.object.clone(), m.text.clone())).collect();
     if let Some(next) = all.get(MOST_MESSAGES) {
         let more = all.len() - MOST_MESSAGES;
