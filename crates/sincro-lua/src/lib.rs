@@ -10,6 +10,7 @@ mod bytes;
 mod callback;
 mod convert;
 mod fault;
+mod files;
 mod guard;
 mod host;
 mod law;

@@ -18,7 +18,7 @@ use sincro_sim::session::{self, Refusal};
 use crate::guard::{Guard, THREAD};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
-use crate::{api, callback, convert, fault, power};
+use crate::{api, callback, convert, fault, files, power};
 
 /// Names of phases in `sim_call_type`; any numbers will do, scripts compare names.
 pub(crate) const CALL_TYPES: [(&str, Phase, i64); 4] = [
@@ -95,6 +95,7 @@ impl Machine {
         let seed = seed_of(shared.setting.seed, &script.path);
         let waits = sandbox::furnish(&lua, &guard, seed, services)?;
         api::offer(&lua, shared, index, &guard, &waits)?;
+        files::offer(&lua, script)?;
         let chunk = compile(&lua, script)?;
         let (style, entries) = (script.style, Entries::default());
         Ok(Self {

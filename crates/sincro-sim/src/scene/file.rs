@@ -538,6 +538,9 @@ pub(crate) struct ScriptFile {
     /// What is stored with it, for simGetScriptSimulationParameter.
     #[serde(default)]
     pub parameters: std::collections::BTreeMap<String, ScriptParameterFile>,
+    /// Files of this folder that it may read with `io.open` and `io.lines`; without any, no file is open to it.
+    #[serde(default)]
+    pub files: Vec<String>,
     /// Memory that it may take, 2^20 bytes each.
     #[serde(default = "script_memory")]
     #[schemars(range(min = 1))]

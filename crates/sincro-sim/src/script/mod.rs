@@ -30,6 +30,8 @@ pub struct Script {
     pub lines_before: usize,
     /// Numbers and texts that are stored with it.
     pub parameters: Vec<(String, Parameter)>,
+    /// Files that it may read, by their names in the scene; their texts as they were when it was loaded.
+    pub files: Vec<(String, Arc<SourceText>)>,
     /// How it is called.
     pub style: Style,
     /// Where it stands among scripts of the same place.
