@@ -133,6 +133,40 @@ fn every_listed_name_answers_any_arguments() {
 }
 
 #[test]
+fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
+    let server = serve("all-ik");
+    let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("ik"));
+    let info = client.call("zmqRemoteApi.info", &[Value::from("simIK")]).unwrap().remove(0);
+    let Value::Map(members) = &info else { panic!("{info:?}") };
+    let names: Vec<&str> =
+        members.iter().filter(|(_, m)| field(m, "func").is_some()).map(|(name, _)| &**name).collect();
+    let (tip, target) = (client.object("/link2"), client.object("/ball"));
+    client.call("simIK.createEnvironment", &[]).unwrap();
+    client.call("simIK.createGroup", &[Value::Int(0)]).unwrap();
+    let element = [Value::Int(0), Value::Int(0), Value::Int(-1), tip.clone(), target.clone(), Value::Int(31)];
+    client.call("simIK.addElementFromScene", &element).unwrap();
+    let zeros = || vec![Value::Int(0); 5];
+    let mut more =
+        vec![zeros(), vec![Value::Int(0), Value::Int(0), Value::Int(0), Value::reals([1e-9, 1e300])], element.to_vec()];
+    more.push(vec![Value::Int(0), Value::Int(0), Value::Int(1), Value::Real(1e-300), Value::Int(1_000)]);
+    for name in names.iter().filter(|name| !name.starts_with("erase")) {
+        for args in more.iter().cloned().chain(arguments(&tip, &target)) {
+            let answer = client.exchange(&format!("simIK.{name}"), &args);
+            let reason = field(&answer, "err").and_then(Value::as_text).unwrap_or("it was done, and no more is said");
+            assert!(reason.len() > 15 && !reason.contains('\n'), "{name}: {reason}");
+        }
+    }
+    for name in sincro_sim::session::api::absent() {
+        let why = client.call(&format!("sim.{name}"), &[]).unwrap_err();
+        assert!(why.starts_with(&format!("sim.{name} is not offered: ")) && why.len() > 40, "{why}");
+        assert!(sincro_sim::session::api::function(name).is_none(), "{name} is there and absent");
+    }
+    let why = client.call("simReadProximitySensor", &[Value::Int(1)]).unwrap_err();
+    assert!(why.contains("sim.readProximitySensor is not offered"), "{why}");
+    assert!(client.call("sim.getSimulationTime", &[]).is_ok());
+}
+
+#[test]
 fn every_command_number_answers_any_data() {
     let server = serve("all-numbers");
     let mut client = Legacy::connect(server.ports().legacy[0]);

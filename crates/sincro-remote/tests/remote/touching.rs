@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use sincro_remote::Server;
-use sincro_sim::session::{Files, Grants, Session, Value};
+use sincro_sim::session::{Files, Grants, Search, Session, Value};
 
 use super::legacy_client::{Client, ints, text};
 use super::scene::options;
@@ -235,4 +235,26 @@ fn files_are_sent_where_that_is_granted_and_nowhere_else() {
         let sent = client.call(0x3004, &text(&format!("{k}.txt")), b"x");
         assert_eq!(sent.is_ok(), k < 197, "file {k}: 200 with the three that are there");
     }
+}
+
+#[test]
+fn looking_at_contacts_and_force_sensors_changes_nothing() {
+    let trace = |looks: bool| {
+        let mut session = Session::open(&folder("looks"), &[], None).unwrap_or_else(|p| panic!("{:?}", p.0));
+        let find = |session: &mut Session, name: &str| session.table().find(name, Search::default()).unwrap();
+        let [body, scale] = ["/box", "/scale"].map(|name| find(&mut session, name));
+        session.start().unwrap();
+        for k in 0..150 {
+            // it slides, tips a little, comes to rest
+            let force = if k < 60 { [8.0, 1.0, 0.5] } else { [0.0; 3] };
+            session.desk().add_force_and_torque(body, force, [0.02, 0.0, 0.01]).unwrap();
+            if looks && k % 3 != 1 {
+                assert!(session.desk().touches().len() <= 8);
+                session.desk().force_sensor(scale).unwrap();
+            }
+            session.step().unwrap();
+        }
+        session.trace().unwrap()
+    };
+    assert_eq!(trace(false), trace(true));
 }

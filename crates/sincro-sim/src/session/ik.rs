@@ -2,7 +2,9 @@
 //!
 //! An iteration moves the joints between base and tip by damped least squares,
 //!
-//!     Δq = Jᵀ·(J·Jᵀ + λ²·I)⁻¹·e          (key `wampler1986`)
+//! ```text
+//! Δq = Jᵀ·(J·Jᵀ + λ²·I)⁻¹·e          (key `wampler1986`)
+//! ```
 //!
 //! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most 0.2 rad or 0.1 m an iteration and
 //! within its limits. Environments are no worlds of their own here: objects keep their handles, joints start from where they are.
@@ -14,10 +16,12 @@ use sincro_math::elementary::atan2;
 use super::table::Handle;
 use super::{Desk, Phase, Reference, Refusal};
 
-/// Environments, groups in one, elements in one.
-const MOST: usize = 100;
+/// Environments, groups in one.
+const MOST: usize = 32;
+/// Elements in a group: with them and the iterations the longest call takes less than a second.
+const MOST_ELEMENTS: usize = 16;
 /// Iterations that may be asked for.
-const MOST_ITERATIONS: i64 = 10_000;
+const MOST_ITERATIONS: i64 = 1_000;
 /// What a joint moves in an iteration at most `[rad]`.
 const MOST_TURN: f64 = 0.2;
 /// The same of a sliding joint `[m]`.
@@ -184,8 +188,8 @@ impl Desk<'_> {
             return Err(Refusal::new("no joint that turns or slides lies between base and tip"));
         }
         let elements = &mut self.group(environment, group)?.elements;
-        if elements.len() >= MOST {
-            return Err(Refusal(format!("there are {MOST} elements already")));
+        if elements.len() >= MOST_ELEMENTS {
+            return Err(Refusal(format!("there are {MOST_ELEMENTS} elements already")));
         }
         elements.push(element);
         Ok(elements.len() - 1)

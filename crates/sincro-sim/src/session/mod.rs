@@ -399,8 +399,9 @@ impl Session {
     ///
     /// It lies elsewhere, or something is wrong with it; the scene that was loaded stays.
     pub fn load(&mut self, path: &str) -> Result<(), Refusal> {
-        let sent = self.sent(path);
-        let folder = sent.clone().map_or_else(|| self.allowed(path), Ok)?;
+        let allowed = self.allowed(path);
+        let sent = if allowed.is_ok() { None } else { self.sent(path) };
+        let folder = sent.clone().map_or(allowed, Ok)?;
         let loaded = load(&folder, &[]).map_err(|problems| {
             let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
             Refusal(format!("the scene `{path}` cannot be loaded: {first}"))
