@@ -44,9 +44,6 @@ pub(crate) struct SceneFile {
     /// Scripts, each on an object.
     #[serde(default)]
     pub script: Vec<ScriptFile>,
-    /// Time between two calls of the scripts, a whole multiple of the base step; default each base step [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub script_step: Option<f64>,
     /// What keeps two objects together that the tree leaves apart: closed loops.
     #[serde(default)]
     pub closure: Vec<ClosureFile>,
@@ -541,6 +538,9 @@ pub(crate) struct ScriptFile {
     /// What is stored with it, for simGetScriptSimulationParameter.
     #[serde(default)]
     pub parameters: std::collections::BTreeMap<String, ScriptParameterFile>,
+    /// Files of this folder that it may read with `io.open` and `io.lines`; without any, no file is open to it.
+    #[serde(default)]
+    pub files: Vec<String>,
     /// Memory that it may take, 2^20 bytes each.
     #[serde(default = "script_memory")]
     #[schemars(range(min = 1))]

@@ -35,7 +35,7 @@ pub use text::from_text;
 
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Located, Problem, Problems};
+use crate::problem::{Problem, Problems};
 use crate::script::Script;
 use crate::sensor::SensorSpec;
 use file::{ForceFile, InFrameFile};
@@ -57,8 +57,6 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
     pub scripts: Vec<Script>,
-    /// Time between two calls of the scripts `[s]`; none: every base step.
-    pub script_step: Option<Located<f64>>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
 }
@@ -119,9 +117,7 @@ pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result
     }
     assembly.join(&file, document, &mut problems);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
-    let step = file.script_step.map(|value| Located { value, at: document.at("/script_step") });
-    let scene = assembly.finish(&entries, &file, scripts, document, problems)?;
-    Ok(Scene { script_step: step, ..scene })
+    assembly.finish(&entries, &file, scripts, document, problems)
 }
 
 /// Makes specifications, noting what is wrong.
@@ -311,7 +307,6 @@ impl Assembly {
             sensors: self.sensors,
             objects: self.objects,
             scripts,
-            script_step: None,
             warnings,
         })
     }

@@ -110,8 +110,24 @@ fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(
         signals: signals.collect(),
         energy,
         settings: settings(campaign),
+        messages: messages(campaign),
         notes: notes(campaign),
     }
+}
+
+/// Messages that a page shows; `run.json` has the rest.
+const MOST_MESSAGES: usize = 200;
+
+fn messages(campaign: &Campaign) -> Vec<(String, String, String)> {
+    let all = &campaign.report.messages;
+    let shown = all.iter().take(MOST_MESSAGES);
+    let time = |t: f64| format!("{} s", (t * 1e6).round() / 1e6);
+    let mut list: Vec<_> = shown.map(|m| (time(m.t), m.object.clone(), m.text.clone())).collect();
+    if let Some(next) = all.get(MOST_MESSAGES) {
+        let more = all.len() - MOST_MESSAGES;
+        list.push((time(next.t), String::new(), format!("and {more} more: they are in run.json")));
+    }
+    list
 }
 
 /// The diagrams of the run and of those variants that have another one.
