@@ -96,10 +96,10 @@ fn hash_of(name: &str) -> String {
 
 #[test]
 fn only_this_page_is_let_in() {
-    let address = serve(Show::Film("{\"format\":\"sincro-film-1\"}".into()));
+    let address = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
     let port = address.port();
     assert!(get(address, "/", "").0.contains("200"));
-    assert!(get(address, "/film.json", "").1.contains("sincro-film-1"));
+    assert!(get(address, "/film.json", "").1.contains("sincro-film-2"));
     assert!(get(address, "/film.json", &format!("Origin: http://{address}\r\n")).0.contains("200"));
     for origin in ["http://evil.example", "null", "https://127.0.0.1"] {
         let (status, body) = get(address, "/film.json", &format!("Origin: {origin}\r\n"));

@@ -2,8 +2,7 @@
 
 import { el } from "../format";
 import type { Session } from "../session";
-
-const SYMBOLS: Record<string, string> = { body: "■", frame: "+", force: "→", rotor: "✕" };
+import { icon } from "./icons";
 
 export function tree(session: Session): HTMLElement {
   const list = el("ul", { class: "sv-tree", role: "tree", "aria-label": "Objects" });
@@ -35,7 +34,7 @@ export function tree(session: Session): HTMLElement {
           onkeydown: (event) => {
             if ((event as KeyboardEvent).key === "Enter") session.select(k);
           },
-        }, fold, el("span", { class: "sv-symbol", "aria-hidden": "true", text: SYMBOLS[object.kind] ?? "○" }), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
+        }, fold, icon(object.kind), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
       );
     });
     list.replaceChildren(...items);

@@ -4,9 +4,13 @@
 //! |---|---|---|
 //! | `/tf` | `foxglove.FrameTransforms` | frames of the objects in the world, at the replay's rate |
 //! | `/scene` | `foxglove.SceneUpdate` | shapes of the bodies, once |
+//! | `/arrows` | `foxglove.SceneUpdate` | contact, external, drag and thrust forces and the wind, at the replay's rate |
 //! | `/PATH`, `/energy` … | `sincro.Signals` of that object | recorded signals, every row |
 //!
 //! Times are simulated ones, in nanoseconds from zero. Names of signals become fields: `/air.position.x` is `position_x` of the topic `/air`.
+
+mod arrows;
+mod entity;
 
 use std::collections::BTreeMap;
 use std::io::{self, BufWriter};
@@ -15,7 +19,7 @@ use std::path::Path;
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Map, Value, json};
-use sincro_sim::replay::{ObjectView, SceneView, ShapeView, Tape};
+use sincro_sim::replay::{ObjectView, SceneView, Tape};
 use sincro_sim::results::FileError;
 use sincro_sim::run::Done;
 use sincro_sim::table::Table;
@@ -33,9 +37,10 @@ pub fn write(done: &Done, path: &Path) -> Result<(), FileError> {
     let options = WriteOptions::new().compression(None).library("sincro");
     let write = || -> Result<(), McapError> {
         let mut out = options.create(BufWriter::new(file))?;
-        shapes(&mut out, &done.view)?;
+        entity::shapes(&mut out, &done.view)?;
         if let Some(tape) = &done.simulated.tape {
             transforms(&mut out, &done.view, tape)?;
+            arrows::write(&mut out, &done.view, tape)?;
         }
         signals(&mut out, &done.simulated.table)?;
         out.finish()?;
@@ -64,6 +69,7 @@ fn nanoseconds(t: f64) -> u64 {
     (t * 1e9).round() as u64
 }
 
+/// Seconds and nanoseconds.
 fn stamp(t: f64) -> Value {
     let ns = nanoseconds(t);
     json!({ "sec": ns / 1_000_000_000, "nsec": ns % 1_000_000_000 })
@@ -146,72 +152,6 @@ fn xyz(at: &[f64]) -> Value {
 
 fn xyzw(at: &[f64]) -> Value {
     json!({ "x": at[0], "y": at[1], "z": at[2], "w": at[3] })
-}
-
-/// The shapes of the bodies, each in the frame of its body.
-fn shapes(out: &mut Out, view: &SceneView) -> Result<(), McapError> {
-    let color = object(&[("r", number()), ("g", number()), ("b", number()), ("a", number())]);
-    let pose = object(&[("position", vector()), ("orientation", quaternion())]);
-    let solid = object(&[("pose", pose.clone()), ("size", vector()), ("color", color.clone())]);
-    let round = object(&[
-        ("pose", pose),
-        ("size", vector()),
-        ("bottom_scale", number()),
-        ("top_scale", number()),
-        ("color", color),
-    ]);
-    let entity = object(&[
-        ("timestamp", time()),
-        ("frame_id", text()),
-        ("id", text()),
-        ("lifetime", time()),
-        ("frame_locked", json!({ "type": "boolean" })),
-        ("cubes", list(&solid)),
-        ("spheres", list(&solid)),
-        ("cylinders", list(&round)),
-    ]);
-    let id = channel(out, "/scene", "foxglove.SceneUpdate", &object(&[("entities", list(&entity))]))?;
-    let entities: Vec<Value> = view.objects.iter().filter(|o| !o.shapes.is_empty()).map(entity_of).collect();
-    send(out, id, 0, 0.0, &json!({ "deletions": [], "entities": entities }))
-}
-
-fn entity_of(object: &ObjectView) -> Value {
-    let (mut cubes, mut spheres, mut cylinders) = (Vec::new(), Vec::new(), Vec::new());
-    for shape in &object.shapes {
-        let (pose, color) =
-            (json!({ "position": xyz(&shape.pose), "orientation": xyzw(&shape.pose[3..]) }), color(shape));
-        let size = |x: f64, y: f64, z: f64| json!({ "x": x, "y": y, "z": z });
-        let [a, b] = [shape.size[0], shape.size[1]];
-        match shape.kind {
-            "cuboid" => cubes.push(json!({ "pose": pose, "size": size(a, b, shape.size[2]), "color": color })),
-            "sphere" => spheres.push(json!({ "pose": pose, "size": size(2.0 * a, 2.0 * a, 2.0 * a), "color": color })),
-            kind => {
-                // a capsule shows as its cylinder; a cone stands a quarter of its length above its centre of mass
-                let top = if kind == "cone" { 0.0 } else { 1.0 };
-                let pose = if kind == "cone" { raised(shape, 0.25 * b) } else { pose };
-                cylinders.push(json!({ "pose": pose, "size": size(2.0 * a, 2.0 * a, b), "bottom_scale": 1.0, "top_scale": top, "color": color }));
-            }
-        }
-    }
-    json!({
-        "timestamp": stamp(0.0), "frame_id": object.path, "id": object.path, "lifetime": stamp(0.0), "frame_locked": true,
-        "metadata": [], "arrows": [], "cubes": cubes, "spheres": spheres, "cylinders": cylinders, "lines": [], "triangles": [],
-        "texts": [], "models": [],
-    })
-}
-
-/// The pose of a shape moved along its own z axis.
-fn raised(shape: &ShapeView, by: f64) -> Value {
-    let [px, py, pz, x, y, z, w] = shape.pose;
-    let axis = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)];
-    json!({ "position": xyz(&[px + by * axis[0], py + by * axis[1], pz + by * axis[2]]), "orientation": xyzw(&shape.pose[3..]) })
-}
-
-fn color(shape: &ShapeView) -> Value {
-    let text = shape.color.as_deref().unwrap_or("#5b7f9e");
-    let part = |k: usize| text.get(k..k + 2).and_then(|hex| u8::from_str_radix(hex, 16).ok()).unwrap_or(128);
-    let share = |k: usize| f64::from(part(k)) / 255.0;
-    json!({ "r": share(1), "g": share(3), "b": share(5), "a": 1.0 })
 }
 
 /// Topic and field of a signal.
