@@ -108,13 +108,17 @@ mod tests {
     #[test]
     fn a_hull_encloses_the_volume_of_its_corners() {
         let corner = |k: usize| -> [f64; 3] { std::array::from_fn(|i| f64::from(u8::from(k >> i & 1 == 1)) + 3.0) };
-        // a cube with points on its faces and inside: they are in no triangle
         let mut points: Vec<[f64; 3]> = (0..8).map(corner).collect();
-        points.extend([[3.5, 3.5, 3.0], [3.2, 3.5, 3.5], [3.5, 3.0, 3.0]]);
-        points.rotate_left(3);
-        let made = of_hull(&points);
-        assert_eq!(made.1.len(), 12, "{:?}", made.1);
-        assert!((volume(&made) - 6.0).abs() < 1e-5, "{}", volume(&made));
+        let cube = of_hull(&points);
+        assert_eq!((cube.0.len(), cube.1.len()), (8, 12));
+        // more points, inside, on a face and on an edge, in any order: the same volume
+        points.extend([[3.2, 3.5, 3.5], [3.5, 3.5, 3.0], [3.5, 3.0, 3.0]]);
+        for _ in 0..points.len() {
+            points.rotate_left(1);
+            let made = of_hull(&points);
+            assert!((volume(&made) - 6.0).abs() < 1e-5, "{}", volume(&made));
+            assert!(!made.0.contains(&[3.2, 3.5, 3.5]), "what is inside is no corner");
+        }
     }
 
     #[test]

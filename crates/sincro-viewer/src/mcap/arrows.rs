@@ -5,8 +5,8 @@ use mcap::McapError;
 use serde_json::{Value, json};
 use sincro_sim::replay::{CONTACT, SceneView, Tape};
 
-use super::entity::{color, entity, extent, pose, schema};
-use super::{Out, channel, send};
+use super::Recording;
+use super::entity::{color, entity, extent, pose};
 use crate::vector::{V, compose, dot, origin, rotate};
 
 /// Name, colour, and the arrows of a frame: from where, and how much.
@@ -17,7 +17,7 @@ struct Kind<'a> {
 }
 
 /// One message a frame.
-pub(super) fn write(out: &mut Out, view: &SceneView, tape: &Tape) -> Result<(), McapError> {
+pub(super) fn write(out: &mut Recording, view: &SceneView, tape: &Tape) -> Result<(), McapError> {
     let kinds = kinds(view, tape);
     let largest = |kind: &Kind<'_>| {
         let sizes = (0..tape.n_frames()).flat_map(|k| (kind.of)(k)).map(|(_, vector)| norm(vector));
@@ -27,7 +27,7 @@ pub(super) fn write(out: &mut Out, view: &SceneView, tape: &Tape) -> Result<(), 
     if sizes.iter().all(|size| *size <= 0.0) {
         return Ok(());
     }
-    let id = channel(out, "/arrows", "foxglove.SceneUpdate", &schema())?;
+    let id = out.channel("/arrows", "SceneUpdate")?;
     let longest = 0.5 * extent(view);
     for k in 0..tape.n_frames() {
         let t = tape.times[k];
@@ -37,7 +37,7 @@ pub(super) fn write(out: &mut Out, view: &SceneView, tape: &Tape) -> Result<(), 
             entity(t, "world", kind.id, &[("arrows", arrows)])
         };
         let entities: Vec<Value> = kinds.iter().zip(&sizes).filter(|(_, most)| **most > 0.0).map(of_kind).collect();
-        send(out, id, k, t, &json!({ "deletions": [], "entities": entities }))?;
+        out.send(id, (k, t), "SceneUpdate", &json!({ "entities": entities }))?;
     }
     Ok(())
 }
@@ -95,7 +95,7 @@ fn norm(v: V) -> f64 {
 fn arrow(from: V, vector: V, scale: f64, hex: &str) -> Option<Value> {
     let size = norm(vector);
     let length = scale * size;
-    if !(length > 1e-6) {
+    if length.is_nan() || length <= 1e-6 {
         return None;
     }
     let [dx, dy, dz] = vector.map(|x| x / size);

@@ -1,64 +1,18 @@
-//! Entities of Foxglove's `SceneUpdate`: its schema, and the shapes of the bodies.
+//! Entities of Foxglove's `SceneUpdate`: the shapes of the bodies.
 
 use mcap::McapError;
 use serde_json::{Value, json};
 use sincro_sim::replay::{ObjectView, SceneView, ShapeView};
 
-use super::{Out, channel, list, number, object, quaternion, send, stamp, text, time, vector, xyz, xyzw};
+use super::{Recording, stamp, xyz, xyzw};
 
 /// Least half edge of a plane's piece `[m]`.
 const LEAST_PIECE: f64 = 2.0;
 
-/// The part of the schema of `foxglove.SceneUpdate` that we write.
-pub(super) fn schema() -> Value {
-    let boolean = json!({ "type": "boolean" });
-    let index = json!({ "type": "integer", "minimum": 0 });
-    let color = object(&[("r", number()), ("g", number()), ("b", number()), ("a", number())]);
-    let pose = object(&[("position", vector()), ("orientation", quaternion())]);
-    let solid = object(&[("pose", pose.clone()), ("size", vector()), ("color", color.clone())]);
-    let round = object(&[
-        ("pose", pose.clone()),
-        ("size", vector()),
-        ("bottom_scale", number()),
-        ("top_scale", number()),
-        ("color", color.clone()),
-    ]);
-    let triangles = object(&[
-        ("pose", pose.clone()),
-        ("points", list(&vector())),
-        ("color", color.clone()),
-        ("colors", list(&color)),
-        ("indices", list(&index)),
-    ]);
-    let arrow = object(&[
-        ("pose", pose),
-        ("shaft_length", number()),
-        ("shaft_diameter", number()),
-        ("head_length", number()),
-        ("head_diameter", number()),
-        ("color", color),
-    ]);
-    let entity = object(&[
-        ("timestamp", time()),
-        ("frame_id", text()),
-        ("id", text()),
-        ("lifetime", time()),
-        ("frame_locked", boolean),
-        ("arrows", list(&arrow)),
-        ("cubes", list(&solid)),
-        ("spheres", list(&solid)),
-        ("cylinders", list(&round)),
-        ("triangles", list(&triangles)),
-    ]);
-    let deletion = object(&[("timestamp", time()), ("type", index), ("id", text())]);
-    object(&[("deletions", list(&deletion)), ("entities", list(&entity))])
-}
-
 /// An entity that stays until the next one of that name.
 pub(super) fn entity(t: f64, frame: &str, id: &str, what: &[(&str, Vec<Value>)]) -> Value {
     let mut entity = json!({
-        "timestamp": stamp(t), "frame_id": frame, "id": id, "lifetime": stamp(0.0), "frame_locked": true, "metadata": [],
-        "arrows": [], "cubes": [], "spheres": [], "cylinders": [], "lines": [], "triangles": [], "texts": [], "models": [],
+        "timestamp": stamp(t), "frame_id": frame, "id": id, "lifetime": stamp(0.0), "frame_locked": true,
     });
     for (kind, list) in what {
         entity[*kind] = Value::Array(list.clone());
@@ -67,12 +21,12 @@ pub(super) fn entity(t: f64, frame: &str, id: &str, what: &[(&str, Vec<Value>)])
 }
 
 /// The shapes of the bodies, each in the frame of its body.
-pub(super) fn shapes(out: &mut Out, view: &SceneView) -> Result<(), McapError> {
-    let id = channel(out, "/scene", "foxglove.SceneUpdate", &schema())?;
+pub(super) fn shapes(out: &mut Recording, view: &SceneView) -> Result<(), McapError> {
+    let id = out.channel("/scene", "SceneUpdate")?;
     let reach = extent(view);
     let with_shapes = view.objects.iter().filter(|o| !o.shapes.is_empty());
     let entities: Vec<Value> = with_shapes.map(|o| of_object(o, reach)).collect();
-    send(out, id, 0, 0.0, &json!({ "deletions": [], "entities": entities }))
+    out.send(id, (0, 0.0), "SceneUpdate", &json!({ "entities": entities }))
 }
 
 /// About how large a scene is `[m]`: what its offsets and shapes span.
@@ -123,7 +77,7 @@ fn of_object(object: &ObjectView, reach: f64) -> Value {
 fn mesh(pose: &Value, corners: &[[f32; 3]], triangles: &[[u32; 3]], color: &Value) -> Value {
     let points: Vec<Value> = corners.iter().map(|p| xyz(&p.map(f64::from))).collect();
     let indices: Vec<u32> = triangles.iter().flatten().copied().collect();
-    json!({ "pose": pose, "points": points, "color": color, "colors": [], "indices": indices })
+    json!({ "pose": pose, "points": points, "color": color, "indices": indices })
 }
 
 /// A pose as Foxglove writes it.

@@ -1,16 +1,18 @@
-//! A run as an MCAP file for Foxglove, Lichtblick or Rerun: transforms and shapes under Foxglove's schemas, signals as JSON.
+//! A run as an MCAP file for Foxglove, Lichtblick or Rerun: transforms, shapes and arrows as Foxglove's messages, signals as messages of their own, all
+//! as protocol buffers, which all three decode.
 //!
 //! | topic | schema | what |
 //! |---|---|---|
 //! | `/tf` | `foxglove.FrameTransforms` | frames of the objects in the world, at the replay's rate |
 //! | `/scene` | `foxglove.SceneUpdate` | shapes of the bodies, once |
 //! | `/arrows` | `foxglove.SceneUpdate` | contact, external, drag and thrust forces and the wind, at the replay's rate |
-//! | `/PATH`, `/energy` … | `sincro.Signals` of that object | recorded signals, every row |
+//! | `/PATH`, `/energy` … | `sincro.Signals_PATH` | recorded signals, every row; units in the channel's metadata |
 //!
 //! Times are simulated ones, in nanoseconds from zero. Names of signals become fields: `/air.position.x` is `position_x` of the topic `/air`.
 
 mod arrows;
 mod entity;
+mod protobuf;
 
 use std::collections::BTreeMap;
 use std::io::{self, BufWriter};
@@ -18,13 +20,21 @@ use std::path::Path;
 
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
-use serde_json::{Map, Value, json};
+use protobuf::Package;
+use serde_json::{Value, json};
 use sincro_sim::replay::{ObjectView, SceneView, Tape};
 use sincro_sim::results::FileError;
 use sincro_sim::run::Done;
 use sincro_sim::table::Table;
 
-type Out = Writer<BufWriter<std::fs::File>>;
+/// Definitions of Foxglove's messages.
+const FOXGLOVE: &str = include_str!("foxglove.proto");
+
+/// A recording that is being written.
+struct Recording {
+    out: Writer<BufWriter<std::fs::File>>,
+    foxglove: Package,
+}
 
 /// Writes the main run of a campaign.
 ///
@@ -36,33 +46,50 @@ pub fn write(done: &Done, path: &Path) -> Result<(), FileError> {
     let file = std::fs::File::create(path).map_err(failed)?;
     let options = WriteOptions::new().compression(None).library("sincro");
     let write = || -> Result<(), McapError> {
-        let mut out = options.create(BufWriter::new(file))?;
+        let mut out = Recording { out: options.create(BufWriter::new(file))?, foxglove: Package::parse(FOXGLOVE) };
         entity::shapes(&mut out, &done.view)?;
         if let Some(tape) = &done.simulated.tape {
             transforms(&mut out, &done.view, tape)?;
             arrows::write(&mut out, &done.view, tape)?;
         }
         signals(&mut out, &done.simulated.table)?;
-        out.finish()?;
+        out.out.finish()?;
         Ok(())
     };
     write().map_err(|e| failed(io::Error::other(e)))
 }
 
-fn channel(out: &mut Out, topic: &str, schema: &str, fields: &Value) -> Result<u16, McapError> {
-    let schema = out.add_schema(schema, "jsonschema", fields.to_string().as_bytes())?;
-    out.add_channel(schema, topic, "json", &BTreeMap::new())
-}
+impl Recording {
+    /// A topic of a message of Foxglove's.
+    fn channel(&mut self, topic: &str, message: &str) -> Result<u16, McapError> {
+        let descriptor = self.foxglove.descriptor();
+        self.channel_of(topic, &format!("foxglove.{message}"), &descriptor, &BTreeMap::new())
+    }
 
-fn send(out: &mut Out, channel_id: u16, sequence: usize, t: f64, message: &Value) -> Result<(), McapError> {
-    let time = nanoseconds(t);
-    let header = MessageHeader {
-        channel_id,
-        sequence: u32::try_from(sequence).unwrap_or(u32::MAX),
-        log_time: time,
-        publish_time: time,
-    };
-    out.write_to_known_channel(&header, message.to_string().as_bytes())
+    /// A topic of any message, with what is noted beside it.
+    fn channel_of(
+        &mut self,
+        topic: &str,
+        message: &str,
+        descriptor: &[u8],
+        notes: &BTreeMap<String, String>,
+    ) -> Result<u16, McapError> {
+        let schema = self.out.add_schema(message, "protobuf", descriptor)?;
+        self.out.add_channel(schema, topic, "protobuf", notes)
+    }
+
+    /// A message of Foxglove's from an object with its fields.
+    fn send(&mut self, channel: u16, (k, t): (usize, f64), name: &str, message: &Value) -> Result<(), McapError> {
+        let bytes = self.foxglove.encode(name, message);
+        self.send_bytes(channel, (k, t), &bytes)
+    }
+
+    fn send_bytes(&mut self, channel_id: u16, (k, t): (usize, f64), message: &[u8]) -> Result<(), McapError> {
+        let time = nanoseconds(t);
+        let sequence = u32::try_from(k).unwrap_or(u32::MAX);
+        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
+        self.out.write_to_known_channel(&header, message)
+    }
 }
 
 fn nanoseconds(t: f64) -> u64 {
@@ -75,46 +102,8 @@ fn stamp(t: f64) -> Value {
     json!({ "sec": ns / 1_000_000_000, "nsec": ns % 1_000_000_000 })
 }
 
-/// A JSON schema of an object with these fields.
-fn object(fields: &[(&str, Value)]) -> Value {
-    let properties: Map<String, Value> =
-        fields.iter().map(|(name, schema)| ((*name).to_owned(), schema.clone())).collect();
-    json!({ "type": "object", "properties": properties })
-}
-
-fn number() -> Value {
-    json!({ "type": "number" })
-}
-
-fn text() -> Value {
-    json!({ "type": "string" })
-}
-
-fn time() -> Value {
-    object(&[("sec", json!({ "type": "integer" })), ("nsec", json!({ "type": "integer" }))])
-}
-
-fn vector() -> Value {
-    object(&[("x", number()), ("y", number()), ("z", number())])
-}
-
-fn quaternion() -> Value {
-    object(&[("x", number()), ("y", number()), ("z", number()), ("w", number())])
-}
-
-fn list(of: &Value) -> Value {
-    json!({ "type": "array", "items": of })
-}
-
-fn transforms(out: &mut Out, view: &SceneView, tape: &Tape) -> Result<(), McapError> {
-    let one = object(&[
-        ("timestamp", time()),
-        ("parent_frame_id", text()),
-        ("child_frame_id", text()),
-        ("translation", vector()),
-        ("rotation", quaternion()),
-    ]);
-    let id = channel(out, "/tf", "foxglove.FrameTransforms", &object(&[("transforms", list(&one))]))?;
+fn transforms(out: &mut Recording, view: &SceneView, tape: &Tape) -> Result<(), McapError> {
+    let id = out.channel("/tf", "FrameTransforms")?;
     for k in 0..tape.n_frames() {
         let (t, frame) = (tape.times[k], tape.frame(k));
         let mut all: Vec<Value> = (0..view.n_movers)
@@ -126,7 +115,7 @@ fn transforms(out: &mut Out, view: &SceneView, tape: &Tape) -> Result<(), McapEr
         if k == 0 {
             all.extend(view.objects.iter().map(|o| transform(t, &carrier(o), &o.path, &o.pose)));
         }
-        send(out, id, k, t, &json!({ "transforms": all }))?;
+        out.send(id, (k, t), "FrameTransforms", &json!({ "transforms": all }))?;
     }
     Ok(())
 }
@@ -158,27 +147,32 @@ fn xyzw(at: &[f64]) -> Value {
 fn place_of(name: &str) -> (String, String) {
     let (object, field) = name.split_once('.').unwrap_or((name.split('[').next().unwrap_or(name), name));
     let topic = if object.starts_with('/') { object.to_owned() } else { format!("/{object}") };
-    let clean = field.trim_end_matches(']').chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-    (topic, clean.collect())
+    (topic, letters(field.trim_end_matches(']')))
 }
 
-fn signals(out: &mut Out, table: &Table) -> Result<(), McapError> {
+/// A name of letters, digits and `_`, which does not begin with a digit.
+fn letters(name: &str) -> String {
+    let clean: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if clean.starts_with(|c: char| c.is_ascii_digit()) { format!("_{clean}") } else { clean }
+}
+
+fn signals(out: &mut Recording, table: &Table) -> Result<(), McapError> {
     let mut topics: BTreeMap<String, Vec<(String, usize)>> = BTreeMap::new();
     for (k, column) in table.columns.iter().enumerate().skip(1) {
         let (topic, field) = place_of(&column.name);
-        topics.entry(topic).or_default().push((field, k));
+        let known = topics.entry(topic).or_default();
+        // two names may differ in signs alone
+        let twins = known.iter().filter(|(other, _)| *other == field).count();
+        known.push((if twins > 0 { format!("{field}_{}", twins + 1) } else { field }, k));
     }
     for (topic, fields) in topics {
-        let described = |(field, k): &(String, usize)| {
-            let column = &table.columns[*k];
-            (field.clone(), json!({ "type": "number", "description": format!("{} [{}]", column.name, column.unit) }))
-        };
-        let properties: Map<String, Value> = fields.iter().map(described).collect();
-        let schema = json!({ "title": format!("sincro.Signals{topic}"), "type": "object", "properties": properties });
-        let id = channel(out, &topic, &format!("sincro.Signals{topic}"), &schema)?;
+        let name = format!("Signals{}", letters(&topic));
+        let package = Package::of_numbers("sincro", &name, fields.iter().map(|(field, _)| field.clone()));
+        let units = fields.iter().map(|(field, k)| (field.clone(), table.columns[*k].unit.clone())).collect();
+        let id = out.channel_of(&topic, &format!("sincro.{name}"), &package.descriptor(), &units)?;
         for (row, t) in table.times().iter().enumerate() {
-            let values = fields.iter().map(|(field, k)| (field.clone(), json!(table.columns[*k].values[row])));
-            send(out, id, row, *t, &Value::Object(values.collect()))?;
+            let values = fields.iter().map(|(_, k)| table.columns[*k].values[row]);
+            out.send_bytes(id, (row, *t), &protobuf::numbers(values))?;
         }
     }
     Ok(())
@@ -219,9 +213,13 @@ mod tests {
         assert_eq!(of("/scene").len(), 1);
         let shoulder = of("/shoulder");
         assert_eq!(shoulder.len(), simulated.table.n_rows());
-        let last: Value = serde_json::from_slice(&shoulder.last().unwrap().data).unwrap();
+        // its first field, after the byte that says so
+        let data = &shoulder.last().unwrap().data;
+        let last = f64::from_le_bytes(data[1..9].try_into().unwrap());
         let expected = simulated.table.column("/shoulder.position").unwrap().values.last().copied();
-        assert_eq!(last["position"].as_f64(), expected);
-        assert_eq!(shoulder[0].channel.schema.as_ref().unwrap().encoding, "jsonschema");
+        assert_eq!((data[0], Some(last)), (1 << 3 | 1, expected));
+        let channel = &shoulder[0].channel;
+        assert_eq!(channel.schema.as_ref().unwrap().name, "sincro.Signals_shoulder");
+        assert_eq!(channel.metadata.get("position").map(String::as_str), Some("rad"));
     }
 }

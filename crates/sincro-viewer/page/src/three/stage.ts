@@ -47,6 +47,8 @@ export class Stage {
   private readonly push: Push;
   private readonly legend = el("div", { class: "sv-legend" });
   private gridWords = "";
+  /** Size of what the ground was laid for [m]. */
+  private laidFor = 0;
   /** There are planes, and none of them is level. */
   private isSloped = false;
   private isStale = true;
@@ -175,7 +177,9 @@ export class Stage {
     this.session.view.objects.forEach((object, k) => {
       if (!object.camera && object.mover !== null) this.bounds.expandByPoint(this.main.position(k, at));
     });
-    if (this.bounds.getSize(at).length() > 1.001 * before) this.frame(this.named);
+    const now = this.bounds.getSize(at).length();
+    if (now > 1.001 * before) this.frame(this.named);
+    if (now > 1.2 * this.laidFor) this.lay();
   }
 
   /** Puts the picture's camera where the scene's is. */
@@ -262,6 +266,7 @@ export class Stage {
 
   /** Ground below everything, its squares of a round size. */
   private lay(): void {
+    this.laidFor = this.bounds.getSize(new Vector3()).length();
     for (const old of this.ground) old.removeFromParent();
     const { shown } = this.session;
     const isDark = matchMedia("(prefers-color-scheme: dark)").matches;

@@ -111,7 +111,14 @@ export class Scope {
     if (!plot || (plot.cursor.left ?? -1) >= 0) return;
     const times = plot.data[0];
     if (times.length === 0) return;
-    plot.setLegend({ idx: Math.max(0, countUpTo(times as ArrayLike<number>, times.length, session.t + 1e-12) - 1) }, false);
+    const now = Math.max(0, countUpTo(times as ArrayLike<number>, times.length, session.t + 1e-12) - 1);
+    // of each line the last value that it has by then
+    const last = (column: ArrayLike<number | null | undefined>) => {
+      let k = now;
+      while (k > 0 && (column[k] === null || column[k] === undefined)) k--;
+      return k;
+    };
+    plot.setLegend({ idxs: plot.data.map((column, c) => (c === 0 ? now : last(column))) }, false);
   }
 
   private isZoomed(): boolean {
