@@ -162,10 +162,15 @@ fn reel(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneV
 pub(crate) fn stop_words(status: &Status) -> String {
     match status {
         Status::Completed => String::new(),
-        Status::Ended { time, reason, .. } => format!("ended at t = {time} s: {reason}"),
-        Status::Stopped { time, reason, .. } => format!("stopped at t = {time} s: {reason}"),
-        Status::Interrupted { time, .. } => format!("interrupted at t = {time} s"),
+        Status::Ended { time, reason, .. } => format!("ended at t = {} s: {reason}", seconds(*time)),
+        Status::Stopped { time, reason, .. } => format!("stopped at t = {} s: {reason}", seconds(*time)),
+        Status::Interrupted { time, .. } => format!("interrupted at t = {} s", seconds(*time)),
     }
+}
+
+/// To the nanosecond: 14.2, not 14.200000000000001.
+fn seconds(t: f64) -> f64 {
+    (1e9 * t).round() / 1e9
 }
 
 /// Indices of what is kept of `n`, every so many, the last one always.

@@ -67,7 +67,6 @@ def check(path):
             if schema.id not in classes:
                 classes[schema.id] = message_class(schema)
             made = classes[schema.id].FromString(message.data)
-            assert made.SerializeToString(deterministic=True), f"{channel.topic}: an empty message"
             if schema.name == "foxglove.FrameTransforms":
                 assert is_finite(made), channel.topic
                 frames.update(t.child_frame_id for t in made.transforms)

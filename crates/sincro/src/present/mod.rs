@@ -152,7 +152,8 @@ fn stop(status: &Status) -> Option<Stop> {
     match status {
         Status::Completed => None,
         Status::Ended { time, reason, .. } => {
-            let reason = format!("The run ended at t = {time} s as it was to: {reason}.");
+            let at = plot::number::short(*time, 9);
+            let reason = format!("The run ended at t = {at} s as it was to: {reason}.");
             Some(Stop { time: *time, reason, help: String::new(), is_good: true })
         }
         Status::Stopped { time, reason, help, .. } => {

@@ -4,6 +4,7 @@ import {
   BoxGeometry, CircleGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Quaternion,
   RingGeometry, SphereGeometry, Vector3, type BufferGeometry,
 } from "three";
+import { isDark } from "../format";
 import type { ObjectView, Pose, SceneView, ShapeView } from "../film";
 import type { Run } from "../run";
 import { geometry, inertiaBox, poseMatrix, reach } from "./shapes";
@@ -141,8 +142,7 @@ export class Bodies {
   /** Planes are no targets: a click beside the bodies selects nothing. */
   private plane(shape: ShapeView, node: Object3D, k: number): void {
     if (this.isGhost) return;
-    const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
-    const material = new MeshStandardMaterial({ color: shape.color ?? (isDark ? "#232a31" : "#f1f3f5"), roughness: 0.95, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+    const material = new MeshStandardMaterial({ color: shape.color ?? (isDark() ? "#232a31" : "#f1f3f5"), roughness: 0.95, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
     const mesh = new Mesh(geometry(shape), material);
     mesh.applyMatrix4(poseMatrix(shape.pose));
     mesh.receiveShadow = true;
@@ -155,7 +155,7 @@ export class Bodies {
   private rotor(object: ObjectView, node: Object3D, k: number): void {
     const rotor = object.rotor as NonNullable<ObjectView["rotor"]>;
     const radius = rotor.radius ?? 0.12 * this.size;
-    const color = matchMedia("(prefers-color-scheme: dark)").matches ? ROTOR_DARK : ROTOR;
+    const color = isDark() ? ROTOR_DARK : ROTOR;
     const disc = new Mesh(
       new CircleGeometry(radius, 48),
       new MeshBasicMaterial({ color, transparent: true, opacity: this.isGhost ? 0.06 : 0.16, side: DoubleSide, depthWrite: false }),

@@ -18,6 +18,9 @@ const PATH = "#0072b2";
 export class Overlays {
   private readonly made: Object3D[] = [];
 
+  /** The camera through which one looks: it is not drawn. */
+  through: number | null = null;
+
   constructor(private readonly session: Session, private readonly scene: Scene) {}
 
   /** Everything anew, for what is shown now. */
@@ -37,6 +40,7 @@ export class Overlays {
       if (shown.axes && object.joint) this.jointAxes(object, bodies);
       if (object.mass && shown.centers) this.hang(node, this.center(object, bodies.size));
       if (object.mass && shown.inertia) this.hang(node, this.box(object));
+      if (k === this.through) return;
       if (shown.frames && object.kind !== "force" && object.kind !== "coupling") this.frame(node, 0.12 * bodies.size);
       if (shown.springs && object.joint) this.springs(object, node, bodies.size);
       if (shown.closures && object.other_end) this.closure(object, bodies);

@@ -131,6 +131,8 @@ export class Stage {
     this.riding = own < 0 ? null : own;
     this.camera.fov = this.session.view.objects[own]?.camera?.field_of_view_deg ?? FIELD;
     this.session.tell("camera");
+    this.overlays.through = this.riding;
+    this.overlays.rebuild(this.main);
     if (this.riding !== null) {
       this.ride();
       return;
@@ -204,6 +206,7 @@ export class Stage {
     const ahead = this.camera.getWorldDirection(new Vector3());
     this.controls.target.copy(this.camera.position).addScaledVector(ahead, Math.max(away, 0.2 * this.main.size));
     this.riding = null;
+    this.overlays.through = null;
     this.followed.copy(this.session.selected === null ? this.controls.target : this.main.position(this.session.selected));
     this.controls.update();
   }

@@ -1,13 +1,14 @@
 // Forces and wind as arrows: thrust, external forces, drag, contact, and the points where bodies touch.
 
 import { Mesh, MeshBasicMaterial, SphereGeometry, Vector3, type Material, type Object3D, type Scene } from "three";
-import { format } from "../format";
+import { format, isDark } from "../format";
 import { CONTACT } from "../run";
 import type { Session, Shown } from "../session";
 import { Arrow } from "./arrow";
 import type { Bodies } from "./bodies";
 
-const POINT = "#a5127d";
+/** Of contact, on a light page and on a dark one. */
+const POINT = ["#a5127d", "#f07cc6"] as const;
 /** Values that are looked at to find how long arrows are. */
 const SAMPLES = 4000;
 
@@ -103,7 +104,7 @@ export class Vectors {
       }) },
       { key: "forces", name: "external force", unit: "N", color: "#d55e00", share: 0.7, read: (t, show) => forces.forEach(({ force, k }) => show(bodies.position(k, at), vector.set(...session.run.force(t, force)))) },
       { key: "drags", name: "drag", unit: "N", color: "#a67c00", share: 0.5, read: (t, show) => drags.forEach(({ drag, k }) => show(bodies.position(k, at), vector.set(...session.run.drag(t, drag)))) },
-      { key: "contactForces", name: "contact force", unit: "N", color: POINT, share: 0.45, read: (t, show) => this.contacts(t, at, vector, show) },
+      { key: "contactForces", name: "contact force", unit: "N", color: POINT[isDark() ? 1 : 0], share: 0.45, read: (t, show) => this.contacts(t, at, vector, show) },
       { key: "wind", name: "wind", unit: "m/s", color: "#3a9bd9", share: 0.8, read: (t, show) => view.winds.forEach((mover, k) => show(bodies.movers[mover]?.getWorldPosition(at) ?? zero, vector.set(...session.run.wind(t, k)))) },
     ];
     return kinds;
@@ -152,7 +153,7 @@ export class Vectors {
   }
 
   private point(size: number): Mesh {
-    const ball = new Mesh(new SphereGeometry(0.013 * size, 16, 10), new MeshBasicMaterial({ color: POINT, depthTest: false, transparent: true }));
+    const ball = new Mesh(new SphereGeometry(0.013 * size, 16, 10), new MeshBasicMaterial({ color: POINT[isDark() ? 1 : 0], depthTest: false, transparent: true }));
     ball.renderOrder = 7;
     this.scene.add(ball);
     return ball;

@@ -17,7 +17,10 @@ export function shown(session: Session, stage: Stage): HTMLElement {
   );
   const cameras = el("select", {
     "aria-label": "camera", title: "camera (keys 1 to 9)",
-    onchange: (event) => stage.frame((event.target as HTMLSelectElement).value),
+    onchange: (event) => {
+      stage.frame((event.target as HTMLSelectElement).value);
+      cameras.blur();
+    },
   }, ...cameraNames(session).map((name) => el("option", { value: name, text: name })));
   const choose = () => (cameras.value = stage.cameraName);
   session.on("camera", choose);

@@ -46,6 +46,7 @@ export function transport(session: Session): HTMLElement {
       const chosen = speed.value === "max" ? null : Number(speed.value);
       if (chosen !== null) session.speed = chosen;
       session.link?.setSpeed(chosen);
+      speed.blur();
     },
   }, ...SPEEDS.map((s) => el("option", { value: String(s), text: `${s} ×`, selected: s === 1 })));
   if (session.link) speed.append(el("option", { value: "max", text: "fastest" }));
