@@ -25,6 +25,9 @@ test("contact: points, forces and their sum; the scene's camera comes first", op
   assert.match(await page.locator(".sv-now").innerText(), /contact force\s+−20\.00/);
   assert.match(await page.locator(".sv-numbers").innerText(), /contact\.friction/);
   await page.click(".sv-menu summary");
+  const [picture] = await Promise.all([page.waitForEvent("download"), page.click("text=save the picture")]);
+  const content = readFileSync(await picture.path());
+  assert.ok(content.subarray(1, 4).toString() === "PNG" && content.length > 5000, "the picture is one");
   await page.uncheck('[data-shown="contactForces"]');
   assert.doesNotMatch(await legend(page), /contact force/);
   assert.equal(await page.locator('[data-shown="wind"]').count(), 0, "no switch for what there is not");

@@ -67,7 +67,10 @@ test("a finished run: the report opens without a server, and `sincro view` shows
   for (const url of [`file://${out}/report.html`, await view(out)]) {
     const { page, wrong } = await open(url);
     if (url.startsWith("file:")) await page.click("text=whole window");
+    await page.click('[data-menu="runs"] summary');
     await page.click("text=lag-from-rest");
+    await page.mouse.click(640, 300);
+    assert.equal(await page.locator('[data-menu="runs"]').getAttribute("open"), null, "a click beside a menu closes it");
     assert.equal(await page.locator(".sv-run.sv-active").innerText(), "lag-from-rest");
     await page.locator(".sv-play").click();
     await until(page, () => Number.parseFloat(document.querySelector(".sv-clock").textContent) > 0.3);

@@ -5,7 +5,7 @@ import {
   Scene, ShadowMaterial, Vector2, Vector3, WebGLRenderer, type Material, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { el, nice } from "../format";
+import { el, nice, save } from "../format";
 import type { ObjectView } from "../film";
 import type { Session } from "../session";
 import { Bodies } from "./bodies";
@@ -121,6 +121,13 @@ export class Stage {
     this.isStale = false;
     this.renderer.render(this.scene, this.camera);
     this.node.dataset["drawn"] = String(Number(this.node.dataset["drawn"] ?? "0") + 1);
+  }
+
+  /** The picture as it is now, as a file. */
+  savePicture(): void {
+    this.isStale = true;
+    this.draw();
+    this.renderer?.domElement.toBlob((blob) => blob && save(`${this.session.film.scene}-${this.session.t.toFixed(3)}s.png`, blob));
   }
 
   /** Takes a camera: one of the page's sees everything, one of the scene's stands where the scene says. */

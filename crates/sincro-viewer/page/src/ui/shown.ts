@@ -39,7 +39,8 @@ export function shown(session: Session, stage: Stage): HTMLElement {
       input.checked = key === "follow" ? session.follow : session.shown[key];
     }
   });
-  const menu = el("details", { class: "sv-menu" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles));
+  const picture = el("button", { class: "sv-small", text: "save the picture (PNG)", onclick: () => stage.savePicture() });
+  const menu = el("details", { class: "sv-menu" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles, picture));
   return menu;
 }
 
