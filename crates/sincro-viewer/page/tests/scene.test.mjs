@@ -24,7 +24,7 @@ test("contact: points, forces and their sum; the scene's camera comes first", op
   await page.click('[data-path="/left/pad"]');
   assert.match(await page.locator(".sv-now").innerText(), /contact force\s+−20\.00/);
   assert.match(await page.locator(".sv-numbers").innerText(), /contact\.friction/);
-  await page.click(".sv-menu summary");
+  await page.click('[data-menu="view"] summary');
   const [picture] = await Promise.all([page.waitForEvent("download"), page.click("text=save the picture")]);
   const content = readFileSync(await picture.path());
   assert.ok(content.subarray(1, 4).toString() === "PNG" && content.length > 5000, "the picture is one");

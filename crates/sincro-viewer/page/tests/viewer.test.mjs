@@ -71,7 +71,7 @@ test("a finished run: the report opens without a server, and `sincro view` shows
     await page.click("text=lag-from-rest");
     await page.mouse.click(640, 300);
     assert.equal(await page.locator('[data-menu="runs"]').getAttribute("open"), null, "a click beside a menu closes it");
-    assert.equal(await page.locator(".sv-run.sv-active").innerText(), "lag-from-rest");
+    assert.equal(await page.locator(".sv-run.sv-active").textContent(), "lag-from-rest");
     await page.locator(".sv-play").click();
     await until(page, () => Number.parseFloat(document.querySelector(".sv-clock").textContent) > 0.3);
     await page.locator(".sv-play").click();

@@ -5,6 +5,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use sincro_viewer::film::FORMAT;
 use sincro_viewer::live::{Engine, Source};
 use sincro_viewer::server::{Server, Show};
 
@@ -38,6 +39,9 @@ pub(crate) struct Arguments {
 pub(crate) struct ReplayArguments {
     /// Folder of a finished run
     run: PathBuf,
+    /// Camera of the scene to begin with [default: its first one]
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
     /// Port to listen at [default: any free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
@@ -50,21 +54,15 @@ pub(crate) struct ReplayArguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     let is_run = arguments.what.join("replay.json").is_file() && !arguments.what.join("experiment.toml").is_file();
     let show = if is_run { replay_of(&arguments.what) } else { live(arguments) };
-    let camera = arguments.camera.as_deref();
-    match show.and_then(|show| Ok((camera.map(|name| camera_of(&show, name)).transpose()?, show))) {
-        Ok((camera, show)) => {
-            serve(show, SocketAddr::new(arguments.bind, arguments.port), camera.as_deref(), arguments.no_browser)
-        }
-        Err(exit) => exit,
-    }
+    let address = SocketAddr::new(arguments.bind, arguments.port);
+    show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
 
 /// Shows a finished run.
 pub(crate) fn replay(arguments: &ReplayArguments) -> Exit {
-    match replay_of(&arguments.run) {
-        Ok(show) => serve(show, SocketAddr::from((Ipv4Addr::LOCALHOST, arguments.port)), None, arguments.no_browser),
-        Err(exit) => exit,
-    }
+    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, arguments.port));
+    let show = replay_of(&arguments.run);
+    show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
 
 /// The path of a camera of what is shown, named by it or by its last part.
@@ -86,8 +84,8 @@ fn replay_of(run: &Path) -> Result<Show, Exit> {
         let message = format!("`{}` cannot be read: {e}", file.display());
         diagnostics::refuse(&message, Some("name the folder that `sincro run` wrote, such as results/SCENE"))
     })?;
-    if !text.starts_with("{\"format\":\"sincro-film-") {
-        let message = format!("`{}` is no replay of sincro", file.display());
+    if !text.starts_with(&format!("{{\"format\":\"{FORMAT}\"")) {
+        let message = format!("`{}` is no replay that this version of sincro shows", file.display());
         return Err(diagnostics::refuse(&message, Some("run the scene again with this version")));
     }
     Ok(Show::Film(text.into()))
@@ -104,6 +102,10 @@ fn live(arguments: &Arguments) -> Result<Show, Exit> {
 }
 
 fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {
+    let camera = match camera.map(|name| camera_of(&show, name)).transpose() {
+        Ok(camera) => camera,
+        Err(exit) => return exit,
+    };
     let server = match Server::bind(address, show) {
         Ok(server) => server,
         Err(error) => {

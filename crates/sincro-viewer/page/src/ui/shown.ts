@@ -40,7 +40,7 @@ export function shown(session: Session, stage: Stage): HTMLElement {
     }
   });
   const picture = el("button", { class: "sv-small", text: "save the picture (PNG)", onclick: () => stage.savePicture() });
-  const menu = el("details", { class: "sv-menu" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles, picture));
+  const menu = el("details", { class: "sv-menu", "data-menu": "view" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles, picture));
   return menu;
 }
 
