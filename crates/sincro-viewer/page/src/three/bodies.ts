@@ -25,7 +25,7 @@ export class Bodies {
   /** One a object: where its frame is. */
   readonly nodes: Object3D[] = [];
   readonly size: number;
-  /** What all bodies together take up at the start, about [m]: how large arrows are, how near cameras stand. */
+  /** What all that moves takes up at the start, about [m]: how large arrows are, how near cameras stand. */
   span: number;
   private outline: LineSegments[] = [];
   private readonly blades: { node: Object3D; rotor: number; sign: number }[] = [];

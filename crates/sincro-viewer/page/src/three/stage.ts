@@ -256,7 +256,12 @@ export class Stage {
       if (k !== 0 && k !== frames - 1) continue;
       const solids = this.solids();
       bounds.union(solids);
-      if (k === 0 && !solids.isEmpty()) this.main.span = Math.max(0.6 * solids.getSize(new Vector3()).length(), 1e-6);
+      if (k > 0) continue;
+      // what moves decides how large arrows are: a landscape does not
+      const moving = new Box3();
+      this.main.movers.slice(0, run.view.n_movers).forEach((mover) => moving.expandByObject(mover));
+      const size = (moving.isEmpty() ? solids : moving).getSize(new Vector3()).length();
+      if (size > 0) this.main.span = Math.max(0.6 * size, 1e-6);
     }
     if (bounds.isEmpty()) bounds.set(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
     const least = 0.25 * this.main.span;

@@ -97,7 +97,7 @@ export class Vectors {
     const drags = objects.flatMap(({ object, k }) => (object.drag === null ? [] : [{ drag: object.drag, k }]));
     const zero = new Vector3();
     const kinds: Kind[] = [
-      { key: "rotors", name: "thrust", unit: "N", color: "#009e73", share: 0.55, read: (t, show) => rotors.forEach(({ rotor, k }) => {
+      { key: "rotors", name: "thrust", unit: "N", color: "#009e73", share: 0.32, read: (t, show) => rotors.forEach(({ rotor, k }) => {
         const node = bodies.nodes[k] as Object3D;
         vector.set(0, 0, 1).transformDirection(node.matrixWorld).multiplyScalar(session.run.rotor(t, rotor, 1));
         show(bodies.position(k, at), vector);

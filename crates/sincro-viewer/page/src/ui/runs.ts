@@ -3,8 +3,8 @@
 import { el } from "../format";
 import type { Session } from "../session";
 
-/** Runs that stand side by side in the bar. */
-const MANY = 5;
+/** Runs that stand side by side in the bar at most; on a phone fewer. */
+const most = () => (matchMedia("(max-width: 820px)").matches ? 2 : 5);
 
 export function runs(session: Session): HTMLElement {
   const list = el("div", { class: "sv-runs", role: "group", "aria-label": "runs" });
@@ -27,8 +27,8 @@ export function runs(session: Session): HTMLElement {
     const { length } = session.runs;
     list.hidden = length < 2 && !session.run?.stop;
     // many go into a sheet of their own
-    menu.hidden = length <= MANY;
-    (length > MANY ? sheet : bar).prepend(list);
+    menu.hidden = length <= most();
+    (length > most() ? sheet : bar).prepend(list);
     summary.textContent = `${session.run?.name ?? ""} · ${length} runs`;
     drawPending();
   };
