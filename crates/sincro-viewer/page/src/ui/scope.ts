@@ -65,7 +65,7 @@ export class Scope {
       {
         width, height: this.height(), class: "sv-uplot",
         cursor: { drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
-        scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high) } },
+        scales: { x: { time: false, range: (_, low, high) => (low === null || low === high ? [0, this.session.film.duration || 1] : [low, high]) }, y: { range: (_, low, high) => range(low, high) } },
         axes: [
           { ...axis, values: (_, at) => at.map((t) => (t === null ? "" : `${plain(t)} s`)), space: 70, size: 28 },
           { ...axis, values: (_, at) => at.map((y) => (y === null ? "" : plain(y))), size: 62, label: unit ? `[${unit}]` : "", labelSize: 18, labelFont: axis.font },
