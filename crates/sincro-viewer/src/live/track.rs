@@ -17,6 +17,9 @@ use crate::film::stop_words;
 /// Signals beyond which the catalogue is not offered whole: what is recorded and the diagram's remain.
 const MOST_SIGNALS: usize = 400;
 
+/// Bytes that the recorded signals of a run may take: a long run with many of them is looked at less often.
+const MOST_ROW_BYTES: u64 = 256 << 20;
+
 /// A run under way.
 pub(super) struct Track {
     pub loaded: Loaded,
@@ -53,7 +56,9 @@ impl Track {
         let (recorder, columns) = recorder(&loaded)?;
         let model = &loaded.scene.model;
         let tape = Tape::new(model, &loaded.experiment);
-        let (view, layout, every) = (SceneView::new(&loaded.scene), tape.layout, tape.every);
+        let row_bytes = 8 * columns.len() as u64 * loaded.experiment.n_steps;
+        let every = tape.every.max(row_bytes.div_ceil(MOST_ROW_BYTES));
+        let (view, layout) = (SceneView::new(&loaded.scene), tape.layout);
         let trace = lockstep.trace();
         let mut new = Self {
             settings,

@@ -1,7 +1,7 @@
 // The picture: camera, light, ground, and what the reader does with the mouse.
 
 import {
-  AxesHelper, Box3, Color, DirectionalLight, GridHelper, HemisphereLight, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Quaternion, Raycaster,
+  AxesHelper, Box3, Color, DirectionalLight, GridHelper, HemisphereLight, MOUSE, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Quaternion, Raycaster,
   Scene, ShadowMaterial, Vector2, Vector3, WebGLRenderer, type Material, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -65,6 +65,8 @@ export class Stage {
     const canvas = this.renderer?.domElement ?? el("canvas");
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
+    // the middle button as in Blender: it turns, and shifts with Shift held
+    this.controls.mouseButtons.MIDDLE = MOUSE.ROTATE;
     this.controls.addEventListener("change", () => (this.isStale = true));
     this.controls.addEventListener("start", () => this.alight());
     this.overlays = new Overlays(session, this.scene);
@@ -149,7 +151,7 @@ export class Stage {
     let box = this.bounds;
     if (this.session.follow && this.session.selected !== null) {
       center.copy(this.main.position(this.session.selected));
-      box = new Box3().setFromCenterAndSize(center, new Vector3(1, 1, 1).multiplyScalar(2.2 * this.main.span));
+      box = new Box3().setFromCenterAndSize(center, new Vector3(1, 1, 1).multiplyScalar(1.35 * this.main.span));
     }
     this.look(center, direction, box);
   }
@@ -412,15 +414,15 @@ export class Stage {
   /** A click without a drag selects; hovering tells. */
   private pick(canvas: HTMLCanvasElement): void {
     const ray = new Raycaster();
-    const place = (event: PointerEvent): Vector2 => {
+    const place = (event: MouseEvent): Vector2 => {
       const box = canvas.getBoundingClientRect();
       return new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
     };
-    const find = (event: PointerEvent) => {
+    const find = (event: MouseEvent) => {
       ray.setFromCamera(place(event), this.camera);
       return ray.intersectObjects(this.main.targets, false)[0];
     };
-    const hit = (event: PointerEvent): number | null => {
+    const hit = (event: MouseEvent): number | null => {
       const found = find(event);
       return found ? (found.object.userData["object"] as number) : null;
     };
@@ -448,6 +450,14 @@ export class Stage {
     canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
     canvas.addEventListener("pointerup", (event) => {
       if (Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4) this.session.select(hit(event));
+    });
+    canvas.addEventListener("dblclick", (event) => {
+      const found = find(event);
+      if (!found || this.riding !== null) return;
+      // what was struck twice is what the camera turns about from now on
+      this.wasMoved = true;
+      this.controls.target.copy(found.point);
+      this.controls.update();
     });
     canvas.addEventListener("pointermove", (event) => {
       if (event.buttons !== 0) return;
