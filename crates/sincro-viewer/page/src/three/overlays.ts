@@ -1,11 +1,12 @@
 // What is drawn over the bodies on wish: axes, centres of mass, boxes of inertia, frames, springs, closures, cameras, paths.
 
 import {
-  ArrowHelper, AxesHelper, BoxGeometry, BufferGeometry, CatmullRomCurve3, EdgesGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial,
+  AxesHelper, BoxGeometry, BufferGeometry, CatmullRomCurve3, EdgesGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, Object3D, SphereGeometry, TorusGeometry, TubeGeometry, Vector3, type Material, type Scene,
 } from "three";
 import type { ObjectView } from "../film";
 import type { Session } from "../session";
+import { Arrow } from "./arrow";
 import type { Bodies } from "./bodies";
 import { inertiaBox, poseMatrix } from "./shapes";
 
@@ -57,13 +58,14 @@ export class Overlays {
   private jointAxes(object: ObjectView, bodies: Bodies): void {
     const joint = object.joint as NonNullable<ObjectView["joint"]>;
     const carrier = bodies.movers[joint.base_mover ?? bodies.view.n_movers] as Group;
-    const length = 0.3 * bodies.size;
+    const length = 0.34 * bodies.size;
     for (const axis of joint.axes) {
       const direction = new Vector3(...axis).normalize();
       const holder = new Group();
       holder.applyMatrix4(poseMatrix(joint.base_pose));
-      const from = direction.clone().multiplyScalar(-0.5 * length);
-      holder.add(new ArrowHelper(direction, from, length, AXIS, 0.2 * length, 0.09 * length));
+      const arrow = new Arrow(AXIS, 0.45 * bodies.size);
+      arrow.set(direction.clone().multiplyScalar(-0.5 * length), direction, length);
+      holder.add(arrow);
       this.hang(carrier, holder);
     }
   }

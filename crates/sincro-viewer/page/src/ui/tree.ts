@@ -37,6 +37,8 @@ export function tree(session: Session): HTMLElement {
         }, fold, icon(object.kind), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
       );
     });
+    // deep trees are indented less
+    list.style.setProperty("--indent", `${Math.max(4, Math.min(14, 100 / Math.max(1, ...depths)))}px`);
     list.replaceChildren(...items);
   };
   const isHidden = (k: number): boolean => {
