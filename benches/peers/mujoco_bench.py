@@ -20,7 +20,7 @@ then each request line gets exactly one JSON line, in order; end of input or `qu
                                                            (large models: as many steps as 0.1 s of work are)
     batch_lockstep MODEL INTEGRATOR STEP THREADS [WORLDS]  the same, one call a step; WORLDS is 256 unless given
     acceleration MODEL                           joint accelerations at home with every hinge at 0.3 rad/s (free body:
-                                                 at rest, angular first): compare them to know that the models agree
+                                                 at rest, angular first, body axes), contacts and limits off: compare them to know that the models agree
     seconds S                                    time spent on each figure from now on
 
 Answer to a timing request: the request's words by name, and
@@ -28,6 +28,7 @@ Answer to a timing request: the request's words by name, and
     cpu_median_ns, cpu_min_ns    the same in processor time of the calling thread; absent for a batch on several threads
     repetitions, calls_per_repetition
     method                   how the loop ran
+    contacts, rows           with geometry: contacts and rows of constraints, on average over the steps of the second
     diverged                 MuJoCo warned of a state that is not finite, and reset it
 Answer to a request that cannot be met: {"error": "…"}.
 
@@ -202,7 +203,18 @@ class Bench:
             return pair
 
         figure = measure(call, calls, self.seconds)
+        if model.ngeom:
+            figure |= self.contacts(model, data, per_second)
         return figure | {"method": "mj_step(nstep)", "diverged": bool(state["diverged"])}
+
+    def contacts(self, model, data, per_second):
+        """Contacts and rows of constraints, on average over the steps of a second that is not timed."""
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+        contacts = rows = 0
+        for _ in range(per_second):
+            mujoco.mj_step(model, data)
+            contacts, rows = contacts + data.ncon, rows + data.nefc
+        return {"contacts": contacts / per_second, "rows": rows / per_second}
 
     def function(self, function_name, name):
         """A function of (model, data) that MuJoCo calls once only: forward or inverse dynamics."""
@@ -267,15 +279,21 @@ class Bench:
 
     def acceleration(self, name):
         model, data = self.load(name)
+        # what touches a floor is compared without it: contact is soft here and rigid there
+        flags, model.opt.disableflags = model.opt.disableflags, model.opt.disableflags | int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
         hinges = [model.jnt_dofadr[j] for j in range(model.njnt) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
         data.qvel[hinges] = 0.3
         mujoco.mj_forward(model, data)
+        model.opt.disableflags = flags
         answer = {}
         for j in range(model.njnt):
             first = model.jnt_dofadr[j]
             free = model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE
-            rows = [3, 4, 5, 0, 1, 2] if free else [0]  # MuJoCo: linear first
-            answer[model.body(model.jnt_bodyid[j]).name] = [float(data.qacc[first + row]) for row in rows]
+            rows = range(3, 6) if free else [0]
+            answer.setdefault(model.body(model.jnt_bodyid[j]).name, []).extend(float(data.qacc[first + row]) for row in rows)
+            if free:  # MuJoCo: linear first, in world axes
+                axes = data.xmat[model.jnt_bodyid[j]].reshape(3, 3)
+                answer[model.body(model.jnt_bodyid[j]).name].extend(float(x) for x in axes.T @ data.qacc[first:first + 3])
         return {"acceleration": answer}
 
     def answer(self, line):

@@ -56,12 +56,20 @@ impl Timed {
     }
 }
 
+/// Robots that touch something: a world's step, all that is in it.
+const TOUCHING: [&str; 2] = ["humanoid", "humanoid_lying"];
+
 /// The timed figures of a robot. MuJoCo has no call for a recursion alone: `mj_forward` stands beside a world's rates, and
 /// `mj_inverse`, which does more than our inverse dynamics, beside that; no bar is on either.
 fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
     let step = |word: &str| ("mujoco", format!("step {model} {word} 0.005"));
     let pin = |verb: &str| ("pinocchio", format!("{verb} {model}"));
     match kind {
+        FigureKind::Step if TOUCHING.contains(&model) => {
+            let euler = |scene: &Scene, _| subjects::step(scene, MethodKind::SemiImplicitEuler, false);
+            vec![Timed::new("step semi-implicit-euler", &[step("euler")], euler)]
+        }
+        _ if TOUCHING.contains(&model) => Vec::new(),
         FigureKind::Step => vec![
             Timed::new(
                 "step semi-implicit-euler",
@@ -204,7 +212,7 @@ impl<'a> Session<'a> {
     fn agreeing(&mut self, robot: &Robot) -> Vec<&'static str> {
         let ours = subjects::accelerations(&robot.scene);
         let mut agreeing = Vec::new();
-        for peer in &mut self.peers {
+        for peer in self.peers.iter_mut().filter(|peer| !robot.touches() || peer.name == "mujoco") {
             let answer = peer.ask(&format!("acceleration {}", robot.name));
             match answer.and_then(|answer| agreement(&ours, &answer)) {
                 Ok(_) => agreeing.push(peer.name),
@@ -326,7 +334,10 @@ fn in_turn(meter: &mut Meter, peer: &mut Peer, request: &str, share: f64, on_wal
         wall: median(times.iter().map(|t| t.wall).collect()),
         cpu: median(times.iter().map(|t| of(*t)).collect()),
     };
-    let note = if last["diverged"] == true { format!("{} diverges at 5 ms", peer.name) } else { String::new() };
+    let mut note = if last["diverged"] == true { format!("{} diverges at 5 ms", peer.name) } else { String::new() };
+    if let (Some(contacts), Some(rows)) = (last["contacts"].as_f64(), last["rows"].as_f64()) {
+        note += &format!("{}: {contacts:.1} contacts, {rows:.1} rows in all", peer.name);
+    }
     Ok(Rival { peer: peer.name, request: request.to_owned(), time, ratio: median(ratios), note, answer: last })
 }
 

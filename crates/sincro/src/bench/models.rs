@@ -13,8 +13,15 @@ pub(super) struct Robot {
     pub scene: Scene,
 }
 
+impl Robot {
+    /// Whether it touches something: only steps are compared then, and only with peers that know contact.
+    pub fn touches(&self) -> bool {
+        !self.scene.model.constraints().pairs.is_empty()
+    }
+}
+
 /// Every robot, in the order of the table.
-pub(super) const NAMES: [&str; 11] = [
+pub(super) const NAMES: [&str; 13] = [
     "pend_spring",
     "pend_free",
     "arm2",
@@ -26,6 +33,8 @@ pub(super) const NAMES: [&str; 11] = [
     "chain50",
     "chain100",
     "chain200",
+    "humanoid",
+    "humanoid_lying",
 ];
 
 /// Text of the scene of a robot.
@@ -38,6 +47,8 @@ fn text(name: &str) -> String {
         "alexandros" => include_str!("../../../../benches/models/alexandros/scene.toml").into(),
         "quad" => include_str!("../../../../benches/models/quad/scene.toml").into(),
         "panda" => include_str!("../../../../benches/models/panda/scene.toml").into(),
+        "humanoid" => include_str!("../../../../benches/models/humanoid/scene.toml").into(),
+        "humanoid_lying" => include_str!("../../../../benches/models/humanoid_lying/scene.toml").into(),
         chain => chain_text(chain["chain".len()..].parse().expect("a chain's name ends in its length")),
     }
 }

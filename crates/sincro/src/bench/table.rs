@@ -52,7 +52,7 @@ pub(super) fn say_columns() {
 }
 
 fn line([model, figure, ours, peer, theirs, ratio, bar, verdict]: [&str; 8]) -> String {
-    format!("{model:<12}{figure:<32}{ours:>12}  {peer:<11}{theirs:>9}{ratio:>9}  {bar:<8}{verdict}")
+    format!("{model:<15}{figure:<32}{ours:>12}  {peer:<11}{theirs:>9}{ratio:>9}  {bar:<8}{verdict}")
 }
 
 impl Row {
