@@ -6,7 +6,7 @@
 mod eye;
 mod solid;
 
-use sincro_sim::replay::{ObjectView, SceneView};
+use sincro_sim::replay::{ObjectView, SceneView, Tape};
 
 use crate::vector::{V, add, compose, cross, dot, origin, point, sub, unit};
 use eye::Eye;
@@ -21,7 +21,48 @@ const FLOOR: &str = "#d9dde2";
 
 /// The scene in one frame (poses of its movers first), `width` × `height` `[px]`; empty if there is nothing to see.
 #[must_use]
-pub fn still(view: &SceneView, frame: &[f32], (width, height): (f64, f64)) -> String {
+pub fn still(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
+    let (faces, eye) = (faces(view, frame), eye(view, frame));
+    if faces.is_empty() {
+        return String::new();
+    }
+    let below = planes(view, frame, bounds(&faces));
+    paint(&below, &faces, &eye, (framing(&faces, &eye, size), size))
+}
+
+/// Pictures of a run, all framed alike, to be files of their own: at most `rate` a simulated second and `most` in all.
+#[must_use]
+pub fn strip(view: &SceneView, tape: &Tape, (rate, most): (f64, usize), size: (f64, f64)) -> Vec<String> {
+    let (Some(start), Some(end)) = (tape.times.first(), tape.times.last()) else { return Vec::new() };
+    let n = (((end - start) * rate) as usize + 1).min(most.max(1));
+    let at = |k: usize| {
+        let t = start + (end - start) * k as f64 / (n.max(2) - 1) as f64;
+        // half a nanosecond of grace: times are sums
+        tape.times.partition_point(|known| *known <= t + 5e-10).max(1) - 1
+    };
+    // the whole run is in view from the first picture on
+    let mut all = Vec::new();
+    for k in (0..tape.n_frames()).step_by(tape.n_frames().div_ceil(200)) {
+        all.extend(faces(view, tape.frame(k)));
+    }
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let (whole, first) = (bounds(&all), eye(view, tape.frame(0)));
+    let framing = framing(&all, &first, size);
+    drop(all);
+    let one = |k: usize| {
+        let frame = tape.frame(at(k));
+        let picture = paint(&planes(view, frame, whole), &faces(view, frame), &eye(view, frame), (framing, size));
+        let (width, height) = size;
+        let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"");
+        picture.replacen("<svg", &head, 1).replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"#f7f8fa\"/>", 1)
+    };
+    (0..n).map(one).collect()
+}
+
+/// Everything but planes.
+fn faces(view: &SceneView, frame: &[f32]) -> Vec<Face> {
     let mut faces = Vec::new();
     let mut n_bodies = 0;
     for object in &view.objects {
@@ -33,23 +74,28 @@ pub fn still(view: &SceneView, frame: &[f32], (width, height): (f64, f64)) -> St
         }
         rest(view, object, (&x_wo, frame), rgb(color), &mut faces);
     }
-    if faces.is_empty() {
-        return String::new();
-    }
-    let through = view.objects.iter().find_map(|o| Some((o, o.camera.as_ref()?)));
-    let eye = through.map_or_else(Eye::far, |(object, camera)| {
-        Eye::camera(&compose(&mover(object.mover, frame), &object.pose), camera.field_of_view_deg)
-    });
-    paint(&planes(view, frame, &faces), &faces, &eye, (width, height))
+    faces
 }
 
-/// The pieces of planes below the rest, which is painted over them.
-fn planes(view: &SceneView, frame: &[f32], faces: &[Face]) -> Vec<Face> {
+/// The scene's first camera, or far away.
+fn eye(view: &SceneView, frame: &[f32]) -> Eye {
+    let through = view.objects.iter().find_map(|o| Some((o, o.camera.as_ref()?)));
+    through.map_or_else(Eye::far, |(object, camera)| {
+        Eye::camera(&compose(&mover(object.mover, frame), &object.pose), camera.field_of_view_deg)
+    })
+}
+
+/// Least and greatest coordinates of all corners.
+fn bounds(faces: &[Face]) -> (V, V) {
     let corners = || faces.iter().flat_map(|face| &face.corners);
     let bound = |of: fn(f64, f64) -> f64| -> V {
         std::array::from_fn(|k| corners().map(|p| p[k]).reduce(of).expect("there are faces"))
     };
-    let bounds = (bound(f64::min), bound(f64::max));
+    (bound(f64::min), bound(f64::max))
+}
+
+/// The pieces of planes below the rest, which is painted over them.
+fn planes(view: &SceneView, frame: &[f32], bounds: (V, V)) -> Vec<Face> {
     let mut made = Vec::new();
     for object in &view.objects {
         for shape in object.shapes.iter().filter(|shape| shape.kind == "plane") {
@@ -98,11 +144,12 @@ fn mover(index: Option<usize>, frame: &[f32]) -> [f64; 7] {
 }
 
 /// Paints `below` first, as it comes, then the faces from back to front.
-fn paint(below: &[Face], faces: &[Face], eye: &Eye, (width, height): (f64, f64)) -> String {
-    let (scale, middle) = match eye.tall() {
-        Some(tall) => (height / tall, (0.0, 0.0)),
-        None => fit(faces, eye, (width, height)),
-    };
+fn paint(
+    below: &[Face],
+    faces: &[Face],
+    eye: &Eye,
+    ((scale, middle), (width, height)): (Framing, (f64, f64)),
+) -> String {
     let place = |p: &V| {
         let (x, y) = eye.flat(*p)?;
         Some((width / 2.0 + scale * (x - middle.0), height / 2.0 + scale * (y - middle.1)))
@@ -116,8 +163,14 @@ fn paint(below: &[Face], faces: &[Face], eye: &Eye, (width, height): (f64, f64))
     )
 }
 
-/// Scale and middle at which all faces are in the picture.
-fn fit(faces: &[Face], eye: &Eye, (width, height): (f64, f64)) -> (f64, (f64, f64)) {
+/// Scale and middle of the picture.
+type Framing = (f64, (f64, f64));
+
+/// A camera has its own; from far away all faces are in the picture.
+fn framing(faces: &[Face], eye: &Eye, (width, height): (f64, f64)) -> Framing {
+    if let Some(tall) = eye.tall() {
+        return (height / tall, (0.0, 0.0));
+    }
     let all = || faces.iter().flat_map(|f| f.corners.iter().filter_map(|p| eye.flat(*p)));
     let range = |of: fn((f64, f64)) -> f64| {
         let values = all().map(of);
@@ -187,19 +240,50 @@ mod tests {
         faces
     }
 
+    fn picture(eye: &Eye) -> String {
+        let size = (300.0, 300.0);
+        paint(&[], &cube(), eye, (framing(&cube(), eye, size), size))
+    }
+
     #[test]
     fn a_cube_shows_three_of_its_faces() {
-        assert_eq!(paint(&[], &cube(), &Eye::far(), (100.0, 100.0)).matches("<path").count(), 3);
+        assert_eq!(picture(&Eye::far()).matches("<path").count(), 3);
     }
 
     #[test]
     fn a_camera_shows_what_is_before_it_at_its_size() {
         // 1.5 m from the front face, which looks down on it; half the picture's height there is 1.5 m
         let ahead = Eye::camera(&[0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 1.0], 90.0);
-        let picture = paint(&[], &cube(), &ahead, (300.0, 300.0));
-        assert_eq!(picture.matches("<path").count(), 1, "{picture}");
-        assert!(picture.contains("100.0 100.0") && picture.contains("200.0 200.0"), "{picture}");
+        let picture_ahead = picture(&ahead);
+        assert_eq!(picture_ahead.matches("<path").count(), 1, "{picture_ahead}");
+        assert!(picture_ahead.contains("100.0 100.0") && picture_ahead.contains("200.0 200.0"), "{picture_ahead}");
         let behind = Eye::camera(&[0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0], 90.0);
-        assert_eq!(paint(&[], &cube(), &behind, (300.0, 300.0)).matches("<path").count(), 0);
+        assert_eq!(picture(&behind).matches("<path").count(), 0);
+    }
+
+    #[test]
+    fn pictures_of_a_run_are_framed_alike() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-open-loop");
+        let loaded = sincro_sim::load(&folder, &[]).unwrap();
+        let interrupt = std::sync::atomic::AtomicBool::new(false);
+        let campaign = sincro_sim::run::run_campaign(&folder, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
+        let tape = campaign.main.simulated.tape.as_ref().unwrap();
+        let span = tape.times.last().unwrap() - tape.times[0];
+        let pictures = strip(&campaign.main.view, tape, (4.0, 1000), (400.0, 300.0));
+        assert_eq!(pictures.len(), (4.0 * span) as usize + 1);
+        assert_eq!(strip(&campaign.main.view, tape, (4.0, 7), (400.0, 300.0)).len(), 7);
+        assert!(pictures.iter().all(|picture| picture.starts_with("<svg xmlns=")));
+        assert!(pictures[0] != pictures[1], "something moves");
+        // whatever moves, no corner leaves the picture
+        let numbers = |picture: &str| -> Vec<f64> {
+            let paths = picture.split(" d=\"").skip(1).map(|rest| rest.split('"').next().unwrap_or("").to_owned());
+            paths
+                .flat_map(|d| d.split(['M', 'L', 'z', ' ']).filter_map(|x| x.parse().ok()).collect::<Vec<f64>>())
+                .collect()
+        };
+        for picture in &pictures {
+            let inside = |pair: &[f64]| (0.0..=400.0).contains(&pair[0]) && (0.0..=300.0).contains(&pair[1]);
+            assert!(numbers(picture).chunks_exact(2).all(inside), "{picture}");
+        }
     }
 }
