@@ -7,6 +7,7 @@ use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use sincro_dynamics::start;
 use sincro_dynamics::state::State;
 
+use super::body;
 use super::file::{BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, LimitsFile, SceneFile};
 use super::object::{Object, ObjectKind, ShapeInstance};
 use super::placement::{self, Placement};
@@ -27,6 +28,8 @@ pub(super) struct Skin {
     pub material: Option<Material>,
     /// Surfaces that are no solids.
     pub surfaces: Vec<(Surface, Pose<f64>)>,
+    /// Colours of those, as far as they have one.
+    pub colors: Vec<Option<[u8; 3]>>,
 }
 
 impl Skin {
@@ -44,7 +47,7 @@ impl Skin {
 
 /// Material and surfaces of a body.
 pub(super) fn skin(file: &BodyFile, pointer: &str, document: &Document, problems: &mut Problems) -> Skin {
-    let mut surfaces = Vec::new();
+    let (mut surfaces, mut colors) = (Vec::new(), Vec::new());
     for (k, shape) in file.shape.iter().enumerate() {
         let pointer = format!("{pointer}/shape/{k}");
         let surface = match (&shape.plane, &shape.hull) {
@@ -62,6 +65,7 @@ pub(super) fn skin(file: &BodyFile, pointer: &str, document: &Document, problems
         }
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
         surfaces.push((surface, placement::pose(&placement, &pointer, document, problems)));
+        colors.push(shape.color.as_ref().and_then(|text| body::color(text, &pointer, document, problems)));
     }
     let material = file.contact.as_ref().map(|contact| {
         if file.shape.is_empty() {
@@ -71,7 +75,7 @@ pub(super) fn skin(file: &BodyFile, pointer: &str, document: &Document, problems
         }
         material(contact, &format!("{pointer}/contact"), document, problems)
     });
-    Skin { material, surfaces }
+    Skin { material, surfaces, colors }
 }
 
 fn material(file: &ContactFile, pointer: &str, document: &Document, problems: &mut Problems) -> Material {

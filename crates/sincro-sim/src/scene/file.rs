@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
+use super::camera::CameraFile;
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
@@ -24,7 +25,7 @@ pub(crate) struct SceneFile {
     /// Bodies: what has mass and shape.
     #[serde(default)]
     pub body: Vec<BodyFile>,
-    /// Named points and axes without mass: tips, sensors, cameras.
+    /// Named points and axes without mass: tips, grips, marks.
     #[serde(default)]
     pub frame: Vec<FrameFile>,
     /// External forces and torques on bodies.
@@ -39,6 +40,9 @@ pub(crate) struct SceneFile {
     /// Sensors: sampled at rates of their own, with errors.
     #[serde(default)]
     pub sensor: Vec<SensorFile>,
+    /// Cameras: where the viewer and still pictures look from.
+    #[serde(default)]
+    pub camera: Vec<CameraFile>,
     /// Wind, felt by rotors and drag elements: a table of `mean`, `profile`, `gust` and `turbulence`; none if left out.
     pub wind: Option<WindFile>,
     /// Scripts, each on an object.

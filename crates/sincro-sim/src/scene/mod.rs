@@ -5,6 +5,7 @@
 
 mod air;
 mod body;
+mod camera;
 mod contact;
 mod file;
 mod initial;
@@ -85,6 +86,7 @@ enum Spec {
     Rotor(Box<rotor::RotorMade>, Signal),
     Drag(DragSpec),
     Sensor(Option<SensorSpec>),
+    Camera(f64),
 }
 
 /// Compiles a document that fits the schema; `seed` is that of the turbulence.
@@ -155,6 +157,7 @@ impl Maker<'_> {
                 let (path, pointer) = (&entry.path, &entry.pointer);
                 Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.problems))
             }
+            tree::AnyFile::Camera(file) => Spec::Camera(file.field_of_view_deg),
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
     }
@@ -164,6 +167,9 @@ impl Maker<'_> {
     }
 
     fn pose(&mut self, entry: &Entry<'_>) -> Pose<f64> {
+        if let tree::AnyFile::Camera(file) = entry.file {
+            return camera::pose(file, &entry.pointer, self.document, self.problems);
+        }
         placement::pose(&entry.placement(), &entry.pointer, self.document, self.problems)
     }
 }
@@ -230,6 +236,8 @@ impl Assembly {
                 (self.builder.frame(&path, parent, pose), ObjectKind::Sensor)
             }
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
+            // nothing hangs on a camera, and the model knows none
+            Spec::Camera(field_of_view_deg) => (parent, ObjectKind::Camera { field_of_view_deg }),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
             Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
             Spec::Rotor(made, speed) => {
@@ -242,8 +250,20 @@ impl Assembly {
         let name = entry.name.to_owned();
         let location = document.title_at(&entry.pointer);
         skin.add_to(&mut self.builder, node, &shapes);
-        let contact::Skin { material: contact, surfaces } = skin;
-        self.objects.push(Object { path, name, kind, parent: place.parent, pose, contact, surfaces, shapes, location });
+        let contact::Skin { material: contact, surfaces, colors: surface_colors } = skin;
+        let parent = place.parent;
+        self.objects.push(Object {
+            path,
+            name,
+            kind,
+            parent,
+            pose,
+            contact,
+            surfaces,
+            surface_colors,
+            shapes,
+            location,
+        });
         self.nodes.push(node);
         self.entry_of.push(place.entry);
     }

@@ -231,6 +231,7 @@ impl Table {
                     let at = of_frame().unwrap_or(beside);
                     (Kind::Frame, at, at)
                 }
+                ObjectKind::Camera { .. } => (Kind::Frame, beside, beside),
                 ObjectKind::Fixture => {
                     let at = of_frame().unwrap_or(beside);
                     let none = MassProperties { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use sincro_sim::Loaded;
 use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
-use sincro_sim::run::Campaign;
+use sincro_sim::run::{Campaign, Done};
 use sincro_viewer::film::Film;
 
 use crate::plot::{self, Figure, Size};
@@ -34,6 +34,26 @@ pub(crate) fn write(
     write_text(&out.join("replay.json"), &film)?;
     let replay = sincro_viewer::embed::replay(&film);
     write_text(&out.join("report.html"), &report::html(&Page { replay, ..page(loaded, campaign, figures, up) }))
+}
+
+/// Size of a picture of a run `[px]`.
+const FRAME: (f64, f64) = (960.0, 540.0);
+/// Pictures of a run a simulated second [1/s], and in all.
+const FRAMES: (f64, usize) = (30.0, 1800);
+
+/// Writes pictures of a run into `frames` in a results folder.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub(crate) fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
+    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let folder = out.join("frames");
+    sincro_sim::results::prepare(&folder)?;
+    for (k, picture) in sincro_viewer::picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
+        write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
+    }
+    Ok(())
 }
 
 /// What the viewer shows of a campaign.
@@ -168,7 +188,8 @@ fn stop(status: &Status) -> Option<Stop> {
     match status {
         Status::Completed => None,
         Status::Ended { time, reason, .. } => {
-            let reason = format!("The run ended at t = {time} s as it was to: {reason}.");
+            let at = plot::number::short(*time, 9);
+            let reason = format!("The run ended at t = {at} s as it was to: {reason}.");
             Some(Stop { time: *time, reason, help: String::new(), is_good: true })
         }
         Status::Stopped { time, reason, help, .. } => {
