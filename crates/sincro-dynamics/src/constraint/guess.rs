@@ -35,6 +35,8 @@ const MAX_TERMS: usize = 6;
 #[derive(Clone, Debug)]
 pub(crate) struct Guess<R> {
     unknowns: Vec<Unknown>,
+    tested: Vec<usize>,
+    across: Vec<usize>,
     column: Vec<R>,
     /// A λ + b.
     pub rates: Vec<R>,
@@ -42,7 +44,7 @@ pub(crate) struct Guess<R> {
 
 impl<R> Default for Guess<R> {
     fn default() -> Self {
-        Self { unknowns: Vec::new(), column: Vec::new(), rates: Vec::new() }
+        Self { unknowns: Vec::new(), tested: Vec::new(), across: Vec::new(), column: Vec::new(), rates: Vec::new() }
     }
 }
 
@@ -72,6 +74,8 @@ impl<R: Real> Guess<R> {
     pub fn reserve(&mut self, m: usize) {
         let more = |len: usize| m.saturating_sub(len);
         self.unknowns.reserve(more(self.unknowns.len()));
+        self.tested.reserve(more(self.tested.len()));
+        self.across.reserve(more(self.across.len()));
         for list in [&mut self.column, &mut self.rates] {
             list.reserve(more(list.len()));
         }
@@ -131,10 +135,14 @@ impl<R: Real> Guess<R> {
         let n = self.unknowns.len();
         dense.reset(n);
         let mut column = core::mem::take(&mut self.column);
+        self.list_tested(blocks);
         for j in 0..n {
             let unknown = self.unknowns[j];
             self.answer(instant, unknown, blocks, &mut column);
-            for i in 0..n {
+            for (i, row) in self.tested.iter().enumerate() {
+                dense.set(i, j, column[*row]);
+            }
+            for i in self.across.iter().copied() {
                 dense.set(i, j, self.test(self.unknowns[i], blocks, &column));
             }
             let mut rest = self.test(unknown, blocks, &self.rates);
@@ -147,6 +155,21 @@ impl<R: Real> Guess<R> {
             dense.rhs[j] = -rest;
         }
         self.column = column;
+    }
+
+    /// The row that each unknown is tested with (for what is tested across, any), and which are tested across.
+    fn list_tested(&mut self, blocks: &[Block<R>]) {
+        self.tested.clear();
+        self.across.clear();
+        for (k, unknown) in self.unknowns.iter().enumerate() {
+            self.tested.push(match *unknown {
+                Unknown::Row(row) => row,
+                Unknown::Normal(block) | Unknown::Across(block, _) => blocks[block].row,
+            });
+            if let Unknown::Across(..) = unknown {
+                self.across.push(k);
+            }
+        }
     }
 
     /// Adds changes of the unknowns to λ.

@@ -243,8 +243,11 @@ impl<R: Real> Constraints<R> {
         v_dot: &mut [R],
         has_drives: bool,
     ) {
-        kinematics::chain_poses(model, scratch);
-        self.motions.place(model, scratch, v);
+        if level == Level::Acceleration {
+            kinematics::chain_poses(model, scratch);
+            self.motions.place(model, scratch, v);
+        }
+        // a step at velocity level starts where it was last asked what touches: poses and twists stand
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
         if self.rows.is_empty() {
             return;

@@ -74,13 +74,12 @@ impl<R: Real> Solver<R> {
     }
 
     fn search(&mut self, instant: &Instant<'_, R>, blocks: &mut [Block<R>], lambda: &mut [R]) {
-        self.start.clear();
-        self.start.extend_from_slice(lambda);
         if self.mend(instant, blocks, lambda) {
             return;
         }
         self.report.split += 1;
-        lambda.copy_from_slice(&self.start);
+        // from nothing, so that redundant contacts share alike: what they had did not fit
+        lambda.fill(R::zero());
         ask_all(blocks);
         let mut asked = core::mem::take(&mut self.asked);
         asked.clear();
@@ -92,7 +91,8 @@ impl<R: Real> Solver<R> {
             blocks.copy_from_slice(&asked);
             self.guess.take(instant.n_free, blocks, lambda);
             self.splitting.finish(&self.guess, blocks, lambda);
-            self.start.copy_from_slice(lambda);
+            self.start.clear();
+            self.start.extend_from_slice(lambda);
             if self.mend(instant, blocks, lambda) {
                 break;
             }
