@@ -458,19 +458,10 @@ pub(crate) struct MeshFile {
     /// STL (binary or text) or OBJ file, its path relative to the folder.
     pub file: String,
     /// What its lengths are multiplied by, one number or one for each axis; 0.001 if it is in millimetres.
-    #[schemars(schema_with = "scale_schema")]
     pub scale: Option<OneOrList<f64>>,
     /// Its convex hull in its place; what moves and touches needs one.
     #[serde(default)]
     pub convex: bool,
-}
-
-fn scale_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-    let number = serde_json::json!({ "type": "number", "exclusiveMinimum": 0.0 });
-    schemars::json_schema!({
-        "anyOf": [number, { "type": "array", "items": number, "minItems": 3, "maxItems": 3 }],
-        "default": 1.0
-    })
 }
 
 /// Heights over a grid centred on the frame of the shape.

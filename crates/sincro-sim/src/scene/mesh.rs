@@ -73,7 +73,14 @@ pub(super) fn meshes(
         let named = Located { value: mesh.file.clone(), at: document.at(&format!("{pointer}/mesh/file")) };
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
         let pose = placement::pose(&placement, &pointer, document, problems);
-        match read(&named, mesh, folder) {
+        let scale = mesh.scale.as_ref().map_or(&[1.0][..], OneOrList::as_slice);
+        if !matches!(scale.len(), 1 | 3) || !scale.iter().all(|x| *x > 0.0) {
+            let at = document.at(&format!("{pointer}/mesh/scale"));
+            let problem = Problem::error(&at, format!("`scale` of the mesh `{}` is {scale:?}", mesh.file));
+            problems.push(problem.with_help("give a positive number, or one for x, y and z; 0.001 for millimetres"));
+            continue;
+        }
+        match read(&named, mesh, scale, folder) {
             Ok(found) => {
                 let density = shape.density.or(file.density);
                 list.push(MeshInstance { mesh: found, is_convex: mesh.convex, pose, density });
@@ -85,7 +92,7 @@ pub(super) fn meshes(
 }
 
 /// The mesh of a file, scaled; its hull if that is asked for.
-fn read(named: &Located<String>, file: &MeshFile, folder: &Folder) -> Result<Triangles, Vec<Problem>> {
+fn read(named: &Located<String>, file: &MeshFile, scale: &[f64], folder: &Folder) -> Result<Triangles, Vec<Problem>> {
     let bytes = folder.bytes_named(named).map_err(|p| vec![p])?;
     let shown = folder.path_of(&named.value);
     let source = |text: &str| Arc::new(SourceText { path: shown.clone(), text: text.to_owned() });
@@ -104,7 +111,6 @@ fn read(named: &Located<String>, file: &MeshFile, folder: &Folder) -> Result<Tri
             vec![Problem { help: p.help, ..Problem::error(&named.at, format!("`{}`: {}", named.value, p.message)) }]
         }
     })?;
-    let scale = file.scale.as_ref().map_or(&[1.0][..], OneOrList::as_slice);
     let corners = found.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c.min(scale.len() - 1)]));
     let found = Triangles { corners: corners.collect(), triangles: found.triangles };
     if file.convex { convex(&found, named) } else { closed(found, named) }
