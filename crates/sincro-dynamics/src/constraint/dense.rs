@@ -1,4 +1,4 @@
-//! A small dense system solved by elimination with complete pivoting: it tells the rank, and what is redundant gets nothing. Rows and columns are
+//! A small dense system solved by elimination with pivoting, complete where pivots are small: it tells the rank, and what is redundant gets nothing. Rows and columns are
 //! first scaled to a diagonal of one, so that rank does not depend on masses and units.
 
 use sincro_math::Real;
@@ -9,6 +9,9 @@ pub(crate) const RANK: f64 = 1e-11;
 /// Scaled pivots below this are too small to project along: close to a singular position of a loop (0.2° off one for arms of equal length) what is a
 /// thousandth of a micrometre across the loop is a micrometre along it, and taking it away would throw the mechanism off its branch.
 pub(crate) const PROJECTION_RANK: f64 = 1e-5;
+
+/// Scaled pivots on the diagonal above this are taken without looking further.
+const LARGE: f64 = 0.05;
 
 /// Matrix, right-hand side and orders of elimination; grows to the largest system it has seen.
 #[derive(Clone, Debug, Default)]
@@ -49,6 +52,14 @@ impl<R: Real> Dense<R> {
 
     pub fn set(&mut self, i: usize, j: usize, x: R) {
         self.a[i * self.n + j] = x;
+    }
+
+    pub fn add(&mut self, i: usize, j: usize, x: R) {
+        self.a[i * self.n + j] += x;
+    }
+
+    pub fn get(&self, i: usize, j: usize) -> R {
+        self.a[i * self.n + j]
     }
 
     /// Rows (in the order of elimination) that turned out to depend on others in the last solve.
@@ -98,17 +109,23 @@ impl<R: Real> Dense<R> {
         }
     }
 
+    /// Row, column and size of the next pivot: the largest of the diagonal, unless all that is left of it is small; then the largest of all.
     fn pivot(&self, k: usize) -> (usize, usize, f64) {
-        let (mut best, mut size) = ((k, k), -1.0);
-        for i in k..self.n {
-            for j in k..self.n {
-                let x = self.a[i * self.n + j].lane(0).abs();
-                if x > size {
-                    (best, size) = ((i, j), x);
+        let n = self.n;
+        let size = |i: usize, j: usize| self.a[i * n + j].lane(0).abs();
+        let d = (k + 1..n).fold(k, |d, i| if size(i, i) > size(d, d) { i } else { d });
+        if size(d, d) > LARGE {
+            return (d, d, size(d, d));
+        }
+        let (mut best, mut largest) = ((k, k), -1.0);
+        for i in k..n {
+            for j in k..n {
+                if size(i, j) > largest {
+                    (best, largest) = ((i, j), size(i, j));
                 }
             }
         }
-        (best.0, best.1, size)
+        (best.0, best.1, largest)
     }
 
     fn swap(&mut self, k: usize, p: usize, q: usize) {
@@ -143,6 +160,65 @@ impl<R: Real> Dense<R> {
             let of_pivot = self.rhs[k];
             self.rhs[i] -= factor * of_pivot;
         }
+    }
+}
+
+/// A regular system factored once and solved many times: elimination with row pivoting.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Factor {
+    n: usize,
+    lu: Vec<f64>,
+    order: Vec<usize>,
+    work: Vec<f64>,
+}
+
+impl Factor {
+    /// Factors a matrix given row by row.
+    pub fn factor(&mut self, n: usize, matrix: impl Fn(usize, usize) -> f64) {
+        self.n = n;
+        self.lu.clear();
+        self.lu.extend((0..n * n).map(|k| matrix(k / n, k % n)));
+        self.order.clear();
+        self.order.extend(0..n);
+        for k in 0..n {
+            let p = (k + 1..n).fold(k, |p, i| if self.lu[i * n + k].abs() > self.lu[p * n + k].abs() { i } else { p });
+            if p != k {
+                for j in 0..n {
+                    self.lu.swap(k * n + j, p * n + j);
+                }
+                self.order.swap(k, p);
+            }
+            let inverse = 1.0 / self.lu[k * n + k];
+            let (above, below) = self.lu.split_at_mut((k + 1) * n);
+            let pivot = &above[k * n + k + 1..];
+            for row in below.chunks_exact_mut(n) {
+                let factor = row[k] * inverse;
+                row[k] = factor;
+                if factor != 0.0 {
+                    for (x, p) in row[k + 1..].iter_mut().zip(pivot) {
+                        *x -= factor * *p;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Replaces a right-hand side by the solution.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let n = self.n;
+        self.work.clear();
+        self.work.extend(self.order.iter().map(|k| x[*k]));
+        for i in 0..n {
+            let row = &self.lu[i * n..i * n + i];
+            let sum: f64 = row.iter().zip(&self.work).map(|(l, y)| l * y).sum();
+            self.work[i] -= sum;
+        }
+        for i in (0..n).rev() {
+            let row = &self.lu[i * n..(i + 1) * n];
+            let sum: f64 = row[i + 1..].iter().zip(&self.work[i + 1..]).map(|(u, y)| u * y).sum();
+            self.work[i] = (self.work[i] - sum) / row[i];
+        }
+        x.copy_from_slice(&self.work);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::cone::{Block, Grip};
 use super::dense::PROJECTION_RANK;
+use super::guess::Instant;
 use super::{Constraints, ContactPoint, dot, pair_of, restitution};
 use crate::contact::feature::tangents;
 use crate::model::Model;
@@ -35,7 +36,8 @@ impl Constraints<f64> {
                 self.b[block.row] += restitution(model, block.slot) * self.before[block.row];
             }
         }
-        self.solver.solve(&self.a, &self.b, self.n_free, &mut self.blocks, &mut self.lambda);
+        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&instant, &mut self.blocks, &mut self.lambda);
         let mut change = core::mem::take(&mut self.kick);
         change.fill(0.0);
         self.push(model, scratch, &mut change, has_drives);
@@ -106,7 +108,8 @@ impl Constraints<f64> {
             None => self.b.extend_from_slice(&self.residual),
         }
         self.solver.rank = PROJECTION_RANK;
-        self.solver.correct(&self.a, &self.b, self.n_free, &[], &mut self.lambda);
+        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.correct(&instant, &[], &mut self.lambda);
         out.fill(0.0);
         self.push(model, scratch, out, false);
     }

@@ -5,11 +5,37 @@
 //! | forces | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
 //! | code | 0 never seen, else 1 + 1·open + 2, 4, 8·slipping group + 16·what can be seen of it | yes |
 //! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
+//!
+//! The last number is [`Patience`].
 
 use sincro_math::Real;
 
 use super::SLOT;
 use super::cone::{Block, Grip};
+
+/// Length of the part of the state that belongs to `n_slots` slots.
+pub(crate) fn length(n_slots: usize) -> usize {
+    if n_slots == 0 { 0 } else { SLOT * n_slots + 1 }
+}
+
+/// After a tick in which events came too thick, how many of the next are made at velocity level without trying, and how many are left of them: more every
+/// time, until a tick goes well. A heap that comes to rest would cost a hundred located events a tick otherwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Patience {
+    pub pause: u32,
+    pub left: u32,
+}
+
+impl Patience {
+    /// Most ticks without trying.
+    const MOST: u32 = 32;
+
+    /// After one more tick with too many events.
+    pub fn lost(self) -> Self {
+        let pause = (2 * self.pause).clamp(1, Self::MOST);
+        Self { pause, left: pause }
+    }
+}
 
 #[derive(Clone, Debug)]
 pub(crate) struct Memory<R> {
@@ -28,13 +54,24 @@ pub(crate) struct Memory<R> {
 impl<R: Real> Memory<R> {
     pub fn new(n_slots: usize) -> Self {
         Self {
-            numbers: vec![R::zero(); SLOT * n_slots],
+            numbers: vec![R::zero(); length(n_slots)],
             closed: vec![false; n_slots],
             slides: vec![[false; 3]; n_slots],
             directions: vec![[[R::zero(); 2]; 3]; n_slots],
             start: vec![0.0; n_slots],
             start_directions: vec![[[R::zero(); 2]; 3]; n_slots],
             reversed: vec![[false; 3]; n_slots],
+        }
+    }
+
+    pub fn patience(&self) -> Patience {
+        let number = self.numbers.last().map_or(0, |x| x.lane(0) as u32);
+        Patience { pause: number / 256, left: number % 256 }
+    }
+
+    pub fn set_patience(&mut self, patience: Patience) {
+        if let Some(number) = self.numbers.last_mut() {
+            *number = R::splat(f64::from(256 * patience.pause + patience.left));
         }
     }
 
@@ -97,8 +134,7 @@ impl<R: Real> Memory<R> {
                 let square = d[0] * d[0] + d[1] * d[1];
                 if square.lane(0) > 0.0 {
                     let inverse = R::one() / square.sqrt();
-                    group.grip = Grip::Slip;
-                    group.direction = d.map(|x| x * inverse);
+                    group.slip(d.map(|x| x * inverse), None);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The one constraint solver: closed loops, couplings, limits of joints and contacts, over the reduced coordinates.
 //!
-//! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built column
-//! by column from responses of the articulated-body recursion (`respond`), so that held degrees of freedom (ideal motors, sticking joint
+//! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built row
+//! by row from what the articulated-body recursion makes of each (`respond`), so that held degrees of freedom (ideal motors, sticking joint
 //! friction) and the implicit terms of an integrator are in it for nothing. Nothing is soft: no gain, no penalty, no drift to tune. After each
 //! accepted sub-step the world projects positions and velocities in the metric of the mass matrix.
 //!
@@ -9,9 +9,11 @@
 //! |---|---|
 //! | `row` | rows in world coordinates, their rates, their Jacobians |
 //! | `closure` | loops and couplings |
-//! | `respond` | M⁻¹ times a vector |
+//! | `respond` | A, and M⁻¹ times a vector |
 //! | `dense` | elimination with rank |
-//! | `cone` | friction: blocks, sweeps |
+//! | `cone` | friction: blocks and groups |
+//! | `guess` | what a guess about them leaves unknown |
+//! | `split` | the solution without a guess |
 //! | `solve` | the problem of one instant |
 //! | `impact` | impacts, projections, points of contact |
 //! | `memory` | who does what |
@@ -23,11 +25,13 @@ pub mod closure;
 mod cone;
 mod dense;
 pub(crate) mod events;
+mod guess;
 mod impact;
-mod memory;
+pub(crate) mod memory;
 mod respond;
 pub(crate) mod row;
 mod solve;
+mod split;
 
 use sincro_math::Real;
 
@@ -40,6 +44,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use cone::{Block, Grip, Group};
+use guess::Instant;
 use memory::Memory;
 use row::{Motions, Row, force_at, force_rate};
 use solve::Solver;
@@ -101,6 +106,12 @@ impl ConstraintSet {
         self.limits.len() + self.n_contacts()
     }
 
+    /// Length of [`crate::state::State::contacts`].
+    #[must_use]
+    pub fn n_numbers(&self) -> usize {
+        memory::length(self.n_slots())
+    }
+
     /// Number of rows of closures and couplings.
     #[must_use]
     pub fn n_bilateral(&self) -> usize {
@@ -153,7 +164,7 @@ pub(crate) struct Constraints<R> {
     pub n_free: usize,
     pub blocks: Vec<Block<R>>,
     jacobian: Vec<R>,
-    responses: Vec<R>,
+    innovations: respond::Innovations<R>,
     a: Vec<R>,
     b: Vec<R>,
     pub lambda: Vec<R>,
@@ -186,7 +197,7 @@ impl<R: Real> Constraints<R> {
             n_free: 0,
             blocks: Vec::new(),
             jacobian: Vec::new(),
-            responses: Vec::new(),
+            innovations: respond::Innovations::new(model),
             a: Vec::new(),
             b: Vec::new(),
             lambda: Vec::new(),
@@ -214,7 +225,7 @@ impl<R: Real> Constraints<R> {
             list.reserve(m);
         }
         self.jacobian.reserve(m * n);
-        self.responses.reserve(m * n);
+        self.innovations.reserve(m);
         self.a.reserve(m * m);
         self.solver.reserve(m);
     }
@@ -420,33 +431,22 @@ impl<R: Real> Constraints<R> {
         }
     }
 
-    /// Jacobian, responses and A of the rows.
+    /// Jacobian and A of the rows.
     pub fn respond(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         let (m, n) = (self.rows.len(), model.n_v());
         self.solver.reserve(m);
-        for list in [&mut self.jacobian, &mut self.responses] {
-            list.clear();
-            list.resize(m * n, R::zero());
-        }
-        for (i, row) in self.rows.iter().enumerate() {
-            let j = &mut self.jacobian[i * n..(i + 1) * n];
+        self.jacobian.clear();
+        self.jacobian.resize(m * n, R::zero());
+        for (row, j) in self.rows.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
             self.motions.jacobian(model, row, j);
-            self.response.find(model, scratch, j, &mut self.responses[i * n..(i + 1) * n], None);
         }
-        self.a.clear();
-        self.a.resize(m * m, R::zero());
-        for i in 0..m {
-            for j in 0..=i {
-                let x = dot(&self.jacobian[i * n..(i + 1) * n], &self.responses[j * n..(j + 1) * n]);
-                self.a[i * m + j] = x;
-                self.a[j * m + i] = x;
-            }
-        }
+        self.innovations.products(model, scratch, self.motions.columns(), &self.rows, &mut self.a);
     }
 
     fn solve(&mut self) {
         self.find_slow();
-        self.solver.solve(&self.a, &self.b, self.n_free, &mut self.blocks, &mut self.lambda);
+        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&instant, &mut self.blocks, &mut self.lambda);
         self.memory.keep(&self.blocks, &self.lambda);
     }
 

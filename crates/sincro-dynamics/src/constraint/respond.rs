@@ -1,11 +1,12 @@
-//! Responses: M⁻¹ times a vector of joint torques, in time proportional to the number of links, with what forward dynamics left in
-//! the scratch.
+//! Responses: M⁻¹ times a vector of joint torques, in time proportional to the number of links, and J M⁻¹ Jᵀ, with what forward dynamics left
+//! in the scratch.
 //!
-//! The second half of the articulated-body algorithm with velocities, gravity and bias forces zero. Held degrees of freedom do
+//! For the first, the second half of the articulated-body algorithm with velocities, gravity and bias forces zero. Held degrees of freedom do
 //! not respond; what they need instead is added to their reaction. Source: key `featherstone2008`, section 7.3.
 
 use sincro_math::Real;
 
+use super::row::Row;
 use crate::joint::{Stage, StageVisitor};
 use crate::model::{Link, Model, WORLD};
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
@@ -102,6 +103,125 @@ impl<R: Real> Response<R> {
                 self.touched[self.tree[i] as usize] = true;
             }
             self.force[i] = Force::zero();
+        }
+    }
+}
+
+/// A = J M⁻¹ Jᵀ without M⁻¹: what the articulated-body algorithm leaves of a row's wrench at every degree of freedom on its way to the base, over √D.
+///
+/// With M = (I + …) D (I + …)ᵀ factored as that algorithm does it, A is the sum over the degrees of freedom of products of these, and a row costs as much
+/// as its way is long. Source: keys `featherstone2008` (section 7.3), `jain2011` (chapter 7, the factors).
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Innovations<R> {
+    /// U of each degree of freedom, world axes, about the world's origin.
+    u: Vec<Force<R>>,
+    inv_d: Vec<R>,
+    inv_root: Vec<R>,
+    link_of: Vec<u32>,
+    /// For each degree of freedom, one number a row.
+    values: Vec<R>,
+}
+
+impl<R: Real> Innovations<R> {
+    pub fn new(model: &Model<R>) -> Self {
+        let n = model.n_v();
+        let mut link_of = vec![WORLD; n];
+        for (i, link) in model.links.iter().enumerate() {
+            let k = link.v_idx as usize;
+            link_of[k..k + link.kind.n_v()].fill(i as u32);
+        }
+        let o = R::zero();
+        Self { u: vec![Force::zero(); n], inv_d: vec![o; n], inv_root: vec![o; n], link_of, values: Vec::new() }
+    }
+
+    /// Memory for `m` rows.
+    pub fn reserve(&mut self, m: usize) {
+        self.values.reserve((m * self.u.len()).saturating_sub(self.values.len()));
+    }
+
+    /// A of `rows`, row by row, from what forward dynamics left in the scratch.
+    pub fn products(
+        &mut self,
+        model: &Model<R>,
+        scratch: &Scratch<R>,
+        columns: &[Motion<R>],
+        rows: &[Row<R>],
+        a: &mut Vec<R>,
+    ) {
+        let (m, n) = (rows.len(), model.n_v());
+        self.place(model, scratch);
+        self.values.clear();
+        self.values.resize(m * n, R::zero());
+        for (i, row) in rows.iter().enumerate() {
+            self.descend(model, columns, row, (i, m));
+        }
+        a.clear();
+        a.resize(m * m, R::zero());
+        for values in self.values.chunks_exact(m) {
+            for (i, x) in values.iter().enumerate() {
+                if *x == R::zero() {
+                    continue;
+                }
+                for (a, y) in a[i * m..=i * m + i].iter_mut().zip(values) {
+                    *a += *x * *y;
+                }
+            }
+        }
+        for i in 0..m {
+            for j in 0..i {
+                a[j * m + i] = a[i * m + j];
+            }
+        }
+    }
+
+    fn place(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
+        for (i, link) in model.links.iter().enumerate() {
+            let pose = &scratch.poses[i];
+            let sign = if link.kind.n_v() == 1 { link.sign } else { R::one() };
+            for k in link.v_idx as usize..link.v_idx as usize + link.kind.n_v() {
+                let dof = &scratch.dofs[k];
+                let lin = pose.rot.mul_vec(dof.u.lin);
+                let ang = pose.rot.mul_vec(dof.u.ang) + pose.pos.cross(lin);
+                self.u[k] = Force { ang, lin }.scale(sign);
+                self.inv_d[k] = dof.inv_d;
+                self.inv_root[k] = dof.inv_d.sqrt();
+            }
+        }
+    }
+
+    /// One row from its two ends to the base; where the ways meet, what is left of both goes on together.
+    fn descend(&mut self, model: &Model<R>, columns: &[Motion<R>], row: &Row<R>, (i, m): (usize, usize)) {
+        let mut ends = [(row.a, row.wa), (row.b, -row.wb)];
+        for (end, (dof, _)) in ends.iter_mut().zip(&row.joints) {
+            if *dof != WORLD {
+                end.0 = self.link_of[*dof as usize];
+            }
+        }
+        loop {
+            let [(one, f_one), (two, f_two)] = ends;
+            if one == two {
+                ends = [(one, f_one + f_two), (WORLD, Force::zero())];
+            } else if one == WORLD || (two != WORLD && two > one) {
+                // links come after their parents
+                ends = [(two, f_two), (one, f_one)];
+            }
+            let (at, force) = &mut ends[0];
+            if *at == WORLD {
+                return;
+            }
+            let link = &model.links[*at as usize];
+            let first = link.v_idx as usize;
+            for k in (first..first + link.kind.n_v()).rev() {
+                let mut u = columns[k].dot(force);
+                for (dof, c) in row.joints {
+                    if dof as usize == k {
+                        u += c;
+                    }
+                }
+                self.values[k * m + i] = u * self.inv_root[k];
+                *force = *force - self.u[k].scale(u * self.inv_d[k]);
+            }
+            *at = link.parent;
         }
     }
 }

@@ -114,6 +114,11 @@ impl<R: Real> Motions<R> {
         }
     }
 
+    /// Axes of the joints, one a degree of freedom.
+    pub fn columns(&self) -> &[Motion<R>] {
+        &self.columns
+    }
+
     /// Twist of a link; none for the world.
     pub fn twist_of(&self, link: u32) -> Motion<R> {
         if link == WORLD { Motion::zero() } else { self.twist[link as usize] }

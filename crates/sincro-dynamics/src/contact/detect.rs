@@ -2,6 +2,7 @@
 
 use super::feature::{Feature, Spot};
 use super::manifold::Manifolds;
+use super::polytope::{Clipper, Polytope};
 use super::{Collider, Pair, PairKind, Surface};
 use crate::model::{Shape, WORLD};
 use crate::spatial::{Pose, Vec3};
@@ -15,6 +16,8 @@ pub(crate) struct Detector {
     points: Vec<(Vec<Vec3<f64>>, f64)>,
     reach: Vec<f64>,
     manifolds: Manifolds,
+    polytopes: Vec<Option<Polytope>>,
+    clipper: Clipper,
 }
 
 impl Detector {
@@ -23,6 +26,8 @@ impl Detector {
             points: colliders.iter().map(Collider::points).collect(),
             reach: colliders.iter().map(Collider::reach).collect(),
             manifolds: Manifolds::new(colliders, pairs),
+            polytopes: polytopes(colliders, pairs),
+            clipper: Clipper::default(),
         }
     }
 
@@ -48,6 +53,11 @@ impl Detector {
                 PairKind::CylinderOnPlane => cylinder_on_plane(a, b, (&at(a), &at(b)), slots),
                 PairKind::Balls => slots[0] = Some(balls(a, b)),
                 PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
+                PairKind::Polytopes => {
+                    let (Some(one), Some(two)) = (&self.polytopes[pair.a], &self.polytopes[pair.b]) else { continue };
+                    let of = |c: &Collider| if c.link == WORLD { Pose::identity() } else { poses[c.link as usize] };
+                    self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), margin, slots);
+                }
                 PairKind::General => {
                     self.manifolds.find(k, (pair.a, pair.b), (a, b), (&at(a), &at(b)), margin, slots);
                 }
@@ -63,6 +73,11 @@ impl Detector {
         let (d, reach) = (center(a) - center(b), self.reach[pair.a] + self.reach[pair.b] + margin);
         d.dot(d) <= reach * reach
     }
+}
+
+fn polytopes(colliders: &[Collider], pairs: &[Pair]) -> Vec<Option<Polytope>> {
+    let wanted = |k: usize| pairs.iter().any(|p| p.kind == PairKind::Polytopes && (p.a == k || p.b == k));
+    colliders.iter().enumerate().map(|(k, c)| wanted(k).then(|| Polytope::of(c)).flatten()).collect()
 }
 
 fn plane_of(b: &Collider) -> Feature {

@@ -19,6 +19,9 @@ use crate::spatial::{Mat3, Pose, Quat, Vec3};
 /// A normal is across an axis if its component along it is below this.
 const ACROSS: f64 = 1e-9;
 
+/// Points of a manifold closer than this are one `[m]`.
+const SAME_POINT: f64 = 1e-6;
+
 /// A surface as the library has it, and where its frame stands in the surface's own.
 #[derive(Clone)]
 struct LibraryShape {
@@ -32,8 +35,8 @@ pub(crate) struct Manifolds {
     shapes: Vec<Option<LibraryShape>>,
     pairs: Vec<Vec<ContactManifold<(), ()>>>,
     workspace: Option<ContactManifoldsWorkspace>,
-    /// Distance and spot of every point found.
-    found: Vec<(f64, Spot)>,
+    /// Distance, spot and place on the first surface of every point found.
+    found: Vec<(f64, Spot, Vec3<f64>)>,
 }
 
 impl std::fmt::Debug for Manifolds {
@@ -96,7 +99,10 @@ impl Manifolds {
             for point in manifold.points.iter().filter(|p| p.dist <= margin) {
                 let p_a = one.pose.point(side(manifold.subshape_pos1(), point.local_p1));
                 let p_b = two.pose.point(side(manifold.subshape_pos2(), point.local_p2));
-                self.found.push((point.dist, spot((a, p_a, n_a), (b, p_b, n_b))));
+                // where edges lie on edges, the library finds a corner of each
+                if !self.found.iter().any(|(_, _, known)| (p_a - *known).norm() < SAME_POINT) {
+                    self.found.push((point.dist, spot((a, p_a, n_a), (b, p_b, n_b)), p_a));
+                }
             }
         }
         fill(&mut self.found, slots);
@@ -104,12 +110,12 @@ impl Manifolds {
 }
 
 /// The deepest spots, in the order found.
-fn fill(found: &mut Vec<(f64, Spot)>, slots: &mut [Option<Spot>]) {
+fn fill(found: &mut Vec<(f64, Spot, Vec3<f64>)>, slots: &mut [Option<Spot>]) {
     while found.len() > slots.len() {
         let shallowest = (1..found.len()).fold(0, |worst, k| if found[k].0 > found[worst].0 { k } else { worst });
         found.remove(shallowest);
     }
-    for (slot, (_, spot)) in slots.iter_mut().zip(found) {
+    for (slot, (_, spot, _)) in slots.iter_mut().zip(found) {
         *slot = Some(*spot);
     }
 }

@@ -10,8 +10,10 @@ mod detect;
 pub(crate) mod feature;
 mod manifold;
 pub mod polyhedron;
+mod polytope;
 
 pub(crate) use detect::Detector;
+use polytope::Polytope;
 
 use crate::model::{Shape, WORLD};
 use crate::spatial::{Pose, Vec3};
@@ -131,6 +133,8 @@ enum PairKind {
     Balls,
     /// Ball a against cuboid b.
     BallOnCuboid,
+    /// Two convex polytopes.
+    Polytopes,
     /// By the general algorithm.
     General,
 }
@@ -228,6 +232,7 @@ fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, 
         (true, false) if is(b, cuboid) => (a, b, PairKind::BallOnCuboid, 1),
         (false, true) if is(a, cuboid) => (b, a, PairKind::BallOnCuboid, 1),
         (false, true) => (b, a, PairKind::General, MANIFOLD),
+        _ if [a, b].iter().all(|k| Polytope::of(&colliders[*k]).is_some()) => (a, b, PairKind::Polytopes, MANIFOLD),
         _ => (a, b, PairKind::General, MANIFOLD),
     })
 }

@@ -4,6 +4,7 @@
 use super::{Stop, World};
 use crate::attachment::{Attachment, Coupled};
 use crate::constraint::events::Closing;
+use crate::constraint::memory::Patience;
 use crate::drive::DriveKind;
 use crate::integrate::{Failure, FixedStep, System};
 
@@ -11,12 +12,23 @@ use crate::integrate::{Failure, FixedStep, System};
 const MAX_BLOWS: usize = 50;
 
 /// Events of contacts in one tick beyond which the rest of it is done at velocity level.
-pub(super) const MAX_CONTACT_EVENTS: usize = 400;
+pub(super) const MAX_CONTACT_EVENTS: usize = 100;
 
 /// Steps at velocity level that the rest of such a tick is divided into.
 const FINE_STEPS: u32 = 16;
 
 impl World {
+    /// How ticks with too many events were met lately.
+    pub(super) fn patience(&self) -> Patience {
+        self.mechanism.constraints.as_ref().map_or_else(Patience::default, |c| c.memory.patience())
+    }
+
+    pub(super) fn set_patience(&mut self, patience: Patience) {
+        if let Some(constraints) = &mut self.mechanism.constraints {
+            constraints.memory.set_patience(patience);
+        }
+    }
+
     /// Whether there are closures, limits or contacts.
     pub(super) fn is_constrained(&self) -> bool {
         self.mechanism.constraints.is_some()

@@ -11,6 +11,7 @@ mod drives;
 
 use crate::attachment::{Alone, Attachment, Coupled, Seen};
 use crate::constraint::events::Closing;
+use crate::constraint::memory::Patience;
 use crate::constraint::{ContactPoint, SolverReport};
 use crate::drive::DriveKind;
 use crate::energy::{Energy, energy, momentum};
@@ -484,6 +485,11 @@ impl World {
         attachment: &mut A,
     ) -> Result<(), (f64, Stop)> {
         let (mut t, end, mut events) = (start, start + span, 0);
+        let patience = self.patience();
+        if patience.left > 0 {
+            self.set_patience(Patience { left: patience.left - 1, ..patience });
+            return self.finish_roughly(start, span, attachment);
+        }
         while t < end {
             let jump = attachment.next_corner(t);
             let corner = self.model().next_corner(t).min(jump).min(end);
@@ -526,14 +532,15 @@ impl World {
                 }
                 self.project();
                 if self.is_constrained() && events > MAX_CONTACT_EVENTS {
-                    self.finish_roughly(t, end - t, attachment)?;
-                    t = end;
+                    self.set_patience(patience.lost());
+                    return self.finish_roughly(t, end - t, attachment);
                 }
             } else {
                 self.project();
                 t = reached;
             }
         }
+        self.set_patience(Patience::default());
         Ok(())
     }
 
