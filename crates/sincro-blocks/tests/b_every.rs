@@ -97,6 +97,7 @@ fn examples() -> Vec<(&'static str, Parameters, Vec<usize>)> {
         ("rate-limiter", vec![("rising", 1.0.into()), ("initial", 0.0.into())], vec![2]),
         ("dead-zone", vec![("lower", 0.0.into()), ("upper", 0.2.into())], vec![2]),
         ("quantizer", vec![("interval", 0.1.into())], vec![2]),
+        ("single-precision", vec![], vec![2]),
         ("backlash", vec![("width", 0.1.into())], vec![2]),
         ("relay", vec![("on_above", 0.4.into()), ("off_below", 0.1.into())], vec![2]),
         ("coulomb-friction", vec![("coulomb", 1.0.into()), ("viscous", 2.0.into())], vec![2]),

@@ -35,6 +35,15 @@ fn a_dead_zone_takes_its_width_away() {
 fn a_quantizer_rounds_halves_away_from_zero() {
     let y = value(&[0.124, 0.125, -0.125, 0.7], block("quantizer", &[("interval", 0.25.into())]));
     assert_eq!(y, [0.0, 0.25, -0.25, 0.75]);
+    let zero = value(&[-0.1, -0.0], block("quantizer", &[("interval", 0.25.into())]));
+    assert!(zero.iter().all(|y| y.is_sign_positive()), "{zero:?}");
+}
+
+#[test]
+fn single_precision_has_24_bits_and_rounds_ties_to_even() {
+    let tie = 1.0 + f64::from(f32::EPSILON) / 2.0;
+    let y = value(&[0.1, tie, -16_777_217.0, 1e-60, 1e300], block("single-precision", &[]));
+    assert_eq!(y, [f64::from(0.1_f32), 1.0, -16_777_216.0, 0.0, f64::INFINITY]);
 }
 
 #[test]
@@ -45,7 +54,8 @@ fn friction_acts_with_the_sign_of_the_velocity() {
 
 #[test]
 fn nothing_hides_what_is_not_a_number() {
-    let blocks: [(&str, Vec<(&str, Value)>); 8] = [
+    let blocks: [(&str, Vec<(&str, Value)>); 9] = [
+        ("single-precision", vec![]),
         ("saturation", vec![("lower", 0.0.into()), ("upper", 1.0.into())]),
         ("dead-zone", vec![("lower", 0.0.into()), ("upper", 1.0.into())]),
         ("quantizer", vec![("interval", 1.0.into())]),

@@ -110,6 +110,17 @@ impl Guard {
         lua.set_global_hook(HookTriggers::new().every_nth_instruction(every), move |lua, _| guard.count(lua))
     }
 
+    /// After a call from outside that reached the limit: it has failed, the script itself goes on.
+    pub fn forgive(self: &Arc<Self>, lua: &Lua) {
+        if self.is_doomed.swap(false, Ordering::Relaxed) {
+            self.line.store(0, Ordering::Relaxed);
+            // without a count nothing would hold the script: then it stays doomed
+            if self.watch(lua, EVERY).is_err() {
+                self.is_doomed.store(true, Ordering::Relaxed);
+            }
+        }
+    }
+
     /// Begins to count in a Lua state.
     pub fn install(self: &Arc<Self>, lua: &Lua) -> mlua::Result<()> {
         self.watch(lua, EVERY)

@@ -71,6 +71,20 @@ impl Host for Scripts {
         done
     }
 
+    fn evaluate(
+        &mut self,
+        mut call: Call<'_>,
+        (object, kind): (Handle, Option<Kind>),
+        text: &str,
+    ) -> Result<Vec<Value>, Refusal> {
+        let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
+        let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
+        self.lend(&mut call);
+        let done = self.machines[place].evaluate(text);
+        self.lend(&mut call);
+        done
+    }
+
     fn take_messages(&mut self) -> Vec<Message> {
         self.shared.take_messages()
     }
@@ -92,6 +106,7 @@ impl Scripts {
         }
         self.machines.iter().for_each(Machine::refill);
         if phase == Phase::Actuation {
+            self.machines.iter_mut().try_for_each(Machine::call_before_main)?;
             self.machines.iter_mut().try_for_each(Machine::resume)?;
         }
         if phase == Phase::Sensing {
@@ -100,6 +115,7 @@ impl Scripts {
         self.machines.iter_mut().try_for_each(|m| m.call(phase))?;
         if phase == Phase::Actuation {
             self.machines.iter_mut().try_for_each(|m| m.call_dynamics(step, false))?;
+            self.machines.iter_mut().try_for_each(|m| m.call_joint(step))?;
         }
         Ok(())
     }

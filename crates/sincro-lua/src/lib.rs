@@ -7,8 +7,10 @@
 
 mod api;
 mod bytes;
+mod callback;
 mod convert;
 mod fault;
+mod files;
 mod guard;
 mod host;
 mod law;

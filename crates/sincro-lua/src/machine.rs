@@ -18,7 +18,7 @@ use sincro_sim::session::{self, Refusal};
 use crate::guard::{Guard, THREAD};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
-use crate::{api, convert, fault, power};
+use crate::{api, callback, convert, fault, files, power};
 
 /// Names of phases in `sim_call_type`; any numbers will do, scripts compare names.
 pub(crate) const CALL_TYPES: [(&str, Phase, i64); 4] = [
@@ -26,6 +26,19 @@ pub(crate) const CALL_TYPES: [(&str, Phase, i64); 4] = [
     ("actuation", Phase::Actuation, 1),
     ("sensing", Phase::Sensing, 2),
     ("cleanup", Phase::Cleanup, 3),
+];
+
+/// Callbacks of CoppeliaSim that are not called here, and why.
+const NOT_CALLED: [(&str, &str); 6] = [
+    ("sysCall_contact", "what touches what is decided by the scene's materials; read it with sim.getContactInfo"),
+    (
+        "sysCall_contactCallback",
+        "what touches what is decided by the scene's materials; read it with sim.getContactInfo",
+    ),
+    ("sysCall_trigger", "sensors trigger nothing"),
+    ("sysCall_suspend", "scripts are called while the simulation goes on"),
+    ("sysCall_resume", "scripts are called while the simulation goes on"),
+    ("sysCall_nonSimulation", "scripts are called within a run"),
 ];
 
 /// See the head of this file.
@@ -40,6 +53,8 @@ pub(crate) struct Machine {
     style: Style,
     entries: Entries,
     thread: Option<Thread>,
+    /// Whether `sysCall_joint` has been called.
+    is_joint_called: bool,
 }
 
 /// Functions of a new script that are there.
@@ -48,6 +63,8 @@ struct Entries {
     actuation: Option<Function>,
     sensing: Option<Function>,
     dynamics: Option<Function>,
+    joint: Option<Function>,
+    before_main: Option<Function>,
 }
 
 /// Compiles a text, its lines counted as in its source.
@@ -78,9 +95,20 @@ impl Machine {
         let seed = seed_of(shared.setting.seed, &script.path);
         let waits = sandbox::furnish(&lua, &guard, seed, services)?;
         api::offer(&lua, shared, index, &guard, &waits)?;
+        files::offer(&lua, script)?;
         let chunk = compile(&lua, script)?;
         let (style, entries) = (script.style, Entries::default());
-        Ok(Self { lua, index, shared: shared.clone(), guard, chunk, style, entries, thread: None })
+        Ok(Self {
+            lua,
+            index,
+            shared: shared.clone(),
+            guard,
+            chunk,
+            style,
+            entries,
+            thread: None,
+            is_joint_called: false,
+        })
     }
 
     fn script(&self) -> &Script {
@@ -102,7 +130,19 @@ impl Machine {
             let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
             convert::list_from_lua(values)
         });
+        self.guard.forgive(&self.lua);
         done.map_err(|fault| Refusal(fault.to_string()))
+    }
+
+    /// Runs a text as if it stood in the script, for a client.
+    pub fn evaluate(&mut self, text: &str) -> Result<Vec<session::Value>, Refusal> {
+        let text = power::with_calls(text);
+        let done = self.within(false, |m| {
+            let values = m.lua.load(text).set_name("=text").set_mode(ChunkMode::Text).call(())?;
+            convert::list_from_lua(values)
+        });
+        self.guard.forgive(&self.lua);
+        done.map_err(|fault| Refusal(fault.message))
     }
 
     /// Runs something of the script within its limits.
@@ -170,10 +210,14 @@ impl Machine {
             actuation: self.entry(&["sysCall_actuation"])?,
             sensing: self.entry(&["sysCall_sensing"])?,
             dynamics: self.entry(&["sysCall_dyn", "sysCall_dynCallback"])?,
+            joint: self.entry(&["sysCall_joint", "sysCall_jointCallback"])?,
+            before_main: self
+                .entry(&["sysCall_beforeMainScript"])?
+                .filter(|_| self.script().kind == Kind::Customization),
         };
-        for name in ["sysCall_joint", "sysCall_jointCallback", "sysCall_contact", "sysCall_contactCallback"] {
+        for (name, why) in NOT_CALLED {
             if self.entry(&[name])?.is_some() {
-                self.shared.say(self.index, format!("{name} is not called: the simulation has no such callback"));
+                self.shared.say(self.index, format!("{name} is not called: {why}"));
             }
         }
         let mut first = vec!["sysCall_init"];
@@ -247,6 +291,25 @@ impl Machine {
             info.set("afterStep", is_after)?;
             function.call(info)
         })
+    }
+
+    /// Calls `sysCall_beforeMainScript` of a customization script: before anything else of the step.
+    pub fn call_before_main(&mut self) -> Result<(), Fault> {
+        let Some(function) = self.entries.before_main.clone() else { return Ok(()) };
+        let held: Value = self.within(false, |_| function.call(()))?;
+        let Value::Table(answer) = held else { return Ok(()) };
+        if answer.get::<Option<bool>>("doNotRunMainScript").ok().flatten() == Some(true) {
+            self.shared.say(self.index, "doNotRunMainScript has no effect: every step is made".to_owned());
+            self.entries.before_main = None;
+        }
+        Ok(())
+    }
+
+    /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what the joint is told.
+    pub fn call_joint(&mut self, step: f64) -> Result<(), Fault> {
+        let Some(function) = self.entries.joint.clone() else { return Ok(()) };
+        let is_first = !std::mem::replace(&mut self.is_joint_called, true);
+        self.within(false, |m| callback::joint(&m.lua, &m.shared, m.index, &function, (step, is_first)))
     }
 }
 

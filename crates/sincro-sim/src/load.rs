@@ -34,34 +34,6 @@ pub struct Loaded {
     pub sources: Vec<Arc<SourceText>>,
 }
 
-impl Loaded {
-    /// Base steps of one step of scripts.
-    #[must_use]
-    pub fn script_ticks(&self) -> u64 {
-        ticks_of(&self.scene, &self.experiment).unwrap_or(1)
-    }
-}
-
-/// Base steps of one step of scripts; none if their step is no whole multiple of the base step.
-fn ticks_of(scene: &Scene, experiment: &Experiment) -> Option<u64> {
-    let Some(step) = &scene.script_step else { return Some(1) };
-    let ticks = (step.value / experiment.step).round();
-    let fits = (ticks * experiment.step - step.value).abs() <= 1e-9 * step.value && (1.0..1e12).contains(&ticks);
-    fits.then_some(ticks as u64)
-}
-
-/// Refuses a step of scripts that is no whole multiple of the base step.
-fn odd_script_step(scene: &Scene, experiment: &Experiment) -> Option<Problem> {
-    let step = scene.script_step.as_ref().filter(|_| ticks_of(scene, experiment).is_none())?;
-    let base = experiment.step;
-    let message = format!("`script_step` is {} s, no whole multiple of the base step, {base} s", step.value);
-    let near = base * (step.value / base).round().max(1.0);
-    Some(
-        Problem::error(&step.at, message)
-            .with_help(format!("script_step = {near}, or another `step` in the experiment")),
-    )
-}
-
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
 ///
 /// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run a
@@ -217,9 +189,6 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
         }
         problems.merge(experiment::stop::check_recorded(experiment));
         problems.merge(too_large(experiment));
-    }
-    if let (Some(experiment), Some(scene)) = (&experiment, &scene) {
-        problems.0.extend(odd_script_step(scene, experiment));
     }
     match (experiment, scene) {
         (Some(experiment), Some(scene)) if !problems.any_error() => {

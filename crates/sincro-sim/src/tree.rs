@@ -5,8 +5,8 @@ use serde_json::Value;
 use crate::document::Document;
 
 /// The lists of a scene file that hold objects.
-pub(crate) const KINDS: [&str; 9] =
-    ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "closure", "coupling"];
+pub(crate) const KINDS: [&str; 10] =
+    ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera", "closure", "coupling"];
 
 /// An object as the file has it.
 #[derive(Clone, Debug)]

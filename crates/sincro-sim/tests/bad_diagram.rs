@@ -907,7 +907,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `frame`, `rest_speed`, `script`, `client_step`, `script_step`, `step` and 27 more"##,
+  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `rest_speed`, `camera`, `script`, `step` and 27 more"##,
     ),
     (
         "diagram.sample_time=0.003",

@@ -163,7 +163,7 @@ quaternion_wxyz = [1, 0, 0, 0]"#,
         "[[frame]]",
         "[[frme]]",
         r#"scene.toml:17:3: error: unknown key `frme`
-  help: did you mean `frame`? keys here: `frame`, `force`, `rest_speed`, `air_density`, `drag`, `rotor`, `script`, `sensor` and 8 more"#,
+  help: did you mean `frame`? keys here: `frame`, `force`, `camera`, `rest_speed`, `air_density`, `drag`, `rotor`, `script` and 8 more"#,
     ),
     (
         "experiment.toml",

@@ -7,7 +7,7 @@
 use serde::Serialize;
 use sincro_sim::Loaded;
 use sincro_sim::check::Outcome;
-use sincro_sim::replay::{Property, SceneView, Tape, properties};
+use sincro_sim::replay::{CONTACT, Property, SceneView, Tape, properties};
 use sincro_sim::results::Status;
 use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::Table;
@@ -15,7 +15,7 @@ use sincro_sim::table::Table;
 use crate::base64;
 
 /// What the page checks before it reads on.
-pub const FORMAT: &str = "sincro-film-1";
+pub const FORMAT: &str = "sincro-film-2";
 
 /// Bytes that the frames of all runs in a film may have, before base 64.
 const MOST_FRAME_BYTES: usize = 450_000;
@@ -77,6 +77,10 @@ pub struct Frames {
     pub times: String,
     /// Frames: singles.
     pub numbers: String,
+    /// Number of points of contact of each frame: singles; empty if nothing ever touches.
+    pub counts: String,
+    /// The points, [`CONTACT`] singles each.
+    pub contacts: String,
 }
 
 /// Recorded signals of a run.
@@ -158,10 +162,15 @@ fn reel(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneV
 pub(crate) fn stop_words(status: &Status) -> String {
     match status {
         Status::Completed => String::new(),
-        Status::Ended { time, reason, .. } => format!("ended at t = {time} s: {reason}"),
-        Status::Stopped { time, reason, .. } => format!("stopped at t = {time} s: {reason}"),
-        Status::Interrupted { time, .. } => format!("interrupted at t = {time} s"),
+        Status::Ended { time, reason, .. } => format!("ended at t = {} s: {reason}", seconds(*time)),
+        Status::Stopped { time, reason, .. } => format!("stopped at t = {} s: {reason}", seconds(*time)),
+        Status::Interrupted { time, .. } => format!("interrupted at t = {} s", seconds(*time)),
     }
+}
+
+/// To the nanosecond: 14.2, not 14.200000000000001.
+fn seconds(t: f64) -> f64 {
+    (1e9 * t).round() / 1e9
 }
 
 /// Indices of what is kept of `n`, every so many, the last one always.
@@ -171,9 +180,13 @@ fn thinned(n: usize, every: usize) -> impl Iterator<Item = usize> + Clone {
 
 /// A tape in at most so many bytes.
 pub(crate) fn frames(tape: &Tape, most_bytes: usize) -> Frames {
-    let bytes = tape.n_frames() * (8 + 4 * tape.layout.width());
+    let points: usize = (0..tape.n_frames()).map(|k| tape.contacts.count(k)).sum();
+    let bytes = tape.n_frames() * (8 + 4 * tape.layout.width()) + 4 * CONTACT * points;
     let kept = thinned(tape.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1));
+    let counts = kept.clone().filter(|_| points > 0).map(|k| tape.contacts.count(k) as f32);
     Frames {
+        counts: base64::singles(&counts.collect::<Vec<_>>()),
+        contacts: base64::singles(kept.clone().flat_map(|k| tape.contacts.frame(k))),
         width: tape.layout.width(),
         times: base64::doubles(kept.clone().map(|k| tape.times[k])),
         numbers: base64::singles(kept.flat_map(|k| tape.frame(k))),

@@ -11,3 +11,4 @@ pub mod mcap;
 pub mod picture;
 mod save;
 pub mod server;
+mod vector;

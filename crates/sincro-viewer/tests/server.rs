@@ -96,10 +96,10 @@ fn hash_of(name: &str) -> String {
 
 #[test]
 fn only_this_page_is_let_in() {
-    let address = serve(Show::Film("{\"format\":\"sincro-film-1\"}".into()));
+    let address = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
     let port = address.port();
     assert!(get(address, "/", "").0.contains("200"));
-    assert!(get(address, "/film.json", "").1.contains("sincro-film-1"));
+    assert!(get(address, "/film.json", "").1.contains("sincro-film-2"));
     assert!(get(address, "/film.json", &format!("Origin: http://{address}\r\n")).0.contains("200"));
     for origin in ["http://evil.example", "null", "https://127.0.0.1"] {
         let (status, body) = get(address, "/film.json", &format!("Origin: {origin}\r\n"));
@@ -304,4 +304,51 @@ fn a_joint_is_placed_where_the_reader_puts_it() {
     }
     assert_eq!(signal(&board, 1, "/shoulder.position")[0], 0.5);
     assert_eq!(signal(&board, 1, "/shoulder.velocity")[0], 0.0);
+}
+
+/// The numbers of the first message of frames that has some of them.
+fn next_frames(line: &mut Line) -> Vec<u8> {
+    loop {
+        if let Message::Binary(bytes) = line.read().unwrap() {
+            return bytes.to_vec();
+        }
+    }
+}
+
+#[test]
+fn points_of_contact_travel_with_their_frames() {
+    let (board, commands) = engine("gripper");
+    let address = serve(Show::Live(board, commands.clone()));
+    let mut line = connect(address);
+    let run = next(&mut line, "run");
+    let surfaces = run["view"]["surfaces"].as_array().unwrap().clone();
+    let paths: Vec<&str> = surfaces
+        .iter()
+        .map(|k| run["view"]["objects"][k.as_u64().unwrap() as usize]["path"].as_str().unwrap())
+        .collect();
+    assert_eq!(paths, ["/left/pad", "/right/pad", "/thing/box"]);
+    next_frames(&mut line);
+    send(&commands, "{\"do\":\"step\"}");
+    let bytes = next_frames(&mut line);
+    let int = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    let single = |at: usize| f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
+    let [kind, id, n, m, points, _]: [usize; 6] = std::array::from_fn(|k| int(4 * k));
+    assert_eq!((kind, id, n, points), (2, 0, 1, 8));
+    let from = bytes.len() - 4 * 8 * points;
+    assert_eq!(int(from - 4), points, "how many there are in the one frame");
+    assert!(bytes.len() > 24 + 8 * n * (1 + m) + 4 * n + 4 * 8 * points, "with room for the frame itself");
+    // the box is pressed by 20 N from both sides, and carried
+    let box_at = paths.iter().position(|path| *path == "/thing/box").unwrap();
+    let mut force = [0.0; 3];
+    let mut pressed = 0.0;
+    for k in 0..points {
+        let at = |c: usize| single(from + 4 * (8 * k + c));
+        let sign = if at(0) as usize == box_at { 1.0 } else { -1.0 };
+        assert!(at(0) as usize == box_at || at(1) as usize == box_at);
+        assert!(at(2).abs() > 0.029 && at(4) > 0.2, "a point on a side of the box");
+        (0..3).for_each(|c| force[c] += sign * at(5 + c));
+        pressed += at(5).abs();
+    }
+    assert!(force[0].abs() < 1e-3 && (force[2] - 9.81).abs() < 1e-3, "{force:?}");
+    assert!((pressed - 40.0).abs() < 1e-3, "{pressed}");
 }

@@ -330,5 +330,9 @@ fn a_folder_that_is_no_run_is_not_shown() {
     assert!(status(&output) == 2 && text(&output.stderr).contains("replay.json"), "{}", text(&output.stderr));
     fs::write(folder.path("replay.json"), "{}").unwrap();
     let output = sincro(&["view", folder.0.to_str().unwrap(), "--no-browser"]);
-    assert!(status(&output) == 2 && text(&output.stderr).contains("no replay of sincro"), "{}", text(&output.stderr));
+    assert!(
+        status(&output) == 2 && text(&output.stderr).contains("is no replay that this version"),
+        "{}",
+        text(&output.stderr)
+    );
 }

@@ -1,6 +1,6 @@
 """Runs the Python examples against a server on free ports: python3 check.py SINCRO [SCENES].
 
-Needs coppeliasim-zmqremoteapi-client. Ends with 0 if the run of the client has the trace hash of `sincro run`.
+Needs coppeliasim-zmqremoteapi-client. Ends with 0 if the runs of the clients have the trace hashes of `sincro run`.
 """
 
 import asyncio
@@ -10,11 +10,14 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 
 from coppeliasim_zmqremoteapi_client import RemoteAPIClient
 from coppeliasim_zmqremoteapi_client.asyncio import RemoteAPIClient as AsyncClient
 
 HERE = pathlib.Path(__file__).resolve().parent
+
+PROGRAMS = {'two-dof-remote': 'two_dof.py', 'quadrotor-remote': 'quadrotor.py', 'alexandros-remote': 'alexandros.py'}
 
 
 def points(sim):
@@ -57,39 +60,80 @@ async def many(port):
         await asyncio.gather(*[sim.removeObject(handle) for handle in handles])
 
 
+STEPPER = """
+import sys
+from coppeliasim_zmqremoteapi_client import RemoteAPIClient
+sim = RemoteAPIClient(port=int(sys.argv[1])).require('sim')
+sim.setStepping(True)
+print('ready', flush=True)
+while True:
+    sim.step()
+"""
+
+
+def together(sim, port):
+    """Time advances when both clients have stepped; when one is killed, the other goes on."""
+    other = subprocess.Popen([sys.executable, '-c', STEPPER, str(port)], stdout=subprocess.PIPE, text=True)
+    assert other.stdout.readline() == 'ready\n'
+    sim.setStepping(True)
+    sim.startSimulation()
+    for k in range(5):
+        sim.step()
+        assert abs(sim.getSimulationTime() - (k + 1) * sim.getSimulationTimeStep()) < 1e-12
+    other.kill()
+    other.wait()
+    start = time.monotonic()
+    sim.step()
+    sim.step()
+    assert time.monotonic() - start < 1, 'a client that was killed holds the others'
+    sim.stopSimulation()
+
+
+def serve(sincro, scene, out):
+    """A server on free ports, and the port for this client; the ports of others are free ones too."""
+    ports = ['--legacy-port', '0', '--zmq-port', '0', '--ws-port', '0']
+    server = subprocess.Popen([sincro, 'serve', scene, *ports, '--out', out], stdout=subprocess.PIPE, text=True)
+    for line in server.stdout:
+        found = re.search(r'ZeroMQ.* [\d.]+:(\d+) ', line)
+        if found:
+            return server, int(found[1])
+    raise AssertionError('the server has ended')
+
+
+def expect_trace(server, run, expected):
+    """Waits for the report of a run, which must have the trace of `sincro run`."""
+    for line in server.stdout:
+        found = re.search(r'run (\d+) .* trace (\w+)', line)
+        if found and int(found[1]) == run:
+            assert found[2] == expected, f'{found[2]} is not the hash of `sincro run`, {expected}'
+            return
+    raise AssertionError('the run was not reported')
+
+
 def main():
     sincro = sys.argv[1]
     scenes = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else HERE.parents[2] / 'scenes')
-    scene = scenes / 'two-dof-remote'
-    with tempfile.TemporaryDirectory() as out:
-        subprocess.run([sincro, 'run', scene, '--out', f'{out}/run'], check=True, stdout=subprocess.DEVNULL)
-        expected = json.loads(pathlib.Path(f'{out}/run/run.json').read_text())['trace_hash']
-        # a port below this one's is not needed: the one after it is the step counter's
-        ports = ['--legacy-port', '0', '--zmq-port', '0', '--ws-port', '0']
-        server = subprocess.Popen([sincro, 'serve', scene, *ports, '--out', f'{out}/served'], stdout=subprocess.PIPE, text=True)
-        try:
-            port = None
-            while port is None:
-                line = server.stdout.readline()
-                assert line, 'the server has ended'
-                found = re.search(r'ZeroMQ.* [\d.]+:(\d+) ', line)
-                port = found and int(found[1])
-            sim = RemoteAPIClient(port=port).require('sim')
-            points(sim)
-            runs(sim)
-            asyncio.run(many(port))
-            subprocess.run([sys.executable, HERE / 'two_dof.py', str(port)], check=True)
-            for line in server.stdout:
-                found = re.search(r'run (\d+) .* trace (\w+)', line)
-                if found and found[1] == '3':
-                    assert found[2] == expected, f'{found[2]} is not the hash of `sincro run`, {expected}'
-                    break
-            else:
-                raise AssertionError('the run was not reported')
-        finally:
-            server.terminate()
-            server.wait()
-    print(f'the client and the diagram have the same trace: {expected}')
+    for name, program in PROGRAMS.items():
+        with tempfile.TemporaryDirectory() as out:
+            scene = scenes / name
+            subprocess.run([sincro, 'run', scene, '--out', f'{out}/run'], check=True, stdout=subprocess.DEVNULL)
+            expected = json.loads(pathlib.Path(f'{out}/run/run.json').read_text())['trace_hash']
+            server, port = serve(sincro, scene, f'{out}/served')
+            try:
+                n_before = 0
+                if name == 'two-dof-remote':
+                    sim = RemoteAPIClient(port=port).require('sim')
+                    points(sim)
+                    runs(sim)
+                    together(sim, port)
+                    n_before = 3
+                    asyncio.run(many(port))
+                subprocess.run([sys.executable, HERE / program, str(port)], check=True)
+                expect_trace(server, n_before + 1, expected)
+            finally:
+                server.terminate()
+                server.wait()
+        print(f'{name}: the client and the diagram have the same trace, {expected}')
 
 
 if __name__ == '__main__':

@@ -1,7 +1,7 @@
 //! A small dense system solved by elimination with pivoting, complete where pivots are small: it tells the rank, and what is redundant gets nothing. Rows and columns are
 //! first scaled to a diagonal of one, so that rank does not depend on masses and units.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 /// Scaled pivots below this are rounding: their rows depend on the others.
 pub(crate) const RANK: f64 = 1e-11;
@@ -67,6 +67,7 @@ impl<R: Real> Dense<R> {
         &self.rows[self.rank..]
     }
 
+    #[inline(always)]
     fn normalize(&mut self) {
         let n = self.n;
         self.scale.clear();
@@ -84,6 +85,11 @@ impl<R: Real> Dense<R> {
 
     /// Solves; unknowns that nothing determines, to the tolerance `rank`, are zero. The matrix is spent.
     pub fn solve(&mut self, rank: f64, out: &mut [R]) {
+        R::run_hot(Elimination { dense: self, rank, out });
+    }
+
+    #[inline(always)]
+    fn find(&mut self, rank: f64, out: &mut [R]) {
         self.normalize();
         let n = self.n;
         self.rank = n;
@@ -110,6 +116,7 @@ impl<R: Real> Dense<R> {
     }
 
     /// Row, column and size of the next pivot: the largest of the diagonal, unless all that is left of it is small; then the largest of all.
+    #[inline(always)]
     fn pivot(&self, k: usize) -> (usize, usize, f64) {
         let n = self.n;
         let size = |i: usize, j: usize| self.a[i * n + j].lane(0).abs();
@@ -128,6 +135,7 @@ impl<R: Real> Dense<R> {
         (best.0, best.1, largest)
     }
 
+    #[inline(always)]
     fn swap(&mut self, k: usize, p: usize, q: usize) {
         let n = self.n;
         if p != k {
@@ -145,6 +153,7 @@ impl<R: Real> Dense<R> {
         }
     }
 
+    #[inline(always)]
     fn eliminate(&mut self, k: usize) {
         let n = self.n;
         let inverse = R::one() / self.a[k * n + k];
@@ -160,6 +169,21 @@ impl<R: Real> Dense<R> {
             let of_pivot = self.rhs[k];
             self.rhs[i] -= factor * of_pivot;
         }
+    }
+}
+
+struct Elimination<'a, R> {
+    dense: &'a mut Dense<R>,
+    rank: f64,
+    out: &'a mut [R],
+}
+
+impl<R: Real> Task for Elimination<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.dense.find(self.rank, self.out);
     }
 }
 

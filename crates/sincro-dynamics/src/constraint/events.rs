@@ -18,6 +18,9 @@ pub(crate) const STILL: f64 = 1e-8;
 /// Positions and rates of constraints are projected to this `[m]`, [m/s].
 const PROJECTED: f64 = 1e-12;
 
+/// After steps at velocity level, which are of first order, to this.
+const PROJECTED_ROUGHLY: f64 = 1e-10;
+
 /// Most iterations of a projection of positions.
 const MAX_PROJECTIONS: usize = 12;
 
@@ -164,6 +167,7 @@ impl Mechanism<f64> {
     /// last evaluation found.
     pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
         let n = self.model.n_v();
+        let enough = if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
         let mut last = f64::INFINITY;
         for k in 0..MAX_PROJECTIONS {
             if !self.prepare(y, k == 0) {
@@ -174,7 +178,7 @@ impl Mechanism<f64> {
             c.keep_equations(false, !sticking);
             let worst = c.worst(&y[n..2 * n]).0;
             // close to a singular position there may be something that must not be taken away
-            if worst <= PROJECTED || worst > 0.5 * last {
+            if worst <= enough || worst > 0.5 * last {
                 break;
             }
             last = worst;
@@ -185,6 +189,10 @@ impl Mechanism<f64> {
             y[..n].copy_from_slice(&change);
             self.constraint_change = change;
             self.rechart(y);
+        }
+        let set = &self.model.constraints;
+        if !sticking && set.closures.is_empty() && set.couplings.is_empty() {
+            return;
         }
         self.prepare(y, false);
         let c = self.constraints.as_deref_mut().expect("prepared");

@@ -4,7 +4,7 @@
 //! For the first, the second half of the articulated-body algorithm with velocities, gravity and bias forces zero. Held degrees of freedom do
 //! not respond; what they need instead is added to their reaction. Source: key `featherstone2008`, section 7.3.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use super::row::Row;
 use crate::joint::{Stage, StageVisitor};
@@ -157,21 +157,7 @@ impl<R: Real> Innovations<R> {
         }
         a.clear();
         a.resize(m * m, R::zero());
-        for values in self.values.chunks_exact(m) {
-            for (i, x) in values.iter().enumerate() {
-                if *x == R::zero() {
-                    continue;
-                }
-                for (a, y) in a[i * m..=i * m + i].iter_mut().zip(values) {
-                    *a += *x * *y;
-                }
-            }
-        }
-        for i in 0..m {
-            for j in 0..i {
-                a[j * m + i] = a[i * m + j];
-            }
-        }
+        R::run_hot(Products { m, values: &self.values, a });
     }
 
     fn place(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
@@ -222,6 +208,38 @@ impl<R: Real> Innovations<R> {
                 *force = *force - self.u[k].scale(u * self.inv_d[k]);
             }
             *at = link.parent;
+        }
+    }
+}
+
+/// Sums over the degrees of freedom of the products of what the rows leave there.
+struct Products<'a, R> {
+    m: usize,
+    values: &'a [R],
+    a: &'a mut [R],
+}
+
+impl<R: Real> Task for Products<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { m, values, a } = self;
+        for values in values.chunks_exact(m) {
+            for (i, x) in values.iter().enumerate() {
+                // most rows do not pass most degrees of freedom
+                if *x == R::zero() {
+                    continue;
+                }
+                for (a, y) in a[i * m..=i * m + i].iter_mut().zip(values) {
+                    *a += *x * *y;
+                }
+            }
+        }
+        for i in 0..m {
+            for j in 0..i {
+                a[j * m + i] = a[i * m + j];
+            }
         }
     }
 }

@@ -15,6 +15,9 @@ use super::split::{Splitting, ask_all};
 /// Share of the largest force or rate that counts as zero in judging a guess.
 const SLACK: f64 = 1e-9;
 
+/// Share of the largest rate that elimination may leave.
+const REFINED: f64 = 1e-13;
+
 /// Changes of a guess before splitting decides.
 const REPAIRS: usize = 8;
 
@@ -115,11 +118,24 @@ impl<R: Real> Solver<R> {
                 return true;
             }
             self.guess.find_rates(instant, lambda);
-            if !repair(&self.guess.rates, instant.b, blocks, lambda) {
+            if !repair(instant, &self.guess.rates, blocks, lambda) {
+                self.refine(instant, blocks, lambda);
                 return true;
             }
         }
         false
+    }
+
+    /// Once more, where elimination left more than rounding.
+    fn refine(&mut self, instant: &Instant<'_, R>, blocks: &[Block<R>], lambda: &mut [R]) {
+        let small = REFINED / SLACK * Small::of(instant, lambda).rate;
+        let rates = &self.guess.rates;
+        let holds = |block: &&Block<R>| !block.open && block.given.is_none();
+        let normals = blocks.iter().filter(holds).map(|block| rates[block.row]);
+        if rates[..instant.n_free].iter().copied().chain(normals).any(|rate| rate.lane(0).abs() > small) {
+            self.correct(instant, blocks, lambda);
+            self.guess.find_rates(instant, lambda);
+        }
     }
 
     /// The linear system of the guess.
@@ -136,7 +152,7 @@ impl<R: Real> Solver<R> {
 
     /// Notes what can be seen of every block.
     fn note_effects(&mut self, instant: &Instant<'_, R>, blocks: &mut [Block<R>], lambda: &[R]) {
-        let small = 10.0 * Small::of(instant.b, lambda).rate;
+        let small = 10.0 * Small::of(instant, lambda).rate;
         let rates = &self.guess.rates;
         for block in blocks.iter_mut() {
             block.effect = 0;
@@ -189,15 +205,20 @@ struct Small {
 }
 
 impl Small {
-    fn of<R: Real>(b: &[R], lambda: &[R]) -> Self {
-        let share = |x: &[R]| SLACK * x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs())) + f64::MIN_POSITIVE;
-        Self { force: share(lambda), rate: share(b) }
+    /// Forces are measured by what would undo the largest rate of the lightest, too: where everything lets go, nothing else gives them a size.
+    fn of<R: Real>(instant: &Instant<'_, R>, lambda: &[R]) -> Self {
+        let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
+        let m = instant.m();
+        let lightest = (0..m).fold(0.0_f64, |s, i| s.max(instant.a[i * m + i].lane(0)));
+        let undoing = if lightest > 0.0 { largest(instant.b) / lightest } else { 0.0 };
+        let [force, rate] = [largest(lambda).max(undoing), largest(instant.b)].map(|x| SLACK * x + f64::MIN_POSITIVE);
+        Self { force, rate }
     }
 }
 
 /// Changes what does not fit; says whether anything did not.
-fn repair<R: Real>(rates: &[R], b: &[R], blocks: &mut [Block<R>], lambda: &[R]) -> bool {
-    let small = Small::of(b, lambda);
+fn repair<R: Real>(instant: &Instant<'_, R>, rates: &[R], blocks: &mut [Block<R>], lambda: &[R]) -> bool {
+    let small = Small::of(instant, lambda);
     let mut changed = false;
     for block in blocks.iter_mut() {
         if block.open {

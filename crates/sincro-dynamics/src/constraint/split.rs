@@ -14,13 +14,17 @@ use super::guess::{Guess, Instant};
 use sincro_math::Real;
 
 /// Most iterations.
-const MAX_ITERATIONS: usize = 2000;
+const MAX_ITERATIONS: usize = 4000;
 
 /// Iterations between looks at the balance of the two residuals.
 const BALANCE: usize = 20;
 
-/// Over-relaxation of x.
-const RELAX: f64 = 1.6;
+/// Share by which the discs are made smaller: what sticks at its very limit, of redundant contacts, is then found a little inside, where the linear
+/// system can make it exact; what slips is told by its rate.
+const INSIDE: f64 = 1e-5;
+
+/// Share of the largest rate that makes a group at its limit one that slips.
+const SLIPS: f64 = 1e-6;
 
 /// Largest change, as a share of the largest force and rate, that ends the iterations.
 const TOLERANCE: f64 = 1e-12;
@@ -117,7 +121,8 @@ impl Splitting {
                 let scale = if d > 0.0 { (group.dim as f64 / d).sqrt() } else { 1.0 };
                 self.scale[first..first + group.dim].fill(scale);
                 let of_normal = normal.map_or_else(|| lambda[block.row].lane(0), |k| self.scale[k]);
-                *disc = Some(Disc { first, dim: group.dim, size: group.coefficient * of_normal / scale });
+                *disc =
+                    Some(Disc { first, dim: group.dim, size: group.coefficient * of_normal / scale * (1.0 - INSIDE) });
             }
             self.cones.push(Cone { normal, discs });
         }
@@ -136,8 +141,9 @@ impl Splitting {
             self.iterations += 1;
             since += 1;
             let (apart, moved) = self.iterate();
-            let forces = self.y.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.abs()));
+            // scaled, a force and the rate it makes are of one size
             let rates = self.g.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.abs()));
+            let forces = self.y.iter().fold(rates, |s, x| s.max(x.abs()));
             let (primal, dual) = (apart / forces, moved / rates);
             if primal <= TOLERANCE && dual <= TOLERANCE {
                 return true;
@@ -177,9 +183,6 @@ impl Splitting {
         self.factor.solve(&mut self.x);
         let (mut apart, mut moved) = (0.0_f64, 0.0_f64);
         self.last.clone_from(&self.y);
-        for (x, y) in self.x.iter_mut().zip(&self.y) {
-            *x = RELAX * *x + (1.0 - RELAX) * *y;
-        }
         // what is not in a cone is free
         for k in 0..n {
             self.y[k] = self.x[k] + self.z[k] / self.rho;
@@ -203,6 +206,7 @@ impl Splitting {
                 lambda[row] = R::splat(self.y[k] * self.scale[k]);
             }
         }
+        let rates = self.g.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
         for (block, cone) in blocks.iter_mut().zip(&self.cones) {
             block.open = cone.normal.is_some_and(|k| self.y[k] <= 0.0);
             for (group, disc) in block.groups.iter_mut().zip(&cone.discs) {
@@ -211,8 +215,7 @@ impl Splitting {
                     (&self.y[disc.first..disc.first + disc.dim], &self.z[disc.first..disc.first + disc.dim]);
                 let limit = cone.normal.map_or(1.0, |k| self.y[k]) * disc.size;
                 let (size, speed) = (norm(force), norm(rate));
-                // at the limit and moving: forces and rates of one scaled size
-                let slips = size > 0.0 && size >= limit * (1.0 - 1e-9) && self.rho * size < 1e6 * speed;
+                let slips = size > 0.0 && size >= limit * (1.0 - 1e-9) && speed > SLIPS * rates;
                 if slips && !block.open {
                     let scale = self.scale[disc.first];
                     slip(group, force, norm(rate) / (limit * scale * scale));

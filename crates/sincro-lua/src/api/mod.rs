@@ -47,7 +47,7 @@ pub(crate) fn offer(
     let shelf = Shelf { lua, sim: lua.create_table()?, shared, index, own, guard };
     constants_of(&shelf)?;
     for function in api::functions() {
-        let called = shelf.of_session(function)?;
+        let called = shelf.of_session("sim", function)?;
         shelf.put(function.name, called)?;
     }
     for (old, present) in api::old_names() {
@@ -61,8 +61,10 @@ pub(crate) fn offer(
     callbacks::offer(&shelf)?;
     buffers::offer(&shelf)?;
     windows::offer(&shelf)?;
+    absent(&shelf)?;
     lua.globals().set("sim", &shelf.sim)?;
-    modules(&shelf)
+    let ik = inverse_kinematics(&shelf)?;
+    modules(&shelf, ik)
 }
 
 impl Shelf<'_> {
@@ -86,7 +88,7 @@ impl Shelf<'_> {
     }
 
     /// A function of the session.
-    fn of_session(&self, function: &'static api::Function) -> mlua::Result<Function> {
+    fn of_session(&self, module: &'static str, function: &'static api::Function) -> mlua::Result<Function> {
         let (shared, own) = (self.shared.clone(), self.own);
         let is_setter = function.name.starts_with("set");
         self.lua.create_function(move |lua, arguments: MultiValue| {
@@ -94,13 +96,16 @@ impl Shelf<'_> {
             // a client's nil may be a number that is none; a script's is a mistake
             if is_setter && let Some(k) = given.iter().position(|value| *value == Value::Nil) {
                 return Err(Error::RuntimeError(format!(
-                    "argument {} is nil (in function 'sim.{}')",
+                    "argument {} is nil (in function '{module}.{}')",
                     k + 1,
                     function.name
                 )));
             }
             let result = shared.with_desk(own, |desk| (function.run)(desk, Arguments(&given)));
-            let values = result.map_err(|refusal| refused(function.name, &refusal))?;
+            let named = |Refusal(message): Refusal| {
+                Error::RuntimeError(format!("{message} (in function '{module}.{}')", function.name))
+            };
+            let values = result.map_err(named)?;
             convert::list_to_lua(lua, &values)
         })
     }
@@ -165,6 +170,19 @@ fn named(name: &str, error: Error) -> Error {
     Error::RuntimeError(format!("{} (in function 'sim.{name}')", crate::fault::words(&error).0))
 }
 
+/// Functions that are not here, as such that say why.
+fn absent(shelf: &Shelf<'_>) -> mlua::Result<()> {
+    for name in api::absent() {
+        if shelf.sim.get::<Option<Function>>(name)?.is_none() {
+            let why = api::why_absent(name).unwrap_or_default();
+            let message = format!("sim.{name} is not offered: {why}");
+            shelf
+                .add(name, move |_, _: MultiValue| -> mlua::Result<()> { Err(Error::RuntimeError(message.clone())) })?;
+        }
+    }
+    Ok(())
+}
+
 /// Numbers by name: `sim.x` and `sim_x`.
 fn constants_of(shelf: &Shelf<'_>) -> mlua::Result<()> {
     let globals = shelf.lua.globals();
@@ -184,14 +202,35 @@ fn constants_of(shelf: &Shelf<'_>) -> mlua::Result<()> {
     Ok(())
 }
 
+/// The table `simIK`.
+fn inverse_kinematics(shelf: &Shelf<'_>) -> mlua::Result<Table> {
+    let module = shelf.lua.create_table()?;
+    for function in api::ik_functions() {
+        module.set(function.name, shelf.of_session("simIK", function)?)?;
+    }
+    for (old, present) in api::old_ik_names() {
+        module.set(old, module.get::<Function>(present)?)?;
+    }
+    for (name, value) in api::ik::CONSTANTS {
+        module.set(*name, *value)?;
+    }
+    shelf.lua.globals().set("simIK", &module)?;
+    Ok(module)
+}
+
 /// `require 'sim'`, and the modules that are not there.
-fn modules(shelf: &Shelf<'_>) -> mlua::Result<()> {
+fn modules(shelf: &Shelf<'_>, ik: Table) -> mlua::Result<()> {
     let sim = shelf.sim.clone();
     let require = shelf.lua.create_function(move |_, name: String| {
+        if name == "simIK" || name == "simIK-1" {
+            return Ok(ik.clone());
+        }
         if name == "sim" || name.strip_prefix("sim-").is_some_and(|version| version.parse::<u32>().is_ok()) {
             return Ok(sim.clone());
         }
-        Err(Error::RuntimeError(format!("there is no module '{name}': scripts have `sim` only, and load no files")))
+        Err(Error::RuntimeError(format!(
+            "there is no module '{name}': scripts have `sim` and `simIK`, and load no files"
+        )))
     })?;
     shelf.lua.globals().set("require", require)
 }

@@ -23,7 +23,7 @@ pub(super) fn place_of(shared: &Shared, index: usize, handle: i64) -> Option<usi
     if handle == SELF {
         return Some(index);
     }
-    let k = usize::try_from(handle - FIRST_SCRIPT).ok()?;
+    let k = usize::try_from(handle.checked_sub(FIRST_SCRIPT)?).ok()?;
     (k < shared.scripts.len()).then_some(k)
 }
 

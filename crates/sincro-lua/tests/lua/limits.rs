@@ -67,7 +67,7 @@ fn nothing_outside_can_be_reached() {
         ("loadfile('b.lua')", "loadfile is not allowed"),
         ("string.dump(function() end)", "string.dump is not allowed"),
         ("load('\\27Lua', 'x', 'b')", "bytecode is not allowed"),
-        ("require 'simIK'", "there is no module 'simIK'"),
+        ("require 'simOMPL'", "there is no module 'simOMPL'"),
         ("require 'socket'", "there is no module 'socket'"),
         ("package.loadlib('x', 'y')", "attempt to index a nil value (global 'package')"),
         ("debug.getregistry()", "attempt to call a nil value (field 'getregistry')"),
@@ -147,5 +147,46 @@ fn a_scene_with_bad_scripts_is_refused_as_a_whole() {
         refused(inline).contains(&format!("scene.toml:{line}:1: error: script of `/hinge`")),
         "{}",
         refused(inline)
+    );
+}
+
+#[test]
+fn a_script_reads_the_files_that_its_scene_gives_it_and_no_other() {
+    let code = "function sysCall_init()
+        local file = assert(io.open('table.csv'))
+        print(file:read(), file:read('n'), file:read(1), file:read('*n'), file:read('L') == '\\n', file:read('a') == '3,4\\nend', file:read('l'), file:read(0) == '')
+        print(io.type(file), file:seek('set', 2), file:read(1), file:close(), io.type(file), pcall(file.read, file))
+        local sum = 0
+        for line in io.lines('table.csv') do for x in line:gmatch('%d+') do sum = sum + tonumber(x) end end
+        print(sum)
+        print(io.open('other.csv'))
+        print(io.open('table.csv', 'w'))
+        for _, f in ipairs { function() io.lines('/etc/hostname') end, function() io.popen('ls') end, function() file:read('x') end, function() io.write('x') end } do
+            print((select(2, pcall(f))))
+        end
+    end";
+    let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nfile = \"a.lua\"\nfiles = [\"table.csv\"]\n");
+    let table = ("table.csv", "x,y\n1,2\n3,4\nend");
+    let files = [("scene.toml", &scene[..]), ("experiment.toml", EXPERIMENT), ("a.lua", code), table];
+    let run = run(&open(&files).unwrap_or_else(|problems| panic!("{problems}")));
+    let said: Vec<String> = run.messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said[0], "x,y\t1\t,\t2\ttrue\ttrue\tnil\tfalse");
+    assert!(said[1].starts_with("file\t2\ty\ttrue\tclosed file\tfalse\t"), "{said:?}");
+    assert_eq!(said[2], "10");
+    assert!(said[3].contains("not among the script's `files`") && said[4].contains("for reading only"), "{said:?}");
+    for (text, reason) in said[5..].iter().zip([
+        "not among the script's",
+        "io.popen is not allowed",
+        "the file is closed",
+        "io.write is not allowed",
+    ]) {
+        assert!(text.contains(reason), "{text}");
+    }
+    let wrong = scene.replace("[\"table.csv\"]", "[\"tabel.csv\", \"/etc/hostname\"]");
+    let files = [("scene.toml", &wrong[..]), ("experiment.toml", EXPERIMENT), ("a.lua", code), table];
+    let problems = open(&files).unwrap_err().to_string();
+    assert!(
+        problems.contains("tabel.csv") && problems.contains("is absolute") && problems.contains("scene.toml:"),
+        "{problems}"
     );
 }

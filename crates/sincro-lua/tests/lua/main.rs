@@ -2,9 +2,11 @@
 
 mod api;
 mod blocks;
+mod inverse;
 mod language;
 mod limits;
 mod parity;
 mod propeller;
 mod styles;
+mod touching;
 mod world;

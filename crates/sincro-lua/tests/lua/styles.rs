@@ -106,14 +106,15 @@ fn descendants_are_called_before_ancestors_and_siblings_in_their_order() {
 fn scripts_may_be_called_less_often_than_the_world_steps() {
     let code = "function sysCall_actuation() print(sim.getSimulationTime(), sim.getSimulationTimeStep()) end
         function sysCall_sensing() print(sim.getSimulationTime()) end";
-    let scene = format!("script_step = 0.02\n{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nfile = \"a.lua\"\n");
-    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap();
+    let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nfile = \"a.lua\"\n");
+    let experiment = format!("simulation_step = 0.02\n{EXPERIMENT}");
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("a.lua", code)]).unwrap();
     let said: Vec<String> = run(&loaded).messages.into_iter().map(|m| m.text).collect();
     assert_eq!(said, ["0.0\t0.02", "0.0", "0.02\t0.02", "0.02", "0.04\t0.02"]);
-    let scene = scene.replace("0.02", "0.015");
-    let problems = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap_err();
+    let experiment = experiment.replace("0.02", "0.015");
+    let problems = open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("a.lua", code)]).unwrap_err();
     assert!(
-        problems.to_string().contains("`script_step` is 0.015 s, no whole multiple of the base step, 0.01 s"),
+        problems.to_string().contains("`simulation_step` is 0.015 s, no whole multiple of the base step, 0.01 s"),
         "{problems}"
     );
 }

@@ -3,7 +3,7 @@
 use sincro_sim::session::{Desk, Handle, Refusal, Search};
 
 use super::message::{float, int, text};
-use super::{group, objects};
+use super::{files, group, objects, sensing};
 use crate::hub::Floor;
 
 /// `simxGetObjectHandle`
@@ -72,11 +72,7 @@ pub(super) fn counted(list: &[Handle]) -> Reply {
 pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
     match call.function {
         0x1007 => simulation(floor, call),
-        0x3002 => {
-            let name = call.name()?;
-            floor.act(|session| session.load(name))?;
-            done()
-        }
+        function if files::COMMANDS.contains(&function) => files::run(floor, call),
         0x3401 => super::script::run(floor, call),
         0x0005 => {
             floor.act(sincro_sim::session::Session::stop)?;
@@ -101,6 +97,9 @@ fn simulation(floor: &mut Floor, call: &Call<'_>) -> Reply {
 }
 
 fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    if let Some(reply) = sensing::run(desk, call) {
+        return reply;
+    }
     match call.function {
         0x0001..=0x0fff
         | 0x1012
@@ -128,11 +127,9 @@ fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
         0x101d..=0x1025 => parameter(desk, call),
         0x300d..=0x3018 => signal(desk, call),
         0x3008 => {
-            desk.table.log(450, call.name()?);
+            desk.log(450, call.name()?);
             done()
         }
-        0x3003 => Err(Refusal::new("models cannot be loaded into a scene that is open: put them in the scene file")),
-        0x3004 | 0x3006 => Err(Refusal::new("files cannot be sent or erased: put the scene where the server finds it")),
         other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
     }
 }
@@ -154,7 +151,6 @@ fn joint(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
             let pose = desk.joint_pose(joint)?;
             reals(sincro_sim::session::convention::matrix_of(&pose))
         }
-        0x1003..=0x1006 | 0x1009 | 0x100b | 0x100f => Err(Refusal::new("this scene has no such sensor or joint")),
         other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
     }
 }
@@ -175,7 +171,6 @@ fn parameter(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
             text.push(0);
             Ok(text)
         }
-        0x1022 | 0x101e => Err(Refusal(format!("parameter {id} cannot be set here"))),
         other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
     }
 }

@@ -60,11 +60,37 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
             }
             _ => all.floats.extend([0.0; 2]),
         },
-        16 => {
-            let is_joint = matches!(entry.kind, Kind::Joint(Some(_)));
-            all.ints.extend(if is_joint { [10, 5] } else { [-1, -1] });
-            all.floats.extend([0.0, if is_joint { -1.0 } else { 0.0 }]);
+        // there are no proximity sensors: nothing is detected
+        13 => {
+            all.ints.extend([0, -1]);
+            all.floats.extend([0.0; 6]);
         }
+        14 => match entry.kind {
+            Kind::ForceSensor(_) => {
+                let (force, torque) = desk.force_sensor(handle)?;
+                all.ints.push(1);
+                all.floats.extend(force.into_iter().chain(torque));
+            }
+            _ => {
+                all.ints.push(0);
+                all.floats.extend([0.0; 6]);
+            }
+        },
+        16 => match entry.kind {
+            Kind::Joint(Some(_)) => {
+                let (is_cyclic, [low, range]) = desk.joint_interval(handle)?;
+                all.ints.extend([desk.joint_type(handle)? as i32, 5]);
+                all.floats.extend(if is_cyclic { [0.0, -1.0] } else { [low, range] });
+            }
+            Kind::Rotor(_) => {
+                all.ints.extend([10, 5]);
+                all.floats.extend([0.0, -1.0]);
+            }
+            _ => {
+                all.ints.extend([-1; 2]);
+                all.floats.extend([0.0; 2]);
+            }
+        },
         17..=19 => {
             let (linear, angular) = desk.velocity(handle)?;
             if what != 18 {

@@ -11,7 +11,7 @@ use crate::hub::{ClientId, Hub};
 use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
-const MODULES: &str = "only the module sim is offered";
+const MODULES: &str = "the modules sim and simIK are offered";
 /// Longest real wait of one call.
 const LONGEST_WAIT: f64 = 3_600.0;
 
@@ -29,6 +29,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("restartServer", "sim.restartServer()"),
     ("readCustomDataBlock", "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)"),
     ("callScriptFunction", "...=sim.callScriptFunction(string functionName,int scriptHandle,...)"),
+    ("executeScriptString", "any result=sim.executeScriptString(string stringToExecute,int scriptHandle)"),
     ("getScript", "int scriptHandle=sim.getScript(int scriptType,int objectHandle)"),
     ("testCB", "any result=sim.testCB(any a,func cb,any b,int iterations=99)"),
     ("getApiFunc", "string[] functions=sim.getApiFunc(int scriptHandle,string apiWord)"),
@@ -38,7 +39,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
 ];
 
 /// Functions that could do harm; a client is told so.
-const UNSAFE: &[&str] = &["executeScriptString", "launchExecutable", "_evalExec", "saveScene", "saveModel"];
+const UNSAFE: &[&str] = &["_evalExec"];
 
 /// What a call gives.
 pub(crate) enum Said {
@@ -84,6 +85,7 @@ impl Door {
             "getApiInfo" => vec![tip(a.text(1)?).map_or(Value::Text(String::new()), Value::from)],
             "getSystemTime" => vec![Value::Real(clock())],
             "callScriptFunction" => self.script(a)?,
+            "executeScriptString" => self.evaluate(a)?,
             "getScript" | "getScriptHandle" => self.script_of(a)?,
             name if UNSAFE.contains(&name) => {
                 return Err(Refusal(format!("sim.{name} is not allowed over the network")));
@@ -126,6 +128,29 @@ impl Door {
             results.push(Value::Nil);
         }
         Ok(results)
+    }
+
+    /// Runs a text in a script, if that is granted: (text, script) or (`text@object`, type).
+    fn evaluate(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+        let (text, script) = (a.text(0)?, a.int_or(1, 0)?);
+        let mut floor = self.hub.enter();
+        floor.seen(self.id);
+        let results = floor.act(|session| {
+            let named = text.rsplit_once('@').and_then(|(text, name)| {
+                let object = session.table().find(name, Search::default()).ok()?;
+                Some((text, object))
+            });
+            match named {
+                Some((text, object)) => session.evaluate(object, kind_of(script), text),
+                None => {
+                    let object = i32::try_from(script).map_err(|_| Refusal(format!("{script} is no handle")))?;
+                    session.evaluate(Handle(object), None, text)
+                }
+            }
+        });
+        drop(floor);
+        self.hub.wake();
+        results.map_err(|Refusal(e)| Refusal(format!("{e} (in function 'sim.executeScriptString')")))
     }
 
     /// The script of an object: it has the object's handle.
@@ -239,22 +264,30 @@ fn tip(name: &str) -> Option<&'static str> {
 /// The module is not offered.
 pub(crate) fn info(module: &str) -> Result<Value, Refusal> {
     static SIM: OnceLock<Value> = OnceLock::new();
+    static IK: OnceLock<Value> = OnceLock::new();
     if !is_offered(module) {
         return Err(Refusal(format!("there is no module {module}: {MODULES}")));
     }
-    let build = || {
-        let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
-        let constant = |x: i64| Value::Map(vec![("const".into(), Value::Int(x))]);
-        let functions = all().map(|name| (name.to_owned(), func()));
-        let constants = constants::CONSTANTS.iter().map(|(name, x)| ((*name).to_owned(), constant(*x)));
-        Value::Map(functions.chain(constants).collect())
-    };
-    Ok(SIM.get_or_init(build).clone())
+    if module.starts_with("simIK") {
+        let names = api::ik_functions().map(|f| f.name).chain(api::old_ik_names().map(|(old, _)| old));
+        return Ok(IK.get_or_init(|| members(names, api::ik::CONSTANTS)).clone());
+    }
+    Ok(SIM.get_or_init(|| members(all(), constants::CONSTANTS)).clone())
 }
 
-/// Whether a module is here: `sim`, with or without a version.
+/// A module as clients build their own from it.
+fn members<'a>(names: impl Iterator<Item = &'a str>, constants: &[(&str, i64)]) -> Value {
+    let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
+    let constant = |x: i64| Value::Map(vec![("const".into(), Value::Int(x))]);
+    let functions = names.map(|name| (name.to_owned(), func()));
+    let constants = constants.iter().map(|(name, x)| ((*name).to_owned(), constant(*x)));
+    Value::Map(functions.chain(constants).collect())
+}
+
+/// Whether a module is here: `sim` and `simIK`, with or without a version.
 pub(crate) fn is_offered(module: &str) -> bool {
-    module == "sim" || module.strip_prefix("sim-").is_some_and(|version| version.parse::<u32>().is_ok_and(|v| v == 1))
+    let (name, version) = module.split_once('-').unwrap_or((module, "1"));
+    matches!(name, "sim" | "simIK") && version.parse() == Ok(1)
 }
 
 /// `require`

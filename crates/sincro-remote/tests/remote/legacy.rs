@@ -1,5 +1,7 @@
 //! The legacy remote API.
 
+use std::f64::consts::{PI, TAU};
+
 use std::io::{Read, Write};
 use std::net::TcpListener;
 use std::thread;
@@ -55,7 +57,9 @@ fn the_loop_of_the_thesis_sees_values_after_the_step_and_the_same_bits_twice() {
     let mut q = 0.0;
     for (k, (position, time)) in seen.iter().enumerate() {
         q += 0.05 * (0.25 * (k % 8) as f64 - 0.5);
-        assert!((f64::from(*position) - q).abs() < 1e-5, "step {k}: {position} instead of {q}");
+        // a joint that turns without end is told within a turn, as by V-REP
+        let told = q - TAU * ((q - PI) / TAU).ceil();
+        assert!((f64::from(*position) - told).abs() < 1e-5, "step {k}: {position} instead of {told}");
         assert_eq!(*time, 50 * (k as i32 + 1), "k·dt");
     }
     let first = finished(&server).simulated;
@@ -144,7 +148,7 @@ fn every_function_of_the_protocol_is_answered() {
     assert!(names.data.ends_with(b"ball\0Dummy\0"));
     for what in 0..=21 {
         let reply = client.call(0x200c, &ints(&[109, what]), &[]);
-        assert_eq!(reply.is_ok(), !matches!(what, 13 | 14), "group data {what}");
+        assert!(reply.is_ok(), "group data {what}");
     }
     client.call(0x1028, &ints(&[dummy]), &[]).unwrap();
     assert!(client.call(0x1028, &ints(&[ball]), &[]).is_err(), "the scene's own objects stay");

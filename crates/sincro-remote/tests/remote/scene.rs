@@ -46,7 +46,7 @@ pub const EXPERIMENT: &str = r#"
 title = "Arm"
 duration = 2.0
 step = 0.005
-client_step = 0.05
+simulation_step = 0.05
 record = ["/joint1.position", "/joint1/link1/joint2.position"]
 "#;
 

@@ -55,7 +55,7 @@ fn a_browser_steps_the_simulation_in_json_and_cbor() {
     assert!(call(r#"{"func":"sim.getObject","args":["/x"]}"#).contains(r#""success":false"#));
     assert!(call(r#"{"func":3}"#).contains("the request has no `func`"));
     assert!(call(r"{").contains("no JSON"));
-    assert!(call(r#"{"func":"wsRemoteApi.info","args":["simIK"]}"#).contains("no module"));
+    assert!(call(r#"{"func":"wsRemoteApi.info","args":["simOMPL"]}"#).contains("no module"));
     send(&mut stream, 2, b"\xa1\x64func\x78\x19sim.getSimulationTimeStep");
     let (code, body) = receive(&mut stream);
     assert_eq!((code, body[0] >> 5), (2, 5), "CBOR is answered in CBOR");

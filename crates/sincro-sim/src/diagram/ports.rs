@@ -85,6 +85,7 @@ pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
     matches!(
         probe,
         Probe::Sensor(_)
+            | Probe::FloatSignal(_)
             | Probe::MotorTorqueMean(_)
             | Probe::Contact(..)
             | Probe::Reaction(_)
@@ -127,5 +128,6 @@ fn can_be_measured(probe: Probe) -> bool {
             | Probe::Contact(ContactQuantity::Point | ContactQuantity::Normal, ..)
             | Probe::Energy(EnergyQuantity::Balance)
             | Probe::Signal(_)
+            | Probe::FloatSignal(_)
     )
 }

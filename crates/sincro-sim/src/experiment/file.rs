@@ -30,9 +30,10 @@ pub(crate) struct ExperimentFile {
     /// Base step: commands are held over it, rows are recorded at its ends [s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub step: f64,
-    /// Step of remote clients, where the scene has no `script_step`: a whole number of base steps; one base step if left out [s].
+    /// V-REP's simulation time step, at which child scripts are called and remote clients step: a whole number of base steps; one base
+    /// step if left out [s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub client_step: Option<f64>,
+    pub simulation_step: Option<f64>,
     /// Base steps for each recorded row.
     #[serde(default = "one")]
     #[schemars(range(min = 1))]

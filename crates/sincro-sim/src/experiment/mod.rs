@@ -36,8 +36,8 @@ pub struct Experiment {
     pub step: f64,
     /// Base steps in `duration`; at least one.
     pub n_steps: u64,
-    /// Base steps in one step of remote clients, where the scene has no step of scripts; at least one.
-    pub client_ticks: u64,
+    /// Base steps from one call of the scripts to the next, and in one step of remote clients; at least one.
+    pub simulation_ticks: u64,
     /// Base steps for each recorded row; at least one.
     pub record_every: u64,
     /// How the equations of motion are integrated.

@@ -50,7 +50,7 @@ impl Resolver<'_> {
         self.parameter_names();
         let grid = Grid { duration: file.duration, step: file.step, record_every: file.record_every };
         let n_steps = self.steps(&grid);
-        let client_ticks = self.client_ticks();
+        let simulation_ticks = self.simulation_ticks();
         let record = self.record();
         let parameters: Arc<[(String, f64)]> = file.parameters.iter().map(|(k, x)| (k.clone(), *x)).collect();
         let checks = self.reader(&parameters, Keys::Run(grid)).list(&file.check, "");
@@ -66,7 +66,7 @@ impl Resolver<'_> {
             duration: file.duration,
             step: file.step,
             n_steps: n_steps?,
-            client_ticks,
+            simulation_ticks,
             record_every: file.record_every,
             integrator: file.integrator.into(),
             accuracy: file.accuracy,
@@ -97,15 +97,15 @@ impl Resolver<'_> {
         self.problems.push(Problem::error(&self.document.at(pointer), message).with_help(help));
     }
 
-    /// Base steps in a step of clients.
-    fn client_ticks(&mut self) -> u64 {
-        let (Some(dt), step) = (self.file.client_step, self.file.step) else { return 1 };
+    /// Base steps in a step of scripts and clients.
+    fn simulation_ticks(&mut self) -> u64 {
+        let (Some(dt), step) = (self.file.simulation_step, self.file.step) else { return 1 };
         let ticks = (dt / step).round();
         if !(1.0..=1e9).contains(&ticks) || (ticks * step - dt).abs() > 1e-9 * dt {
-            let message = format!("client_step {dt} s is no whole number of steps of {step} s");
+            let message = format!("`simulation_step` is {dt} s, no whole multiple of the base step, {step} s");
             let near = ticks.max(1.0) * step;
-            let help = format!("use {near} s, or another step");
-            self.problems.push(Problem::error(&self.document.at("/client_step"), message).with_help(help));
+            let help = format!("simulation_step = {near}, or another `step`");
+            self.problems.push(Problem::error(&self.document.at("/simulation_step"), message).with_help(help));
             return 1;
         }
         ticks as u64

@@ -66,6 +66,16 @@ pub enum Probe {
     Sensor(usize),
     /// Signal of the diagram.
     Signal(usize),
+    /// Float signal that scripts and clients set; its number among those that are recorded.
+    FloatSignal(usize),
+}
+
+/// What stands before the name of a float signal of scripts and clients in `record`.
+const FLOAT_SIGNAL: &str = "float_signal.";
+
+/// Names of the float signals among recorded names, in their order.
+pub(crate) fn float_signals(names: &[Located<String>]) -> impl Iterator<Item = &str> {
+    names.iter().filter_map(|name| name.value.strip_prefix(FLOAT_SIGNAL)).filter(|name| !name.is_empty())
 }
 
 /// What can be read of a rotor.
@@ -127,6 +137,8 @@ pub struct Recorder {
     energy_at_start: f64,
     /// Values of all sensors.
     n_sensed: usize,
+    /// Float signals of scripts and clients.
+    n_floats: usize,
     row: Vec<f64>,
 }
 
@@ -139,9 +151,15 @@ impl Recorder {
     pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Problems> {
         let all: Vec<Entry> = catalogue(model).into_iter().chain(diagram.iter().cloned()).collect();
         let mut problems = Problems::new();
-        let mut entries = Vec::with_capacity(names.len());
+        let (mut entries, mut n_floats) = (Vec::with_capacity(names.len()), 0);
         for name in names {
+            let of_scripts = float_signals(std::slice::from_ref(name)).next().is_some();
             match all.iter().find(|e| e.name == name.value) {
+                _ if of_scripts => {
+                    let (name, probe) = (name.value.clone(), Probe::FloatSignal(n_floats));
+                    entries.push(Entry { name, unit: "".into(), probe });
+                    n_floats += 1;
+                }
                 Some(entry) => entries.push(entry.clone()),
                 None => problems.push(unknown(name, &all)),
             }
@@ -152,7 +170,7 @@ impl Recorder {
         let row = Vec::with_capacity(entries.len() + 1);
         let motor_impulse = vec![0.0; model.motors().len()];
         let n_sensed = model.names().sensors.iter().map(|s| s.values.len()).sum();
-        Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, row })
+        Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, n_floats, row })
     }
 
     /// Names and units of the columns, `t` first.
@@ -160,7 +178,7 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), &*e.unit)))
     }
 
-    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, with the values of all sensors after them. To be called at every recorded instant, in order, the start included.
+    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, after them the float signals that are recorded and the values of all sensors. To be called at every recorded instant, in order, the start included.
     pub fn row(&mut self, seen: &Observation<'_>, signals: &[f64], t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {
@@ -176,6 +194,7 @@ impl Recorder {
                 Probe::Momentum(k) => momentum.lin[k - 3],
                 Probe::Signal(k) => signals[k],
                 Probe::Sensor(k) => signals[signals.len() - self.n_sensed + k],
+                Probe::FloatSignal(k) => signals[signals.len() - self.n_sensed - self.n_floats + k],
                 probe => self.read(seen, probe, t),
             };
             self.row.push(value);

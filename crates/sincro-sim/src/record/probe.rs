@@ -70,7 +70,7 @@ pub(crate) fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Momentum(k) if k < 3 => momentum(model, at.scratch).ang[k],
         Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
         Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
-        Probe::Drag(k, component) => of_drag(at, k, component),
+        Probe::Drag(k, component) => drag(at, k)[component],
         Probe::Wind(k) => {
             let wind = model.wind()?;
             wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
@@ -124,12 +124,13 @@ fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
     }
 }
 
-fn of_drag<R: Real>(at: &View<'_, R>, k: usize, component: usize) -> R {
+/// Force of a drag element, world axes `[N]`.
+pub(crate) fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     let drag = &at.model.drags()[k];
     let x_wl = &at.scratch.link_poses()[drag.link];
     let air = at.model.wind().map(|wind| wind.at(at.t));
     let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref())).force;
-    x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))[component]
+    x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
 }
 
 /// Where a frame of the model is fixed.

@@ -4,6 +4,8 @@
 //! joint of that index in the model, whose pose is in the frames; what is fixed in the world has none.
 
 use serde::Serialize;
+use sincro_dynamics::constraint::{Anchor, ClosureKind};
+use sincro_dynamics::contact::Surface;
 use sincro_dynamics::force::rotor::{RotorLaw, Spin};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics;
@@ -12,6 +14,7 @@ use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Pose, Quat};
 use sincro_dynamics::state::State;
 
+use super::surface::{self, Triangles};
 use super::tape::Layout;
 use crate::scene::{Object, ObjectKind, Scene, ShapeInstance};
 
@@ -26,6 +29,12 @@ pub struct SceneView {
     pub n_rotors: usize,
     /// Number of external forces.
     pub n_forces: usize,
+    /// Number of drag elements.
+    pub n_drags: usize,
+    /// Movers at which the frames have the wind; none where the air stands still.
+    pub winds: Vec<usize>,
+    /// Object of each surface that can touch, as points of contact name them; none for the world's own.
+    pub surfaces: Vec<Option<usize>>,
     /// Number of coordinates.
     pub n_q: usize,
     /// Number of degrees of freedom.
@@ -34,7 +43,7 @@ pub struct SceneView {
     pub gravity: [f64; 3],
 }
 
-/// A joint, body, frame, force or rotor.
+/// A joint, body, frame, force, rotor, drag element, sensor, camera or closure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ObjectView {
     /// Path.
@@ -59,15 +68,36 @@ pub struct ObjectView {
     pub rotor: Option<RotorView>,
     /// Index in the frames of a force that moves something.
     pub force: Option<usize>,
+    /// Index in the frames of a drag element.
+    pub drag: Option<usize>,
+    /// Of a camera.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraView>,
+    /// Of a closure: the mover and the pose of its other end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other_end: Option<(Option<usize>, [f64; 7])>,
 }
 
-/// A solid in the frame of its body.
+/// A camera: looks along z of its frame, y is up in the picture.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CameraView {
+    /// Angle between the upper and the lower edge of its picture `[deg]`.
+    pub field_of_view_deg: f64,
+}
+
+/// A solid or surface in the frame of its body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShapeView {
-    /// `cuboid`, `sphere`, `cylinder`, `capsule` or `cone`.
+    /// `cuboid`, `sphere`, `cylinder`, `capsule` or `cone`; `plane` for everything below z = 0, `mesh` for triangles.
     pub kind: &'static str,
-    /// Edge lengths of a cuboid; radius and length of the others `[m]`.
+    /// Edge lengths of a cuboid; radius and length of the others `[m]`; nothing for planes and meshes.
     pub size: Vec<f64>,
+    /// Corners of a mesh `[m]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub vertices: Vec<[f32; 3]>,
+    /// Its triangles, counter-clockwise seen from outside.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub triangles: Vec<[u32; 3]>,
     /// Where it stands.
     pub pose: [f64; 7],
     /// `#rrggbb`.
@@ -117,16 +147,45 @@ impl SceneView {
         kinematics::poses(model, &State::new(model).q, &mut scratch);
         let mut maker =
             Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new(), n_forces: 0 };
-        let objects = scene.objects.iter().map(|object| maker.object(object)).collect();
+        let mut objects: Vec<ObjectView> = scene.objects.iter().map(|object| maker.object(object)).collect();
+        let place = |path: &str| scene.objects.iter().position(|o| o.path == path);
+        maker.closures(&mut objects);
         Self {
             objects,
             n_movers: maker.links.len(),
             n_rotors: model.rotors().len(),
             n_forces: maker.n_forces,
+            n_drags: model.drags().len(),
+            winds: Layout::new(model).airy().to_vec(),
+            surfaces: model.constraints().colliders.iter().map(|c| place(&c.name)).collect(),
             n_q: model.n_q(),
             n_v: model.n_v(),
             gravity: model.gravity().0,
         }
+    }
+
+    /// Where the three numbers of rotor `k` begin in a frame: speed [rad/s], thrust `[N]`, torque [N·m].
+    #[must_use]
+    pub fn rotor_at(&self, k: usize) -> usize {
+        7 * self.n_movers + 3 * k
+    }
+
+    /// Where external force `k` `[N]` begins in a frame.
+    #[must_use]
+    pub fn force_at(&self, k: usize) -> usize {
+        self.rotor_at(self.n_rotors + k)
+    }
+
+    /// Where the force of drag element `k` `[N]` begins in a frame.
+    #[must_use]
+    pub fn drag_at(&self, k: usize) -> usize {
+        self.force_at(self.n_forces + k)
+    }
+
+    /// Where the wind [m/s] at mover `winds[k]` begins in a frame.
+    #[must_use]
+    pub fn wind_at(&self, k: usize) -> usize {
+        self.drag_at(self.n_drags + k)
     }
 }
 
@@ -159,7 +218,7 @@ impl Maker<'_> {
             parent: object.parent,
             mover,
             pose: self.on(mover, &x_wo),
-            shapes: object.shapes.iter().map(shape).collect(),
+            shapes: object.shapes.iter().map(shape_view).chain(surfaces(object)).collect(),
             mass: match &object.kind {
                 ObjectKind::Body { mass } => Some((mass.mass, mass.center_of_mass, mass.inertia)),
                 _ => None,
@@ -167,7 +226,34 @@ impl Maker<'_> {
             joint: joint.map(|k| self.joint(k, base_mover, &x_wo)),
             rotor: self.rotor(object),
             force,
+            drag: self.model.names().drags.iter().position(|name| *name == object.path),
+            camera: match object.kind {
+                ObjectKind::Camera { field_of_view_deg } => Some(CameraView { field_of_view_deg }),
+                _ => None,
+            },
+            other_end: None,
         }
+    }
+
+    /// Closures and couplings, which stand beside the tree, as objects after it.
+    fn closures(&self, objects: &mut Vec<ObjectView>) {
+        let (set, n) = (self.model.constraints(), objects.len());
+        let of_anchor = |anchor: &Anchor, objects: &[ObjectView]| {
+            let mover = objects[..n].iter().find(|o| o.path == anchor.name).and_then(|o| o.mover);
+            (mover, seven(&anchor.pose))
+        };
+        for closure in &set.closures {
+            let kind = match closure.kind {
+                ClosureKind::Point => "point closure",
+                ClosureKind::Hinge => "hinge closure",
+                ClosureKind::Weld => "weld closure",
+                ClosureKind::Distance(_) => "distance closure",
+            };
+            let (mover, pose) = of_anchor(&closure.a, objects);
+            let other_end = Some(of_anchor(&closure.b, objects));
+            objects.push(ObjectView { mover, pose, other_end, ..beside(&closure.name, kind) });
+        }
+        objects.extend(set.couplings.iter().map(|coupling| beside(&coupling.name, "coupling")));
     }
 
     /// A pose in the world at zero coordinates as one in the frame of a mover.
@@ -204,6 +290,26 @@ impl Maker<'_> {
     }
 }
 
+/// An object that stands beside the tree, at the world's origin.
+fn beside(path: &str, kind: &str) -> ObjectView {
+    ObjectView {
+        path: path.to_owned(),
+        name: path.trim_start_matches('/').to_owned(),
+        kind: kind.to_owned(),
+        parent: None,
+        mover: None,
+        pose: seven(&Pose::identity()),
+        shapes: Vec::new(),
+        mass: None,
+        joint: None,
+        rotor: None,
+        force: None,
+        drag: None,
+        camera: None,
+        other_end: None,
+    }
+}
+
 fn axes(kind: &JointKind) -> Vec<[f64; 3]> {
     match *kind {
         JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. } => vec![axis],
@@ -213,7 +319,7 @@ fn axes(kind: &JointKind) -> Vec<[f64; 3]> {
     }
 }
 
-fn shape(instance: &ShapeInstance) -> ShapeView {
+fn shape_view(instance: &ShapeInstance) -> ShapeView {
     let (kind, size) = match instance.shape {
         Shape::Cuboid { size } => ("cuboid", size.to_vec()),
         Shape::Sphere { radius } => ("sphere", vec![radius, 0.0]),
@@ -221,8 +327,36 @@ fn shape(instance: &ShapeInstance) -> ShapeView {
         Shape::Capsule { radius, length } => ("capsule", vec![radius, length]),
         Shape::Cone { radius, length } => ("cone", vec![radius, length]),
     };
-    let color = instance.color.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
-    ShapeView { kind, size, pose: seven(&instance.pose), color }
+    let (vertices, triangles) = Triangles::default();
+    ShapeView { kind, size, vertices, triangles, pose: seven(&instance.pose), color: instance.color.map(hex) }
+}
+
+/// What an object has beside solids: planes, and all that is triangles.
+fn surfaces(object: &Object) -> impl Iterator<Item = ShapeView> {
+    object.surfaces.iter().enumerate().map(|(k, (surface, pose))| {
+        let mut view = match surface {
+            Surface::Solid(shape) => {
+                shape_view(&ShapeInstance { shape: *shape, pose: *pose, density: None, color: None })
+            }
+            Surface::HalfSpace => made_of("plane", Triangles::default()),
+            Surface::Hull(points) => made_of("mesh", surface::of_hull(points)),
+            Surface::Mesh(points, triangles) => made_of("mesh", surface::of_mesh(points, triangles)),
+            Surface::HeightField { columns, heights, size } => {
+                made_of("mesh", surface::of_heights(*columns, heights, *size))
+            }
+        };
+        view.pose = seven(pose);
+        view.color = object.surface_colors.get(k).copied().flatten().map(hex);
+        view
+    })
+}
+
+fn made_of(kind: &'static str, (vertices, triangles): Triangles) -> ShapeView {
+    ShapeView { kind, size: Vec::new(), vertices, triangles, pose: seven(&Pose::identity()), color: None }
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// Position and quaternion x, y, z, w.

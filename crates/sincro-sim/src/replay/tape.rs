@@ -5,15 +5,19 @@
 //! | for each joint: position of its last link, quaternion x, y, z, w | 7 | m, 1 |
 //! | for each rotor: speed, thrust, torque | 3 | rad/s, N, N·m |
 //! | for each external force: its components in the world | 3 | N |
+//! | for each drag element: its force in the world | 3 | N |
+//! | in wind, for each joint whose last link feels it: velocity of the air there, world axes | 3 | m/s |
 //! | coordinates q | `n_q` | rad, m |
 //! | rates v | `n_v` | rad/s, m/s |
 //!
-//! A frame is for the eye: seven digits. Whoever wants all of them reads `signals.csv`.
+//! Points of contact are kept beside the frames ([`Contacts`]): there are now more of them, now fewer. A frame is for the eye: seven digits.
+//! Whoever wants all of them reads `signals.csv`.
 
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;
 use sincro_dynamics::world::Observation;
 
+use super::contacts::{CONTACT, Contacts};
 use crate::experiment::Experiment;
 use crate::record::probe::{self, View};
 
@@ -23,6 +27,8 @@ const RATE: f64 = 60.0;
 const LEAST_FRAMES: f64 = 300.0;
 /// Numbers that a tape may have: 64 MB.
 const MOST_NUMBERS: u64 = 16_000_000;
+/// Points of contact that are expected in a frame at most, where there can be that many.
+const USUAL_CONTACTS: usize = 8;
 
 /// What stands where in a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +37,9 @@ pub struct Layout {
     links: Vec<usize>,
     n_rotors: usize,
     n_forces: usize,
+    n_drags: usize,
+    /// Joints whose last link feels the wind; none if the air stands still.
+    airy: Vec<usize>,
     n_q: usize,
     n_v: usize,
 }
@@ -44,10 +53,17 @@ impl Layout {
             let links: Vec<(usize, usize)> = model.links().iter().map(|l| l.first_dof()).enumerate().collect();
             links.iter().filter(of_joint).max_by_key(|link| link.1).map_or(0, |link| link.0)
         };
+        let links: Vec<usize> = model.names().joints.iter().map(|j| last_link(j.v_idx + j.n_v)).collect();
+        let feels = |link: usize| {
+            model.rotors().iter().any(|rotor| rotor.link == link) || model.drags().iter().any(|drag| drag.link == link)
+        };
+        let is_windy = model.wind().is_some();
         Self {
-            links: model.names().joints.iter().map(|j| last_link(j.v_idx + j.n_v)).collect(),
+            airy: (0..links.len()).filter(|k| is_windy && feels(links[*k])).collect(),
+            links,
             n_rotors: model.rotors().len(),
             n_forces: model.wrenches().len(),
+            n_drags: model.drags().len(),
             n_q: model.n_q(),
             n_v: model.n_v(),
         }
@@ -59,10 +75,17 @@ impl Layout {
         &self.links
     }
 
+    /// Joints whose last link feels the wind.
+    #[must_use]
+    pub fn airy(&self) -> &[usize] {
+        &self.airy
+    }
+
     /// Numbers of a frame.
     #[must_use]
     pub fn width(&self) -> usize {
-        7 * self.links.len() + 3 * (self.n_rotors + self.n_forces) + self.n_q + self.n_v
+        let vectors = self.n_rotors + self.n_forces + self.n_drags + self.airy.len();
+        7 * self.links.len() + 3 * vectors + self.n_q + self.n_v
     }
 
     /// Adds what is seen at time `t` `[s]` to `out`; `width` numbers.
@@ -85,6 +108,14 @@ impl Layout {
             let force = r_wl.mul_vec(wrench.wrench(t, r_wl, &seen.state.commands).lin);
             out.extend(force.0.map(|x| x as f32));
         }
+        for k in 0..self.n_drags {
+            out.extend(probe::drag(&view, k).0.map(|x| x as f32));
+        }
+        for &k in &self.airy {
+            let height = poses[self.links[k]].pos[2];
+            let velocity = seen.model().wind().map_or([0.0; 3], |wind| wind.velocity(t, height).0);
+            out.extend(velocity.map(|x| x as f32));
+        }
         out.extend(seen.state.q.iter().chain(&seen.state.v).map(|x| *x as f32));
     }
 }
@@ -102,6 +133,8 @@ pub struct Tape {
     pub times: Vec<f64>,
     /// The frames, one after the other.
     pub numbers: Vec<f32>,
+    /// Points of contact of the frames.
+    pub contacts: Contacts,
 }
 
 impl Tape {
@@ -111,8 +144,10 @@ impl Tape {
         let layout = Layout::new(model);
         let span = (1.0 / RATE).min(experiment.duration / LEAST_FRAMES);
         let every = ((span / experiment.step).ceil() as u64).max(1);
-        let least = (experiment.n_steps * layout.width() as u64).div_ceil(MOST_NUMBERS);
-        Self { layout, every: every.max(least), ticks: Vec::new(), times: Vec::new(), numbers: Vec::new() }
+        let touching = CONTACT * model.constraints().n_contacts().min(USUAL_CONTACTS);
+        let least = (experiment.n_steps * (layout.width() + touching) as u64).div_ceil(MOST_NUMBERS);
+        let every = every.max(least);
+        Self { layout, every, ticks: Vec::new(), times: Vec::new(), numbers: Vec::new(), contacts: Contacts::default() }
     }
 
     /// Whether a frame is to be taken after so many base steps.
@@ -126,6 +161,7 @@ impl Tape {
         self.ticks.push(tick);
         self.times.push(t);
         self.layout.write(seen, t, &mut self.numbers);
+        self.contacts.look(seen);
     }
 
     /// Number of frames.
@@ -147,5 +183,6 @@ impl Tape {
         self.ticks.truncate(n);
         self.times.truncate(n);
         self.numbers.truncate(n * self.layout.width());
+        self.contacts.truncate(n);
     }
 }

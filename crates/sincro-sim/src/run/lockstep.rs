@@ -8,6 +8,7 @@ use super::trace::Trace;
 use super::world_with_room;
 use crate::diagram::{Control, NotFinite};
 use crate::load::Loaded;
+use crate::record::float_signals;
 use crate::script::{self, Fault, Message, Phase, Scripts, Setting};
 use crate::sensor::Sensors;
 use crate::session::{self, Desk, Handle, Refusal, Table, Value};
@@ -19,8 +20,10 @@ pub struct LockStep {
     world: World,
     control: Option<Control<f64>>,
     sensors: Sensors,
-    /// Signals of the diagram, then values of sensors, as they were last observed.
+    /// Signals of the diagram, then recorded float signals, then values of sensors, as they were last observed.
     signals: Vec<f64>,
+    /// Names of the float signals of scripts and clients that are recorded.
+    floats: Vec<String>,
     commands: Vec<Signal>,
     step: f64,
     tick: u64,
@@ -93,7 +96,7 @@ impl LockStep {
         let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
         let world = world_with_room(scene, experiment, method, refined, n_states);
-        let ticks = loaded.script_ticks();
+        let ticks = experiment.simulation_ticks;
         let setting = Setting { step: experiment.step * ticks as f64, seed: experiment.seed };
         let scripts = Scripts::of(scene, setting);
         let table = scripts.is_some().then(|| {
@@ -102,11 +105,12 @@ impl LockStep {
             Box::new(table)
         });
         let sensors = Sensors::new(scene, experiment);
-        let room = control.as_ref().map_or(0, |c| c.signals().len()) + sensors.values.len();
+        let floats: Vec<String> = float_signals(&experiment.record).map(str::to_owned).collect();
+        let room = control.as_ref().map_or(0, |c| c.signals().len()) + floats.len() + sensors.values.len();
         let signals = Vec::with_capacity(room);
         let (commands, scripts) = (scene.commands.clone(), OwnScripts(scripts));
         let step = experiment.step;
-        let mut new = Self { world, control, sensors, signals, commands, step, tick: 0, table, scripts };
+        let mut new = Self { world, control, sensors, signals, floats, commands, step, tick: 0, table, scripts };
         match &mut new.control {
             Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
             _ => new.world.settle_start(0.0),
@@ -231,10 +235,25 @@ impl LockStep {
         scripts.call_function((object, kind), (function, arguments), &mut self.world, &mut self.table, (tick, t))
     }
 
-    /// What scripts have said, and how many messages were too many to keep.
+    /// Runs a text of the script's language in the script on an object.
+    ///
+    /// # Errors
+    ///
+    /// There is no script, or the text failed.
+    pub fn evaluate(&mut self, object: Handle, kind: Option<script::Kind>, text: &str) -> Result<Vec<Value>, Refusal> {
+        let (tick, t) = (self.tick, self.t());
+        let Some(scripts) = &mut self.scripts.0 else { return Err(Refusal::new("the scene has no scripts")) };
+        scripts.evaluate((object, kind), text, &mut self.world, &mut self.table, (tick, t))
+    }
+
+    /// What scripts and clients have said, in the order of time, and how many messages were too many to keep.
     #[must_use]
-    pub fn messages(&self) -> (&[Message], usize) {
-        self.scripts.0.as_ref().map_or((&[], 0), Scripts::messages)
+    pub fn messages(&self) -> (Vec<Message>, usize) {
+        let (printed, more_prints) = self.scripts.0.as_ref().map_or((&[][..], 0), Scripts::messages);
+        let (logged, more_logs) = self.table.as_ref().map_or((&[][..], 0), |table| table.notes().all());
+        let mut all = [printed, logged].concat();
+        all.sort_by(|a, b| a.t.total_cmp(&b.t));
+        (all, more_prints + more_logs)
     }
 
     /// Takes what scripts have asked for of the run as a whole.
@@ -313,12 +332,16 @@ impl LockStep {
         control.look(&mut self.world, tick, t).map_err(|culprit| Halt::Block { tick, t, culprit })
     }
 
-    /// Everything that can be looked at: the world, and the diagram's signals with the values of all sensors after them.
+    /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of scripts and clients and the values of
+    /// all sensors after them. A float signal that nobody has set is not a number.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], Control::signals);
-        if !self.sensors.values.is_empty() {
+        if !(self.sensors.values.is_empty() && self.floats.is_empty()) {
             self.signals.clear();
             self.signals.extend_from_slice(signals);
+            let table = self.table.as_deref();
+            let float = |name: &String| table.and_then(|table| table.floats.get(name)).copied().unwrap_or(f64::NAN);
+            self.signals.extend(self.floats.iter().map(float));
             self.signals.extend_from_slice(&self.sensors.values);
             return (self.world.observe(t), &self.signals);
         }

@@ -130,9 +130,8 @@ impl Recording {
         warnings.extend(about_constraints(world));
         let (messages, n_more) = lockstep.messages();
         if n_more > 0 {
-            warnings.push(format!("scripts said {n_more} more things than are kept"));
+            warnings.push(format!("scripts and clients said {n_more} more things than are kept"));
         }
-        let messages = messages.to_vec();
         Ok(Simulated { table, status, method, trace, tape, energy, effort, outside, warnings, messages, wall_time })
     }
 }

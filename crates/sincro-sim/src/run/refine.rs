@@ -22,7 +22,8 @@ pub(super) fn columns(loaded: &Loaded, run: &Simulated, watch: &mut Watch<'_>) -
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
         let (coarse, fine) = (&run.table.columns[k].values, &finer.table.columns[k].values);
         let worst = coarse.iter().zip(fine).fold(0.0_f64, |worst, (a, b)| {
-            let difference = (a - b).abs();
+            // where both have no value, such as a signal that no script has set yet, they agree
+            let difference = if a.is_nan() && b.is_nan() { 0.0 } else { (a - b).abs() };
             if difference.is_nan() { f64::INFINITY } else { worst.max(difference) }
         });
         column.error_bar = Some(factor * worst);

@@ -63,7 +63,8 @@ fn solid(file: &ShapeFile) -> Shape {
     }
 }
 
-fn color(text: &str, pointer: &str, document: &Document, problems: &mut Problems) -> Option<[u8; 3]> {
+/// Red, green and blue of `#rrggbb`; notes what is none.
+pub(super) fn color(text: &str, pointer: &str, document: &Document, problems: &mut Problems) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
     let Some(digits) = digits else {
         let at = document.at(&format!("{pointer}/color"));

@@ -7,6 +7,7 @@ use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use sincro_dynamics::start;
 use sincro_dynamics::state::State;
 
+use super::body;
 use super::file::{BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, LimitsFile, SceneFile};
 use super::height_field;
 use super::mesh::MeshInstance;
@@ -30,6 +31,8 @@ pub(super) struct Skin {
     pub material: Option<Material>,
     /// Surfaces that are no solids.
     pub surfaces: Vec<(Surface, Pose<f64>)>,
+    /// Colours of those, as far as they have one.
+    pub colors: Vec<Option<[u8; 3]>>,
 }
 
 impl Skin {
@@ -55,6 +58,7 @@ pub(super) fn skin(
     problems: &mut Problems,
 ) -> Skin {
     let mut surfaces: Vec<_> = meshes.iter().map(|mesh| (mesh.surface(), mesh.pose)).collect();
+    let mut colors: Vec<_> = meshes.iter().map(|mesh| mesh.color).collect();
     for (k, shape) in file.shape.iter().enumerate() {
         let pointer = format!("{pointer}/shape/{k}");
         let surface = match (&shape.plane, &shape.hull, &shape.height_field) {
@@ -79,6 +83,7 @@ pub(super) fn skin(
         }
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
         surfaces.push((surface, placement::pose(&placement, &pointer, document, problems)));
+        colors.push(shape.color.as_ref().and_then(|text| body::color(text, &pointer, document, problems)));
     }
     let material = file.contact.as_ref().map(|contact| {
         if file.shape.is_empty() {
@@ -88,7 +93,7 @@ pub(super) fn skin(
         }
         material(contact, &format!("{pointer}/contact"), document, problems)
     });
-    Skin { material, surfaces }
+    Skin { material, surfaces, colors }
 }
 
 fn material(file: &ContactFile, pointer: &str, document: &Document, problems: &mut Problems) -> Material {

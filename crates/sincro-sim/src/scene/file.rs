@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
+use super::camera::CameraFile;
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
@@ -24,7 +25,7 @@ pub(crate) struct SceneFile {
     /// Bodies: what has mass and shape.
     #[serde(default)]
     pub body: Vec<BodyFile>,
-    /// Named points and axes without mass: tips, sensors, cameras.
+    /// Named points and axes without mass: tips, grips, marks.
     #[serde(default)]
     pub frame: Vec<FrameFile>,
     /// External forces and torques on bodies.
@@ -39,14 +40,14 @@ pub(crate) struct SceneFile {
     /// Sensors: sampled at rates of their own, with errors.
     #[serde(default)]
     pub sensor: Vec<SensorFile>,
+    /// Cameras: where the viewer and still pictures look from.
+    #[serde(default)]
+    pub camera: Vec<CameraFile>,
     /// Wind, felt by rotors and drag elements: a table of `mean`, `profile`, `gust` and `turbulence`; none if left out.
     pub wind: Option<WindFile>,
     /// Scripts, each on an object.
     #[serde(default)]
     pub script: Vec<ScriptFile>,
-    /// Time between two calls of the scripts, a whole multiple of the base step; default each base step [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub script_step: Option<f64>,
     /// What keeps two objects together that the tree leaves apart: closed loops.
     #[serde(default)]
     pub closure: Vec<ClosureFile>,
@@ -580,6 +581,9 @@ pub(crate) struct ScriptFile {
     /// What is stored with it, for simGetScriptSimulationParameter.
     #[serde(default)]
     pub parameters: std::collections::BTreeMap<String, ScriptParameterFile>,
+    /// Files of this folder that it may read with `io.open` and `io.lines`; without any, no file is open to it.
+    #[serde(default)]
+    pub files: Vec<String>,
     /// Memory that it may take, 2^20 bytes each.
     #[serde(default = "script_memory")]
     #[schemars(range(min = 1))]

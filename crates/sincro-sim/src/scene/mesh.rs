@@ -8,6 +8,7 @@ use sincro_dynamics::contact::polyhedron::{self, Flaw};
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Pose;
 
+use super::body;
 use super::file::{BodyFile, MeshFile, OneOrList};
 use super::placement::{self, Placement};
 use crate::document::Document;
@@ -40,6 +41,8 @@ pub(super) struct MeshInstance {
     pub pose: Pose<f64>,
     /// [kg/m³], if it has one.
     pub density: Option<f64>,
+    /// In pictures.
+    pub color: Option<[u8; 3]>,
 }
 
 impl MeshInstance {
@@ -83,7 +86,8 @@ pub(super) fn meshes(
         match read(&named, mesh, scale, folder) {
             Ok(found) => {
                 let density = shape.density.or(file.density);
-                list.push(MeshInstance { mesh: found, is_convex: mesh.convex, pose, density });
+                let color = shape.color.as_ref().and_then(|text| body::color(text, &pointer, document, problems));
+                list.push(MeshInstance { mesh: found, is_convex: mesh.convex, pose, density, color });
             }
             Err(found) => found.into_iter().for_each(|p| problems.push(p)),
         }

@@ -5,6 +5,7 @@
 
 mod air;
 mod body;
+mod camera;
 mod contact;
 mod file;
 mod height_field;
@@ -38,7 +39,7 @@ pub use text::from_text;
 
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Located, Problem, Problems};
+use crate::problem::{Problem, Problems};
 use crate::script::Script;
 use crate::sensor::SensorSpec;
 use file::{ForceFile, InFrameFile};
@@ -60,8 +61,6 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
     pub scripts: Vec<Script>,
-    /// Time between two calls of the scripts `[s]`; none: every base step.
-    pub script_step: Option<Located<f64>>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
 }
@@ -90,6 +89,7 @@ enum Spec {
     Rotor(Box<rotor::RotorMade>, Signal),
     Drag(DragSpec),
     Sensor(Option<SensorSpec>),
+    Camera(f64),
 }
 
 /// Compiles a document that fits the schema; `seed` is that of the turbulence.
@@ -122,9 +122,7 @@ pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result
     }
     assembly.join(&file, document, &mut problems);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
-    let step = file.script_step.map(|value| Located { value, at: document.at("/script_step") });
-    let scene = assembly.finish(&entries, &file, scripts, document, problems)?;
-    Ok(Scene { script_step: step, ..scene })
+    assembly.finish(&entries, &file, scripts, document, problems)
 }
 
 /// Makes specifications, noting what is wrong.
@@ -163,6 +161,7 @@ impl Maker<'_> {
                 let (path, pointer) = (&entry.path, &entry.pointer);
                 Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.problems))
             }
+            tree::AnyFile::Camera(file) => Spec::Camera(file.field_of_view_deg),
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
     }
@@ -172,6 +171,9 @@ impl Maker<'_> {
     }
 
     fn pose(&mut self, entry: &Entry<'_>) -> Pose<f64> {
+        if let tree::AnyFile::Camera(file) = entry.file {
+            return camera::pose(file, &entry.pointer, self.document, self.problems);
+        }
         placement::pose(&entry.placement(), &entry.pointer, self.document, self.problems)
     }
 }
@@ -253,6 +255,8 @@ impl Assembly {
                 (self.builder.frame(&path, parent, pose), ObjectKind::Sensor)
             }
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
+            // nothing hangs on a camera, and the model knows none
+            Spec::Camera(field_of_view_deg) => (parent, ObjectKind::Camera { field_of_view_deg }),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
             Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
             Spec::Rotor(made, speed) => {
@@ -265,8 +269,20 @@ impl Assembly {
         let name = entry.name.to_owned();
         let location = document.title_at(&entry.pointer);
         skin.add_to(&mut self.builder, node, &shapes);
-        let contact::Skin { material: contact, surfaces } = skin;
-        self.objects.push(Object { path, name, kind, parent: place.parent, pose, contact, surfaces, shapes, location });
+        let contact::Skin { material: contact, surfaces, colors: surface_colors } = skin;
+        let parent = place.parent;
+        self.objects.push(Object {
+            path,
+            name,
+            kind,
+            parent,
+            pose,
+            contact,
+            surfaces,
+            surface_colors,
+            shapes,
+            location,
+        });
         self.nodes.push(node);
         self.entry_of.push(place.entry);
     }
@@ -331,7 +347,6 @@ impl Assembly {
             sensors: self.sensors,
             objects: self.objects,
             scripts,
-            script_step: None,
             warnings,
         })
     }

@@ -24,6 +24,8 @@ pub struct Object {
     pub contact: Option<Material>,
     /// Surfaces of a body that are not solids with mass.
     pub surfaces: Vec<(Surface, Pose<f64>)>,
+    /// Colours of the surfaces, as far as they have one.
+    pub surface_colors: Vec<Option<[u8; 3]>>,
     /// What a body looks like.
     pub shapes: Vec<ShapeInstance>,
     /// Its name in the file.
@@ -57,6 +59,11 @@ pub enum ObjectKind {
     Drag,
     /// Sensor on its parent.
     Sensor,
+    /// Camera; no part of the model.
+    Camera {
+        /// Angle between the upper and the lower edge of its picture `[deg]`.
+        field_of_view_deg: f64,
+    },
 }
 
 impl ObjectKind {
@@ -81,6 +88,7 @@ impl ObjectKind {
             Self::Rotor => "rotor",
             Self::Drag => "drag",
             Self::Sensor => "sensor",
+            Self::Camera { .. } => "camera",
         }
     }
 }

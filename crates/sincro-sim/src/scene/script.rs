@@ -1,10 +1,12 @@
 //! Scripts of a scene file: text, object, parameters, and what their language says of the text.
 
+use std::sync::Arc;
+
 use super::file::{ScriptFile, ScriptKindFile, ScriptParameterFile, ScriptStyleFile};
 use super::object::Object;
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problem, Problems};
+use crate::problem::{Problem, Problems, SourceText};
 use crate::script::{Kind, Parameter, Script, Style, engine};
 use crate::suggest;
 
@@ -83,6 +85,7 @@ fn script(
         }
         (None, None) => return None,
     };
+    let files = granted(file, pointer, document, folder, problems);
     let object = object?;
     let parameters = file.parameters.iter().map(|(name, value)| (name.clone(), parameter(value))).collect();
     Some(Script {
@@ -92,6 +95,7 @@ fn script(
         text,
         lines_before,
         parameters,
+        files: files?,
         style: match file.style {
             ScriptStyleFile::Detect => Style::Detect,
             ScriptStyleFile::Old => Style::Old,
@@ -106,6 +110,28 @@ fn script(
         max_instructions: file.max_instructions,
         at: document.at(pointer),
     })
+}
+
+/// The files that a script may read; none if one of them cannot be.
+fn granted(
+    file: &ScriptFile,
+    pointer: &str,
+    document: &Document,
+    folder: &Folder,
+    problems: &mut Problems,
+) -> Option<Vec<(String, Arc<SourceText>)>> {
+    let mut files = Some(Vec::new());
+    for (k, name) in file.files.iter().enumerate() {
+        let named = document.located(&format!("{pointer}/files/{k}"))?;
+        match folder.read_named(&named) {
+            Ok(source) => files.as_mut().into_iter().for_each(|files| files.push((name.clone(), source.clone()))),
+            Err(problem) => {
+                problems.push(problem);
+                files = None;
+            }
+        }
+    }
+    files
 }
 
 fn parameter(value: &ScriptParameterFile) -> Parameter {

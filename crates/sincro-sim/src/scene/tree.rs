@@ -6,6 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::air::DragFile;
+use super::camera::CameraFile;
 use super::file::{BodyFile, ForceFile, FrameFile, JointFile, SceneFile};
 use super::placement::Placement;
 use super::rotor::RotorFile;
@@ -35,6 +36,7 @@ pub(super) enum AnyFile<'a> {
     Rotor(&'a RotorFile),
     Drag(&'a DragFile),
     Sensor(&'a SensorFile),
+    Camera(&'a CameraFile),
 }
 
 impl AnyFile<'_> {
@@ -48,6 +50,7 @@ impl AnyFile<'_> {
             Self::Rotor(_) => "rotor",
             Self::Drag(_) => "drag",
             Self::Sensor(_) => "sensor",
+            Self::Camera(_) => "camera",
         }
     }
 }
@@ -71,6 +74,7 @@ impl Entry<'_> {
             AnyFile::Rotor(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Drag(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Sensor(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
+            AnyFile::Camera(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Force(_) => Placement::new([0.0; 3], None, None),
         }
     }
@@ -85,6 +89,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
     let rotors = file.rotor.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Rotor(f))).enumerate();
     let drags = file.drag.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Drag(f))).enumerate();
     let sensors = file.sensor.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Sensor(f))).enumerate();
+    let cameras = file.camera.iter().map(|f| (&*f.name, &*f.parent, AnyFile::Camera(f))).enumerate();
     let named = |list: &'static str| {
         move |(k, (name, parent, file))| Entry {
             name,
@@ -101,6 +106,7 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
         .chain(rotors.map(named("rotor")))
         .chain(drags.map(named("drag")))
         .chain(sensors.map(named("sensor")))
+        .chain(cameras.map(named("camera")))
         .collect()
 }
 
@@ -181,7 +187,10 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
     let at = document.at(&format!("{}/parent", entry.pointer));
     let carrier = parent.map(|p| p.file);
     match (entry.file, carrier) {
-        (_, Some(AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_) | AnyFile::Sensor(_))) => {
+        (
+            _,
+            Some(AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_) | AnyFile::Sensor(_) | AnyFile::Camera(_)),
+        ) => {
             let word = carrier.map_or("", AnyFile::word);
             let problem = Problem::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
             problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));

@@ -71,6 +71,27 @@ impl Scripts {
         done
     }
 
+    /// Runs a text in the script on an object.
+    ///
+    /// # Errors
+    ///
+    /// There is no script, or the text failed.
+    pub fn evaluate(
+        &mut self,
+        script: (Handle, Option<Kind>),
+        text: &str,
+        world: &mut World,
+        table: &mut Option<Box<Table>>,
+        (tick, t): (u64, f64),
+    ) -> Result<Vec<Value>, Refusal> {
+        if !self.is_started {
+            return Err(Refusal::new("scripts can be called once the simulation is started"));
+        }
+        let done = self.host.evaluate(Call { world, table, tick, t }, script, text);
+        self.keep_messages(table);
+        done
+    }
+
     fn keep_messages(&mut self, table: &mut Option<Box<Table>>) {
         for message in self.host.take_messages() {
             if let Some(table) = table {

@@ -30,6 +30,8 @@ pub struct Script {
     pub lines_before: usize,
     /// Numbers and texts that are stored with it.
     pub parameters: Vec<(String, Parameter)>,
+    /// Files that it may read, by their names in the scene; their texts as they were when it was loaded.
+    pub files: Vec<(String, Arc<SourceText>)>,
     /// How it is called.
     pub style: Style,
     /// Where it stands among scripts of the same place.
@@ -184,6 +186,13 @@ pub trait Host: Send + fmt::Debug {
         function: &str,
         arguments: &[Value],
     ) -> Result<Vec<Value>, Refusal>;
+
+    /// Runs a text in the script on an object, with what that script knows and within its limits; gives what the text returns.
+    ///
+    /// # Errors
+    ///
+    /// There is no such script, or the text failed.
+    fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, Refusal>;
 
     /// What scripts have said since the last time it was asked.
     fn take_messages(&mut self) -> Vec<Message>;

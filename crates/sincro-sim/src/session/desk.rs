@@ -46,6 +46,14 @@ impl<'a> Desk<'a> {
         self.table.phase != Phase::Stopped
     }
 
+    /// A line for whoever runs the simulator, kept with the run: level as in V-REP.
+    pub fn log(&mut self, level: i64, text: &str) {
+        let object =
+            self.own.and_then(|own| self.table.entry(own).ok()).map_or("client", |e| e.path.as_str()).to_owned();
+        self.table.note(self.t, &object, text);
+        self.table.log(level, text);
+    }
+
     /// Brings the poses and twists of all links to the present state.
     fn locate(&mut self) {
         if self.is_located {
@@ -174,6 +182,21 @@ impl<'a> Desk<'a> {
         entry.parent = parent;
         entry.path = format!("{path}/{}", entry.name);
         self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
+    }
+
+    /// Another point where one that was made by a client or script is.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, it belongs to the scene, or there are too many.
+    pub fn copy(&mut self, handle: Handle) -> Result<Handle, Refusal> {
+        let entry = self.table.made(handle, "copied")?;
+        let (name, parent) = (entry.name.clone(), entry.parent);
+        let pose = self.pose(handle, Reference::World)?;
+        let copy = self.table.create_dummy(&name)?;
+        self.set_pose(copy, &pose, Reference::World)?;
+        self.set_parent(copy, parent, true)?;
+        Ok(copy)
     }
 
     /// Velocity of an object's origin [m/s] and its angular velocity [rad/s], world axes: exact, not differences.

@@ -4,6 +4,7 @@
 //! control `spring`, force control `torque`. A target that the present mode does not use is kept for when the mode changes.
 
 use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::joint::JointKind;
 
 use super::table::{Handle, JointEntry};
 use super::{Desk, Refusal};
@@ -13,13 +14,14 @@ use super::{Desk, Refusal};
 const POSITION_GAIN: f64 = 20.0;
 
 impl Desk<'_> {
-    /// Position `[rad]` or `[m]`.
+    /// Position `[rad]` or `[m]`; of a joint that turns without end within (−π, π], as V-REP tells it.
     ///
     /// # Errors
     ///
     /// There is no such joint.
     pub fn joint_position(&self, handle: Handle) -> Result<f64, Refusal> {
-        Ok(self.world.state.q[self.table.joint(handle)?.q_idx])
+        let q = self.world.state.q[self.table.joint(handle)?.q_idx];
+        Ok(if self.joint_interval(handle)?.0 { within_a_turn(q) } else { q })
     }
 
     /// Puts a joint somewhere, its velocity kept `[rad]` or `[m]`.
@@ -40,6 +42,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint.
     pub fn joint_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+        if let Some(rotor) = self.rotor(handle)? {
+            return Ok(self.rotor_speed(rotor));
+        }
         Ok(self.world.state.v[self.table.joint(handle)?.v_idx])
     }
 
@@ -83,6 +88,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint.
     pub fn joint_mode(&self, handle: Handle) -> Result<MotorMode, Refusal> {
+        if self.rotor(handle)?.is_some() {
+            return Ok(MotorMode::Velocity);
+        }
         Ok(self.joint_motor(handle)?.map_or(MotorMode::Free, |m| m.mode))
     }
 
@@ -125,6 +133,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint.
     pub fn target_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+        if let Some(rotor) = self.rotor(handle)? {
+            return Ok(self.rotor_target(rotor));
+        }
         let joint = self.table.joint(handle)?;
         Ok(joint.target_velocity.unwrap_or_else(|| self.commanded(joint, MotorMode::Velocity)))
     }
@@ -135,6 +146,9 @@ impl Desk<'_> {
     ///
     /// There is no such joint, it has no motor, or the number is not finite.
     pub fn set_target_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), Refusal> {
+        if let Some(rotor) = self.rotor(handle)? {
+            return self.set_rotor_target(rotor, finite(velocity, "target velocity")?);
+        }
         self.joint_with_motor(handle)?.target_velocity = Some(finite(velocity, "target velocity")?);
         self.command(handle)
     }
@@ -198,6 +212,39 @@ impl Desk<'_> {
         self.command(handle)
     }
 
+    /// Where a joint may go: whether it turns without end, its lower limit and its range `[rad]` or `[m]`; infinite where there is no stop.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_interval(&self, handle: Handle) -> Result<(bool, [f64; 2]), Refusal> {
+        let joint = self.table.joint(handle)?;
+        let limits = &self.world.model().constraints().limits;
+        let bound = |sign: f64| limits.iter().find(|l| l.dof == joint.v_idx && l.sign == sign).map(|l| l.bound);
+        Ok(match (bound(1.0), bound(-1.0)) {
+            (None, None) if matches!(joint.kind, JointKind::Revolute { .. }) => {
+                (true, [-std::f64::consts::PI, 2.0 * std::f64::consts::PI])
+            }
+            (low, high) => {
+                let low = low.unwrap_or(f64::NEG_INFINITY);
+                (false, [low, high.map_or(f64::INFINITY, |high| high - low)])
+            }
+        })
+    }
+
+    /// What a joint follows: another joint, offset and factor, if the scene couples them.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, Refusal> {
+        let joint = self.table.joint(handle)?;
+        let mut couplings = self.world.model().constraints().couplings.iter();
+        let Some(coupling) = couplings.find(|c| c.dofs[1] == joint.v_idx) else { return Ok(None) };
+        let master = self.table.joints().iter().find(|j| j.v_idx == coupling.dofs[0]);
+        Ok(master.map(|master| (master.handle, coupling.offset, coupling.ratio)))
+    }
+
     /// The command of a motor whose mode is `mode`; 0 in any other.
     fn commanded(&self, joint: &JointEntry, mode: MotorMode) -> f64 {
         let motor = joint.motor.filter(|_| joint.drive.is_some_and(|d| d.mode == mode));
@@ -238,6 +285,29 @@ impl Desk<'_> {
     }
 }
 
+/// An angle within (−π, π]; what is there already stays as it is.
+fn within_a_turn(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    if angle > -PI && angle <= PI { angle } else { angle - TAU * ((angle - PI) / TAU).ceil() }
+}
+
+/// A finite number; a negative zero is a zero, since some clients can send no other.
 fn finite(x: f64, what: &str) -> Result<f64, Refusal> {
-    if x.is_finite() { Ok(x) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
+    if x.is_finite() { Ok(x + 0.0) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::within_a_turn;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn angles_are_told_within_a_turn() {
+        for (angle, told) in
+            [(0.5, 0.5), (PI, PI), (-PI, PI), (3.0 * PI, PI), (7.0, 7.0 - 2.0 * PI), (-4.0, 2.0 * PI - 4.0)]
+        {
+            assert!((within_a_turn(angle) - told).abs() < 1e-15, "{angle}");
+        }
+        assert!(within_a_turn(f64::NAN).is_nan());
+    }
 }

@@ -14,12 +14,17 @@ pub mod api;
 mod bodies;
 pub mod cbor;
 pub mod constants;
+mod contacts;
 pub mod convention;
 mod desk;
+mod files;
 mod find;
+pub mod ik;
 mod joints;
+mod note;
 mod parameters;
 mod refusal;
+mod rotors;
 mod signals;
 mod table;
 mod value;
@@ -29,7 +34,9 @@ use std::path::{Path, PathBuf};
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 
+pub use contacts::Touch;
 pub use desk::{Desk, Reference};
+pub use files::Files;
 pub use find::Search;
 pub use refusal::Refusal;
 pub use signals::Signals;
@@ -79,6 +86,16 @@ pub struct Session {
     steps: u64,
     /// Folders that may be loaded by clients, besides the first one's own.
     root: PathBuf,
+    grants: Grants,
+}
+
+/// What clients may do beyond the simulation: nothing, unless whoever opens the session says so.
+#[derive(Clone, Debug, Default)]
+pub struct Grants {
+    /// Send files, to this folder, and load scenes from it.
+    pub files: Option<Files>,
+    /// Run texts in the scene's scripts.
+    pub evaluation: bool,
 }
 
 /// Scenes that the example programs of CoppeliaSim load, and what they are called here.
@@ -94,7 +111,7 @@ struct Run {
 }
 
 impl Session {
-    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says (`client_step`).
+    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says (`simulation_step`).
     ///
     /// # Errors
     ///
@@ -116,11 +133,7 @@ impl Session {
         sample_time: Option<f64>,
     ) -> Result<Self, Problems> {
         let (method, warnings) = method_for(&loaded);
-        let ticks = match loaded.scene.script_step {
-            Some(_) => loaded.script_ticks(),
-            None => loaded.experiment.client_ticks,
-        };
-        let mut table = Table::new(&loaded, ticks);
+        let mut table = Table::new(&loaded, loaded.experiment.simulation_ticks);
         if let Some(dt) = sample_time {
             let refused = |Refusal(message)| Problems::from(crate::problem::Problem::nowhere(message));
             table.set_sample_time(dt).map_err(refused)?;
@@ -138,6 +151,7 @@ impl Session {
             finished: Vec::new(),
             steps: 0,
             root,
+            grants: Grants::default(),
         })
     }
 
@@ -225,6 +239,41 @@ impl Session {
         arguments: &[Value],
     ) -> Result<Vec<Value>, Refusal> {
         let results = self.lockstep.call_script(object, kind, function, arguments)?;
+        self.do_requests()?;
+        Ok(results)
+    }
+
+    /// Lets clients do more than they may by themselves.
+    pub fn grant(&mut self, grants: Grants) {
+        self.grants = grants;
+    }
+
+    /// Where clients may send files.
+    ///
+    /// # Errors
+    ///
+    /// They may not.
+    pub fn files(&self) -> Result<&Files, Refusal> {
+        let refused = "clients send and erase no files here: `sincro serve --grant files` lets them";
+        self.grants.files.as_ref().ok_or_else(|| Refusal::new(refused))
+    }
+
+    /// Runs a text in the script on an object, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// It is not granted, there is no such script, or the text failed.
+    pub fn evaluate(
+        &mut self,
+        object: Handle,
+        kind: Option<crate::script::Kind>,
+        text: &str,
+    ) -> Result<Vec<Value>, Refusal> {
+        if !self.grants.evaluation {
+            let refused = "texts of clients are not run here: `sincro serve --grant scripts` lets them";
+            return Err(Refusal::new(refused));
+        }
+        let results = self.lockstep.evaluate(object, kind, text)?;
         self.do_requests()?;
         Ok(results)
     }
@@ -343,24 +392,42 @@ impl Session {
         self.do_requests()
     }
 
-    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one. A run that is on is ended.
+    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one, or a file that a client has sent. A run that is on
+    /// is ended.
     ///
     /// # Errors
     ///
     /// It lies elsewhere, or something is wrong with it; the scene that was loaded stays.
     pub fn load(&mut self, path: &str) -> Result<(), Refusal> {
-        let folder = self.allowed(path)?;
+        let allowed = self.allowed(path);
+        let sent = if allowed.is_ok() { None } else { self.sent(path) };
+        let folder = sent.clone().map_or(allowed, Ok)?;
         let loaded = load(&folder, &[]).map_err(|problems| {
             let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
             Refusal(format!("the scene `{path}` cannot be loaded: {first}"))
         })?;
+        if let Some(place) = sent.as_deref().and_then(Path::parent) {
+            let is_inside = |file: &Path| file.canonicalize().is_ok_and(|file| file.starts_with(place));
+            if let Some(outside) = loaded.sources.iter().find(|source| !is_inside(&source.path)) {
+                let outside = outside.path.display();
+                return Err(Refusal(format!("the scene `{path}` takes `{outside}`, which no client has sent")));
+            }
+        }
         self.stop()?;
         let mut other =
             Self::new(&folder, &[], loaded, None).map_err(|_| Refusal::new("the scene cannot be loaded"))?;
         other.finished = std::mem::take(&mut self.finished);
         other.root.clone_from(&self.root);
+        other.grants.clone_from(&self.grants);
         *self = other;
         Ok(())
+    }
+
+    /// The file that a client has sent and means by a path, if there is one.
+    fn sent(&self, path: &str) -> Option<PathBuf> {
+        let name = path.rsplit(['/', '\\']).next()?;
+        let place = self.grants.files.as_ref()?.place(name).ok()?;
+        place.is_file().then(|| place.canonicalize().ok())?
     }
 
     /// The scene folder that a client means, if it may be loaded.

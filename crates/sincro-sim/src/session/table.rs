@@ -10,10 +10,11 @@ use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
+use super::note::Notes;
 use super::signals::Signals;
 use super::{Phase, Refusal, convention};
 use crate::load::Loaded;
-use crate::scene::ObjectKind;
+use crate::scene::{Object, ObjectKind};
 
 /// Name of an object on every wire: small and positive. Negative numbers have meanings of their own (`sim.handle_world` …).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -37,8 +38,10 @@ pub enum Kind {
     Frame,
     /// An external force.
     Force,
-    /// A rotor.
-    Rotor,
+    /// A rotor: to clients and scripts a joint that turns at the speed it is told. Its index among the model's.
+    Rotor(usize),
+    /// A fixed joint that measures what goes through it: its first degree of freedom, which is held.
+    ForceSensor(usize),
     /// Made by a client or script: a named point.
     Dummy,
 }
@@ -141,6 +144,7 @@ pub struct Table {
     /// Parameters by name.
     pub named: BTreeMap<String, Vec<u8>>,
     log: VecDeque<LogLine>,
+    notes: Notes,
     requests: Vec<Request>,
     /// What the simulation is doing.
     pub phase: Phase,
@@ -148,6 +152,8 @@ pub struct Table {
     pub scene_path: String,
     /// How often a stop was asked for.
     pub stop_requests: i64,
+    /// Environments of inverse kinematics.
+    pub(super) environments: Vec<Option<super::ik::Environment>>,
     pub(super) zero: Vec<f64>,
 }
 
@@ -174,10 +180,12 @@ impl Table {
             data: BTreeMap::new(),
             named: BTreeMap::new(),
             log: VecDeque::new(),
+            notes: Notes::default(),
             requests: Vec::new(),
             phase: Phase::Stopped,
             scene_path: loaded.experiment.scene_path.display().to_string(),
             stop_requests: 0,
+            environments: Vec::new(),
             zero: vec![0.0; scene.model.n_v()],
         };
         for object in &scene.objects {
@@ -190,6 +198,11 @@ impl Table {
                 ObjectKind::Joint { kind, motor } => match names.joint(&object.path) {
                     None => (Kind::Joint(None), beside, beside),
                     Some(joint) => {
+                        if *kind == JointKind::Fixed {
+                            let measuring = Kind::ForceSensor(joint.v_idx);
+                            new.add(object, measuring, parent, (joint.base, joint.moving));
+                            continue;
+                        }
                         let turn = axis_of(kind).map_or_else(Mat3::identity, convention::rotation_to);
                         let own = axis_of(kind).is_some().then(|| {
                             new.joint_of.insert(handle, new.joints.len());
@@ -218,16 +231,19 @@ impl Table {
                     let at = of_frame().unwrap_or(beside);
                     (Kind::Frame, at, at)
                 }
+                ObjectKind::Camera { .. } => (Kind::Frame, beside, beside),
                 ObjectKind::Fixture => {
                     let at = of_frame().unwrap_or(beside);
                     let none = MassProperties { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
                     (Kind::Body(none), at, at)
                 }
                 ObjectKind::Force | ObjectKind::Drag => (Kind::Force, beside, beside),
-                ObjectKind::Rotor => (Kind::Rotor, beside, beside),
+                ObjectKind::Rotor => {
+                    let index = names.rotors.iter().position(|name| *name == object.path);
+                    (Kind::Rotor(index.expect("every rotor has a name")), beside, beside)
+                }
             };
-            let (name, path) = (object.name.clone(), object.path.clone());
-            new.entries.push(Some(Entry { handle, name, path, kind, parent, frame, moving }));
+            new.add(object, kind, parent, (frame, moving));
         }
         for script in &scene.scripts {
             let object = Handle(script.object as i32 + 1);
@@ -235,6 +251,12 @@ impl Table {
             new.script_parameters.extend(texts);
         }
         new
+    }
+
+    /// An object of the scene.
+    fn add(&mut self, object: &Object, kind: Kind, parent: Option<Handle>, at: (Attached<f64>, Attached<f64>)) {
+        let (handle, name, path) = (self.next_handle(), object.name.clone(), object.path.clone());
+        self.entries.push(Some(Entry { handle, name, path, kind, parent, frame: at.0, moving: at.1 }));
     }
 
     fn next_handle(&self) -> Handle {
@@ -293,6 +315,9 @@ impl Table {
         match entry.kind {
             Kind::Joint(Some(k)) => Ok(&self.joints[k]),
             Kind::Joint(None) => Err(Refusal(format!("joint `{}` has no single coordinate", entry.path))),
+            Kind::Rotor(_) => {
+                Err(Refusal(format!("`{}` is a rotor: it has a speed and a target velocity only", entry.path)))
+            }
             _ => Err(Refusal(format!("`{}` is no joint", entry.path))),
         }
     }
@@ -468,6 +493,18 @@ impl Table {
         self.log.push_back(LogLine { level, text });
     }
 
+    /// What is kept of a run's messages with the run.
+    pub(crate) fn notes(&self) -> &Notes {
+        &self.notes
+    }
+
+    /// Keeps a message with the run that is on.
+    pub(crate) fn note(&mut self, t: f64, object: &str, text: &str) {
+        if self.phase.is_on() {
+            self.notes.add(t, object, text);
+        }
+    }
+
     /// Takes the lines gathered so far.
     pub fn take_log(&mut self) -> Vec<LogLine> {
         self.log.drain(..).collect()
@@ -491,6 +528,7 @@ impl Table {
         self.integers.forget_run();
         self.floats.forget_run();
         self.strings.forget_run();
+        self.notes = Notes::default();
         self.has_stepped = false;
     }
 

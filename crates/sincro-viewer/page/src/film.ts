@@ -4,9 +4,12 @@
 export type Pose = [number, number, number, number, number, number, number];
 
 export interface ShapeView {
-  kind: "cuboid" | "sphere" | "cylinder" | "capsule" | "cone";
-  /** Edge lengths of a cuboid; radius and length of the others [m]. */
+  kind: "cuboid" | "sphere" | "cylinder" | "capsule" | "cone" | "plane" | "mesh";
+  /** Edge lengths of a cuboid; radius and length of the others [m]; nothing for planes and meshes. */
   size: number[];
+  /** Corners [m] and triangles of a mesh. */
+  vertices?: [number, number, number][];
+  triangles?: [number, number, number][];
   pose: Pose;
   color: string | null;
 }
@@ -41,6 +44,11 @@ export interface ObjectView {
   joint: JointView | null;
   rotor: RotorView | null;
   force: number | null;
+  drag: number | null;
+  /** Looks along z of its frame, y is up in the picture. */
+  camera?: { field_of_view_deg: number };
+  /** Of a closure: mover and pose of its other end. */
+  other_end?: [number | null, Pose];
 }
 
 export interface SceneView {
@@ -48,6 +56,11 @@ export interface SceneView {
   n_movers: number;
   n_rotors: number;
   n_forces: number;
+  n_drags: number;
+  /** Movers at which the frames have the wind. */
+  winds: number[];
+  /** Object of each surface that can touch. */
+  surfaces: (number | null)[];
   n_q: number;
   n_v: number;
   gravity: [number, number, number];
@@ -68,7 +81,7 @@ export interface Reel {
   view: number;
   stop: string;
   trace: string;
-  frames: { width: number; times: string; numbers: string };
+  frames: { width: number; times: string; numbers: string; counts: string; contacts: string };
   signals: {
     every: number;
     columns: [string, string, number | null][];
@@ -112,6 +125,6 @@ export function singles(text: string): Float32Array<ArrayBuffer> {
 /** Reads a film; throws a sentence if it is none of ours. */
 export function readFilm(text: string): Film {
   const film = JSON.parse(text) as Film;
-  if (film.format !== "sincro-film-1") throw new Error(`this is not a replay that this page can show (format ${String(film.format)})`);
+  if (film.format !== "sincro-film-2") throw new Error(`this is not a replay that this page can show (format ${String(film.format)})`);
   return film;
 }

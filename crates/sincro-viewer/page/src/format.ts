@@ -26,6 +26,11 @@ export function exact(x: number): string {
   return String(x);
 }
 
+/** Whether the reader wants a dark page. */
+export function isDark(): boolean {
+  return matchMedia("(prefers-color-scheme: dark)").matches;
+}
+
 type Child = Node | string | null;
 type Props = Record<string, string | number | boolean | ((event: Event) => void) | null>;
 

@@ -1,11 +1,11 @@
-// Keys: space plays, arrows step, 1 to 4 are cameras.
+// Keys: space plays, arrows step, 1 to 9 are cameras.
 
 import { firstBody } from "./ui/shown";
 import { forward } from "./ui/transport";
-import { CAMERAS, type Stage } from "./three/stage";
+import { cameraNames, type Stage } from "./three/stage";
 import type { Session } from "./session";
 
-export const KEYS = "space play · ← → one frame · shift ten · home end · 1–4 cameras · F follow · Z / Y undo, redo · Ctrl-drag pulls a body while a live run plays";
+export const KEYS = "space play · ← → one frame · shift ten · home end · 1–9 cameras · F follow · Z / Y undo, redo · Ctrl-drag pulls a body while a live run plays";
 
 export function keyboard(root: HTMLElement, session: Session, stage: Stage): void {
   document.addEventListener("keydown", (event) => {
@@ -15,7 +15,7 @@ export function keyboard(root: HTMLElement, session: Session, stage: Stage): voi
     const types = target instanceof HTMLInputElement && target.type !== "checkbox" && target.type !== "range";
     if (types || target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) return;
     if (target instanceof HTMLButtonElement && event.key === " ") target.blur();
-    const camera = CAMERAS[Number(event.key) - 1];
+    const camera = cameraNames(session)[Number(event.key) - 1];
     const n = event.shiftKey ? 10 : 1;
     const actions: Record<string, () => void> = {
       " ": () => session.togglePlay(),
@@ -32,7 +32,7 @@ export function keyboard(root: HTMLElement, session: Session, stage: Stage): voi
       y: () => session.link?.redo(),
       Escape: () => session.select(null),
     };
-    const action = camera ? () => stage.frame(camera[0]) : actions[event.key];
+    const action = camera ? () => stage.frame(camera) : actions[event.key];
     if (!action) return;
     event.preventDefault();
     action();

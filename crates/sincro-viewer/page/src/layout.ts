@@ -65,6 +65,10 @@ export function layout(root: HTMLElement, session: Session): void {
     notice,
   );
   choose(0);
+  // a click beside a menu closes it
+  document.addEventListener("pointerdown", (event) => {
+    for (const menu of root.querySelectorAll<HTMLDetailsElement>("details.sv-menu[open]")) if (!menu.contains(event.target as Node)) menu.open = false;
+  });
   keyboard(root, session, stage);
   if (!isEmbedded) {
     document.title = `${session.film.title} – sincro`;

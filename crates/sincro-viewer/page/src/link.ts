@@ -1,8 +1,11 @@
 // The line to `sincro view`: commands out; the scene once, then runs, states and frames in.
 
 import type { Film, Property, SceneView } from "./film";
-import { Run } from "./run";
+import { CONTACT, Run } from "./run";
 import type { Session } from "./session";
+
+/** Bytes before the numbers of a message of frames. */
+const HEAD = 24;
 
 interface RunMessage {
   type: "run";
@@ -198,19 +201,21 @@ export class Link {
 
   private fresh = false;
 
-  /** `u32`s 1, run, frames, columns; times; rows of signals; frames. */
+  /** `u32`s 2, run, frames, columns, points of contact, 0; times; rows of signals; frames; how many points each frame has; points. */
   private frames(data: ArrayBuffer): void {
     const session = this.session as Session;
-    const [, id, n, columns] = new Uint32Array(data, 0, 4) as unknown as [number, number, number, number];
+    const [, id, n, columns, points] = new Uint32Array(data, 0, 5) as unknown as [number, number, number, number, number];
     const run = session.runs.find((known) => known.id === id);
     if (!run) return;
     const wasAtEnd = session.run === run && (session.t >= run.end - 1e-9 || this.fresh);
-    const times = new Float64Array(data, 16, n);
-    const width = run.frames.width;
+    const times = new Float64Array(data, HEAD, n);
+    const framesAt = HEAD + 8 * n * (1 + columns);
+    const countsAt = framesAt + 4 * n * run.frames.width;
     run.times.push(times);
     run.rowTimes.push(times);
-    run.rows.push(new Float64Array(data, 16 + 8 * n, n * columns));
-    run.frames.push(new Float32Array(data, 16 + 8 * n * (1 + columns), n * width));
+    run.rows.push(new Float64Array(data, HEAD + 8 * n, n * columns));
+    run.frames.push(new Float32Array(data, framesAt, n * run.frames.width));
+    run.addContacts(new Uint32Array(data, countsAt, n), new Float32Array(data, countsAt + 4 * n, CONTACT * points));
     if (this.fresh && session.run === run) {
       this.fresh = false;
       session.t = run.end;

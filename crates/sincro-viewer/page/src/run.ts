@@ -14,9 +14,18 @@ export interface Reference {
   values: Float64Array;
 }
 
+/** Numbers of a point of contact. */
+export const CONTACT = 8;
+
+export type Three = [number, number, number];
+
 export class Run {
   readonly times = Rows.doubles(1);
   readonly frames: Rows<Float32Array>;
+  /** How many points of contact there are up to and with each frame. */
+  private readonly contactEnds = Rows.doubles(1);
+  /** Points of contact: two surfaces, point [m], force on the first one [N], world axes. */
+  readonly contacts = Rows.singles(CONTACT);
   readonly rowTimes: Rows<Float64Array>;
   readonly rows: Rows<Float64Array>;
   readonly references = new Map<string, Reference>();
@@ -24,6 +33,11 @@ export class Run {
   stop = "";
   trace = "";
   isVisible: boolean;
+  /** Where the parts of a frame begin. */
+  private readonly forcesAt: number;
+  private readonly dragsAt: number;
+  private readonly windsAt: number;
+  private readonly qAt: number;
 
   constructor(
     readonly id: number,
@@ -32,7 +46,11 @@ export class Run {
     readonly view: SceneView,
     readonly columns: Column[],
   ) {
-    this.frames = Rows.singles(7 * view.n_movers + 3 * (view.n_rotors + view.n_forces) + view.n_q + view.n_v);
+    this.forcesAt = 7 * view.n_movers + 3 * view.n_rotors;
+    this.dragsAt = this.forcesAt + 3 * view.n_forces;
+    this.windsAt = this.dragsAt + 3 * view.n_drags;
+    this.qAt = this.windsAt + 3 * view.winds.length;
+    this.frames = Rows.singles(this.qAt + view.n_q + view.n_v);
     this.rowTimes = Rows.doubles(1);
     this.rows = Rows.doubles(columns.length);
     this.isVisible = id === 0;
@@ -43,6 +61,7 @@ export class Run {
     const run = new Run(id, reel.name, reel.about, film.views[reel.view] as SceneView, columns);
     run.times.push(doubles(reel.frames.times));
     run.frames.push(singles(reel.frames.numbers));
+    run.addContacts(singles(reel.frames.counts), singles(reel.frames.contacts));
     const times = doubles(reel.signals.times);
     const numbers = doubles(reel.signals.numbers);
     const rows = new Float64Array(numbers.length);
@@ -79,6 +98,22 @@ export class Run {
     return { k, share: Math.min(1, Math.max(0, share)) };
   }
 
+  /** Points of contact of the next frames: how many there are in each, then all of them. */
+  addContacts(counts: ArrayLike<number>, points: Float32Array): void {
+    const ends = new Float64Array(counts.length);
+    let end = this.contacts.n;
+    for (let k = 0; k < counts.length; k++) ends[k] = end += counts[k] as number;
+    this.contactEnds.push(ends);
+    this.contacts.push(points);
+  }
+
+  /** Rows of `contacts` that belong to the frame at or before `t`. */
+  contactsAt(t: number): { from: number; to: number } {
+    const { k } = this.locate(t);
+    if (k >= this.contactEnds.n) return { from: 0, to: 0 };
+    return { from: k === 0 ? 0 : this.contactEnds.at(k - 1, 0), to: this.contactEnds.at(k, 0) };
+  }
+
   /** A number of the frame at `t`, on the straight line between frames. */
   number(t: number, column: number): number {
     const { k, share } = this.locate(t);
@@ -88,7 +123,7 @@ export class Run {
   }
 
   q(t: number, index: number): number {
-    return this.number(t, 7 * this.view.n_movers + 3 * (this.view.n_rotors + this.view.n_forces) + index);
+    return this.number(t, this.qAt + index);
   }
 
   v(t: number, index: number): number {
@@ -96,8 +131,21 @@ export class Run {
   }
 
   /** Components of an external force in the world [N]. */
-  force(t: number, index: number): [number, number, number] {
-    const at = 7 * this.view.n_movers + 3 * (this.view.n_rotors + index);
+  force(t: number, index: number): Three {
+    return this.three(t, this.forcesAt + 3 * index);
+  }
+
+  /** Components of the force of a drag element in the world [N]. */
+  drag(t: number, index: number): Three {
+    return this.three(t, this.dragsAt + 3 * index);
+  }
+
+  /** Wind [m/s] at mover `winds[index]`, world axes. */
+  wind(t: number, index: number): Three {
+    return this.three(t, this.windsAt + 3 * index);
+  }
+
+  private three(t: number, at: number): Three {
     return [this.number(t, at), this.number(t, at + 1), this.number(t, at + 2)];
   }
 

@@ -1,11 +1,11 @@
 // What the page is looking at: the runs, the time, what is selected; and who must know when that changes.
 
-import type { Film, Property, SceneView } from "./film";
+import type { Film, ObjectView, Property, SceneView } from "./film";
 import type { Link } from "./link";
 import { Run } from "./run";
 
 /** What may change. `frames`: a run has grown. */
-export type Topic = "time" | "runs" | "frames" | "selection" | "playing" | "shown" | "plots" | "properties" | "live" | "notice";
+export type Topic = "time" | "runs" | "frames" | "selection" | "playing" | "shown" | "plots" | "properties" | "live" | "notice" | "camera";
 
 /** What is drawn over the bodies. */
 export const SHOWN = {
@@ -16,12 +16,36 @@ export const SHOWN = {
   springs: { label: "springs", on: true },
   rotors: { label: "thrust", on: true },
   forces: { label: "external forces", on: true },
+  contacts: { label: "contact points", on: true },
+  contactForces: { label: "contact forces", on: true },
+  drags: { label: "drag", on: true },
+  wind: { label: "wind", on: true },
+  closures: { label: "closures", on: true },
   trace: { label: "path", on: true },
   grid: { label: "ground", on: true },
   shadows: { label: "shadows", on: true },
 } as const;
 
 export type Shown = keyof typeof SHOWN;
+
+/** Whether a scene has what a toggle shows. */
+export function applies(view: SceneView, key: Shown): boolean {
+  const some = (has: (o: ObjectView) => boolean) => view.objects.some(has);
+  switch (key) {
+    case "axes": return some((o) => (o.joint?.axes.length ?? 0) > 0);
+    case "centers":
+    case "inertia": return some((o) => o.mass !== null);
+    case "springs": return some((o) => (o.joint?.springs.length ?? 0) > 0);
+    case "rotors": return view.n_rotors > 0;
+    case "forces": return view.n_forces > 0;
+    case "contacts":
+    case "contactForces": return view.surfaces.length > 0;
+    case "drags": return view.n_drags > 0;
+    case "wind": return view.winds.length > 0;
+    case "closures": return some((o) => o.other_end !== undefined);
+    default: return true;
+  }
+}
 
 export class Session {
   runs: Run[] = [];
@@ -36,6 +60,8 @@ export class Session {
   readonly shown: Record<Shown, boolean>;
   link: Link | null = null;
   notice = "";
+  /** Plots a signal; the scopes set it. */
+  plot: (signal: string) => void = () => undefined;
   private readonly listeners = new Map<Topic, (() => void)[]>();
 
   constructor(readonly film: Film) {

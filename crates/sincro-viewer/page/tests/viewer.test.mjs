@@ -1,70 +1,10 @@
 // Drives `sincro view` in a real browser: load, play, pause, scrub, select, plot, edit, branch; and a report without a server.
 // Needs CHROMIUM (default /usr/bin/chromium) and SINCRO, the program; skips with a word where there is no browser.
 import assert from "node:assert/strict";
-import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, join, resolve } from "node:path";
-import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
-
-const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../../..");
-const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const sincro = process.env.SINCRO ?? join(root, "target/release/sincro");
-const skip = existsSync(executablePath) ? false : `there is no browser at ${executablePath}`;
-const options = { skip, timeout: 120_000 };
-
-let browser;
-const children = [];
-const folder = mkdtempSync(join(tmpdir(), "sincro-viewer-"));
-
-before(async () => {
-  if (skip) return;
-  browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
-});
-
-after(async () => {
-  await browser?.close();
-  for (const child of children) child.kill();
-  rmSync(folder, { recursive: true, force: true });
-});
-
-/** Starts `sincro view` and waits for its address. */
-async function view(what, ...more) {
-  const child = spawn(sincro, ["view", what, "--no-browser", ...more], { stdio: ["ignore", "pipe", "inherit"] });
-  children.push(child);
-  const url = await new Promise((done, failed) => {
-    child.stdout.once("data", (data) => done(String(data).trim()));
-    child.once("exit", (code) => failed(new Error(`sincro view ended with ${code}`)));
-  });
-  return url;
-}
-
-/** A page that notes what goes wrong in it. */
-async function open(url, size = { width: 1280, height: 720 }) {
-  const page = await browser.newPage({ viewport: size });
-  const wrong = [];
-  page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
-  page.on("pageerror", (error) => wrong.push(error.message));
-  // while working on the page: the bundle on disk in place of the one in the program
-  if (process.env.BUNDLE) for (const file of ["viewer.js", "viewer.css"]) await page.route(`**/${file}`, (route) => route.fulfill({ path: join(process.env.BUNDLE, file) }));
-  const begin = Date.now();
-  await page.goto(url);
-  await page.waitForSelector(".sv-stage[data-drawn]");
-  return { page, wrong, first: Date.now() - begin };
-}
-
-const clock = (page) => page.locator(".sv-clock").innerText().then((text) => Number.parseFloat(text));
-const state = (page) => page.locator(".sv-play").getAttribute("data-state");
-const until = (page, what, ...more) => page.waitForFunction(what, ...more, { timeout: 60_000 });
-
-async function scrub(page, share) {
-  await page.locator(".sv-timeline").evaluate((slider, value) => {
-    slider.value = String(1000 * value);
-    slider.dispatchEvent(new Event("input"));
-  }, share);
-}
+import { spawnSync } from "node:child_process";
+import { join } from "node:path";
+import { test } from "node:test";
+import { clock, folder, open, options, root, scrub, sincro, state, until, view } from "./browser.mjs";
 
 for (const [scene, object, signal, number] of [
   ["quadrotor-open-loop", "/air/quadrotor", "/air.velocity.z", "/air/quadrotor.mass"],
@@ -127,8 +67,11 @@ test("a finished run: the report opens without a server, and `sincro view` shows
   for (const url of [`file://${out}/report.html`, await view(out)]) {
     const { page, wrong } = await open(url);
     if (url.startsWith("file:")) await page.click("text=whole window");
+    await page.click('[data-menu="runs"] summary');
     await page.click("text=lag-from-rest");
-    assert.equal(await page.locator(".sv-run.sv-active").innerText(), "lag-from-rest");
+    await page.mouse.click(640, 300);
+    assert.equal(await page.locator('[data-menu="runs"]').getAttribute("open"), null, "a click beside a menu closes it");
+    assert.equal(await page.locator(".sv-run.sv-active").textContent(), "lag-from-rest");
     await page.locator(".sv-play").click();
     await until(page, () => Number.parseFloat(document.querySelector(".sv-clock").textContent) > 0.3);
     await page.locator(".sv-play").click();

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, MutexGuard};
 
 use serde::Serialize;
+use sincro_sim::replay::Contacts;
 use tokio::sync::watch;
 
 /// Words that are kept for viewers; older ones have been read or never will be.
@@ -44,6 +45,8 @@ pub struct RunLog {
     pub frames: Vec<f32>,
     /// Numbers a frame.
     pub width: usize,
+    /// Points of contact of the frames.
+    pub contacts: Contacts,
 }
 
 /// How the engine stands.

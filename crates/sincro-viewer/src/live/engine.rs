@@ -20,6 +20,8 @@ use crate::save::save_scene;
 
 /// Commands that may wait.
 const MOST_WAITING: usize = 64;
+/// Memory for the snapshots of all runs: 256 MB. What does not fit is thinned in time.
+const SNAPSHOT_BYTES: usize = 256 << 20;
 /// How long it computes at a stretch before it looks for commands.
 const STRETCH: Duration = Duration::from_millis(8);
 /// How long it sleeps when it is ahead of the clock.
@@ -254,6 +256,8 @@ impl Engine {
         let log = RunLog { header, n_columns: track.columns.len(), width: track.layout.width(), ..RunLog::default() };
         let taken = track.take(true);
         self.tracks.push(track);
+        let share = SNAPSHOT_BYTES / self.tracks.len();
+        self.tracks.iter_mut().for_each(|track| track.keep_snapshots(share));
         self.board.write(|content| content.runs.push(log));
         self.publish(taken);
         self.stand();
@@ -265,6 +269,7 @@ impl Engine {
             run.times.push(taken.t);
             run.rows.extend(taken.row);
             run.frames.extend(taken.frame);
+            run.contacts.append(&taken.contacts);
         });
         let factor = self.factor(taken.t);
         // told ten times a second is enough

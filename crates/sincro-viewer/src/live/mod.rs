@@ -6,6 +6,7 @@
 mod board;
 mod command;
 mod engine;
+mod thinned;
 mod track;
 
 pub use board::{Board, RunLog, Standing};

@@ -7,14 +7,18 @@ use sincro_sim::diagram::Controller;
 use sincro_sim::overrides::Override;
 use sincro_sim::problem::{Located, Problems};
 use sincro_sim::record::{Recorder, catalogue};
-use sincro_sim::replay::{Layout, SceneView, Tape};
+use sincro_sim::replay::{Contacts, Layout, SceneView, Tape};
 use sincro_sim::run::{LockStep, Trace, method_for};
 use sincro_sim::snapshot::Snapshot;
 
+use super::thinned::Thinned;
 use crate::film::stop_words;
 
 /// Signals beyond which the catalogue is not offered whole: what is recorded and the diagram's remain.
 const MOST_SIGNALS: usize = 400;
+
+/// Bytes that the recorded signals of a run may take: a long run with many of them is looked at less often.
+const MOST_ROW_BYTES: u64 = 256 << 20;
 
 /// A run under way.
 pub(super) struct Track {
@@ -31,8 +35,8 @@ pub(super) struct Track {
     recorder: Recorder,
     method: sincro_dynamics::world::MethodKind,
     every: u64,
-    /// Base steps done at each frame, and the state.
-    snapshots: Vec<Snapshot>,
+    /// States at the frames.
+    snapshots: Thinned<Snapshot>,
     push: Option<Push<f64>>,
 }
 
@@ -41,6 +45,7 @@ pub(super) struct Taken {
     pub t: f64,
     pub row: Vec<f64>,
     pub frame: Vec<f32>,
+    pub contacts: Contacts,
 }
 
 impl Track {
@@ -51,7 +56,9 @@ impl Track {
         let (recorder, columns) = recorder(&loaded)?;
         let model = &loaded.scene.model;
         let tape = Tape::new(model, &loaded.experiment);
-        let (view, layout, every) = (SceneView::new(&loaded.scene), tape.layout, tape.every);
+        let row_bytes = 8 * columns.len() as u64 * loaded.experiment.n_steps;
+        let every = tape.every.max(row_bytes.div_ceil(MOST_ROW_BYTES));
+        let (view, layout) = (SceneView::new(&loaded.scene), tape.layout);
         let trace = lockstep.trace();
         let mut new = Self {
             settings,
@@ -64,7 +71,7 @@ impl Track {
             recorder,
             method,
             every,
-            snapshots: Vec::new(),
+            snapshots: Thinned::new(usize::MAX),
             push: None,
             loaded,
         };
@@ -136,14 +143,21 @@ impl Track {
         let (seen, signals) = self.lockstep.observe(t);
         let row = self.recorder.row(&seen, signals, t, is_start)[1..].to_vec();
         self.layout.write(&seen, t, &mut frame);
-        Taken { t, row, frame }
+        let mut contacts = Contacts::default();
+        contacts.look(&seen);
+        Taken { t, row, frame, contacts }
     }
 
-    /// The state at the last frame up to `t` `[s]`; none before the first.
+    /// Bounds the memory of the snapshots.
+    pub fn keep_snapshots(&mut self, most_bytes: usize) {
+        let one = snapshot_bytes(&self.lockstep.snapshot(self.trace));
+        self.snapshots.set_most(most_bytes / one);
+    }
+
+    /// The last state that was kept up to `t` `[s]`; none before the first.
     pub fn snapshot_at(&self, t: f64) -> Option<&Snapshot> {
         let step = self.loaded.experiment.step;
-        let n = self.snapshots.partition_point(|s| s.state.tick as f64 * step <= t + 1e-9 * step.max(t));
-        n.checked_sub(1).map(|k| &self.snapshots[k])
+        self.snapshots.last_before(|s| s.state.tick as f64 * step <= t + 1e-9 * step.max(t))
     }
 
     /// Seizes an object at a point of the world, which then goes with it; the force keeps its direction in the world.
@@ -160,6 +174,12 @@ impl Track {
         self.push = Some(Push { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
         Ok(())
     }
+}
+
+/// About how much memory a snapshot takes.
+fn snapshot_bytes(snapshot: &Snapshot) -> usize {
+    let diagram = snapshot.diagram.as_ref().map_or(0, |d| d.signals.len() + d.continuous.len() + d.memory.len());
+    size_of::<Snapshot>() + snapshot.state.heap_bytes() + 8 * (snapshot.sensors.len() + diagram)
 }
 
 /// Everything that can be looked at, as far as it is not too much.

@@ -28,6 +28,7 @@ use axum::response::{Html, IntoResponse, Response};
 use axum::routing::get;
 
 pub use guard::Guard;
+use serde_json::Value;
 
 use crate::embed::{SCRIPT, STYLE};
 use crate::live::{Board, Command};
@@ -42,6 +43,22 @@ pub enum Show {
     Film(Arc<str>),
     /// A live run.
     Live(Arc<Board>, SyncSender<Command>),
+}
+
+impl Show {
+    /// Paths of the cameras of what is shown.
+    #[must_use]
+    pub fn cameras(&self) -> Vec<String> {
+        let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
+        let view = match self {
+            Self::Film(text) => parse(text)["views"][0].take(),
+            Self::Live(board, _) => {
+                board.read().runs.first().map_or(Value::Null, |run| parse(&run.header)["view"].take())
+            }
+        };
+        let objects = view["objects"].as_array().into_iter().flatten();
+        objects.filter(|o| o["camera"].is_object()).filter_map(|o| Some(o["path"].as_str()?.to_owned())).collect()
+    }
 }
 
 #[derive(Clone)]

@@ -1,13 +1,14 @@
 //! One viewer's line: everything that is on the board and that it has not seen, at its own pace.
 //!
-//! A frame message is, little endian: `u32` 1, run, number of frames n, number of signals m; n times `[s]` as `f64`; n·m signals as `f64`;
-//! n frames as `f32`. All else is JSON.
+//! A frame message is, little endian: `u32` 2, run, number of frames n, number of signals m, number of points of contact c, 0; n times `[s]` as `f64`;
+//! n·m signals as `f64`; n frames as `f32`; n numbers of points as `u32`; c points as `f32`. All else is JSON.
 
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::time::Duration;
 
 use axum::extract::ws::{Message, WebSocket};
+use sincro_sim::replay::CONTACT;
 use tokio::time::{Instant, sleep_until};
 
 use crate::live::{Board, Command};
@@ -140,12 +141,15 @@ impl Seen {
 
 fn frames(id: usize, run: &crate::live::RunLog, from: usize, to: usize) -> Vec<u8> {
     let n = to - from;
-    let mut bytes = Vec::with_capacity(16 + n * (8 + 8 * run.n_columns + 4 * run.width));
-    for number in [1, id, n, run.n_columns] {
+    let points: usize = (from..to).map(|k| run.contacts.count(k)).sum();
+    let mut bytes = Vec::with_capacity(24 + n * (12 + 8 * run.n_columns + 4 * run.width) + 4 * CONTACT * points);
+    for number in [2, id, n, run.n_columns, points, 0] {
         bytes.extend(u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes());
     }
     run.times[from..to].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
     run.rows[from * run.n_columns..to * run.n_columns].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
     run.frames[from * run.width..to * run.width].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    (from..to).for_each(|k| bytes.extend((run.contacts.count(k) as u32).to_le_bytes()));
+    (from..to).flat_map(|k| run.contacts.frame(k)).for_each(|x| bytes.extend(x.to_le_bytes()));
     bytes
 }

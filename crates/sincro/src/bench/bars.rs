@@ -65,7 +65,7 @@ const fn most(figure: &'static str, model: &'static str, first: f64, goal: f64, 
 }
 
 /// All bars that are measured here.
-pub(super) const BARS: [Bar; 22] = [
+pub(super) const BARS: [Bar; 25] = [
     ratio("step semi-implicit-euler", "alexandros", "mujoco", 3.0, 7.0),
     ratio("step implicit", "alexandros", "mujoco", 3.0, 6.0),
     ratio("step rk4", "arm2", "mujoco", 5.0, 10.0),
@@ -91,6 +91,9 @@ pub(super) const BARS: [Bar; 22] = [
     most("growth chain200/chain100", "chain200", 2.1, 2.0, "×"),
     most("diagram of 100 blocks adds", "arm2", 2000.0, 1000.0, "ns"),
     most("flight of 60 s", "quadrotor", 0.15, 0.05, "s"),
+    most("legacy message", "doors", 20.0, 10.0, "µs"),
+    most("ZeroMQ call", "doors", 30.0, 15.0, "µs"),
+    most("Lua actuation call", "doors", 3.0, 1.0, "µs"),
     most("memory", "alexandros", 16.0, 8.0, "kB"),
     most("accuracy first second", "arm2", 1e-5, 1e-6, "rad"),
     most("accuracy energy 10 s", "chain10", 1e-4, 1e-8, ""),

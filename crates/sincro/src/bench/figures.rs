@@ -33,6 +33,8 @@ pub(crate) enum FigureKind {
     Growth,
     /// What a block diagram adds to a step
     Diagram,
+    /// What a message of a client and a call of a script cost
+    Doors,
     /// A minute of the quadrotor's flight test, controller and recording included
     Flight,
     /// Bytes of one world
@@ -182,9 +184,40 @@ impl<'a> Session<'a> {
         if both && self.wants(FigureKind::Growth) {
             self.measure_growth();
         }
+        if self.options.only.is_empty() && self.wants(FigureKind::Doors) {
+            self.measure_doors();
+        }
         if self.options.only.is_empty() && self.wants(FigureKind::Flight) {
             self.measure_flight();
         }
+    }
+
+    /// Messages of clients, on the wall because another thread answers; and a script's call.
+    fn measure_doors(&mut self) {
+        let seconds = self.options.seconds_per_figure;
+        match super::doors::clients() {
+            Ok(pairs) => {
+                let figures = [("legacy message", "simxGetJointPosition"), ("ZeroMQ call", "sim.getJointPosition")];
+                for ((figure, call), (with, without)) in figures.into_iter().zip(pairs) {
+                    let (value, whole) = added(with, without, seconds, |sample| sample.wall);
+                    let note = format!("{call}; round trip {:.1} µs on the wall, less that of an echo", whole * 1e-3);
+                    self.push_door(figure, value * 1e-3, note);
+                }
+            }
+            Err(problem) => complain(&problem),
+        }
+        match super::doors::script() {
+            Ok((with, without)) => {
+                let (value, whole) = added(with, without, seconds, |sample| sample.cpu);
+                let note = format!("sysCall_actuation without host calls; of {whole:.0} ns, semi-implicit step");
+                self.push_door("Lua actuation call", value * 1e-3, note);
+            }
+            Err(problem) => complain(&problem),
+        }
+    }
+
+    fn push_door(&mut self, figure: &'static str, value: f64, note: String) {
+        self.push(Row { model: "doors", figure, value, unit: "µs", timing: None, note, rivals: Vec::new() });
     }
 
     /// A minute of flight: processor time, as everywhere here, and beside it the wall, which is what a user waits for.
@@ -263,8 +296,8 @@ impl<'a> Session<'a> {
         }
         if self.wants(FigureKind::Diagram) && robot.name == "arm2" {
             for (figure, with, without) in super::diagrams::figures() {
-                let (added, note) = added(with, without, self.options.seconds_per_figure);
-                self.push(row(figure, added, "ns", &note));
+                let (added, whole) = added(with, without, self.options.seconds_per_figure, |sample| sample.cpu);
+                self.push(row(figure, added, "ns", &format!("of {whole:.0} ns, semi-implicit step")));
             }
         }
         if self.wants(FigureKind::Memory) {
@@ -304,17 +337,17 @@ impl<'a> Session<'a> {
     }
 }
 
-/// What something adds to a step: the median of the differences of neighbours, measured in turn.
-fn added(with: Subject, without: Subject, seconds: f64) -> (f64, String) {
+/// What something adds: the median of the differences of neighbours, measured in turn; and how long it takes with it `[ns]`.
+fn added(with: Subject, without: Subject, seconds: f64, of: fn(Sample) -> f64) -> (f64, f64) {
     let (mut with, mut without) = (Meter::new(with), Meter::new(without));
     let share = seconds / ROUNDS as f64;
     let (mut differences, mut whole) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         let (long, short) = (with.round(share), without.round(share));
-        differences.push(long.cpu - short.cpu);
-        whole.push(long.cpu);
+        differences.push(of(long) - of(short));
+        whole.push(of(long));
     }
-    (median(differences), format!("of {:.0} ns, semi-implicit step", median(whole)))
+    (median(differences), median(whole))
 }
 
 /// Ours, peer, ours, peer … ours: the ratio is the median of the ratios of neighbours.

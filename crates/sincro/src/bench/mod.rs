@@ -8,6 +8,7 @@ mod accuracy;
 mod bars;
 mod clock;
 mod diagrams;
+mod doors;
 mod figures;
 mod flight;
 mod models;

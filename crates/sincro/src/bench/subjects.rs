@@ -39,7 +39,7 @@ pub(super) fn default_experiment(step: f64, duration: f64) -> Experiment {
         duration,
         step,
         n_steps: (duration / step).round() as u64,
-        client_ticks: 1,
+        simulation_ticks: 1,
         record_every: 1,
         integrator: Integrator::Auto,
         accuracy: DEFAULT_ACCURACY,

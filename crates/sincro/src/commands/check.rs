@@ -99,7 +99,7 @@ fn print_scripts(loaded: &Loaded) {
     if scripts.is_empty() {
         return;
     }
-    let every = loaded.experiment.step * loaded.script_ticks() as f64;
+    let every = loaded.experiment.step * loaded.experiment.simulation_ticks as f64;
     say!("scripts, called every {} s", short(every));
     for script in scripts {
         let kind = match script.kind {

@@ -198,6 +198,10 @@ fn facts(a: &Run, b: &Run) -> Vec<(String, String, String)> {
 fn overlay(films: &[Option<String>; 2], folders: [&PathBuf; 2]) -> Option<String> {
     let [Some(first), Some(second)] = films else { return None };
     let (mut film, other): (Value, Value) = (serde_json::from_str(first).ok()?, serde_json::from_str(second).ok()?);
+    // a replay of another version is left out, the numbers are compared all the same
+    if [&film, &other].iter().any(|film| film["format"] != sincro_viewer::film::FORMAT) {
+        return None;
+    }
     let named = |run: &Value, folder: &Path, view: usize| {
         let mut run = run.clone();
         run["name"] = folder

@@ -43,6 +43,9 @@ pub(crate) struct Arguments {
     /// Write run.mcap too, for Foxglove, Lichtblick or Rerun
     #[arg(long)]
     mcap: bool,
+    /// Write pictures of the run too, as SVG files in `frames`: 30 a simulated second, 1800 at most
+    #[arg(long)]
+    frames: bool,
     /// Print run.json on standard output instead of the summary
     #[arg(long)]
     json: bool,
@@ -67,6 +70,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     if arguments.mcap
         && let Err(error) = sincro_viewer::mcap::write(&campaign.main, &out.join("run.mcap"))
+    {
+        return diagnostics::refuse_file(&error);
+    }
+    if arguments.frames
+        && let Err(error) = present::write_frames(&campaign.main, &out)
     {
         return diagnostics::refuse_file(&error);
     }

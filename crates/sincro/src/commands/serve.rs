@@ -12,7 +12,7 @@ use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::results::{self, FileError, Status};
 use sincro_sim::run::judge;
-use sincro_sim::session::{Finished, Session};
+use sincro_sim::session::{Files, Finished, Grants, Session};
 
 use super::console;
 use super::run::{interrupt, parse_settings, scene_name};
@@ -43,9 +43,12 @@ pub(crate) struct Arguments {
     /// Address to listen on; 0.0.0.0 lets other machines in
     #[arg(long, value_name = "ADDR", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
-    /// Step of the clients `[s]`, V-REP's simulation time step [default: client_step of the experiment]
-    #[arg(long, value_name = "S")]
-    client_step: Option<f64>,
+    /// Step of the clients `[s]`, V-REP's simulation time step [default: simulation_step of the experiment]
+    #[arg(long, value_name = "S", alias = "client-step")]
+    simulation_step: Option<f64>,
+    /// Let clients do what they may not by themselves: send files and load scenes from them, run texts in the scene's scripts; may be repeated
+    #[arg(long, value_enum, value_name = "WHAT")]
+    grant: Vec<Grant>,
     /// Run no faster than the clock when no client steps
     #[arg(long)]
     real_time: bool,
@@ -57,14 +60,27 @@ pub(crate) struct Arguments {
     out: Option<PathBuf>,
 }
 
+/// What clients may be let do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Grant {
+    /// Send files to a folder beside the runs, and load scenes from it.
+    Files,
+    /// Run texts in the scene's scripts.
+    Scripts,
+}
+
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let (session, options) = match prepare(arguments) {
+    let (mut session, options) = match prepare(arguments) {
         Ok(prepared) => prepared,
         Err(exit) => return exit,
     };
     let name = scene_name(&arguments.scene);
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{name}-served")));
+    session.grant(Grants {
+        files: arguments.grant.contains(&Grant::Files).then(|| Files::new(out.join("received"))),
+        evaluation: arguments.grant.contains(&Grant::Scripts),
+    });
     diagnostics::print_problems(&session.loaded().warnings);
     let title = session.loaded().experiment.title.clone();
     let server = match Server::start(session, &options) {
@@ -91,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
     let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_problems(&p))?;
-    let session = Session::open(&arguments.scene, &overrides, arguments.client_step);
+    let session = Session::open(&arguments.scene, &overrides, arguments.simulation_step);
     let session = session.map_err(|problems| diagnostics::refuse_problems(&problems))?;
     let patience = Duration::try_from_secs_f64(arguments.client_timeout).ok().filter(|d| !d.is_zero());
     let Some(patience) = patience else {

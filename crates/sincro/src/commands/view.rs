@@ -5,6 +5,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use sincro_viewer::film::FORMAT;
 use sincro_viewer::live::{Engine, Source};
 use sincro_viewer::server::{Server, Show};
 
@@ -22,6 +23,9 @@ pub(crate) struct Arguments {
     /// Port to listen at [default: any free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
+    /// Camera of the scene to begin with [default: its first one]
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
     /// Address to listen at; beyond this machine the page's address has a token
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
@@ -35,6 +39,9 @@ pub(crate) struct Arguments {
 pub(crate) struct ReplayArguments {
     /// Folder of a finished run
     run: PathBuf,
+    /// Camera of the scene to begin with [default: its first one]
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
     /// Port to listen at [default: any free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
@@ -47,18 +54,28 @@ pub(crate) struct ReplayArguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     let is_run = arguments.what.join("replay.json").is_file() && !arguments.what.join("experiment.toml").is_file();
     let show = if is_run { replay_of(&arguments.what) } else { live(arguments) };
-    match show {
-        Ok(show) => serve(show, SocketAddr::new(arguments.bind, arguments.port), arguments.no_browser),
-        Err(exit) => exit,
-    }
+    let address = SocketAddr::new(arguments.bind, arguments.port);
+    show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
 
 /// Shows a finished run.
 pub(crate) fn replay(arguments: &ReplayArguments) -> Exit {
-    match replay_of(&arguments.run) {
-        Ok(show) => serve(show, SocketAddr::from((Ipv4Addr::LOCALHOST, arguments.port)), arguments.no_browser),
-        Err(exit) => exit,
-    }
+    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, arguments.port));
+    let show = replay_of(&arguments.run);
+    show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
+}
+
+/// The path of a camera of what is shown, named by it or by its last part.
+fn camera_of(show: &Show, name: &str) -> Result<String, Exit> {
+    let cameras = show.cameras();
+    let found = cameras.iter().find(|path| *path == name || path.rsplit('/').next() == Some(name));
+    found.cloned().ok_or_else(|| {
+        let help = match cameras.as_slice() {
+            [] => "the scene has none: add a [[camera]] to it".to_owned(),
+            _ => format!("cameras here: {}", cameras.join(", ")),
+        };
+        diagnostics::refuse(&format!("there is no camera `{name}`"), Some(&help))
+    })
 }
 
 fn replay_of(run: &Path) -> Result<Show, Exit> {
@@ -67,8 +84,8 @@ fn replay_of(run: &Path) -> Result<Show, Exit> {
         let message = format!("`{}` cannot be read: {e}", file.display());
         diagnostics::refuse(&message, Some("name the folder that `sincro run` wrote, such as results/SCENE"))
     })?;
-    if !text.starts_with("{\"format\":\"sincro-film-") {
-        let message = format!("`{}` is no replay of sincro", file.display());
+    if !text.starts_with(&format!("{{\"format\":\"{FORMAT}\"")) {
+        let message = format!("`{}` is no replay that this version of sincro shows", file.display());
         return Err(diagnostics::refuse(&message, Some("run the scene again with this version")));
     }
     Ok(Show::Film(text.into()))
@@ -84,7 +101,11 @@ fn live(arguments: &Arguments) -> Result<Show, Exit> {
     Ok(Show::Live(board, engine.start()))
 }
 
-fn serve(show: Show, address: SocketAddr, no_browser: bool) -> Exit {
+fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {
+    let camera = match camera.map(|name| camera_of(&show, name)).transpose() {
+        Ok(camera) => camera,
+        Err(exit) => return exit,
+    };
     let server = match Server::bind(address, show) {
         Ok(server) => server,
         Err(error) => {
@@ -92,11 +113,12 @@ fn serve(show: Show, address: SocketAddr, no_browser: bool) -> Exit {
             return diagnostics::refuse(&message, Some("take another --port, or leave it out for any free one"));
         }
     };
-    say!("{}", server.url());
+    let url = camera.map_or_else(|| server.url(), |path| format!("{}#camera={path}", server.url()));
+    say!("{url}");
     if std::io::stdout().is_terminal() {
         eprintln!("Ctrl-C ends it");
         if !no_browser {
-            open_browser(&server.url());
+            open_browser(&url);
         }
     }
     match server.run() {

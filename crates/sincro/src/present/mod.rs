@@ -6,7 +6,7 @@ use std::path::Path;
 
 use sincro_sim::Loaded;
 use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
-use sincro_sim::run::Campaign;
+use sincro_sim::run::{Campaign, Done};
 use sincro_viewer::film::Film;
 
 use crate::plot::{self, Figure, Size};
@@ -34,6 +34,26 @@ pub(crate) fn write(
     write_text(&out.join("replay.json"), &film)?;
     let replay = sincro_viewer::embed::replay(&film);
     write_text(&out.join("report.html"), &report::html(&Page { replay, ..page(loaded, campaign, figures, up) }))
+}
+
+/// Size of a picture of a run `[px]`.
+const FRAME: (f64, f64) = (960.0, 540.0);
+/// Pictures of a run a simulated second [1/s], and in all.
+const FRAMES: (f64, usize) = (30.0, 1800);
+
+/// Writes pictures of a run into `frames` in a results folder.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub(crate) fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
+    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let folder = out.join("frames");
+    sincro_sim::results::prepare(&folder)?;
+    for (k, picture) in sincro_viewer::picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
+        write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
+    }
+    Ok(())
 }
 
 /// What the viewer shows of a campaign.
@@ -110,8 +130,24 @@ fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(
         signals: signals.collect(),
         energy,
         settings: settings(campaign),
+        messages: messages(campaign),
         notes: notes(campaign),
     }
+}
+
+/// Messages that a page shows; `run.json` has the rest.
+const MOST_MESSAGES: usize = 200;
+
+fn messages(campaign: &Campaign) -> Vec<(String, String, String)> {
+    let all = &campaign.report.messages;
+    let shown = all.iter().take(MOST_MESSAGES);
+    let time = |t: f64| format!("{} s", (t * 1e6).round() / 1e6);
+    let mut list: Vec<_> = shown.map(|m| (time(m.t), m.object.clone(), m.text.clone())).collect();
+    if let Some(next) = all.get(MOST_MESSAGES) {
+        let more = all.len() - MOST_MESSAGES;
+        list.push((time(next.t), String::new(), format!("and {more} more: they are in run.json")));
+    }
+    list
 }
 
 /// The diagrams of the run and of those variants that have another one.
@@ -152,7 +188,8 @@ fn stop(status: &Status) -> Option<Stop> {
     match status {
         Status::Completed => None,
         Status::Ended { time, reason, .. } => {
-            let reason = format!("The run ended at t = {time} s as it was to: {reason}.");
+            let at = plot::number::short(*time, 9);
+            let reason = format!("The run ended at t = {at} s as it was to: {reason}.");
             Some(Stop { time: *time, reason, help: String::new(), is_good: true })
         }
         Status::Stopped { time, reason, help, .. } => {

@@ -42,6 +42,8 @@ pub(crate) struct Page {
     pub(crate) energy: Option<Energy>,
     /// Name and value: scene, integrator, step, accuracy, duration, seed, overrides, hashes, versions.
     pub(crate) settings: Vec<(String, String)>,
+    /// What scripts and clients said: when, who, what.
+    pub(crate) messages: Vec<(String, String, String)>,
     /// Remarks at the end.
     pub(crate) notes: Vec<String>,
 }

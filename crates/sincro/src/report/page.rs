@@ -19,6 +19,7 @@ pub(super) fn html(page: &Page) -> String {
         section("Checks", &checks),
         section("How well the signals are known", &signal_table(&page.signals)),
         section("Energy", &page.energy.map(|energy| energy_line(&energy)).unwrap_or_default()),
+        section("Messages", &messages(&page.messages)),
         section("Settings", &settings(&page.settings)),
         section("Notes", &list(&page.notes)),
     ];
@@ -81,6 +82,21 @@ pub(crate) fn figure(figure: &Figure) -> String {
         inline_svg(figure, Size::wide(figure)),
         inline_svg(figure, Size::narrow(figure))
     )
+}
+
+/// What scripts and clients said, in the order of time.
+fn messages(messages: &[(String, String, String)]) -> String {
+    let columns = [("num", "Time"), ("", "From"), ("", "Message")];
+    let row = |(t, from, text): &(String, String, String)| {
+        [
+            cell("Time", "num", &escape(t)),
+            cell("From", "name", &format!("<code>{}</code>", escape(from))),
+            cell("Message", "", &escape(text)),
+        ]
+        .concat()
+    };
+    let rows: Vec<String> = messages.iter().map(row).collect();
+    table("fold", &columns, &rows)
 }
 
 fn signal_table(signals: &[SignalRow]) -> String {

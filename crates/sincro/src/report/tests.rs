@@ -76,6 +76,7 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     page.stop = Some(Stop { time: 0.0, reason: evil.into(), help: evil.into(), is_good: false });
     page.warnings = vec![evil.into()];
     page.notes = vec![evil.into()];
+    page.messages = vec![(evil.into(), evil.into(), evil.into())];
     page.settings = vec![(evil.into(), evil.into())];
     page.figures[0].title = evil.into();
     let row = CheckRow { name: evil.into(), about: evil.into(), unit: evil.into(), ..page.checks[0].clone() };
@@ -97,6 +98,14 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     let index = IndexPage { title: evil.into(), description: evil.into(), cards: vec![card], ..IndexPage::default() };
     assert!(!html(&page).contains("<script"));
     assert!(!index_html(&index).contains("<script"));
+}
+
+#[test]
+fn what_scripts_and_clients_said_stands_on_the_page() {
+    assert!(!html(&page()).contains("Messages"));
+    let messages = vec![("0.25 s".into(), "/arm/tip".into(), "touched".into())];
+    let text = html(&Page { messages, ..page() });
+    assert!(text.contains("<h2>Messages</h2>") && text.contains("touched") && text.contains("<code>/arm/tip</code>"));
 }
 
 #[test]

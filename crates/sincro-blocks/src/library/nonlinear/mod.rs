@@ -9,6 +9,7 @@ mod quantizer;
 mod rate_limiter;
 mod relay;
 mod saturation;
+mod single_precision;
 mod table;
 
 pub use backlash::Backlash;
@@ -20,6 +21,7 @@ pub use quantizer::Quantizer;
 pub use rate_limiter::RateLimiter;
 pub use relay::Relay;
 pub use saturation::Saturation;
+pub use single_precision::SinglePrecision;
 pub use table::Extrapolation;
 
 use super::{Item, item};
@@ -30,6 +32,7 @@ pub(super) const SHELF: &[Item] = &[
     item::<RateLimiter>(),
     item::<DeadZone>(),
     item::<Quantizer>(),
+    item::<SinglePrecision>(),
     item::<Backlash>(),
     item::<Relay>(),
     item::<CoulombFriction>(),

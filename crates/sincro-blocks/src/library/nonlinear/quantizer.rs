@@ -7,7 +7,7 @@ use crate::kind::{Described, Group, Kind, Parameter, Takes};
 use crate::reader::Reader;
 use crate::unit::Unit;
 
-/// Rounds to whole multiples of an interval, halves away from zero: an encoder, a converter. Its derivative is zero.
+/// Rounds to whole multiples of an interval, halves away from zero, zero itself never negative: an encoder, a converter. Its derivative is zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantizer {
     /// Distance of two values, one for all components or one for each.
@@ -54,7 +54,8 @@ impl Block for Quantizer {
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let interval = of(&self.interval, i);
-            *y = at.component(0, i).map(|u| (interval * (u / interval).round(), 0.0));
+            // a zero is a positive one: wires that carry whole numbers know no other
+            *y = at.component(0, i).map(|u| (interval * (u / interval).round() + 0.0, 0.0));
         }
     }
 

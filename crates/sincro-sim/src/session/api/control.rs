@@ -82,12 +82,12 @@ fn load(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn log(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.log(a.int(0)? & 0xfff, a.text(1)?);
+    desk.log(a.int(0)? & 0xfff, a.text(1)?);
     done()
 }
 
 fn message(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.log(450, if a.has(0) { a.text(0)? } else { "" });
+    desk.log(450, if a.has(0) { a.text(0)? } else { "" });
     one(1_i64)
 }
 

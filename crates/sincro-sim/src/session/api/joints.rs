@@ -1,7 +1,6 @@
 //! Shelf: joints and their motors.
 
 use sincro_dynamics::force::MotorMode;
-use sincro_dynamics::joint::JointKind;
 
 use super::{Function, Outcome, done, handle, one};
 use crate::session::{Arguments, Desk, Refusal, Value};
@@ -55,6 +54,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "getJointInterval",
         tip: "bool cyclic,float[2] interval=sim.getJointInterval(int objectHandle)",
         run: interval,
+    },
+    Function {
+        name: "getJointDependency",
+        tip: "int masterJointHandle,float offset,float multCoeff=sim.getJointDependency(int jointHandle)",
+        run: dependency,
     },
 ];
 
@@ -130,10 +134,13 @@ fn set_mode(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 
 fn interval(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
-    let joint = desk.table.joint(own)?;
-    let is_cyclic = matches!(joint.kind, JointKind::Revolute { .. });
-    let pi = std::f64::consts::PI;
-    // joints have no limits here
-    let range = if is_cyclic { [-pi, 2.0 * pi] } else { [-1000.0, 2000.0] };
+    let (is_cyclic, range) = desk.joint_interval(own)?;
     Ok(vec![Value::Bool(is_cyclic), Value::reals(range)])
+}
+
+/// A joint that follows none has no master, offset 0 and factor 1.
+fn dependency(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let (master, offset, factor) = desk.joint_dependency(own)?.unwrap_or((crate::session::Handle(-1), 0.0, 1.0));
+    Ok(vec![master.into(), Value::Real(offset), Value::Real(factor)])
 }

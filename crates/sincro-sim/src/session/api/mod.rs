@@ -4,14 +4,18 @@
 //! between. Units and conventions are the API's own: SI, radians, quaternions x y z w. What a door must do itself (stepping, waiting,
 //! scripts) is not here.
 
+mod absent;
 mod bodies;
 mod control;
+pub mod ik;
 mod joints;
 mod names;
 mod objects;
+mod paths;
 mod poses;
 mod rotations;
 mod signals;
+mod touching;
 mod transforms;
 
 use std::collections::BTreeMap;
@@ -20,6 +24,7 @@ use std::sync::OnceLock;
 use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
 use super::{Arguments, Desk, Handle, Reference, Refusal, Value};
 
+pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
 
 /// What a function gives.
@@ -46,8 +51,26 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         joints::FUNCTIONS,
         bodies::FUNCTIONS,
         signals::FUNCTIONS,
+        touching::FUNCTIONS,
+        paths::FUNCTIONS,
     ];
     shelves.into_iter().flatten()
+}
+
+/// Every function of `simIK`, without it.
+pub fn ik_functions() -> impl Iterator<Item = &'static Function> {
+    ik::FUNCTIONS.iter()
+}
+
+/// Older names of functions of `simIK`, with their present ones.
+pub fn old_ik_names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    ik::OLD.iter().copied()
+}
+
+/// The function of `simIK` of a name without it, present or older.
+fn ik_function(name: &str) -> Option<&'static Function> {
+    let present = ik::OLD.iter().find(|(old, _)| *old == name).map_or(name, |(_, present)| present);
+    ik::FUNCTIONS.iter().find(|f| f.name == present)
 }
 
 /// The function of a name: present or old, with or without `sim.`.
@@ -55,6 +78,9 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
 pub fn function(name: &str) -> Option<&'static Function> {
     static BY_NAME: OnceLock<BTreeMap<&'static str, &'static Function>> = OnceLock::new();
     let by_name = BY_NAME.get_or_init(|| functions().map(|f| (f.name, f)).collect());
+    if let Some(name) = name.strip_prefix("simIK.") {
+        return ik_function(name);
+    }
     let bare = name.strip_prefix("sim.").unwrap_or(name);
     by_name.get(bare).or_else(|| by_name.get(&*present_name(name))).copied()
 }
@@ -66,11 +92,20 @@ pub fn function(name: &str) -> Option<&'static Function> {
 /// There is none of that name, or it refused: the message then names it.
 pub fn call(desk: &mut Desk<'_>, name: &str, arguments: &[Value]) -> Outcome {
     let function = function(name).ok_or_else(|| {
+        let present = present_name(name);
+        if let Some(why) = why_absent(&present) {
+            return Refusal(format!("sim.{present} is not offered: {why}"));
+        }
         let short: String = name.chars().take(100).collect();
         Refusal(format!("No such function: {short}"))
     })?;
     (function.run)(desk, Arguments(arguments))
-        .map_err(|Refusal(message)| Refusal(format!("{message} (in function 'sim.{}')", function.name)))
+        .map_err(|Refusal(message)| Refusal(format!("{message} (in function '{}.{}')", module_of(name), function.name)))
+}
+
+/// The module that a name belongs to.
+fn module_of(name: &str) -> &'static str {
+    if name.starts_with("simIK.") { "simIK" } else { "sim" }
 }
 
 /// Nothing to give.

@@ -59,6 +59,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "setObjectSel", tip: "sim.setObjectSel(int[] objectHandles)", run: |_, _| done() },
     Function { name: "createDummy", tip: "int objectHandle=sim.createDummy(float size)", run: create_dummy },
     Function { name: "removeObject", tip: "int result=sim.removeObject(int objectHandle)", run: remove },
+    Function {
+        name: "copyPasteObjects",
+        tip: "int[] copiedObjectHandles=sim.copyPasteObjects(int[] objectHandles,int options=0)",
+        run: copy,
+    },
     Function { name: "removeObjects", tip: "sim.removeObjects(int[] objectHandles)", run: remove_all },
     Function {
         name: "getObjectInt32Param",
@@ -113,8 +118,27 @@ impl Desk<'_> {
             Kind::Joint(Some(_)) => 1,
             // a ball joint is V-REP's spherical one; what V-REP does not have is a point to it
             Kind::Joint(None) if is_ball(self, entry) => 1,
+            // a rotor is the joint that would turn it
+            Kind::Rotor(_) => 1,
+            Kind::ForceSensor(_) => 12,
             _ => 4,
         }
+    }
+
+    /// The number of a joint's kind: 10 revolute, 11 prismatic, 12 ball.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub fn joint_type(&self, handle: Handle) -> Result<i64, Refusal> {
+        let entry = self.table.entry(handle)?;
+        if is_ball(self, entry) {
+            return Ok(12);
+        }
+        if let Kind::Rotor(_) = entry.kind {
+            return Ok(10);
+        }
+        Ok(if matches!(self.table.joint(handle)?.kind, JointKind::Prismatic { .. }) { 11 } else { 10 })
     }
 
     /// Objects of a type by its number, all of them for −2 and 109; parents before children.
@@ -183,12 +207,8 @@ fn object_type(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn joint_type(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let entry = named(desk, a)?;
-    if is_ball(desk, entry) {
-        return one(12_i64);
-    }
-    let joint = desk.table.joint(entry.handle)?;
-    one(if matches!(joint.kind, JointKind::Prismatic { .. }) { 11_i64 } else { 10 })
+    let own = handle(desk, a, 0)?;
+    one(desk.joint_type(own)?)
 }
 
 fn parent(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
@@ -240,11 +260,22 @@ fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     one(1_i64)
 }
 
-fn remove_all(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let Value::List(list) = a.get(0) else { return Err(Refusal::new("argument 1 is no list of handles")) };
+/// Copies of points that were made by clients or scripts; what belongs to the scene is not copied.
+fn copy(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let copies = handles(a, 0)?.into_iter().map(|handle| desk.copy(handle));
+    Ok(vec![Value::handles(copies.collect::<Result<Vec<_>, _>>()?)])
+}
+
+/// A list of handles.
+fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, Refusal> {
+    let wrong = || Refusal(format!("argument {} is no list of handles", k + 1));
+    let Value::List(list) = a.get(k) else { return Err(wrong()) };
     let handles = list.iter().map(|v| v.as_int().and_then(|h| i32::try_from(h).ok()).map(Handle));
-    let handles: Option<Vec<Handle>> = handles.collect();
-    for handle in handles.ok_or_else(|| Refusal::new("argument 1 is no list of handles"))? {
+    handles.collect::<Option<Vec<_>>>().ok_or_else(wrong)
+}
+
+fn remove_all(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    for handle in handles(a, 0)? {
         desk.table.remove(handle)?;
     }
     done()

@@ -1,17 +1,22 @@
 // One run's bodies in the picture: a group a mover, meshes in it, sticks between joints where there are no shapes.
 
 import {
-  BoxGeometry, CircleGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Quaternion,
+  BoxGeometry, CircleGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Quaternion,
   RingGeometry, SphereGeometry, Vector3, type BufferGeometry,
 } from "three";
-import type { ObjectView, Pose, SceneView } from "../film";
+import { isDark } from "../format";
+import type { ObjectView, Pose, SceneView, ShapeView } from "../film";
 import type { Run } from "../run";
 import { geometry, inertiaBox, poseMatrix, reach } from "./shapes";
 
 /** Colours of bodies without one of their own, to be told apart by all eyes. */
 const COLORS = ["#5b7f9e", "#c98a3c", "#5f9e83", "#a8748f", "#8a8f98", "#b5a642"];
+/** Kinds that are shown by no stick. */
+const MARKS = new Set(["force", "frame", "drag", "sensor", "camera"]);
 const STICK = "#7d8590";
+const SELECTED = "#f0a500";
 const ROTOR = "#2f6f9f";
+const ROTOR_DARK = "#6fb1e0";
 
 export class Bodies {
   readonly root = new Group();
@@ -20,8 +25,13 @@ export class Bodies {
   /** One a object: where its frame is. */
   readonly nodes: Object3D[] = [];
   readonly size: number;
+  /** What all that moves takes up at the start, about [m]: how large arrows are, how near cameras stand. */
+  span: number;
+  private outline: LineSegments[] = [];
   private readonly blades: { node: Object3D; rotor: number; sign: number }[] = [];
   private readonly meshes: Mesh[] = [];
+  /** Pieces of planes, 1 m × 1 m until the picture says how large they are. */
+  readonly planes: Mesh[] = [];
 
   constructor(readonly view: SceneView, private readonly isGhost: boolean) {
     for (let k = 0; k <= view.n_movers; k++) {
@@ -30,6 +40,7 @@ export class Bodies {
       this.root.add(group);
     }
     this.size = extent(view);
+    this.span = this.size;
     view.objects.forEach((object, k) => this.add(object, k));
     view.objects.forEach((object, k) => this.stick(object, k));
   }
@@ -64,12 +75,21 @@ export class Bodies {
   }
 
   highlight(selected: number | null, hovered: number | null): void {
+    for (const old of this.outline.splice(0)) {
+      old.geometry.dispose();
+      (old.material as LineBasicMaterial).dispose();
+      old.removeFromParent();
+    }
     for (const mesh of this.meshes) {
       const material = mesh.material as MeshStandardMaterial;
       if (!("emissive" in material)) continue;
       const object = mesh.userData["object"] as number;
-      material.emissive.set(object === selected ? "#f0a500" : object === hovered ? "#8899aa" : "#000000");
-      material.emissiveIntensity = object === selected ? 0.42 : 0.22;
+      material.emissive.set(object === selected ? SELECTED : object === hovered ? "#8899aa" : "#000000");
+      material.emissiveIntensity = object === selected ? 0.16 : 0.22;
+      if (object !== selected) continue;
+      const edges = new LineSegments(new EdgesGeometry(mesh.geometry, 35), new LineBasicMaterial({ color: SELECTED }));
+      mesh.add(edges);
+      this.outline.push(edges);
     }
   }
 
@@ -99,6 +119,10 @@ export class Bodies {
     this.nodes.push(node);
     const color = COLORS[this.view.objects.slice(0, k).filter((o) => o.kind === "body").length % COLORS.length] as string;
     for (const shape of object.shapes) {
+      if (shape.kind === "plane") {
+        this.plane(shape, node, k);
+        continue;
+      }
       const mesh = this.mesh(geometry(shape), shape.color ?? color, k);
       mesh.applyMatrix4(poseMatrix(shape.pose));
       node.add(mesh);
@@ -115,20 +139,34 @@ export class Bodies {
     if (object.rotor) this.rotor(object, node, k);
   }
 
+  /** Planes are no targets: a click beside the bodies selects nothing. */
+  private plane(shape: ShapeView, node: Object3D, k: number): void {
+    if (this.isGhost) return;
+    const material = new MeshStandardMaterial({ color: shape.color ?? (isDark() ? "#232a31" : "#f1f3f5"), roughness: 0.95, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+    const mesh = new Mesh(geometry(shape), material);
+    mesh.applyMatrix4(poseMatrix(shape.pose));
+    mesh.receiveShadow = true;
+    mesh.userData["object"] = k;
+    mesh.userData["node"] = node;
+    node.add(mesh);
+    this.planes.push(mesh);
+  }
+
   private rotor(object: ObjectView, node: Object3D, k: number): void {
     const rotor = object.rotor as NonNullable<ObjectView["rotor"]>;
     const radius = rotor.radius ?? 0.12 * this.size;
+    const color = isDark() ? ROTOR_DARK : ROTOR;
     const disc = new Mesh(
       new CircleGeometry(radius, 48),
-      new MeshBasicMaterial({ color: ROTOR, transparent: true, opacity: this.isGhost ? 0.06 : 0.16, side: DoubleSide, depthWrite: false }),
+      new MeshBasicMaterial({ color, transparent: true, opacity: this.isGhost ? 0.06 : 0.16, side: DoubleSide, depthWrite: false }),
     );
     disc.userData["object"] = k;
     const rim = new Mesh(
       new RingGeometry(0.97 * radius, radius, 64),
-      new MeshBasicMaterial({ color: ROTOR, transparent: true, opacity: this.isGhost ? 0.2 : 0.7, side: DoubleSide }),
+      new MeshBasicMaterial({ color, transparent: true, opacity: this.isGhost ? 0.2 : 0.7, side: DoubleSide }),
     );
     const blades = new Group();
-    blades.add(this.mesh(new BoxGeometry(1.9 * radius, 0.1 * radius, 0.015 * radius), ROTOR, k));
+    blades.add(this.mesh(new BoxGeometry(1.9 * radius, 0.1 * radius, 0.015 * radius), color, k));
     node.add(disc, rim, blades, this.mesh(new CylinderGeometry(0.07 * radius, 0.09 * radius, 0.16 * radius, 20).rotateX(Math.PI / 2), STICK, k));
     this.meshes.push(disc);
     this.blades.push({ node: blades, rotor: rotor.index, sign: rotor.is_ccw ? 1 : -1 });
@@ -138,7 +176,7 @@ export class Bodies {
   private stick(object: ObjectView, k: number): void {
     const parent = object.parent === null ? null : (this.view.objects[object.parent] as ObjectView);
     const hasShapes = parent !== null && (parent.shapes.length > 0 || (parent.kind !== "body" && this.hasShapeNear(object.parent as number)));
-    if (parent === null || hasShapes || object.kind === "force" || object.kind === "frame") return;
+    if (parent === null || hasShapes || MARKS.has(object.kind)) return;
     const mover = object.joint ? object.joint.base_mover : object.mover;
     const [from, to] = [(parent.pose), object.joint ? object.joint.base_pose : object.pose];
     if (parent.mover !== mover || this.isFree(object)) return;
@@ -183,6 +221,7 @@ export class Bodies {
 export function extent(view: SceneView): number {
   let size = 0;
   for (const object of view.objects) {
+    if (object.camera || object.other_end) continue;
     const pose = object.joint ? object.joint.base_pose : object.pose;
     size = Math.max(size, Math.hypot(pose[0], pose[1], pose[2]) + (object.rotor?.radius ?? 0));
     for (const shape of object.shapes) size = Math.max(size, Math.hypot(shape.pose[0], shape.pose[1], shape.pose[2]) + reach(shape));

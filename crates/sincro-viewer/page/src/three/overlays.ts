@@ -1,26 +1,26 @@
-// What is drawn over the bodies on wish: axes, centres of mass, boxes of inertia, frames, springs, thrust, forces, paths.
+// What is drawn over the bodies on wish: axes, centres of mass, boxes of inertia, frames, springs, closures, cameras, paths.
 
 import {
-  ArrowHelper, AxesHelper, BoxGeometry, BufferGeometry, CatmullRomCurve3, EdgesGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, Object3D, SphereGeometry, TubeGeometry, Vector3, type Material, type Scene,
+  AxesHelper, BoxGeometry, BufferGeometry, CatmullRomCurve3, EdgesGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, Object3D, SphereGeometry, TorusGeometry, TubeGeometry, Vector3, type Material, type Scene,
 } from "three";
 import type { ObjectView } from "../film";
 import type { Session } from "../session";
+import { Arrow } from "./arrow";
 import type { Bodies } from "./bodies";
 import { inertiaBox, poseMatrix } from "./shapes";
 
 const AXIS = "#d55e00";
 const CENTER = "#cc79a7";
 const SPRING = "#b58900";
-const THRUST = "#009e73";
-const FORCE = "#d55e00";
+const CLOSURE = "#7a3e9d";
 const PATH = "#0072b2";
 
 export class Overlays {
   private readonly made: Object3D[] = [];
-  private arrows: { rotor: number; arrow: ArrowHelper }[] = [];
-  private forces: { force: number; node: Object3D; arrow: ArrowHelper; most: number }[] = [];
-  private bodies: Bodies | null = null;
+
+  /** The camera through which one looks: it is not drawn. */
+  through: number | null = null;
 
   constructor(private readonly session: Session, private readonly scene: Scene) {}
 
@@ -35,62 +35,19 @@ export class Overlays {
       });
       old.removeFromParent();
     }
-    this.arrows = [];
-    this.forces = [];
-    this.bodies = bodies;
     const { shown, view } = this.session;
     view.objects.forEach((object, k) => {
       const node = bodies.nodes[k] as Object3D;
       if (shown.axes && object.joint) this.jointAxes(object, bodies);
       if (object.mass && shown.centers) this.hang(node, this.center(object, bodies.size));
       if (object.mass && shown.inertia) this.hang(node, this.box(object));
-      if (shown.frames && object.kind !== "force") this.frame(node, 0.12 * bodies.size);
+      if (k === this.through) return;
+      if (shown.frames && object.kind !== "force" && object.kind !== "coupling") this.frame(node, 0.12 * bodies.size);
       if (shown.springs && object.joint) this.springs(object, node, bodies.size);
-      if (shown.rotors && object.rotor) this.thrust(object.rotor.index, node, bodies.size);
-      if (shown.forces && object.force !== null) this.force(object.force, node, bodies.size);
+      if (shown.closures && object.other_end) this.closure(object, bodies);
+      if (shown.frames && object.camera) this.camera(node, object.camera.field_of_view_deg, bodies.size);
     });
     if (shown.trace && this.session.selected !== null) this.path(this.session.selected, bodies);
-  }
-
-  /** Lengths of arrows at `t`. */
-  place(t: number): void {
-    const { run, view } = this.session;
-    if (!this.bodies || run.times.n === 0) return;
-    this.placeForces(t, this.bodies.size);
-    const weight = view.objects.reduce((sum, o) => sum + (o.mass?.[0] ?? 0), 0) * Math.hypot(...view.gravity);
-    for (const { rotor, arrow } of this.arrows) {
-      const thrust = run.rotor(t, rotor, 1);
-      // as long as the mechanism where one rotor carries all the weight
-      const length = (this.bodies.size * 2 * thrust) / Math.max(weight, 1e-9);
-      arrow.visible = Number.isFinite(length) && Math.abs(length) > 1e-4 * this.bodies.size;
-      if (!arrow.visible) continue;
-      arrow.setDirection(new Vector3(0, 0, Math.sign(length)));
-      arrow.setLength(Math.abs(length), 0.22 * Math.min(Math.abs(length), this.bodies.size), 0.1 * Math.min(Math.abs(length), this.bodies.size));
-    }
-  }
-
-  private placeForces(t: number, size: number): void {
-    for (const known of this.forces) {
-      const components = new Vector3(...this.session.run.force(t, known.force));
-      known.most = Math.max(known.most, components.length());
-      const length = known.most > 0 ? (size * components.length()) / known.most : 0;
-      known.arrow.visible = length > 1e-3 * size;
-      if (!known.arrow.visible) continue;
-      known.arrow.position.copy(known.node.getWorldPosition(new Vector3()));
-      known.arrow.setDirection(components.normalize());
-      known.arrow.setLength(length, 0.2 * length, 0.09 * length);
-    }
-  }
-
-  /** An arrow in the world, as long as the mechanism where the force is greatest in the run. */
-  private force(force: number, node: Object3D, size: number): void {
-    const { run } = this.session;
-    let most = 0;
-    for (let k = 0; k < run.times.n; k++) most = Math.max(most, Math.hypot(...run.force(run.times.at(k, 0), force)));
-    const arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), size, FORCE);
-    this.made.push(arrow);
-    this.scene.add(arrow);
-    this.forces.push({ force, node, arrow, most });
   }
 
   private hang(node: Object3D, what: Object3D): void {
@@ -101,13 +58,14 @@ export class Overlays {
   private jointAxes(object: ObjectView, bodies: Bodies): void {
     const joint = object.joint as NonNullable<ObjectView["joint"]>;
     const carrier = bodies.movers[joint.base_mover ?? bodies.view.n_movers] as Group;
-    const length = 0.3 * bodies.size;
+    const length = 0.34 * bodies.size;
     for (const axis of joint.axes) {
       const direction = new Vector3(...axis).normalize();
       const holder = new Group();
       holder.applyMatrix4(poseMatrix(joint.base_pose));
-      const from = direction.clone().multiplyScalar(-0.5 * length);
-      holder.add(new ArrowHelper(direction, from, length, AXIS, 0.2 * length, 0.09 * length));
+      const arrow = new Arrow(AXIS, 0.45 * bodies.size);
+      arrow.set(direction.clone().multiplyScalar(-0.5 * length), direction, length);
+      holder.add(arrow);
       this.hang(carrier, holder);
     }
   }
@@ -155,10 +113,26 @@ export class Overlays {
     }
   }
 
-  private thrust(rotor: number, node: Object3D, size: number): void {
-    const arrow = new ArrowHelper(new Vector3(0, 0, 1), new Vector3(), size, THRUST);
-    this.hang(node, arrow);
-    this.arrows.push({ rotor, arrow });
+  /** Rings at both ends of a closure: in one another where it is closed. */
+  private closure(object: ObjectView, bodies: Bodies): void {
+    const ends: [number | null, ObjectView["pose"]][] = [[object.mover, object.pose], object.other_end as [number | null, ObjectView["pose"]]];
+    ends.forEach(([mover, pose], k) => {
+      const radius = (k === 0 ? 0.03 : 0.045) * bodies.size;
+      const ring = new Mesh(new TorusGeometry(radius, 0.16 * radius, 10, 36), new MeshBasicMaterial({ color: CLOSURE, depthTest: false, transparent: true }));
+      ring.applyMatrix4(poseMatrix(pose));
+      ring.renderOrder = 5;
+      this.hang(bodies.movers[mover ?? bodies.view.n_movers] as Group, ring);
+    });
+  }
+
+  /** What a camera sees, as far as its edges reach. */
+  private camera(node: Object3D, field_of_view_deg: number, size: number): void {
+    const [far, tall] = [0.16 * size, 0.16 * size * Math.tan((field_of_view_deg * Math.PI) / 360)];
+    const wide = 1.5 * tall;
+    const corners = [[wide, tall], [-wide, tall], [-wide, -tall], [wide, -tall]].map(([x, y]) => new Vector3(x, y, far));
+    const points = corners.flatMap((corner, k) => [new Vector3(), corner, corner, corners[(k + 1) % 4] as Vector3]);
+    const edges = new LineSegments(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: PATH }));
+    this.hang(node, edges);
   }
 
   /** Where an object goes in the whole run. */

@@ -1,11 +1,13 @@
 // Solids as meshes: the shapes of a scene, boxes of equal inertia, rotor discs.
 
 import {
-  BoxGeometry, CapsuleGeometry, ConeGeometry, CylinderGeometry, SphereGeometry, type BufferGeometry, Matrix4, Quaternion, Vector3,
+  BoxGeometry, BufferGeometry, CapsuleGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute, PlaneGeometry, SphereGeometry, Matrix4, Quaternion, Vector3,
 } from "three";
 import type { Pose, ShapeView } from "../film";
 
 const QUARTER = Math.PI / 2;
+/** Triangles from which on a mesh is drawn round. */
+const MANY = 1500;
 
 /** The geometry of a shape, its axis of symmetry along z. */
 export function geometry(shape: ShapeView): BufferGeometry {
@@ -22,7 +24,21 @@ export function geometry(shape: ShapeView): BufferGeometry {
     case "cone":
       // centred on its centre of mass: the base at −length/4
       return new ConeGeometry(a, b, 36).rotateX(QUARTER).translate(0, 0, b / 4);
+    case "plane":
+      // one metre of it: the picture scales the piece that it shows
+      return new PlaneGeometry(1, 1);
+    case "mesh":
+      return triangles(shape.vertices ?? [], shape.triangles ?? []);
   }
+}
+
+/** Triangles with flat faces, or, where there are many, with round ones. */
+function triangles(vertices: number[][], faces: number[][]): BufferGeometry {
+  const shape = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(vertices.flat(), 3));
+  shape.setIndex(faces.flat());
+  const made = faces.length > MANY ? shape : shape.toNonIndexed();
+  made.computeVertexNormals();
+  return made;
 }
 
 export function poseMatrix(pose: Pose): Matrix4 {
@@ -47,6 +63,10 @@ export function reach(shape: ShapeView): number {
       return a + b / 2;
     case "cone":
       return Math.max(Math.hypot(a, b / 4), 0.75 * b);
+    case "plane":
+      return 0;
+    case "mesh":
+      return (shape.vertices ?? []).reduce((most, p) => Math.max(most, Math.hypot(...p)), 0);
   }
 }
 

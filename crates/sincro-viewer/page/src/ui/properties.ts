@@ -14,12 +14,13 @@ export function properties(session: Session): HTMLElement {
   const draw = () => {
     const object = session.selected === null ? null : (session.view.objects[session.selected] ?? null);
     title.textContent = object ? object.path : session.film.scene;
-    drawNow();
     numbers.replaceChildren(...groups(session, object));
+    drawNow();
   };
   const drawNow = () => {
     const object = session.selected === null ? null : (session.view.objects[session.selected] ?? null);
     const rows = object ? state(session, object) : [];
+    for (const cell of numbers.querySelectorAll<HTMLElement>("[data-value]")) cell.textContent = format(session.run.value(session.t, cell.dataset["value"] as string));
     now.replaceChildren(...rows.map(([name, value, unit]) => el("tr", {}, el("th", { scope: "row", text: name }), el("td", { text: value }), el("td", { class: "sv-unit", text: unit }))));
   };
   session.on("selection", draw);
@@ -39,8 +40,7 @@ function state(session: Session, object: ObjectView): Row[] {
   const { run, t } = session;
   if (run.times.n === 0) return [["kind", object.kind, ""]];
   const rows: Row[] = [["kind", object.kind, ""]];
-  const at = position(session, object);
-  rows.push(["position", at.toArray().map((x) => format(Math.abs(x) < 1e-9 ? 0 : x)).join("  "), "m"]);
+  if (object.kind !== "coupling") rows.push(["position", vector(position(session, object).toArray()), "m"]);
   if (object.joint) {
     const { q_idx, n_q, v_idx, n_v } = object.joint;
     if (n_q === 1) {
@@ -58,7 +58,38 @@ function state(session: Session, object: ObjectView): Row[] {
     const read = (what: 0 | 1 | 2) => format(run.rotor(t, object.rotor?.index ?? 0, what));
     rows.push(["speed", read(0), "rad/s"], ["thrust", read(1), "N"], ["torque", read(2), "N·m"]);
   }
-  return rows;
+  if (object.drag !== null) rows.push(["drag", vector(run.drag(t, object.drag)), "N"]);
+  if (object.force !== null) rows.push(["force", vector(run.force(t, object.force)), "N"]);
+  if (object.camera) rows.push(["field of view", format(object.camera.field_of_view_deg), "°"]);
+  if (object.other_end) {
+    const [mover, pose] = object.other_end;
+    const opening = position(session, object).distanceTo(position(session, { ...object, mover, pose }));
+    rows.push([object.kind.startsWith("distance") ? "distance" : "opening", format(opening < 1e-6 ? 0 : opening), "m"]);
+  }
+  return [...rows, ...contact(session, object)];
+}
+
+/** What touches a body: how many points press, and with what force in all. */
+function contact(session: Session, object: ObjectView): Row[] {
+  const { run, t, view } = session;
+  const own = session.view.objects.indexOf(object);
+  if (!view.surfaces.includes(own)) return [];
+  const { from, to } = run.contactsAt(t);
+  const force = new Vector3();
+  let points = 0;
+  for (let row = from; row < to; row++) {
+    const [a, b] = [0, 1].map((c) => view.surfaces[run.contacts.at(row, c)] === own);
+    if (a === b) continue;
+    points++;
+    force.addScaledVector(new Vector3(run.contacts.at(row, 5), run.contacts.at(row, 6), run.contacts.at(row, 7)), a ? 1 : -1);
+  }
+  return [["touches at", String(points), points === 1 ? "point" : "points"], ["contact force", vector(force.toArray()), "N"]];
+}
+
+/** Three components for the eye; what is nothing beside the others is zero. */
+function vector(list: readonly number[]): string {
+  const size = Math.hypot(...list);
+  return list.map((x) => format(Math.abs(x) < 1e-6 * size ? 0 : x)).join("  ");
 }
 
 function position(session: Session, object: ObjectView): Vector3 {
@@ -79,8 +110,19 @@ function groups(session: Session, object: ObjectView | null): HTMLElement[] {
     const head = object ? "numbers of the file" : (heads[owner] ?? owner.replace("diagram/", "block "));
     made.push(el("details", { open: object !== null || owner === "/" || owner === "experiment" }, el("summary", { text: head }), table(session, of)));
   }
+  if (object) made.push(...recorded(session, object));
   if (object && made.length === 0) made.push(el("p", { class: "sv-quiet", text: "It has no numbers of its own." }));
   return object && session.link ? [...sliders(session, session.link, object), ...made] : made;
+}
+
+/** Signals of the object that are recorded: a click plots them. */
+function recorded(session: Session, object: ObjectView): HTMLElement[] {
+  const own = session.run.columns.filter((column) => column.name.startsWith(`${object.path}.`));
+  if (own.length === 0) return [];
+  const rows = own.map((column) => el("tr", {},
+    el("th", { scope: "row" }, el("button", { class: "sv-link", title: `plot ${column.name}`, text: column.name.slice(object.path.length + 1), onclick: () => session.plot(column.name) })),
+    el("td", { "data-value": column.name }), el("td", { class: "sv-unit", text: column.unit })));
+  return [el("details", { open: true }, el("summary", { text: "recorded" }), el("table", {}, ...rows))];
 }
 
 function table(session: Session, list: Property[]): HTMLElement {

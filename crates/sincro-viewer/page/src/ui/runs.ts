@@ -3,6 +3,9 @@
 import { el } from "../format";
 import type { Session } from "../session";
 
+/** Runs that stand side by side in the bar at most; on a phone fewer. */
+const most = () => (matchMedia("(max-width: 820px)").matches ? 2 : 5);
+
 export function runs(session: Session): HTMLElement {
   const list = el("div", { class: "sv-runs", role: "group", "aria-label": "runs" });
   const pending = el("div", { class: "sv-pending" });
@@ -21,7 +24,12 @@ export function runs(session: Session): HTMLElement {
         return el("span", { class: "sv-runitem" }, eye, name, run.stop ? el("span", { class: "sv-stop", title: run.stop, text: "■ stopped" }) : null);
       }),
     );
-    list.hidden = session.runs.length < 2 && !session.run?.stop;
+    const { length } = session.runs;
+    list.hidden = length < 2 && !session.run?.stop;
+    // many go into a sheet of their own
+    menu.hidden = length <= most();
+    (length > most() ? sheet : bar).prepend(list);
+    summary.textContent = `${session.run?.name ?? ""} · ${length} runs`;
     drawPending();
   };
   const drawPending = () => {
@@ -39,6 +47,10 @@ export function runs(session: Session): HTMLElement {
       button("save as scene", n > 0 && !link.isRunning, () => link.send({ do: "save", set: link.edits })),
     );
   };
+  const sheet = el("div", { class: "sv-sheet sv-many" });
+  const summary = el("summary", {});
+  const menu = el("details", { class: "sv-menu", "data-menu": "runs" }, summary, sheet);
+  const bar = el("div", { class: "sv-runbar" }, menu, pending);
   session.on("runs", draw);
   session.on("live", draw);
   session.on("playing", drawPending);
@@ -46,5 +58,5 @@ export function runs(session: Session): HTMLElement {
     if (session.link && !session.playing && !session.link.isRunning) drawPending();
   });
   draw();
-  return el("div", { class: "sv-runbar" }, list, pending);
+  return bar;
 }

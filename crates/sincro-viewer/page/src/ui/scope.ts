@@ -2,6 +2,7 @@
 
 import uPlot from "uplot";
 import { el, exact, format, plain, save } from "../format";
+import { countUpTo } from "../growing";
 import type { Run } from "../run";
 import type { Session } from "../session";
 
@@ -48,7 +49,7 @@ export class Scope {
     const width = Math.floor(this.holder.clientWidth);
     if (width < 40 || !this.node.isConnected) return;
     const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
-    const key = JSON.stringify([width, isDark, this.signals, this.session.active, this.session.runs.map((r) => [r.id, r.isVisible, r.times.n > 0])]);
+    const key = JSON.stringify([width, this.height(), isDark, this.signals, this.session.active, this.session.runs.map((r) => [r.id, r.isVisible, r.times.n > 0])]);
     if (key === this.drawn && this.plot) {
       this.refresh();
       return;
@@ -62,24 +63,30 @@ export class Scope {
     const unit = this.unit;
     this.plot = new uPlot(
       {
-        width, height: 190, class: "sv-uplot",
+        width, height: this.height(), class: "sv-uplot",
         cursor: { drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
-        scales: { x: { time: false } },
+        scales: { x: { time: false, range: (_, low, high) => (low === null || low === high ? [0, this.session.film.duration || 1] : [low, high]) }, y: { range: (_, low, high) => range(low, high) } },
         axes: [
           { ...axis, values: (_, at) => at.map((t) => (t === null ? "" : `${plain(t)} s`)), space: 70, size: 28 },
           { ...axis, values: (_, at) => at.map((y) => (y === null ? "" : plain(y))), size: 62, label: unit ? `[${unit}]` : "", labelSize: 18, labelFont: axis.font },
         ],
         series: [
-          { label: "t", value: (_, t) => (t === null || t === undefined ? "–" : `${exact(t)} s`) },
+          { label: "t", value: (plot, t) => (t === null || t === undefined ? "–" : `${number(plot, t)} s`) },
           ...this.lines.map((line) => this.series(line, colors, ink)),
         ],
-        hooks: { setScale: [() => this.mark()], ready: [() => this.mark()] },
+        hooks: { setScale: [() => this.mark()], ready: [() => this.mark()], setCursor: [() => this.tell()] },
       },
       this.data(), this.holder,
     );
     this.plot.over.append(this.marker);
     this.listen(this.plot);
     this.mark();
+  }
+
+  /** As high as the panel has room for, with the legend below. */
+  private height(): number {
+    const panel = this.node.closest(".sv-plot-area")?.clientHeight ?? 0;
+    return Math.min(260, Math.max(150, panel - 92));
   }
 
   /** New numbers in the same lines. */
@@ -95,6 +102,23 @@ export class Scope {
     const at = this.plot.valToPos(this.session.t, "x");
     this.marker.hidden = !(at >= 0 && at <= this.plot.over.clientWidth);
     this.marker.style.transform = `translateX(${at}px)`;
+    this.tell();
+  }
+
+  /** The legend has the values at the time that is shown, while no mouse is over the plot. */
+  private tell(): void {
+    const { plot, session } = this;
+    if (!plot || (plot.cursor.left ?? -1) >= 0) return;
+    const times = plot.data[0];
+    if (times.length === 0) return;
+    const now = Math.max(0, countUpTo(times as ArrayLike<number>, times.length, session.t + 1e-12) - 1);
+    // of each line the last value that it has by then
+    const last = (column: ArrayLike<number | null | undefined>) => {
+      let k = now;
+      while (k > 0 && (column[k] === null || column[k] === undefined)) k--;
+      return k;
+    };
+    plot.setLegend({ idxs: plot.data.map((column, c) => (c === 0 ? now : last(column))) }, false);
   }
 
   private isZoomed(): boolean {
@@ -117,8 +141,9 @@ export class Scope {
 
   private series(line: Line, colors: string[], ink: string): uPlot.Series {
     const color = colors[this.signals.indexOf(line.signal) % colors.length] as string;
-    const label = line.kind === "reference" ? `${line.signal} expected` : line.order > 0 ? `${line.signal} · ${line.run.name}` : line.signal;
-    const value = (_: uPlot, y: number | null) => (y === null || y === undefined ? "–" : `${exact(y)} ${this.unit}`.trim());
+    const name = short(line.signal, this.signals);
+    const label = line.kind === "reference" ? `${name} expected` : line.order > 0 ? `${name} · ${line.run.name}` : name;
+    const value = (plot: uPlot, y: number | null) => (y === null || y === undefined ? "–" : `${number(plot, y)} ${this.unit}`.trim());
     if (line.kind === "reference") return { label, value, stroke: ink, width: 1.2, dash: [4, 5], spanGaps: true, points: { show: false } };
     const other = line.order > 0 ? { dash: DASHES[(line.order - 1) % DASHES.length] as number[], width: 1.4 } : { width: 2 };
     return { label, value, stroke: color, spanGaps: true, points: { show: false }, ...other };
@@ -153,7 +178,8 @@ export class Scope {
   }
 
   private labels(): string[] {
-    return this.plot?.series.map((s) => String(s.label)) ?? [];
+    const name = (line: Line) => (line.kind === "reference" ? `${line.signal} expected` : line.order > 0 ? `${line.signal} · ${line.run.name}` : line.signal);
+    return ["t [s]", ...this.lines.map((line) => `${name(line)} [${this.unit}]`)];
   }
 
   private saveCsv(): void {
@@ -173,6 +199,24 @@ export class Scope {
     if (!this.plot) return;
     save(`${this.file()}.svg`, new Blob([svg(this.plot, this.name, this.unit)], { type: "image/svg+xml" }));
   }
+}
+
+/** A little more than what there is; of what never changes, something on both sides. */
+function range(low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null) return [-1, 1];
+  const room = high > low ? 0.06 * (high - low) : Math.max(0.1 * Math.abs(low), low === 0 ? 1 : 0);
+  return [low - room, high + room];
+}
+
+/** What stands behind the last `/` of a signal's path, if that names it among others. */
+function short(signal: string, among: string[]): string {
+  const last = (name: string) => name.slice(name.lastIndexOf("/") + 1);
+  return among.filter((name) => last(name) === last(signal)).length > 1 ? signal : last(signal);
+}
+
+/** All digits of the sample under the mouse, a few of that at the time that is shown. */
+function number(plot: uPlot, x: number): string {
+  return (plot.cursor.left ?? -1) >= 0 ? exact(x) : format(x, 5);
 }
 
 const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);

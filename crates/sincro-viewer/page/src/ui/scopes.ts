@@ -15,6 +15,7 @@ export class Scopes {
   constructor(private readonly session: Session) {
     const hint = el("p", { class: "sv-quiet sv-hint", text: "Drag in a plot to zoom, double-click to see all, click to go there." });
     this.node = el("div", { class: "sv-scopes" }, el("section", { class: "sv-signal-list" }, this.search, this.list), el("div", { class: "sv-plot-area" }, this.plots, hint));
+    session.plot = (signal) => this.add(signal);
     this.open();
     session.on("time", () => this.scopes.forEach((scope) => scope.mark()));
     session.on("frames", () => (this.isStale = true));

@@ -1,11 +1,11 @@
 // What is drawn over the bodies, and the cameras.
 
 import { el } from "../format";
-import { SHOWN, type Session, type Shown } from "../session";
-import { CAMERAS, type Stage } from "../three/stage";
+import { SHOWN, applies, type Session, type Shown } from "../session";
+import { cameraNames, type Stage } from "../three/stage";
 
 export function shown(session: Session, stage: Stage): HTMLElement {
-  const toggles = (Object.keys(SHOWN) as Shown[]).map((key) =>
+  const toggles = (Object.keys(SHOWN) as Shown[]).filter((key) => applies(session.view, key)).map((key) =>
     el("label", { class: "sv-toggle" },
       el("input", {
         type: "checkbox", checked: session.shown[key], "data-shown": key,
@@ -16,9 +16,15 @@ export function shown(session: Session, stage: Stage): HTMLElement {
       }), SHOWN[key].label),
   );
   const cameras = el("select", {
-    "aria-label": "camera", title: "camera (keys 1 to 4)",
-    onchange: (event) => stage.frame((event.target as HTMLSelectElement).value),
-  }, ...CAMERAS.map(([name]) => el("option", { value: name, text: name })));
+    "aria-label": "camera", title: "camera (keys 1 to 9)",
+    onchange: (event) => {
+      stage.frame((event.target as HTMLSelectElement).value);
+      cameras.blur();
+    },
+  }, ...cameraNames(session).map((name) => el("option", { value: name, text: name })));
+  const choose = () => (cameras.value = stage.cameraName);
+  session.on("camera", choose);
+  choose();
   const follow = el("label", { class: "sv-toggle" }, el("input", {
     type: "checkbox", "data-shown": "follow",
     onchange: (event) => {
@@ -33,7 +39,8 @@ export function shown(session: Session, stage: Stage): HTMLElement {
       input.checked = key === "follow" ? session.follow : session.shown[key];
     }
   });
-  const menu = el("details", { class: "sv-menu" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles));
+  const picture = el("button", { class: "sv-small", text: "save the picture (PNG)", onclick: () => stage.savePicture() });
+  const menu = el("details", { class: "sv-menu", "data-menu": "view" }, el("summary", { text: "View" }), el("div", { class: "sv-sheet" }, cameras, follow, ...toggles, picture));
   return menu;
 }
 

@@ -46,9 +46,10 @@ export function transport(session: Session): HTMLElement {
       const chosen = speed.value === "max" ? null : Number(speed.value);
       if (chosen !== null) session.speed = chosen;
       session.link?.setSpeed(chosen);
+      speed.blur();
     },
   }, ...SPEEDS.map((s) => el("option", { value: String(s), text: `${s} ×`, selected: s === 1 })));
-  if (session.link) speed.append(el("option", { value: "max", text: "as fast as it goes" }));
+  if (session.link) speed.append(el("option", { value: "max", text: "fastest" }));
 
   const restart = button("back to the start (home)", "M3 3h2.4v10H3zM13 3v10L6 8z", () => {
     session.playing = false;

@@ -2,8 +2,7 @@
 
 import { el } from "../format";
 import type { Session } from "../session";
-
-const SYMBOLS: Record<string, string> = { body: "■", frame: "+", force: "→", rotor: "✕" };
+import { icon } from "./icons";
 
 export function tree(session: Session): HTMLElement {
   const list = el("ul", { class: "sv-tree", role: "tree", "aria-label": "Objects" });
@@ -35,9 +34,11 @@ export function tree(session: Session): HTMLElement {
           onkeydown: (event) => {
             if ((event as KeyboardEvent).key === "Enter") session.select(k);
           },
-        }, fold, el("span", { class: "sv-symbol", "aria-hidden": "true", text: SYMBOLS[object.kind] ?? "○" }), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
+        }, fold, icon(object.kind), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
       );
     });
+    // deep trees are indented less
+    list.style.setProperty("--indent", `${Math.max(4, Math.min(14, 100 / Math.max(1, ...depths)))}px`);
     list.replaceChildren(...items);
   };
   const isHidden = (k: number): boolean => {

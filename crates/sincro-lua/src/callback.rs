@@ -1,0 +1,109 @@
+//! `sysCall_joint`: a script on a joint says at each step how fast its motor is to be, and with what force.
+
+use mlua::{Error, Function, Lua, MultiValue, Table, Value};
+use sincro_dynamics::joint::JointKind;
+use sincro_sim::session::{Desk, Refusal};
+
+use crate::shared::{Shared, handle_of};
+
+/// What the function is told of its joint.
+struct Seen {
+    handle: i32,
+    is_revolute: bool,
+    is_cyclic: bool,
+    interval: [f64; 2],
+    position: f64,
+    velocity: f64,
+    target_position: f64,
+    target_velocity: f64,
+    max_force: f64,
+    effort: f64,
+}
+
+fn look(desk: &mut Desk<'_>) -> Result<Seen, Refusal> {
+    let own = desk.own.ok_or_else(|| Refusal::new("no script calls"))?;
+    let joint = desk.table.joint(own)?.clone();
+    if joint.motor.is_none() {
+        return Err(Refusal::new("sysCall_joint needs a joint with a motor: give it one in the scene"));
+    }
+    let (is_cyclic, interval) = desk.joint_interval(own)?;
+    Ok(Seen {
+        handle: own.0,
+        is_revolute: matches!(joint.kind, JointKind::Revolute { .. }),
+        is_cyclic,
+        interval,
+        position: desk.joint_position(own)?,
+        velocity: desk.joint_velocity(own)?,
+        target_position: desk.target_position(own)?,
+        target_velocity: desk.target_velocity(own)?,
+        max_force: desk.target_force(own)?,
+        effort: desk.joint_force(own)?.unwrap_or(0.0),
+    })
+}
+
+/// Calls the function and tells the joint what it gives.
+pub(crate) fn joint(
+    lua: &Lua,
+    shared: &Shared,
+    index: usize,
+    function: &Function,
+    (step, is_first): (f64, bool),
+) -> mlua::Result<()> {
+    let own = handle_of(&shared.scripts[index]);
+    let told = |Refusal(message): Refusal| Error::RuntimeError(format!("{message} (in function 'sysCall_joint')"));
+    let seen = shared.with_desk(own, look).map_err(told)?;
+    let answer: MultiValue = function.call(table_of(lua, &seen, step, is_first)?)?;
+    let (velocity, force) = answer_of(&answer)?;
+    shared
+        .with_desk(own, |desk| {
+            velocity.map_or(Ok(()), |velocity| desk.set_target_velocity(own, velocity))?;
+            force.map_or(Ok(()), |force| desk.set_target_force(own, force, true))
+        })
+        .map_err(told)
+}
+
+fn table_of(lua: &Lua, seen: &Seen, step: f64, is_first: bool) -> mlua::Result<Table> {
+    let table = lua.create_table()?;
+    table.set("first", is_first)?;
+    table.set("handle", seen.handle)?;
+    table.set("revolute", seen.is_revolute)?;
+    table.set("cyclic", seen.is_cyclic)?;
+    let [low, range] = seen.interval;
+    for (name, value) in [
+        ("lowLimit", low),
+        ("highLimit", low + range),
+        ("currentPos", seen.position),
+        ("targetPos", seen.target_position),
+        ("errorValue", seen.target_position - seen.position),
+        ("currentVel", seen.velocity),
+        ("targetVel", seen.target_velocity),
+        ("maxForce", seen.max_force),
+        ("effort", seen.effort),
+        ("dynStepSize", step),
+    ] {
+        table.set(name, value)?;
+    }
+    table.set("passCnt", 1)?;
+    table.set("totalPasses", 1)?;
+    Ok(table)
+}
+
+/// Velocity and force: fields of a table, or force and velocity one after the other.
+fn answer_of(answer: &MultiValue) -> mlua::Result<(Option<f64>, Option<f64>)> {
+    match answer.iter().next() {
+        None | Some(Value::Nil) => Ok((None, None)),
+        Some(Value::Table(table)) => {
+            let velocity = table.get::<Option<f64>>("velocity")?;
+            let velocity = velocity.map_or_else(|| table.get::<Option<f64>>("vel"), |v| Ok(Some(v)))?;
+            Ok((velocity, table.get("force")?))
+        }
+        Some(first) => Ok((answer.get(1).map(number).transpose()?, Some(number(first)?))),
+    }
+}
+
+fn number(value: &Value) -> mlua::Result<f64> {
+    let number = value.as_number().or_else(|| value.as_integer().map(|n| n as f64));
+    number.ok_or_else(|| {
+        Error::RuntimeError(format!("sysCall_joint gave a {}, expected force and velocity", value.type_name()))
+    })
+}

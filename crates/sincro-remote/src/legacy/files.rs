@@ -1,0 +1,26 @@
+//! What the commands of the legacy API do: scenes, models and files.
+
+use super::functions::{Call, Reply, done};
+use crate::hub::Floor;
+use sincro_sim::session::Refusal;
+
+/// Commands of this file.
+pub(super) const COMMANDS: [u16; 4] = [0x3002, 0x3003, 0x3004, 0x3006];
+
+/// Runs a function.
+pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
+    let name = call.name()?;
+    // what a client calls a file may have its own folders before it
+    let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    match call.function {
+        0x3002 => {
+            floor.act(|session| session.load(name))?;
+            done()
+        }
+        0x3004 => floor.session.files()?.put(last, call.data).and_then(|()| done()),
+        0x3006 => floor.session.files()?.erase(last).and_then(|()| done()),
+        _ => Err(Refusal::new(
+            "a model cannot be loaded into a scene: a scene is compiled as a whole, put the model into its file",
+        )),
+    }
+}

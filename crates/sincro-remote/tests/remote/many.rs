@@ -1,0 +1,62 @@
+//! Many clients at once, and many steps of one.
+
+use sincro_sim::session::Value;
+
+use super::legacy_client::Client as Legacy;
+use super::scene::{finished, serve};
+use super::zmq_client::Client as Zmq;
+
+#[test]
+fn fifty_clients_step_together_and_one_that_goes_holds_nobody() {
+    let server = serve("fifty");
+    let address = server.ports().zmq.unwrap();
+    let mut clients: Vec<Zmq> = (0..50).map(|k| Zmq::connect(address, Some(&format!("client {k}")))).collect();
+    for client in &mut clients {
+        client.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
+    }
+    assert_eq!(server.hub().enter().n_clients(), 50);
+    clients[0].call("sim.startSimulation", &[]).unwrap();
+    for k in 1..=5 {
+        clients.iter_mut().for_each(|client| client.send("sim.step", &[]));
+        clients.iter_mut().for_each(|client| drop(client.receive()));
+        let t = clients[49].real("sim.getSimulationTime", &[]);
+        assert!((t - 0.05 * f64::from(k)).abs() < 1e-12, "{t}");
+    }
+    // one asks for nothing and goes: the others go on
+    clients.iter_mut().skip(1).for_each(|client| client.send("sim.step", &[]));
+    drop(clients.remove(0));
+    clients.iter_mut().for_each(|client| drop(client.receive()));
+    let t = clients[0].real("sim.getSimulationTime", &[]);
+    assert!((t - 0.3).abs() < 1e-12, "{t}");
+}
+
+/// Memory of this process that is in use [bytes]; none where the system does not tell.
+fn resident() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    line.split_whitespace().nth(1)?.parse::<usize>().ok().map(|kib| kib << 10)
+}
+
+#[test]
+fn a_long_run_of_a_client_takes_no_more_memory() {
+    let server = serve("long");
+    let mut client = Legacy::connect(server.ports().legacy[0]);
+    client.start();
+    let mut steps = |n: usize| {
+        for _ in 0..n {
+            client.trigger().unwrap();
+            client.inbox.clear();
+        }
+    };
+    steps(3_000);
+    let before = resident();
+    steps(10_000);
+    if let (Some(before), Some(after)) = (before, resident()) {
+        // a run that kept what the experiment's two seconds keep, for 500 s, would take 4 MB in its table alone
+        let grown = after.saturating_sub(before);
+        assert!(grown < 2 << 20, "{grown} bytes in 10 000 steps");
+    }
+    client.simulation(2);
+    let run = finished(&server);
+    assert_eq!((run.steps, run.simulated.table.times().len()), (13_000, 401));
+}

@@ -1,0 +1,74 @@
+//! Points of contact, frame by frame: as many as there are in each.
+//!
+//! | number | what | unit |
+//! |---|---|---|
+//! | 0, 1 | indices of the two surfaces among the model's | 1 |
+//! | 2–4 | where, world axes | m |
+//! | 5–7 | force on the first surface, world axes | N |
+
+use sincro_dynamics::world::Observation;
+
+/// Numbers of a point.
+pub const CONTACT: usize = 8;
+
+/// The points of contact of some frames, in the order of the frames.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contacts {
+    /// For each frame: how many points there are up to and with it.
+    ends: Vec<usize>,
+    numbers: Vec<f32>,
+}
+
+impl Contacts {
+    /// Adds the frame of what is seen.
+    pub fn look(&mut self, seen: &Observation<'_>) {
+        for point in seen.contacts() {
+            // indices below 2²⁴ are exact in single precision; a model has far fewer surfaces
+            self.numbers.extend(point.surfaces.map(|k| k as f32));
+            self.numbers.extend(point.point.0.iter().chain(&point.force.0).map(|x| *x as f32));
+        }
+        self.ends.push(self.numbers.len() / CONTACT);
+    }
+
+    /// Adds frames of another list.
+    pub fn append(&mut self, other: &Self) {
+        let before = self.numbers.len() / CONTACT;
+        self.ends.extend(other.ends.iter().map(|end| before + end));
+        self.numbers.extend_from_slice(&other.numbers);
+    }
+
+    /// The points of a frame, [`CONTACT`] numbers each.
+    #[must_use]
+    pub fn frame(&self, k: usize) -> &[f32] {
+        let start = if k == 0 { 0 } else { self.ends[k - 1] };
+        &self.numbers[CONTACT * start..CONTACT * self.ends[k]]
+    }
+
+    /// Number of points of a frame.
+    #[must_use]
+    pub fn count(&self, k: usize) -> usize {
+        self.frame(k).len() / CONTACT
+    }
+
+    /// Forgets the frames from number `n` on.
+    pub fn truncate(&mut self, n: usize) {
+        self.ends.truncate(n);
+        self.numbers.truncate(CONTACT * self.ends.last().copied().unwrap_or(0));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_keep_their_points() {
+        let one = Contacts { ends: vec![1, 1], numbers: vec![1.0; CONTACT] };
+        let mut all = Contacts { ends: vec![0, 2], numbers: vec![2.0; 2 * CONTACT] };
+        all.append(&one);
+        assert_eq!([0, 1, 2, 3].map(|k| all.count(k)), [0, 2, 1, 0]);
+        assert_eq!(all.frame(2), [1.0; CONTACT]);
+        all.truncate(2);
+        assert_eq!((all.count(1), all.numbers.len()), (2, 2 * CONTACT));
+    }
+}

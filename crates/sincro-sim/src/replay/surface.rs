@@ -1,0 +1,140 @@
+//! Triangles of surfaces that are no simple solids, for pictures: hulls of points, meshes, height fields.
+//!
+//! A hull grows from a tetrahedron: each further point takes away the triangles that it sees and closes the hole with new ones, O(n²).
+
+use std::collections::BTreeSet;
+
+use sincro_dynamics::spatial::Vec3;
+
+/// Corners `[m]` and triangles, counter-clockwise seen from outside.
+pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
+
+/// Of the convex hull of points; none if they span no volume.
+pub(super) fn of_hull(points: &[[f64; 3]]) -> Triangles {
+    let faces = hull(&points.iter().map(|p| Vec3(*p)).collect::<Vec<_>>());
+    // points inside are left out
+    let mut place = vec![None; points.len()];
+    let mut corners = Vec::new();
+    let faces = faces.into_iter().map(|face| {
+        face.map(|k| {
+            *place[k].get_or_insert_with(|| {
+                corners.push(single(points[k]));
+                corners.len() as u32 - 1
+            })
+        })
+    });
+    let faces = faces.collect();
+    (corners, faces)
+}
+
+/// Of a mesh.
+pub(super) fn of_mesh(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Triangles {
+    (points.iter().map(|p| single(*p)).collect(), triangles.to_vec())
+}
+
+/// Of heights over a grid centred on the frame, `columns` a row along x.
+pub(super) fn of_heights(columns: usize, heights: &[f64], size: [f64; 2]) -> Triangles {
+    let rows = heights.len() / columns.max(1);
+    let along = |k: usize, n: usize, span: f64| span * (k as f64 / (n.max(2) - 1) as f64 - 0.5);
+    let corner = |k: usize| {
+        let (row, column) = (k / columns, k % columns);
+        single([along(column, columns, size[0]), along(row, rows, size[1]), heights[k]])
+    };
+    let cell = |k: usize| {
+        let (row, column) = (k / (columns - 1), k % (columns - 1));
+        let a = (row * columns + column) as u32;
+        let (b, c, d) = (a + 1, a + columns as u32, a + columns as u32 + 1);
+        [[a, b, d], [a, d, c]]
+    };
+    let n_cells = columns.saturating_sub(1) * rows.saturating_sub(1);
+    ((0..rows * columns).map(corner).collect(), (0..n_cells).flat_map(cell).collect())
+}
+
+fn single(p: [f64; 3]) -> [f32; 3] {
+    p.map(|x| x as f32)
+}
+
+/// Triangles over indices of the points.
+fn hull(p: &[Vec3<f64>]) -> Vec<[usize; 3]> {
+    let Some([a, b, c, d]) = start(p) else { return Vec::new() };
+    let size = p.iter().fold(0.0_f64, |most, x| most.max((*x - p[a]).norm()));
+    // what is closer to a face than this lies in it
+    let near = 1e-9 * size;
+    let height = |face: &[usize; 3], x: Vec3<f64>| {
+        let normal = (p[face[1]] - p[face[0]]).cross(p[face[2]] - p[face[0]]);
+        normal.dot(x - p[face[0]]) / normal.norm().max(f64::MIN_POSITIVE)
+    };
+    let mut faces = vec![[a, b, c], [a, c, d], [a, d, b], [b, d, c]];
+    if height(&faces[0], p[d]) > 0.0 {
+        faces.iter_mut().for_each(|face| face.swap(1, 2));
+    }
+    for (k, x) in p.iter().enumerate() {
+        let (seen, kept): (Vec<_>, Vec<_>) = faces.iter().copied().partition(|face| height(face, *x) > near);
+        if seen.is_empty() {
+            continue;
+        }
+        let edges: BTreeSet<[usize; 2]> =
+            seen.iter().flat_map(|f| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]]).collect();
+        faces = kept;
+        // the rim: edges whose other side is not seen
+        faces.extend(edges.iter().filter(|[i, j]| !edges.contains(&[*j, *i])).map(|[i, j]| [*i, *j, k]));
+    }
+    faces
+}
+
+/// Four points that span a volume.
+fn start(p: &[Vec3<f64>]) -> Option<[usize; 4]> {
+    let a = 0;
+    let far = |of: &dyn Fn(Vec3<f64>) -> f64| (0..p.len()).max_by(|i, j| of(p[*i]).total_cmp(&of(p[*j])));
+    let b = far(&|x| (x - p[a]).norm())?;
+    let along = p[b] - p[a];
+    let c = far(&|x| along.cross(x - p[a]).norm())?;
+    let normal = along.cross(p[c] - p[a]);
+    let d = far(&|x| normal.dot(x - p[a]).abs())?;
+    let length = along.norm();
+    (normal.dot(p[d] - p[a]).abs() > 1e-9 * length * length * length).then_some([a, b, c, d])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six times the volume that the triangles enclose.
+    fn volume((corners, faces): &Triangles) -> f64 {
+        let at = |k: u32| Vec3(corners[k as usize].map(f64::from));
+        faces.iter().map(|f| at(f[0]).dot(at(f[1]).cross(at(f[2])))).sum()
+    }
+
+    #[test]
+    fn a_hull_encloses_the_volume_of_its_corners() {
+        let corner = |k: usize| -> [f64; 3] { std::array::from_fn(|i| f64::from(u8::from(k >> i & 1 == 1)) + 3.0) };
+        let mut points: Vec<[f64; 3]> = (0..8).map(corner).collect();
+        let cube = of_hull(&points);
+        assert_eq!((cube.0.len(), cube.1.len()), (8, 12));
+        // more points, inside, on a face and on an edge, in any order: the same volume
+        points.extend([[3.2, 3.5, 3.5], [3.5, 3.5, 3.0], [3.5, 3.0, 3.0]]);
+        for _ in 0..points.len() {
+            points.rotate_left(1);
+            let made = of_hull(&points);
+            assert!((volume(&made) - 6.0).abs() < 1e-5, "{}", volume(&made));
+            assert!(!made.0.contains(&[3.2, 3.5, 3.5]), "what is inside is no corner");
+        }
+    }
+
+    #[test]
+    fn flat_points_have_no_hull() {
+        assert!(of_hull(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]).1.is_empty());
+        assert!(of_hull(&[]).1.is_empty());
+    }
+
+    #[test]
+    fn heights_look_up() {
+        let (corners, faces) = of_heights(3, &[0.0, 0.0, 1.0, 0.0, 0.0, 2.0], [4.0, 2.0]);
+        assert_eq!((corners[2], corners[3]), ([2.0, -1.0, 1.0], [-2.0, 1.0, 0.0]));
+        assert_eq!(faces.len(), 4);
+        for face in faces {
+            let [a, b, c] = face.map(|k| Vec3(corners[k as usize].map(f64::from)));
+            assert!((b - a).cross(c - a)[2] > 0.0, "{face:?}");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Cameras of a scene: where one looks from. They ride on what carries them and are no part of the model.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+
+use super::placement::{self, Placement};
+use crate::document::Document;
+use crate::problem::{Problem, Problems};
+
+/// A camera: looks along z of its frame, y is up in the picture. The first one of a scene is the one that pictures and the viewer begin with.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("allOf" = [
+    {"not": {"required": ["rotation_deg", "quaternion_wxyz"]}},
+    {"not": {"required": ["look_at", "rotation_deg"]}},
+    {"not": {"required": ["look_at", "quaternion_wxyz"]}}
+]))]
+pub(crate) struct CameraFile {
+    /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
+    pub name: String,
+    /// Path of the body, joint or frame that carries it; `/` is the world.
+    #[serde(default = "world")]
+    pub parent: String,
+    /// Where it stands in the parent frame [m].
+    #[serde(default)]
+    pub position: [f64; 3],
+    /// Point of the parent frame that it looks at; the parent's z is up in the picture [m].
+    pub look_at: Option<[f64; 3]>,
+    /// Roll, pitch and yaw of its axes in the parent: R = Rz(yaw)·Ry(pitch)·Rx(roll) [deg].
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Rotation of its axes in the parent as a quaternion (w, x, y, z), of any length but zero.
+    pub quaternion_wxyz: Option<[f64; 4]>,
+    /// Angle between the upper and the lower edge of the picture [deg].
+    #[serde(default = "field_of_view")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub field_of_view_deg: f64,
+}
+
+fn world() -> String {
+    "/".into()
+}
+
+fn field_of_view() -> f64 {
+    38.0
+}
+
+/// Its frame in its parent's; notes what cannot be.
+pub(super) fn pose(file: &CameraFile, pointer: &str, document: &Document, problems: &mut Problems) -> Pose<f64> {
+    if file.field_of_view_deg >= 170.0 {
+        let at = document.at(&format!("{pointer}/field_of_view_deg"));
+        let message = format!("camera `{}` has a field of view of {}°", file.name, file.field_of_view_deg);
+        problems.push(Problem::error(&at, message).with_help("expected more than 0° and less than 170°"));
+    }
+    let Some(target) = file.look_at else {
+        let placement = Placement::new(file.position, file.rotation_deg, file.quaternion_wxyz);
+        return placement::pose(&placement, pointer, document, problems);
+    };
+    let pos = Vec3(file.position);
+    let rot = looking(Vec3(target) - pos).unwrap_or_else(|| {
+        let at = document.at(&format!("{pointer}/look_at"));
+        let problem = Problem::error(&at, format!("camera `{}` stands where it looks at", file.name));
+        problems.push(problem.with_help("give a `position` away from `look_at`"));
+        Mat3::identity()
+    });
+    Pose { rot, pos }
+}
+
+/// Axes of a camera that looks along `ahead`, z up in the picture; straight up or down: y.
+fn looking(ahead: Vec3<f64>) -> Option<Mat3<f64>> {
+    let length = ahead.norm();
+    if length < 1e-9 || !length.is_finite() {
+        return None;
+    }
+    let z = ahead.scale(1.0 / length);
+    let is_steep = z[0] * z[0] + z[1] * z[1] < 1e-12;
+    let up = Vec3(if is_steep { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] });
+    let across = up.cross(z);
+    let x = across.scale(1.0 / across.norm());
+    let y = z.cross(x);
+    Some(Mat3(std::array::from_fn(|row| [x[row], y[row], z[row]])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_above_is_above_in_the_picture() {
+        for ahead in [[1.0, 0.0, 0.0], [0.3, -0.4, 2.0], [0.0, 2.0, -0.1]] {
+            let rot = looking(Vec3(ahead)).unwrap();
+            assert!((rot.col(0).cross(rot.col(1)).dot(rot.col(2)) - 1.0).abs() < 1e-12);
+            let along = rot.mul_vec(Vec3([0.0, 0.0, 1.0]));
+            assert!(along.cross(Vec3(ahead)).norm() < 1e-12 && along.dot(Vec3(ahead)) > 0.0);
+            let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| rot.mul_vec(Vec3(axis)));
+            assert!(x[2].abs() < 1e-12 && y[2] > 0.0, "{ahead:?}: level, upright");
+        }
+        // from above the world's y is up
+        assert_eq!(looking(Vec3([0.0, 0.0, -1.0])).unwrap().mul_vec(Vec3([0.0, 1.0, 0.0])).0, [0.0, 1.0, 0.0]);
+        assert!(looking(Vec3([0.0; 3])).is_none());
+    }
+}

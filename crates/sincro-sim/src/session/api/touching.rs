@@ -1,0 +1,76 @@
+//! Shelf: contacts, force sensors.
+
+use super::{Function, Outcome, handle};
+use crate::session::constants::HANDLE_FLAGS;
+use crate::session::{Arguments, Desk, Refusal, Touch, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "getContactInfo",
+        tip: "int[2] collidingObjects,float[3] collisionPoint,float[3] reactionForce,float[3] normalVector=sim.getContactInfo(int dynamicPass,int objectHandle,int index)",
+        run: contact,
+    },
+    Function {
+        name: "checkCollision",
+        tip: "int result,int[2] collidingObjectHandles=sim.checkCollision(int entity1Handle,int entity2Handle)",
+        run: collision,
+    },
+    Function {
+        name: "readForceSensor",
+        tip: "int result,float[3] forceVector,float[3] torqueVector=sim.readForceSensor(int objectHandle)",
+        run: force_sensor,
+    },
+];
+
+/// All entities.
+const ALL: i32 = -2;
+
+/// Whether a contact is one of an object; `ALL` stands for any.
+fn is_of(touch: &Touch, object: i32) -> bool {
+    object == ALL || touch.bodies.iter().any(|body| body.0 == object)
+}
+
+/// The object of argument `k`, which can touch something, or `ALL`.
+fn entity(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<i32, Refusal> {
+    if a.handle(k)? == ALL {
+        return Ok(ALL);
+    }
+    let object = handle(desk, a, k)?;
+    desk.can_touch(object)?;
+    Ok(object.0)
+}
+
+/// The contact of a number among those of an object; nothing behind the last one. The pass does not matter: contacts are those of now.
+fn contact(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    a.int(0)?;
+    let object = entity(desk, a, 1)?;
+    // a flag asks for the normal, which is always given here
+    let index = a.int(2)? & i64::from(HANDLE_FLAGS - 1);
+    let touches = desk.touches();
+    let nth = touches.iter().filter(|touch| is_of(touch, object)).nth(index as usize);
+    Ok(nth.map_or_else(
+        || vec![Value::Nil; 4],
+        |touch| {
+            let vectors = [touch.point, touch.force, touch.normal].map(|v| Value::reals(v.0));
+            [Value::handles(touch.bodies)].into_iter().chain(vectors).collect()
+        },
+    ))
+}
+
+/// Whether two bodies press on each other now.
+fn collision(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let (first, second) = (entity(desk, a, 0)?, entity(desk, a, 1)?);
+    let touches = desk.touches();
+    let found = touches.iter().find(|touch| is_of(touch, first) && is_of(touch, second));
+    Ok(found.map_or_else(
+        || vec![Value::Int(0), Value::List(Vec::new())],
+        |touch| vec![Value::Int(1), Value::handles(touch.bodies)],
+    ))
+}
+
+/// Bit 0 says that there is a value: from the first step on.
+fn force_sensor(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    let (force, torque) = desk.force_sensor(own)?;
+    Ok(vec![Value::Int(1), Value::reals(force), Value::reals(torque)])
+}

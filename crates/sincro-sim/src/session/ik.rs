@@ -1,0 +1,420 @@
+//! Inverse kinematics as CoppeliaSim's `simIK` offers it: groups of elements, each of which brings a tip to a target.
+//!
+//! An iteration moves the joints between base and tip by damped least squares,
+//!
+//! ```text
+//! Δq = Jᵀ·(J·Jᵀ + λ²·I)⁻¹·e          (key `wampler1986`)
+//! ```
+//!
+//! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most 0.2 rad or 0.1 m an iteration and
+//! within its limits. Environments are no worlds of their own here: objects keep their handles, joints start from where they are.
+
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::spatial::{Pose, Quat, Vec3};
+use sincro_math::elementary::atan2;
+
+use super::table::Handle;
+use super::{Desk, Phase, Reference, Refusal};
+
+/// Environments, groups in one.
+const MOST: usize = 32;
+/// Elements in a group: with them and the iterations the longest call takes less than a second.
+const MOST_ELEMENTS: usize = 16;
+/// Iterations that may be asked for.
+const MOST_ITERATIONS: i64 = 1_000;
+/// What a joint moves in an iteration at most `[rad]`.
+const MOST_TURN: f64 = 0.2;
+/// The same of a sliding joint `[m]`.
+const MOST_SLIDE: f64 = 0.1;
+/// λ² of the methods without damping: only what is singular is touched.
+const LEAST_DAMPING: f64 = 1e-12;
+
+/// Bits of constraints.
+pub const X: i64 = 1;
+/// See [`X`].
+pub const Y: i64 = 2;
+/// See [`X`].
+pub const Z: i64 = 4;
+/// The z axis of the tip is that of the target.
+pub const ALPHA_BETA: i64 = 8;
+/// With it, x and y axes are, too.
+pub const GAMMA: i64 = 16;
+
+/// Groups that are solved together with nothing else.
+#[derive(Clone, Debug, Default)]
+pub struct Environment {
+    groups: Vec<Group>,
+}
+
+/// Elements that are solved together.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// λ; 0 for the pseudo-inverse.
+    damping: f64,
+    iterations: usize,
+    elements: Vec<Element>,
+}
+
+/// A tip and its target.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// What carries the joints; none: the world.
+    pub base: Option<Handle>,
+    /// What is to be moved.
+    pub tip: Handle,
+    /// Where to.
+    pub target: Handle,
+    /// What is to agree.
+    pub constraints: i64,
+    /// `[m]`, `[rad]`.
+    pub precision: [f64; 2],
+    /// Of position and orientation.
+    pub weights: [f64; 2],
+}
+
+/// How it went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Whether all elements are within their precision.
+    pub is_reached: bool,
+    /// Whether a joint ended at a limit.
+    pub hit_limit: bool,
+    /// Largest errors left `[m]`, `[rad]`.
+    pub errors: [f64; 2],
+}
+
+/// A joint that is moved.
+struct Mover {
+    handle: Handle,
+    q_idx: usize,
+    is_sliding: bool,
+    bounds: [f64; 2],
+}
+
+impl Desk<'_> {
+    /// A new environment; its number.
+    ///
+    /// # Errors
+    ///
+    /// There are too many.
+    pub fn create_environment(&mut self) -> Result<usize, Refusal> {
+        let free = self.table.environments.iter().position(Option::is_none).unwrap_or(self.table.environments.len());
+        if free >= MOST {
+            return Err(Refusal(format!("there are {MOST} environments already: erase some")));
+        }
+        if free == self.table.environments.len() {
+            self.table.environments.push(None);
+        }
+        self.table.environments[free] = Some(Environment::default());
+        Ok(free)
+    }
+
+    /// Forgets an environment.
+    ///
+    /// # Errors
+    ///
+    /// There is none of that number.
+    pub fn erase_environment(&mut self, environment: i64) -> Result<(), Refusal> {
+        self.environment(environment)?;
+        self.table.environments[environment as usize] = None;
+        Ok(())
+    }
+
+    fn environment(&mut self, number: i64) -> Result<&mut Environment, Refusal> {
+        let k = usize::try_from(number).ok();
+        let found = k.and_then(|k| self.table.environments.get_mut(k)?.as_mut());
+        found.ok_or_else(|| Refusal(format!("there is no environment {number}")))
+    }
+
+    /// A new group; its number.
+    ///
+    /// # Errors
+    ///
+    /// There is no such environment, or it has too many.
+    pub fn create_group(&mut self, environment: i64) -> Result<usize, Refusal> {
+        let groups = &mut self.environment(environment)?.groups;
+        if groups.len() >= MOST {
+            return Err(Refusal(format!("there are {MOST} groups already")));
+        }
+        // CoppeliaSim's: the pseudo-inverse, three iterations
+        groups.push(Group { damping: 0.0, iterations: 3, elements: Vec::new() });
+        Ok(groups.len() - 1)
+    }
+
+    /// Groups of an environment.
+    ///
+    /// # Errors
+    ///
+    /// There is no such environment.
+    pub fn group_count(&mut self, environment: i64) -> Result<usize, Refusal> {
+        Ok(self.environment(environment)?.groups.len())
+    }
+
+    fn group(&mut self, environment: i64, number: i64) -> Result<&mut Group, Refusal> {
+        let groups = &mut self.environment(environment)?.groups;
+        let found = usize::try_from(number).ok().and_then(|k| groups.get_mut(k));
+        found.ok_or_else(|| Refusal(format!("there is no group {number} in the environment")))
+    }
+
+    /// Sets how a group is solved: λ, none for the pseudo-inverse, and iterations.
+    ///
+    /// # Errors
+    ///
+    /// There is no such group, or a number makes no sense.
+    pub fn set_calculation(&mut self, environment: i64, group: i64, damping: f64, n: i64) -> Result<(), Refusal> {
+        if !(damping.is_finite() && damping >= 0.0 && (1..=MOST_ITERATIONS).contains(&n)) {
+            let expected = format!("damping 0 or more, 1 to {MOST_ITERATIONS} iterations");
+            return Err(Refusal(format!("damping {damping} and {n} iterations, expected {expected}")));
+        }
+        let group = self.group(environment, group)?;
+        (group.damping, group.iterations) = (damping, n as usize);
+        Ok(())
+    }
+
+    /// Adds an element to a group; its number.
+    ///
+    /// # Errors
+    ///
+    /// There is no such group or object, no joint lies between base and tip, or the constraints make no sense.
+    pub fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, Refusal> {
+        self.table.entry(element.tip)?;
+        self.table.entry(element.target)?;
+        let bits = element.constraints;
+        if !(1..32).contains(&bits) || bits & (ALPHA_BETA | GAMMA) == GAMMA {
+            let known = "x 1, y 2, z 4, alpha_beta 8, and with that gamma 16";
+            return Err(Refusal(format!("constraints {bits}, expected a sum of {known}")));
+        }
+        if self.movers(std::slice::from_ref(&element))?.is_empty() {
+            return Err(Refusal::new("no joint that turns or slides lies between base and tip"));
+        }
+        let elements = &mut self.group(environment, group)?.elements;
+        if elements.len() >= MOST_ELEMENTS {
+            return Err(Refusal(format!("there are {MOST_ELEMENTS} elements already")));
+        }
+        elements.push(element);
+        Ok(elements.len() - 1)
+    }
+
+    /// An element of a group.
+    ///
+    /// # Errors
+    ///
+    /// There is none of that number.
+    pub fn element(&mut self, environment: i64, group: i64, number: i64) -> Result<&mut Element, Refusal> {
+        let elements = &mut self.group(environment, group)?.elements;
+        let found = usize::try_from(number).ok().and_then(|k| elements.get_mut(k));
+        found.ok_or_else(|| Refusal(format!("there is no element {number} in the group")))
+    }
+
+    /// Solves a group. If it is reached, or `allow_error`, and `apply`: joints with a motor in position or spring mode get it as their
+    /// target while a run is on, all others are put there.
+    ///
+    /// # Errors
+    ///
+    /// There is no such group, it has no elements, or an object of it is gone.
+    pub fn handle_group(
+        &mut self,
+        environment: i64,
+        group: i64,
+        (apply, allow_error): (bool, bool),
+    ) -> Result<Outcome, Refusal> {
+        let group = self.group(environment, group)?.clone();
+        if group.elements.is_empty() {
+            return Err(Refusal::new("the group has no elements"));
+        }
+        let movers = self.movers(&group.elements)?;
+        let before: Vec<f64> = movers.iter().map(|m| self.world.state.q[m.q_idx]).collect();
+        let solved = self.solve(&group, &movers);
+        let after: Vec<f64> = movers.iter().map(|m| self.world.state.q[m.q_idx]).collect();
+        self.put(&movers, &before);
+        let outcome = solved?;
+        if apply && (outcome.is_reached || allow_error) {
+            movers.iter().zip(after).try_for_each(|(mover, q)| self.apply(mover.handle, q))?;
+        }
+        Ok(outcome)
+    }
+
+    fn put(&mut self, movers: &[Mover], q: &[f64]) {
+        movers.iter().zip(q).for_each(|(mover, q)| self.world.state.q[mover.q_idx] = *q);
+        self.moved();
+    }
+
+    fn apply(&mut self, joint: Handle, q: f64) -> Result<(), Refusal> {
+        use sincro_dynamics::force::MotorMode::{Position, Spring};
+        let has_target = matches!(self.joint_mode(joint)?, Position | Spring);
+        if self.table.phase != Phase::Stopped && has_target {
+            return self.set_target_position(joint, q);
+        }
+        self.set_joint_position(joint, q)
+    }
+
+    /// The joints between bases and tips, each once.
+    fn movers(&self, elements: &[Element]) -> Result<Vec<Mover>, Refusal> {
+        let mut movers: Vec<Mover> = Vec::new();
+        for element in elements {
+            let mut at = Some(element.tip);
+            while let Some(handle) = at.filter(|handle| Some(*handle) != element.base) {
+                let entry = self.table.entry(handle)?;
+                at = entry.parent;
+                let Ok(joint) = self.table.joint(handle) else { continue };
+                let is_sliding = matches!(joint.kind, JointKind::Prismatic { .. });
+                let is_turning = matches!(joint.kind, JointKind::Revolute { .. });
+                if !(is_sliding || is_turning) || movers.iter().any(|m| m.handle == handle) {
+                    continue;
+                }
+                let bounds = match self.joint_interval(handle)? {
+                    (true, _) => [f64::NEG_INFINITY, f64::INFINITY],
+                    (false, [low, range]) if low.is_finite() => [low, low + range],
+                    (false, _) => [f64::NEG_INFINITY, f64::INFINITY],
+                };
+                movers.push(Mover { handle, q_idx: joint.q_idx, is_sliding, bounds });
+            }
+            if at != element.base {
+                return Err(Refusal::new("the base carries the tip of no element: it must be one of its ancestors"));
+            }
+        }
+        Ok(movers)
+    }
+
+    /// Iterates; the state is left where the last iteration put it.
+    fn solve(&mut self, group: &Group, movers: &[Mover]) -> Result<Outcome, Refusal> {
+        let mut hit_limit = false;
+        for iteration in 0..=group.iterations {
+            let (errors, is_reached) = self.errors(&group.elements)?;
+            if is_reached || iteration == group.iterations {
+                return Ok(Outcome { is_reached, hit_limit, errors });
+            }
+            let (rows, e) = self.rows(&group.elements, movers)?;
+            let damping = (group.damping * group.damping).max(LEAST_DAMPING);
+            let Some(x) = normal(&rows, &e, damping) else {
+                return Err(Refusal::new("the group cannot be solved: its equations are not finite"));
+            };
+            hit_limit = false;
+            for (k, mover) in movers.iter().enumerate() {
+                let change: f64 = rows.iter().zip(&x).map(|(row, x)| row[k] * x).sum();
+                let most = if mover.is_sliding { MOST_SLIDE } else { MOST_TURN };
+                let wanted = self.world.state.q[mover.q_idx] + change.clamp(-most, most);
+                let q = wanted.clamp(mover.bounds[0], mover.bounds[1]);
+                hit_limit |= q != wanted;
+                self.world.state.q[mover.q_idx] = q;
+            }
+            self.moved();
+        }
+        unreachable!("the last iteration returns")
+    }
+
+    /// Poses of tip and target.
+    fn ends(&mut self, element: &Element) -> Result<[Pose<f64>; 2], Refusal> {
+        Ok([self.pose(element.tip, Reference::World)?, self.pose(element.target, Reference::World)?])
+    }
+
+    /// Largest errors of position and orientation, and whether all are within their precision.
+    fn errors(&mut self, elements: &[Element]) -> Result<([f64; 2], bool), Refusal> {
+        let (mut errors, mut is_reached) = ([0.0_f64; 2], true);
+        for element in elements {
+            let [tip, target] = self.ends(element)?;
+            let frame = self.axes(element)?;
+            let linear = masked(element, frame.transpose().mul_vec(target.pos - tip.pos)).norm();
+            let angular = turn(element, &tip, &target).norm();
+            is_reached &= linear <= element.precision[0] && angular <= element.precision[1];
+            errors = [errors[0].max(linear), errors[1].max(angular)];
+        }
+        Ok((errors, is_reached))
+    }
+
+    /// The axes in which x, y and z are meant: the base's.
+    fn axes(&mut self, element: &Element) -> Result<sincro_dynamics::spatial::Mat3<f64>, Refusal> {
+        let Some(base) = element.base else { return Ok(sincro_dynamics::spatial::Mat3::identity()) };
+        Ok(self.pose(base, Reference::World)?.rot)
+    }
+
+    /// Rows of the weighted Jacobian, a column for each joint, and the weighted errors.
+    fn rows(&mut self, elements: &[Element], movers: &[Mover]) -> Result<(Vec<Vec<f64>>, Vec<f64>), Refusal> {
+        let (mut rows, mut e) = (Vec::new(), Vec::new());
+        for element in elements {
+            let [tip, target] = self.ends(element)?;
+            let frame = self.axes(element)?.transpose();
+            let chain = self.movers(std::slice::from_ref(element))?;
+            let mut columns = Vec::with_capacity(movers.len());
+            for mover in movers {
+                if !chain.iter().any(|m| m.handle == mover.handle) {
+                    columns.push((Vec3::zero(), Vec3::zero()));
+                    continue;
+                }
+                let joint = self.pose(mover.handle, Reference::World)?;
+                let axis = joint.rot.col(2);
+                columns.push(match mover.is_sliding {
+                    true => (axis, Vec3::zero()),
+                    false => (axis.cross(tip.pos - joint.pos), axis),
+                });
+            }
+            let [position, orientation] = element.weights;
+            let miss = frame.mul_vec(target.pos - tip.pos);
+            for k in (0..3).filter(|k| element.constraints & [X, Y, Z][*k] != 0) {
+                rows.push(columns.iter().map(|(linear, _)| position * frame.mul_vec(*linear)[k]).collect());
+                e.push(position * miss[k]);
+            }
+            if element.constraints & ALPHA_BETA != 0 {
+                let error = turn(element, &tip, &target);
+                // without gamma the tip may turn about its own z
+                let z = tip.rot.col(2);
+                let free = if element.constraints & GAMMA == 0 { 1.0 } else { 0.0 };
+                for k in 0..3 {
+                    let rate = |(_, w): &(Vec3<f64>, Vec3<f64>)| w[k] - free * z[k] * z.dot(*w);
+                    rows.push(columns.iter().map(|column| orientation * rate(column)).collect());
+                    e.push(orientation * error[k]);
+                }
+            }
+        }
+        Ok((rows, e))
+    }
+}
+
+/// The components that are to agree.
+fn masked(element: &Element, v: Vec3<f64>) -> Vec3<f64> {
+    let of = |k: usize, bit: i64| if element.constraints & bit == 0 { 0.0 } else { v[k] };
+    Vec3([of(0, X), of(1, Y), of(2, Z)])
+}
+
+/// Axis times angle of the turn that the tip still has to make `[rad]`, world axes.
+fn turn(element: &Element, tip: &Pose<f64>, target: &Pose<f64>) -> Vec3<f64> {
+    match (element.constraints & ALPHA_BETA != 0, element.constraints & GAMMA != 0) {
+        (false, _) => Vec3::zero(),
+        (true, true) => {
+            let q = Quat::from_matrix(&target.rot.mul(&tip.rot.transpose()));
+            let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+            along(q.xyz, q.xyz.norm(), sign * 2.0 * atan2(q.xyz.norm(), q.w.abs()).0)
+        }
+        (true, false) => {
+            let (from, to) = (tip.rot.col(2), target.rot.col(2));
+            let cross = from.cross(to);
+            along(cross, cross.norm(), atan2(cross.norm(), from.dot(to)).0)
+        }
+    }
+}
+
+/// A direction with another length; zero if it has none.
+fn along(v: Vec3<f64>, norm: f64, length: f64) -> Vec3<f64> {
+    if norm == 0.0 { Vec3::zero() } else { v.scale(length / norm) }
+}
+
+/// x of (J·Jᵀ + λ²·I)·x = e, by Cholesky; none if that fails.
+fn normal(rows: &[Vec<f64>], e: &[f64], damping: f64) -> Option<Vec<f64>> {
+    let m = rows.len();
+    let mut l = vec![vec![0.0; m]; m];
+    for i in 0..m {
+        for j in 0..=i {
+            let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
+            let sum = (0..j).fold(product + if i == j { damping } else { 0.0 }, |sum, k| sum - l[i][k] * l[j][k]);
+            l[i][j] = if i == j { sum.max(0.5 * damping).sqrt() } else { sum / l[j][j] };
+        }
+    }
+    let mut x = e.to_vec();
+    for i in 0..m {
+        x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) / l[i][i];
+    }
+    for i in (0..m).rev() {
+        x[i] = (i + 1..m).fold(x[i], |sum, k| sum - l[k][i] * x[k]) / l[i][i];
+    }
+    x.iter().all(|x| x.is_finite()).then_some(x)
+}

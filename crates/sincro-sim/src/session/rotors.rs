@@ -1,0 +1,47 @@
+//! Rotors, as clients and scripts know them: joints with an ideal motor that have a speed and no position. What V-REP's propellers have as
+//! the joint that turns them.
+
+use sincro_dynamics::force::rotor::SpeedFrom;
+
+use super::table::{Handle, Kind};
+use super::{Desk, Refusal};
+
+impl Desk<'_> {
+    /// Index of a rotor among the model's; none for any other object.
+    pub(super) fn rotor(&self, handle: Handle) -> Result<Option<usize>, Refusal> {
+        Ok(match self.table.entry(handle)?.kind {
+            Kind::Rotor(index) => Some(index),
+            _ => None,
+        })
+    }
+
+    /// Speed of a rotor [rad/s].
+    pub(super) fn rotor_speed(&self, rotor: usize) -> f64 {
+        self.world.rotor_speed(rotor)
+    }
+
+    /// What a rotor was told [rad/s].
+    pub(super) fn rotor_target(&self, rotor: usize) -> f64 {
+        let Some(command) = self.world.model().rotors()[rotor].speed.command() else { return self.rotor_speed(rotor) };
+        let latched = self.world.state.commands[command];
+        let present = if self.world.state.tick == 0 { self.table.scene_command(command, 0.0) } else { latched };
+        self.table.held(command).unwrap_or(present)
+    }
+
+    /// Tells a rotor its speed [rad/s].
+    pub(super) fn set_rotor_target(&mut self, rotor: usize, speed: f64) -> Result<(), Refusal> {
+        let model = self.world.model();
+        let Some(command) = model.rotors()[rotor].speed.command() else {
+            let path = &model.names().rotors[rotor];
+            let joint = match model.rotors()[rotor].speed {
+                SpeedFrom::Joint { dof, .. } => model.names().dof_name(dof),
+                _ => "",
+            };
+            return Err(Refusal(format!(
+                "the rotor `{path}` turns with the joint `{joint}`: set that joint's velocity"
+            )));
+        };
+        self.table.hold(command, Some(speed));
+        Ok(())
+    }
+}
