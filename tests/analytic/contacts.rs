@@ -272,3 +272,59 @@ fn a_tumbling_box_never_gains_energy_and_its_books_balance() {
     let report = world.solver_report().unwrap();
     assert_eq!((report.not_converged, world.effort().rough_ticks), (0, 0), "{report:?}");
 }
+
+#[test]
+fn at_velocity_level_a_ball_bounces_to_first_order() {
+    // the instant of an impact is a whole step: the third bounce comes out with an error in proportion to it
+    let (r, e, h0) = (0.05, 0.8, 1.0);
+    let v0 = (2.0 * G * h0).sqrt();
+    let end = v0 / G * (1.0 + 2.0 * e + 2.0 * e * e) + 0.1;
+    let expected = r + v0 * e * e * e * 0.1 - 0.5 * G * 0.01;
+    let error = |n: u32| {
+        let model = on_a_plane(Shape::Sphere { radius: r }, 0.0, material(0.0, 0.0), material(0.0, e));
+        let x = placed(&model, 0.0, r + h0);
+        let mut world = World::new(model, x, MethodKind::SemiImplicitEuler, 1e-9, 1e-3);
+        let h = end / f64::from(n);
+        let mut lowest = f64::INFINITY;
+        for k in 0..n {
+            world.advance(f64::from(k) * h, h).unwrap();
+            lowest = lowest.min(world.state.q[2]);
+        }
+        assert!(lowest > r - 1e-9, "it goes {:e} m into the floor", r - lowest);
+        (world.state.q[2] - expected).abs()
+    };
+    // single errors jump with where the impact falls in its step; the worst of a few steps of nearly one size does not
+    let worst = |n: u32| (0..7).map(|k| error(n + 13 * k)).fold(0.0, f64::max);
+    let (coarse, fine, finest) = (worst(400), worst(4000), worst(40_000));
+    assert!(fine < 0.2 * coarse && finest < 0.2 * fine, "{coarse:e} {fine:e} {finest:e}");
+    assert!(finest < 1e-3, "{finest:e}");
+}
+
+#[test]
+fn friction_only_takes_energy_at_every_point_at_every_instant() {
+    let m = material(0.4, 0.3);
+    let model = on_a_plane(Shape::Cuboid { size: [0.2, 0.14, 0.1] }, 0.1, m, m);
+    let mut x = placed(&model, 0.1, 0.3);
+    Quat::exp(Vec3([0.5, -0.3, 0.2])).write(&mut x.q[3..7]);
+    x.v.copy_from_slice(&[3.0, -5.0, 2.0, 0.5, 0.2, 0.0]);
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);
+    world.settle_start(0.0);
+    let mut slips = 0;
+    for k in 0..150 {
+        world.advance(0.01 * f64::from(k), 0.01).unwrap();
+        let seen = world.observe(0.0);
+        let (q, v) = (&seen.state.q, &seen.state.v);
+        let rot = Quat { w: q[3], xyz: Vec3([q[4], q[5], q[6]]) }.matrix();
+        let (w, lin) = (rot.mul_vec(Vec3([v[0], v[1], v[2]])), rot.mul_vec(Vec3([v[3], v[4], v[5]])));
+        for point in seen.contacts() {
+            let velocity = lin + w.cross(point.point - Vec3([q[0], q[1], q[2]]));
+            let press = point.normal.dot(point.force);
+            let friction = point.force - point.normal.scale(press);
+            let power = friction.dot(velocity);
+            assert!(power <= 1e-9, "tick {k}: friction gives {power:e} W");
+            assert!(friction.norm() <= 0.4 * press * (1.0 + 1e-9), "tick {k}: outside the cone");
+            slips += u32::from(power < -1e-6);
+        }
+    }
+    assert!(slips > 5, "{slips}");
+}

@@ -37,18 +37,27 @@ impl Folder {
 
     /// Text of a file that is named in a file, there where it is named.
     pub fn read_named(&self, name: &Located<String>) -> Result<Arc<SourceText>, Problem> {
+        self.named(name, |path| self.text(path))
+    }
+
+    fn named<T>(&self, name: &Located<String>, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Problem> {
         let path = Path::new(&name.value);
         if path.components().any(|c| matches!(c, Component::RootDir | Component::Prefix(_))) {
             let problem = Problem::error(&name.at, format!("the path `{}` is absolute", name.value));
             return Err(problem.with_help("give it relative to the folder, so that the folder can be moved"));
         }
-        self.text(&name.value).map_err(|message| {
+        read(&name.value).map_err(|message| {
             let problem = Problem::error(&name.at, message);
             match self.neighbours(path) {
                 Some(help) => problem.with_help(help),
                 None => problem,
             }
         })
+    }
+
+    /// Bytes of a file that is named in a file, whatever is in it; not kept.
+    pub fn bytes_named(&self, name: &Located<String>) -> Result<Vec<u8>, Problem> {
+        self.named(name, |path| read_bytes(&self.path_of(path)))
     }
 
     /// Every file read so far.
@@ -80,8 +89,8 @@ impl Folder {
     }
 }
 
-/// Reads a whole text file, or says in words why not.
-fn read_text(path: &Path) -> Result<String, String> {
+/// Reads a whole file, or says in words why not.
+fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
     let shown = path.display();
     let refused = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => format!("there is no file `{shown}`"),
@@ -104,6 +113,12 @@ fn read_text(path: &Path) -> Result<String, String> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(too_large(bytes.len() as u64));
     }
+    Ok(bytes)
+}
+
+/// Reads a whole text file, or says in words why not.
+fn read_text(path: &Path) -> Result<String, String> {
+    let (bytes, shown) = (read_bytes(path)?, path.display());
     let text = String::from_utf8(bytes).map_err(|error| {
         let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count();
         format!("`{shown}` is not UTF-8 text (line {line})")

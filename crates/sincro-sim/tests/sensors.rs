@@ -264,7 +264,11 @@ gain = 0.5
 
 /// What is replaced, by what, and what is said.
 const REFUSED: &[(&str, &str, &str)] = &[
-    ("imu = {}", "", "scene.toml:14:8: error: one of `imu`, `pose`, `velocity`, `height` is missing in sensor `imu`"),
+    (
+        "imu = {}",
+        "",
+        "scene.toml:14:8: error: one of `imu`, `pose`, `velocity`, `height`, `contact` is missing in sensor `imu`",
+    ),
     ("imu = {}", "imu = {}\nheight = {}", "scene.toml:"),
     ("imu = {}", "imu = {}\nsample_time = 0.0", "`sample_time`"),
     (

@@ -282,10 +282,13 @@ impl<R: Real> Constraints<R> {
             let i = block.row;
             let row = &self.jacobian[i * n..(i + 1) * n];
             let speed = dot(row, v);
-            if self.residual[i].lane(0) > 0.0 {
+            let bounce = restitution(model, block.slot);
+            let arrives = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
+            if speed.lane(0) < -rest_speed && bounce > 0.0 && arrives {
+                // from where it is: to let it arrive first would take its speed
+                self.b[i] += speed * per_h * R::splat(bounce);
+            } else if self.residual[i].lane(0) > 0.0 {
                 self.b[i] += self.residual[i] * per_h * per_h;
-            } else if speed.lane(0) < -rest_speed {
-                self.b[i] += speed * per_h * R::splat(restitution(model, block.slot));
             }
         }
     }

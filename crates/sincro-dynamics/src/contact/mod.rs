@@ -9,6 +9,7 @@
 mod detect;
 pub(crate) mod feature;
 mod manifold;
+pub mod polyhedron;
 mod polytope;
 
 pub(crate) use detect::Detector;

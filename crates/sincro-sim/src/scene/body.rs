@@ -9,6 +9,7 @@
 use sincro_dynamics::model::{MassProperties, Shape};
 
 use super::file::{BodyFile, ShapeFile};
+use super::mesh::MeshInstance;
 use super::object::ShapeInstance;
 use super::placement::{self, Placement};
 use crate::document::Document;
@@ -32,7 +33,7 @@ pub(super) fn shapes(
     document: &Document,
     problems: &mut Problems,
 ) -> Vec<ShapeInstance> {
-    let solids = file.shape.iter().enumerate().filter(|(_, s)| s.plane.is_none() && s.hull.is_none());
+    let solids = file.shape.iter().enumerate().filter(|(_, s)| is_solid(s));
     let one = |(k, shape): (usize, &ShapeFile)| {
         let pointer = format!("{pointer}/shape/{k}");
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
@@ -44,6 +45,10 @@ pub(super) fn shapes(
         }
     };
     solids.map(one).collect()
+}
+
+fn is_solid(file: &ShapeFile) -> bool {
+    file.plane.is_none() && file.hull.is_none() && file.mesh.is_none() && file.height_field.is_none()
 }
 
 fn solid(file: &ShapeFile) -> Shape {
@@ -78,17 +83,47 @@ pub(super) fn color(text: &str, pointer: &str, document: &Document, problems: &m
 pub(super) fn mass(
     file: &BodyFile,
     shapes: &[ShapeInstance],
+    meshes: &[MeshInstance],
     pointer: &str,
     document: &Document,
     problems: &mut Problems,
 ) -> MassProperties {
-    let mut judge = Judge { file, shapes, pointer, document, problems };
+    let solids = shapes.iter().map(Solid::Shape).chain(meshes.iter().map(Solid::Mesh)).collect();
+    if meshes.len() < file.shape.iter().filter(|s| s.mesh.is_some()).count() {
+        // one of them was refused, and no more can be said
+        return UNIT;
+    }
+    let mut judge = Judge { file, solids, pointer, document, problems };
     judge.mass().unwrap_or(UNIT)
+}
+
+/// What encloses a volume.
+enum Solid<'a> {
+    Shape(&'a ShapeInstance),
+    Mesh(&'a MeshInstance),
+}
+
+impl Solid<'_> {
+    fn density(&self) -> Option<f64> {
+        match self {
+            Self::Shape(shape) => shape.density,
+            Self::Mesh(mesh) => mesh.density,
+        }
+    }
+
+    /// In the body's frame; of density 1 where none is given.
+    fn mass_properties(&self) -> MassProperties {
+        let density = self.density().unwrap_or(1.0);
+        match self {
+            Self::Shape(s) => s.shape.mass_properties(density).placed(&s.pose.rot, s.pose.pos),
+            Self::Mesh(mesh) => mesh.mass_properties(density),
+        }
+    }
 }
 
 struct Judge<'a> {
     file: &'a BodyFile,
-    shapes: &'a [ShapeInstance],
+    solids: Vec<Solid<'a>>,
     pointer: &'a str,
     document: &'a Document,
     problems: &'a mut Problems,
@@ -116,12 +151,12 @@ impl Judge<'_> {
     /// Shapes say how a given mass is distributed.
     fn distributed(&mut self, mass: f64) -> Option<MassProperties> {
         self.no_center_of_mass()?;
-        if self.shapes.is_empty() {
+        if self.solids.is_empty() {
             let help = "give `inertia` too, or shapes that say how the mass is distributed";
             return self.refuse("mass", "`mass` without `inertia` and without shapes", help);
         }
-        let given = self.shapes.iter().filter(|s| s.density.is_some()).count();
-        if given != 0 && given != self.shapes.len() {
+        let given = self.solids.iter().filter(|s| s.density().is_some()).count();
+        if given != 0 && given != self.solids.len() {
             let help = "give every shape a density (they are scaled to `mass`) or none";
             return self.refuse("mass", "some shapes have a density and some have none", help);
         }
@@ -132,7 +167,7 @@ impl Judge<'_> {
 
     fn at_density(&mut self) -> Option<MassProperties> {
         self.no_center_of_mass()?;
-        if self.shapes.is_empty() {
+        if self.solids.is_empty() {
             return match self.file.density {
                 Some(_) => self.refuse("density", "`density` without shapes", "give shapes, or `mass` and `inertia`"),
                 None => {
@@ -141,7 +176,9 @@ impl Judge<'_> {
                 }
             };
         }
-        if let Some(k) = self.shapes.iter().position(|s| s.density.is_none()) {
+        let weighs = |s: &ShapeFile| is_solid(s) || s.mesh.is_some();
+        let without = |s: &ShapeFile| weighs(s) && s.density.or(self.file.density).is_none();
+        if let Some(k) = self.file.shape.iter().position(without) {
             let help = "give `density` for the body or for each shape [kg/m³], or `mass` [kg]";
             return self.refuse(&format!("shape/{k}"), "a shape has no density", help);
         }
@@ -150,9 +187,7 @@ impl Judge<'_> {
 
     /// Mass properties of all shapes; of density 1 where none is given.
     fn sum(&self) -> MassProperties {
-        let placed =
-            |s: &ShapeInstance| s.shape.mass_properties(s.density.unwrap_or(1.0)).placed(&s.pose.rot, s.pose.pos);
-        let parts: Vec<MassProperties> = self.shapes.iter().map(placed).collect();
+        let parts: Vec<MassProperties> = self.solids.iter().map(Solid::mass_properties).collect();
         MassProperties::sum(&parts)
     }
 

@@ -9,10 +9,13 @@ use sincro_dynamics::state::State;
 
 use super::body;
 use super::file::{BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, LimitsFile, SceneFile};
+use super::height_field;
+use super::mesh::MeshInstance;
 use super::object::{Object, ObjectKind, ShapeInstance};
 use super::placement::{self, Placement};
 use super::signal_file::SignalReader;
 use crate::document::Document;
+use crate::folder::Folder;
 use crate::problem::{Problem, Problems};
 use crate::suggest;
 
@@ -46,17 +49,32 @@ impl Skin {
 }
 
 /// Material and surfaces of a body.
-pub(super) fn skin(file: &BodyFile, pointer: &str, document: &Document, problems: &mut Problems) -> Skin {
-    let (mut surfaces, mut colors) = (Vec::new(), Vec::new());
+pub(super) fn skin(
+    file: &BodyFile,
+    meshes: &[MeshInstance],
+    pointer: &str,
+    document: &Document,
+    folder: &Folder,
+    problems: &mut Problems,
+) -> Skin {
+    let mut surfaces: Vec<_> = meshes.iter().map(|mesh| (mesh.surface(), mesh.pose)).collect();
+    let mut colors: Vec<_> = meshes.iter().map(|mesh| mesh.color).collect();
     for (k, shape) in file.shape.iter().enumerate() {
         let pointer = format!("{pointer}/shape/{k}");
-        let surface = match (&shape.plane, &shape.hull) {
-            (Some(_), _) => Surface::HalfSpace,
-            (None, Some(hull)) => {
+        let surface = match (&shape.plane, &shape.hull, &shape.height_field) {
+            (Some(_), _, _) => Surface::HalfSpace,
+            (None, Some(hull), _) => {
                 check_hull(&hull.points, &format!("{pointer}/hull/points"), &file.name, document, problems);
                 Surface::Hull(hull.points.clone())
             }
-            (None, None) => continue,
+            (None, None, Some(field)) => {
+                let pointer = format!("{pointer}/height_field");
+                let Some(surface) = height_field::surface(field, &pointer, document, folder, problems) else {
+                    continue;
+                };
+                surface
+            }
+            (None, None, None) => continue,
         };
         if file.contact.is_none() {
             let at = document.at(&pointer);

@@ -370,7 +370,8 @@ pub(crate) struct InertiaFile {
 #[schemars(extend(
     "oneOf" = [
         {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
-        {"required": ["sphere"]}, {"required": ["plane"]}, {"required": ["hull"]}
+        {"required": ["sphere"]}, {"required": ["plane"]}, {"required": ["hull"]}, {"required": ["mesh"]},
+        {"required": ["height_field"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
 ))]
@@ -389,6 +390,10 @@ pub(crate) struct ShapeFile {
     pub plane: Option<PlaneFile>,
     /// Convex hull of points.
     pub hull: Option<HullFile>,
+    /// A closed triangle mesh from a file.
+    pub mesh: Option<MeshFile>,
+    /// Ground as heights over a grid; of bodies fixed in the world.
+    pub height_field: Option<HeightFieldFile>,
     /// Origin of the shape in the body frame [m].
     #[serde(default)]
     pub position: [f64; 3],
@@ -445,6 +450,40 @@ pub(crate) struct PlaneFile {}
 pub(crate) struct HullFile {
     /// Corners, four or more that span a volume [m].
     pub points: Vec<[f64; 3]>,
+}
+
+/// A closed triangle mesh.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MeshFile {
+    /// STL (binary or text) or OBJ file, its path relative to the folder.
+    pub file: String,
+    /// What its lengths are multiplied by, one number or one for each axis; 0.001 if it is in millimetres.
+    pub scale: Option<OneOrList<f64>>,
+    /// Its convex hull in its place; what moves and touches needs one.
+    #[serde(default)]
+    pub convex: bool,
+}
+
+/// Heights over a grid centred on the frame of the shape.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["heights"]}]))]
+pub(crate) struct HeightFieldFile {
+    /// CSV file of numbers without a line of names, its path relative to the folder: a line is a row along x, the first one at the least y.
+    pub file: Option<String>,
+    /// The same rows given here [m].
+    pub heights: Option<Vec<Vec<f64>>>,
+    /// Extent along x and y, from the first height to the last [m].
+    #[schemars(extend("items" = {"type": "number", "exclusiveMinimum": 0.0}))]
+    pub size: [f64; 2],
+    /// What heights are multiplied by.
+    #[serde(default = "one")]
+    pub scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// A named point without mass.

@@ -8,8 +8,10 @@ mod body;
 mod camera;
 mod contact;
 mod file;
+mod height_field;
 mod initial;
 mod joint;
+mod mesh;
 mod object;
 mod placement;
 mod rotor;
@@ -22,6 +24,7 @@ mod tree;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use sincro_dynamics::contact::Surface;
 use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
@@ -140,11 +143,12 @@ impl Maker<'_> {
             }
             tree::AnyFile::Body(file) => {
                 let shapes = body::shapes(file, &entry.pointer, self.document, self.problems);
-                let skin = contact::skin(file, &entry.pointer, self.document, self.problems);
+                let meshes = mesh::meshes(file, &entry.pointer, self.document, self.folder, self.problems);
+                let skin = contact::skin(file, &meshes, &entry.pointer, self.document, self.folder, self.problems);
                 if body::is_fixture(file) {
                     return Spec::Fixture(shapes, skin);
                 }
-                let mass = body::mass(file, &shapes, &entry.pointer, self.document, self.problems);
+                let mass = body::mass(file, &shapes, &meshes, &entry.pointer, self.document, self.problems);
                 Spec::Body(BodySpec { mass }, shapes, skin)
             }
             tree::AnyFile::Frame(_) => Spec::Frame,
@@ -183,6 +187,21 @@ fn force(file: &ForceFile, pointer: &str, signals: &mut SignalReader<'_>) -> For
         torque: three(&file.torque, "torque"),
         in_body: file.in_frame == InFrameFile::Body,
         is_input: file.input,
+    }
+}
+
+/// What of a surface only something fixed in the world can have, and what else to do.
+fn only_fixed(surface: &Surface) -> Option<(&'static str, &'static str)> {
+    match surface {
+        Surface::HalfSpace => Some(("a plane", "planes are fixed in the world; use a cuboid, or hang the body on `/`")),
+        Surface::HeightField { .. } => {
+            Some(("a height field", "height fields are fixed in the world; hang the body on `/`"))
+        }
+        Surface::Mesh(..) => Some((
+            "a mesh that may be hollow",
+            "convex = true takes the hull of the mesh; or build it of several convex ones, or hang the body on `/`",
+        )),
+        _ => None,
     }
 }
 
@@ -301,6 +320,7 @@ impl Assembly {
         }
         let Some(mut model) = model else { return Err(problems.sorted()) };
         crate::sensor::register(&mut model, &self.sensors);
+        sensor::find_bodies(&mut self.sensors, &self.objects, &mut problems);
         let mut starts = Vec::new();
         for (object, &entry) in self.objects.iter().zip(&self.entry_of) {
             if let tree::AnyFile::Joint(file) = entries[entry].file {
@@ -355,17 +375,15 @@ impl Assembly {
     fn check_fixtures(&self, model: &Model<f64>, problems: &mut Problems) {
         for object in self.objects.iter().filter(|o| o.kind == ObjectKind::Fixture || !o.surfaces.is_empty()) {
             let moves = model.names().frame(&object.path).is_some_and(|f| f.link.is_some());
-            let only_fixed =
-                object.surfaces.iter().any(|(s, _)| matches!(s, sincro_dynamics::contact::Surface::HalfSpace));
+            let only_fixed = object.surfaces.iter().find_map(|(s, _)| only_fixed(s));
             if moves && object.kind == ObjectKind::Fixture {
                 let problem = Problem::error(&object.location, format!("body `{}`: it has no mass", object.path));
                 let help =
                     "give `density` and shapes, or `mass` and `inertia`; only what is fixed in the world needs none";
                 problems.push(problem.with_help(help));
-            } else if moves && only_fixed {
-                let problem = Problem::error(&object.location, format!("body `{}` moves and has a plane", object.path));
-                problems
-                    .push(problem.with_help("planes are fixed in the world; use a cuboid, or hang the body on `/`"));
+            } else if let Some((what, help)) = only_fixed.filter(|_| moves && object.contact.is_some()) {
+                let problem = Problem::error(&object.location, format!("body `{}` moves and has {what}", object.path));
+                problems.push(problem.with_help(help));
             }
         }
     }

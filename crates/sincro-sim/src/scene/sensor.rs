@@ -3,16 +3,19 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::object::{Object, ObjectKind};
 use crate::document::Document;
 use crate::problem::{Located, Problem, Problems};
 use crate::sensor::{Errors, SensorKind, SensorSpec};
+use crate::suggest;
 
 /// A sensor on a body or frame: sampled at its own rate, held in between.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("allOf" = [
     {"not": {"required": ["rotation_deg", "quaternion_wxyz"]}},
-    {"oneOf": [{"required": ["imu"]}, {"required": ["pose"]}, {"required": ["velocity"]}, {"required": ["height"]}]}
+    {"oneOf": [{"required": ["imu"]}, {"required": ["pose"]}, {"required": ["velocity"]}, {"required": ["height"]},
+        {"required": ["contact"]}]}
 ]))]
 pub(crate) struct SensorFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
@@ -37,6 +40,8 @@ pub(crate) struct SensorFile {
     pub velocity: Option<NoisyFile>,
     /// Height of its origin over z = 0.
     pub height: Option<HeightFile>,
+    /// Force and torque of what touches its body, own axes, about its origin.
+    pub contact: Option<ContactSensorFile>,
 }
 
 /// Accelerometer, which measures acceleration without gravity (at rest: g upwards), and gyro.
@@ -96,6 +101,57 @@ pub(crate) struct HeightFile {
     pub noise: f64,
 }
 
+/// What touches the body that carries it.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactSensorFile {
+    /// Paths of the bodies whose touch it feels; left out: of all.
+    #[schemars(length(min = 1))]
+    pub with: Option<Vec<String>>,
+    /// Normal force of a point above which it counts as touching [N].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub threshold: f64,
+    /// Standard deviation of each component of the force [N].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub force_noise: f64,
+    /// Standard deviation of each component of the torque [N·m].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub torque_noise: f64,
+}
+
+/// Finds the bodies that contact sensors stand on and feel.
+pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems: &mut Problems) {
+    let touches = |o: &Object| matches!(o.kind, ObjectKind::Body { .. } | ObjectKind::Fixture) && o.contact.is_some();
+    let known: Vec<&str> = objects.iter().filter(|o| touches(o)).map(|o| o.path.as_str()).collect();
+    for spec in specs.iter_mut().filter(|s| matches!(s.kind, SensorKind::Contact { .. })) {
+        let sensor = objects.iter().find(|o| o.path == spec.path).expect("a sensor is an object");
+        let mut carrier = sensor.parent.map(|k| &objects[k]);
+        while let Some(frame) = carrier.filter(|o| matches!(o.kind, ObjectKind::Frame)) {
+            carrier = frame.parent.map(|k| &objects[k]);
+        }
+        match carrier.filter(|o| touches(o)) {
+            Some(body) => spec.of = body.path.clone(),
+            None => {
+                let of = carrier.map_or("the world".to_owned(), |o| format!("`{}`", o.path));
+                let message = format!("contact sensor `{}` is on {of}, which nothing can touch", spec.path);
+                let help = "hang it on a body with a `contact`, or on a frame of such a body";
+                problems.push(Problem::error(&sensor.location, message).with_help(help));
+            }
+        }
+        for path in spec.with.iter().filter(|path| !known.contains(&path.value.as_str())) {
+            let message = match objects.iter().find(|o| o.path == path.value) {
+                Some(o) => format!("`{}` is a {} that nothing can touch", path.value, o.kind.word()),
+                None => format!("there is no object `{}`", path.value),
+            };
+            let help = suggest::help(&path.value, &known, "bodies with a contact");
+            problems.push(Problem::error(&path.at, message).with_help(help));
+        }
+    }
+}
+
 /// What it measures; none, with the reason noted, if numbers are not finite.
 pub(super) fn spec(
     file: &SensorFile,
@@ -104,6 +160,9 @@ pub(super) fn spec(
     document: &Document,
     problems: &mut Problems,
 ) -> Option<SensorSpec> {
+    let place = |k: usize| document.at(&format!("{pointer}/contact/with/{k}"));
+    let paths = file.contact.iter().flat_map(|contact| contact.with.iter().flatten()).enumerate();
+    let with = paths.map(|(k, path)| Located { value: path.clone(), at: place(k) }).collect();
     let kind = match (&file.imu, &file.pose, &file.velocity, &file.height) {
         (Some(imu), ..) => SensorKind::Imu {
             accelerometer: Errors { bias: imu.accelerometer_bias, noise: imu.accelerometer_noise_density },
@@ -112,14 +171,17 @@ pub(super) fn spec(
         (_, Some(pose), ..) => SensorKind::Pose { position_noise: pose.position_noise, angle_noise: pose.angle_noise },
         (_, _, Some(velocity), _) => SensorKind::Velocity { noise: velocity.noise },
         (.., Some(height)) => SensorKind::Height { bias: height.bias, noise: height.noise },
-        _ => return None,
+        _ => {
+            let &ContactSensorFile { force_noise, torque_noise, threshold, .. } = file.contact.as_ref()?;
+            SensorKind::Contact { force_noise, torque_noise, threshold }
+        }
     };
-    if file.parent == "/" {
+    if file.parent == "/" && file.contact.is_none() {
         let at = document.at(&format!("{pointer}/parent"));
         let problem = Problem::error(&at, format!("sensor `{}` is fixed in the world", file.name)).as_warning();
         problems.push(problem.with_help("it measures nothing that moves; hang it on a body"));
     }
     let at = document.at(&format!("{pointer}/sample_time"));
     let sample_time = file.sample_time.map(|value| Located { value, at });
-    Some(SensorSpec { path: path.to_owned(), kind, sample_time })
+    Some(SensorSpec { path: path.to_owned(), kind, sample_time, of: String::new(), with })
 }

@@ -10,6 +10,7 @@
 //! | `pose` | `.measured_position.x y z` `[m]`, `.measured_quaternion.w x y z`, `.measured_roll` `.measured_pitch` `.measured_yaw` `[rad]` |
 //! | `velocity` | `.measured_velocity.x y z` [m/s] of its origin, world axes |
 //! | `height` | `.measured_height` `[m]` |
+//! | `contact` | `.measured_force.x y z` `[N]` of all that touches its body, `.measured_torque.x y z` [N·m] about its origin, own axes; `.touching` 0 or 1; `.points` |
 //!
 //! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's path, the component and
 //! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
@@ -33,6 +34,10 @@ pub struct SensorSpec {
     pub kind: SensorKind,
     /// Time between two samples `[s]`; none: every base step.
     pub sample_time: Option<Located<f64>>,
+    /// Path of the body whose contacts a contact sensor feels; empty for others.
+    pub of: String,
+    /// Paths of the bodies whose touch it feels; empty: of all.
+    pub with: Vec<Located<String>>,
 }
 
 /// What a sensor measures, and how wrong.
@@ -63,6 +68,15 @@ pub enum SensorKind {
         bias: f64,
         /// Standard deviation `[m]`.
         noise: f64,
+    },
+    /// Force and torque of what touches its body, own axes, about its origin.
+    Contact {
+        /// Standard deviation of each component of the force `[N]`.
+        force_noise: f64,
+        /// Standard deviation of each component of the torque [N·m].
+        torque_noise: f64,
+        /// Normal force of a point below which it does not count as touching `[N]`.
+        threshold: f64,
     },
 }
 
@@ -104,6 +118,16 @@ impl SensorKind {
                 vec![("measured_velocity.x", "m/s"), ("measured_velocity.y", "m/s"), ("measured_velocity.z", "m/s")]
             }
             Self::Height { .. } => vec![("measured_height", "m")],
+            Self::Contact { .. } => vec![
+                ("measured_force.x", "N"),
+                ("measured_force.y", "N"),
+                ("measured_force.z", "N"),
+                ("measured_torque.x", "N·m"),
+                ("measured_torque.y", "N·m"),
+                ("measured_torque.z", "N·m"),
+                ("touching", "1"),
+                ("points", "1"),
+            ],
         }
     }
 }

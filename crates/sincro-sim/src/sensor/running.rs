@@ -3,6 +3,7 @@
 use sincro_blocks::library::sources::random::{gaussian, splitmix};
 use sincro_blocks::program::seed_of;
 use sincro_dynamics::attachment::Seen;
+use sincro_dynamics::constraint::ContactPoint;
 use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
@@ -19,11 +20,16 @@ pub(crate) struct Sensors {
     /// Values of all sensors, one after the other.
     pub values: Vec<f64>,
     accelerations: Vec<f64>,
+    /// What presses at the tick.
+    points: Vec<ContactPoint>,
 }
 
 #[derive(Clone, Debug)]
 struct Sensor {
     kind: SensorKind,
+    /// Frame of the body whose contacts it feels, and of those it feels; none: of all.
+    of: usize,
+    with: Vec<usize>,
     at: Attached<f64>,
     every: u64,
     /// 1/√(sample time).
@@ -40,10 +46,13 @@ impl Sensors {
         for spec in &scene.sensors {
             let frames = &scene.model.names().frames;
             let frame = frames.iter().position(|f| f.name == spec.path).expect("a sensor is a frame of the model");
+            let frame_of = |path: &str| frames.iter().position(|f| f.name == path);
             let every = every(spec, experiment.step).expect("sample times have been checked");
             let n = spec.kind.values().len();
             list.push(Sensor {
                 kind: spec.kind,
+                of: frame_of(&spec.of).unwrap_or(usize::MAX),
+                with: spec.with.iter().filter_map(|path| frame_of(&path.value)).collect(),
                 at: attached(&scene.model, frame),
                 every,
                 root_rate: 1.0 / (every as f64 * experiment.step).sqrt(),
@@ -53,7 +62,9 @@ impl Sensors {
             });
             first += n;
         }
-        Self { list, values: vec![0.0; first], accelerations: vec![0.0; scene.model.n_v()] }
+        let accelerations = vec![0.0; scene.model.n_v()];
+        let points = Vec::with_capacity(scene.model.constraints().n_contacts());
+        Self { list, values: vec![0.0; first], accelerations, points }
     }
 
     /// Takes the samples that are due at a tick.
@@ -62,14 +73,17 @@ impl Sensors {
         if !self.list.iter().any(|s| due(&s)) {
             return;
         }
-        if self.list.iter().filter(due).any(|s| matches!(s.kind, SensorKind::Imu { .. })) {
+        let feels = |s: &Sensor| matches!(s.kind, SensorKind::Imu { .. } | SensorKind::Contact { .. });
+        if self.list.iter().filter(due).any(feels) {
             self.accelerations.copy_from_slice(world.rates(t).0);
+            self.points.clear();
+            self.points.extend(world.contacts());
         }
-        let (list, values, accelerations) = (&self.list, &mut self.values, &self.accelerations);
+        let (list, values, accelerations, points) = (&self.list, &mut self.values, &self.accelerations, &self.points);
         world.with_seen(t, |seen| {
             kinematics::motions(seen.model, seen.q, seen.v, accelerations, seen.scratch);
             for sensor in list.iter().filter(due) {
-                sensor.measure(&seen, tick / sensor.every, &mut values[sensor.first..][..sensor.n]);
+                sensor.measure(&seen, tick / sensor.every, points, &mut values[sensor.first..][..sensor.n]);
             }
         });
     }
@@ -77,7 +91,7 @@ impl Sensors {
 
 impl Sensor {
     /// Sample `k`, after the kinematics.
-    fn measure(&self, seen: &Seen<'_, f64>, k: u64, y: &mut [f64]) {
+    fn measure(&self, seen: &Seen<'_, f64>, k: u64, points: &[ContactPoint], y: &mut [f64]) {
         let noise = |component: usize| gaussian(splitmix(self.seed, component as u64), k);
         let three = |first: usize, x: Vec3<f64>, errors: &Errors, scale: f64| -> [f64; 3] {
             core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * noise(first + i))
@@ -105,6 +119,42 @@ impl Sensor {
                 y.copy_from_slice(&three(0, velocity, &plain(*noise), 1.0));
             }
             SensorKind::Height { bias, noise: std } => y[0] = pose.pos[2] + bias + std * noise(0),
+            SensorKind::Contact { force_noise, torque_noise, threshold } => {
+                let (force, torque, n) = self.touch(seen, points, pose.pos, *threshold);
+                let own = |v: Vec3<f64>| pose.rot.tr_mul_vec(v);
+                y[..3].copy_from_slice(&three(0, own(force), &plain(*force_noise), 1.0));
+                y[3..6].copy_from_slice(&three(3, own(torque), &plain(*torque_noise), 1.0));
+                y[6] = f64::from(n > 0);
+                y[7] = f64::from(n);
+            }
         }
+    }
+
+    /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that press with more than `threshold`.
+    fn touch(
+        &self,
+        seen: &Seen<'_, f64>,
+        points: &[ContactPoint],
+        origin: Vec3<f64>,
+        threshold: f64,
+    ) -> (Vec3<f64>, Vec3<f64>, u32) {
+        let colliders = &seen.model.constraints().colliders;
+        let (mut force, mut torque, mut n) = (Vec3::zero(), Vec3::zero(), 0);
+        for point in points {
+            let [a, b] = point.surfaces.map(|s| colliders[s].frame);
+            // the force is on the first surface's body
+            let (sign, other) = match (a == self.of, b == self.of) {
+                (true, false) => (1.0, b),
+                (false, true) => (-1.0, a),
+                _ => continue,
+            };
+            if !self.with.is_empty() && !self.with.contains(&other) {
+                continue;
+            }
+            force += point.force.scale(sign);
+            torque += (point.torque + (point.point - origin).cross(point.force)).scale(sign);
+            n += u32::from(point.force.dot(point.normal) > threshold);
+        }
+        (force, torque, n)
     }
 }
