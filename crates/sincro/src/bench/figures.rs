@@ -199,8 +199,9 @@ impl<'a> Session<'a> {
             Ok(pairs) => {
                 let figures = [("legacy message", "simxGetJointPosition"), ("ZeroMQ call", "sim.getJointPosition")];
                 for ((figure, call), (with, without)) in figures.into_iter().zip(pairs) {
-                    let (value, whole) = added(with, without, seconds, |sample| sample.wall);
-                    let note = format!("{call}; round trip {:.1} µs on the wall, less that of an echo", whole * 1e-3);
+                    let (value, whole) = least(with, without, seconds);
+                    let note =
+                        format!("{call}; shortest round trip {:.1} µs on the wall, less that of an echo", whole * 1e-3);
                     self.push_door(figure, value * 1e-3, note);
                 }
             }
@@ -348,6 +349,18 @@ fn added(with: Subject, without: Subject, seconds: f64, of: fn(Sample) -> f64) -
         whole.push(of(long));
     }
     (median(differences), median(whole))
+}
+
+/// What something adds on the wall, and how long it takes with it `[ns]`: between the shortest of each, since another thread answers and a busy machine
+/// only ever adds.
+fn least(with: Subject, without: Subject, seconds: f64) -> (f64, f64) {
+    let (mut with, mut without) = (Meter::new(with), Meter::new(without));
+    for _ in 0..2 * ROUNDS {
+        with.round(seconds / ROUNDS as f64);
+        without.round(seconds / ROUNDS as f64);
+    }
+    let whole = with.timing().min.wall;
+    (whole - without.timing().min.wall, whole)
 }
 
 /// Ours, peer, ours, peer … ours: the ratio is the median of the ratios of neighbours.
