@@ -115,11 +115,15 @@ impl<R: Real> Dense<R> {
         }
     }
 
-    /// Row, column and size of the next pivot: the largest of the diagonal, unless all that is left of it is small; then the largest of all.
+    /// Row, column and size of the next pivot: the next one unless it is small, else the largest of the diagonal, and where all that is left of it is
+    /// small, the largest of all.
     #[inline(always)]
     fn pivot(&self, k: usize) -> (usize, usize, f64) {
         let n = self.n;
         let size = |i: usize, j: usize| self.a[i * n + j].lane(0).abs();
+        if size(k, k) > LARGE {
+            return (k, k, size(k, k));
+        }
         let d = (k + 1..n).fold(k, |d, i| if size(i, i) > size(d, d) { i } else { d });
         if size(d, d) > LARGE {
             return (d, d, size(d, d));

@@ -32,6 +32,8 @@ mod respond;
 pub(crate) mod row;
 mod solve;
 mod split;
+#[cfg(test)]
+mod tests;
 
 use sincro_math::Real;
 
@@ -44,6 +46,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use cone::{Block, Grip, Group};
+use events::CLOSED;
 use guess::Instant;
 use memory::Memory;
 use row::{Motions, Row, force_at, force_rate};
@@ -287,7 +290,8 @@ impl<R: Real> Constraints<R> {
             if speed.lane(0) < -rest_speed && bounce > 0.0 && arrives {
                 // from where it is: to let it arrive first would take its speed
                 self.b[i] += speed * per_h * R::splat(bounce);
-            } else if self.residual[i].lane(0) > 0.0 {
+            } else if self.residual[i].lane(0) > CLOSED {
+                // what is closed but for rounding has no room: several gaps of one face would contradict each other
                 self.b[i] += self.residual[i] * per_h * per_h;
             }
         }

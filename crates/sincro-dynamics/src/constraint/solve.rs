@@ -15,8 +15,12 @@ use super::split::{Splitting, ask_all};
 /// Share of the largest force or rate that counts as zero in judging a guess.
 const SLACK: f64 = 1e-9;
 
-/// Share of the largest rate that elimination may leave.
-const REFINED: f64 = 1e-13;
+/// Share of the largest rate that may be left where there should be none: redundant contacts whose gaps differ by rounding contradict each other by
+/// as much; a guess that contradicts itself leaves far more.
+const HELD: f64 = 1e-6;
+
+/// Share of the largest rate that elimination may leave without another look.
+const REFINED: f64 = 1e-12;
 
 /// Changes of a guess before splitting decides.
 const REPAIRS: usize = 8;
@@ -202,6 +206,7 @@ impl<R: Real> Solver<R> {
 struct Small {
     force: f64,
     rate: f64,
+    held: f64,
 }
 
 impl Small {
@@ -211,8 +216,8 @@ impl Small {
         let m = instant.m();
         let lightest = (0..m).fold(0.0_f64, |s, i| s.max(instant.a[i * m + i].lane(0)));
         let undoing = if lightest > 0.0 { largest(instant.b) / lightest } else { 0.0 };
-        let [force, rate] = [largest(lambda).max(undoing), largest(instant.b)].map(|x| SLACK * x + f64::MIN_POSITIVE);
-        Self { force, rate }
+        let [force, rate] = [largest(lambda).max(undoing), largest(instant.b)].map(|x| x + f64::MIN_POSITIVE);
+        Self { force: SLACK * force, rate: SLACK * rate, held: HELD * rate }
     }
 }
 
@@ -230,12 +235,12 @@ fn repair<R: Real>(instant: &Instant<'_, R>, rates: &[R], blocks: &mut [Block<R>
         }
         let (normal, rate) = (lambda[block.row].lane(0), rates[block.row].lane(0));
         // where the guess contradicts itself, the linear system leaves rates that should be none
-        if block.given.is_none() && (normal < -small.force || rate > small.rate) {
+        if block.given.is_none() && (normal < -small.force || rate > small.held) {
             block.open = true;
             changed = true;
             continue;
         }
-        changed |= block.given.is_none() && rate < -small.rate;
+        changed |= block.given.is_none() && rate < -small.held;
         for group in block.groups.iter_mut().flatten().filter(|g| !g.slides) {
             changed |= repair_group(group, normal.max(0.0), small, rates, lambda);
         }
@@ -252,7 +257,7 @@ fn repair_group<R: Real>(group: &mut Group<R>, normal: f64, small: Small, rates:
             group.slip(force.map(|x| R::splat(x / size)), None);
             return true;
         }
-        return speed > small.rate;
+        return speed > small.held;
     }
     if speed <= small.rate {
         // at its limit and still; what can turn must not have turned beyond it

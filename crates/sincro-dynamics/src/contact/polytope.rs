@@ -296,3 +296,87 @@ fn edge_spot(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64>
 fn point_on_plane((a, point): (u32, Vec3<f64>), (b, origin, normal): (u32, Vec3<f64>, Vec3<f64>)) -> Spot {
     Spot { a, b, point, radius: 0.0, radius_a: 0.0, rim: None, feature: Feature::Plane { origin, normal } }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Material;
+    use crate::spatial::Mat3;
+
+    fn brick(link: u32) -> Polytope {
+        let surface = Surface::Solid(Shape::Cuboid { size: [0.24, 0.12, 0.08] });
+        let collider = Collider {
+            name: String::new(),
+            frame: 0,
+            link,
+            pose: Pose::identity(),
+            surface,
+            material: Material::default(),
+        };
+        Polytope::of(&collider).unwrap()
+    }
+
+    /// Points and gaps of a brick in a pose over one at rest.
+    fn touch(x_ab: &Pose<f64>) -> Vec<(Vec3<f64>, f64)> {
+        let mut slots = [None; 8];
+        Clipper::default().find(&brick(0), &brick(1), x_ab, 1e-3, &mut slots);
+        let place = |p: Vec3<f64>, link: u32| if link == 1 { x_ab.point(p) } else { p };
+        let read = |spot: &Spot| {
+            let Feature::Plane { origin, normal } = spot.feature else { panic!("a plane is expected") };
+            let (p, o) = (place(spot.point, spot.a), place(origin, spot.b));
+            let n = if spot.b == 1 { x_ab.rot.mul_vec(normal) } else { normal };
+            (p, n.dot(p - o))
+        };
+        slots.iter().flatten().map(read).collect()
+    }
+
+    fn turned(axis: usize, angle: f64, pos: [f64; 3]) -> Pose<f64> {
+        let (sin, cos) = sincro_math::elementary::sin_cos(angle);
+        let rot = match axis {
+            0 => Mat3::rotation::<0>(sin, cos),
+            1 => Mat3::rotation::<1>(sin, cos),
+            _ => Mat3::rotation::<2>(sin, cos),
+        };
+        Pose { rot, pos: Vec3(pos) }
+    }
+
+    #[test]
+    fn a_brick_on_a_brick_stands_on_four_corners_whatever_rounding_says() {
+        for axis in 0..3 {
+            for tilt in [0.0, 1e-16, -3e-16, 1e-13, -1e-10] {
+                let points = touch(&turned(axis, tilt, [0.0, 0.0, 0.08 - 1e-13]));
+                assert_eq!(points.len(), 4, "axis {axis}, tilt {tilt:e}: {points:?}");
+                assert!(points.iter().all(|(_, gap)| gap.abs() < 1e-10));
+            }
+        }
+    }
+
+    #[test]
+    fn a_brick_that_is_turned_touches_with_an_octagon_and_one_that_overhangs_with_what_is_left() {
+        let octagon = touch(&turned(2, 0.8, [0.0, 0.0, 0.08]));
+        assert_eq!(octagon.len(), 6, "{octagon:?}");
+        let shifted = touch(&turned(2, 0.0, [0.1, 0.0, 0.08]));
+        let x = |f: fn(f64, f64) -> f64, start: f64| shifted.iter().fold(start, |a, (p, _)| f(a, p[0]));
+        assert_eq!(shifted.len(), 4);
+        assert!((x(f64::min, 1.0) + 0.02).abs() < 1e-15 && (x(f64::max, -1.0) - 0.12).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_brick_on_its_corner_and_crossed_edges_touch_in_one_point() {
+        // an edge along x over an edge along y: both bricks stand on edge
+        let half = |a: f64, b: f64| 0.5 * (a * a + b * b).sqrt();
+        let up = half(0.12, 0.08);
+        let lower = turned(0, sincro_math::elementary::atan2(0.12, 0.08).0, [0.0; 3]);
+        let quarter = turned(2, core::f64::consts::FRAC_PI_2, [0.0, 0.0, 2.0 * up + 1e-4]);
+        let upper = quarter.compose(&turned(0, sincro_math::elementary::atan2(0.12, 0.08).0, [0.0; 3]));
+        let points = touch(&lower.inverse().compose(&upper));
+        assert_eq!(points.len(), 1, "{points:?}");
+        assert!((points[0].1 - 1e-4).abs() < 1e-12, "{points:?}");
+    }
+
+    #[test]
+    fn bricks_far_apart_do_not_touch() {
+        assert!(touch(&turned(2, 0.3, [0.0, 0.0, 0.09])).is_empty());
+        assert!(touch(&turned(2, 0.3, [0.3, 0.0, 0.0])).is_empty());
+    }
+}
