@@ -132,7 +132,7 @@ impl<R: Real> Solver<R> {
 
     /// Once more, where elimination left more than rounding.
     fn refine(&mut self, instant: &Instant<'_, R>, blocks: &[Block<R>], lambda: &mut [R]) {
-        let small = REFINED / SLACK * Small::of(instant, lambda).rate;
+        let small = Small::of(instant, lambda).none;
         let rates = &self.guess.rates;
         let holds = |block: &&Block<R>| !block.open && block.given.is_none();
         let normals = blocks.iter().filter(holds).map(|block| rates[block.row]);
@@ -207,6 +207,7 @@ struct Small {
     force: f64,
     rate: f64,
     held: f64,
+    none: f64,
 }
 
 impl Small {
@@ -217,7 +218,7 @@ impl Small {
         let lightest = (0..m).fold(0.0_f64, |s, i| s.max(instant.a[i * m + i].lane(0)));
         let undoing = if lightest > 0.0 { largest(instant.b) / lightest } else { 0.0 };
         let [force, rate] = [largest(lambda).max(undoing), largest(instant.b)].map(|x| x + f64::MIN_POSITIVE);
-        Self { force: SLACK * force, rate: SLACK * rate, held: HELD * rate }
+        Self { force: SLACK * force, rate: SLACK * rate, held: HELD * rate, none: REFINED * rate }
     }
 }
 
@@ -262,10 +263,12 @@ fn repair_group<R: Real>(group: &mut Group<R>, normal: f64, small: Small, rates:
     if speed <= small.rate {
         // at its limit and still; what can turn must not have turned beyond it
         let beyond = size > limit + small.force;
-        if beyond {
+        // and what gives way has no reason to creep
+        let creeps = group.give.is_some() && speed > small.none && size > 0.0;
+        if beyond || creeps {
             group.slip(force.map(|x| R::splat(x / size)), None);
         }
-        return beyond;
+        return beyond || creeps;
     }
     let d = group.direction.map(|d| d.lane(0));
     if rate[0] * d[0] + rate[1] * d[1] > 0.0 {

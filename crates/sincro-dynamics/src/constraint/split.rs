@@ -19,6 +19,9 @@ const MAX_ITERATIONS: usize = 4000;
 /// Iterations between looks at the balance of the two residuals.
 const BALANCE: usize = 20;
 
+/// Scaled forces over the largest rate beyond which nothing comes of it.
+const DIVERGED: f64 = 1e9;
+
 /// Share by which the discs are made smaller: what sticks at its very limit, of redundant contacts, is then found a little inside, where the linear
 /// system can make it exact; what slips is told by its rate.
 const INSIDE: f64 = 1e-5;
@@ -146,6 +149,11 @@ impl Splitting {
             let forces = self.y.iter().fold(rates, |s, x| s.max(x.abs()));
             let (primal, dual) = (apart / forces, moved / rates);
             if primal <= TOLERANCE && dual <= TOLERANCE {
+                return true;
+            }
+            if forces > DIVERGED * rates || !forces.is_finite() {
+                // sliding friction can make a problem without a solution (Painlevé): no force is better than any
+                self.y.fill(0.0);
                 return true;
             }
             if since == BALANCE {

@@ -12,7 +12,7 @@ use crate::integrate::{Failure, FixedStep, System};
 const MAX_BLOWS: usize = 50;
 
 /// Events of contacts in one tick beyond which the rest of it is done at velocity level.
-pub(super) const MAX_CONTACT_EVENTS: usize = 100;
+pub(super) const MAX_CONTACT_EVENTS: usize = 400;
 
 /// Steps at velocity level that the rest of such a tick is divided into.
 const FINE_STEPS: u32 = 16;

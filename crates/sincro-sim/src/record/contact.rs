@@ -13,7 +13,7 @@ pub enum ContactQuantity {
     Torque,
     /// Sum of the normal forces `[N]`.
     NormalForce,
-    /// Sum of the friction forces' sizes `[N]`.
+    /// Size of the sum of the friction forces `[N]`: how redundant points share them is not determined.
     FrictionForce,
     /// Centre of the normal forces `[m]`; NaN where nothing presses.
     Point,
@@ -50,12 +50,13 @@ pub(crate) fn read(
             Q::Torque => (point.torque + point.point.cross(point.force)).scale(sign),
             Q::Point => point.point.scale(press),
             Q::Normal => point.normal.scale(sign * press),
-            Q::FrictionForce => Vec3([friction.norm(), 0.0, 0.0]),
+            Q::FrictionForce => friction,
             Q::NormalForce | Q::Count => Vec3::zero(),
         };
     }
     match quantity {
-        Q::Force | Q::Torque | Q::FrictionForce => sum[k],
+        Q::Force | Q::Torque => sum[k],
+        Q::FrictionForce => sum.norm(),
         Q::NormalForce => weight,
         Q::Count => f64::from(count),
         Q::Point => sum[k] / weight,
