@@ -205,7 +205,7 @@ impl<R: Real> Innovations<R> {
                     }
                 }
                 self.values[k * m + i] = u * self.inv_root[k];
-                *force = *force - self.u[k].scale(u * self.inv_d[k]);
+                *force -= self.u[k].scale(u * self.inv_d[k]);
             }
             *at = link.parent;
         }

@@ -122,9 +122,12 @@ pub fn mass_properties(corners: &[[f64; 3]], triangles: &[[u32; 3]], density: f6
     MassProperties { mass: density * volume, center_of_mass: (origin + center).0, inertia }
 }
 
-/// Corners and triangles, counter-clockwise seen from outside, of the convex hull of points; none if they span no volume.
+/// Corners `[m]` and triangles.
+pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+/// The convex hull of points, counter-clockwise seen from outside; none if they span no volume.
 #[must_use]
-pub fn hull(points: &[[f64; 3]]) -> Option<(Vec<[f64; 3]>, Vec<[u32; 3]>)> {
+pub fn hull(points: &[[f64; 3]]) -> Option<Triangles> {
     if points.len() < 4 || !points.iter().flatten().all(|x| x.is_finite()) {
         return None;
     }

@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn a_brick_that_is_turned_touches_with_an_octagon_and_one_that_overhangs_with_what_is_left() {
         let octagon = touch(&turned(2, 0.8, [0.0, 0.0, 0.08]));
-        assert_eq!(octagon.len(), 6, "{octagon:?}");
+        assert_eq!(octagon.len(), 8, "{octagon:?}");
         let shifted = touch(&turned(2, 0.0, [0.1, 0.0, 0.08]));
         let x = |f: fn(f64, f64) -> f64, start: f64| shifted.iter().fold(start, |a, (p, _)| f(a, p[0]));
         assert_eq!(shifted.len(), 4);
