@@ -1,30 +1,13 @@
 //! Triangles of surfaces that are no simple solids, for pictures: hulls of points, meshes, height fields.
-//!
-//! A hull grows from a tetrahedron: each further point takes away the triangles that it sees and closes the hole with new ones, O(n²).
 
-use std::collections::BTreeSet;
-
-use sincro_dynamics::spatial::Vec3;
+use sincro_dynamics::contact::polyhedron;
 
 /// Corners `[m]` and triangles, counter-clockwise seen from outside.
 pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
 /// Of the convex hull of points; none if they span no volume.
 pub(super) fn of_hull(points: &[[f64; 3]]) -> Triangles {
-    let faces = hull(&points.iter().map(|p| Vec3(*p)).collect::<Vec<_>>());
-    // points inside are left out
-    let mut place = vec![None; points.len()];
-    let mut corners = Vec::new();
-    let faces = faces.into_iter().map(|face| {
-        face.map(|k| {
-            *place[k].get_or_insert_with(|| {
-                corners.push(single(points[k]));
-                corners.len() as u32 - 1
-            })
-        })
-    });
-    let faces = faces.collect();
-    (corners, faces)
+    polyhedron::hull(points).map_or_else(Triangles::default, |(corners, triangles)| of_mesh(&corners, &triangles))
 }
 
 /// Of a mesh.
@@ -54,49 +37,10 @@ fn single(p: [f64; 3]) -> [f32; 3] {
     p.map(|x| x as f32)
 }
 
-/// Triangles over indices of the points.
-fn hull(p: &[Vec3<f64>]) -> Vec<[usize; 3]> {
-    let Some([a, b, c, d]) = start(p) else { return Vec::new() };
-    let size = p.iter().fold(0.0_f64, |most, x| most.max((*x - p[a]).norm()));
-    // what is closer to a face than this lies in it
-    let near = 1e-9 * size;
-    let height = |face: &[usize; 3], x: Vec3<f64>| {
-        let normal = (p[face[1]] - p[face[0]]).cross(p[face[2]] - p[face[0]]);
-        normal.dot(x - p[face[0]]) / normal.norm().max(f64::MIN_POSITIVE)
-    };
-    let mut faces = vec![[a, b, c], [a, c, d], [a, d, b], [b, d, c]];
-    if height(&faces[0], p[d]) > 0.0 {
-        faces.iter_mut().for_each(|face| face.swap(1, 2));
-    }
-    for (k, x) in p.iter().enumerate() {
-        let (seen, kept): (Vec<_>, Vec<_>) = faces.iter().copied().partition(|face| height(face, *x) > near);
-        if seen.is_empty() {
-            continue;
-        }
-        let edges: BTreeSet<[usize; 2]> =
-            seen.iter().flat_map(|f| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]]).collect();
-        faces = kept;
-        // the rim: edges whose other side is not seen
-        faces.extend(edges.iter().filter(|[i, j]| !edges.contains(&[*j, *i])).map(|[i, j]| [*i, *j, k]));
-    }
-    faces
-}
-
-/// Four points that span a volume.
-fn start(p: &[Vec3<f64>]) -> Option<[usize; 4]> {
-    let a = 0;
-    let far = |of: &dyn Fn(Vec3<f64>) -> f64| (0..p.len()).max_by(|i, j| of(p[*i]).total_cmp(&of(p[*j])));
-    let b = far(&|x| (x - p[a]).norm())?;
-    let along = p[b] - p[a];
-    let c = far(&|x| along.cross(x - p[a]).norm())?;
-    let normal = along.cross(p[c] - p[a]);
-    let d = far(&|x| normal.dot(x - p[a]).abs())?;
-    let length = along.norm();
-    (normal.dot(p[d] - p[a]).abs() > 1e-9 * length * length * length).then_some([a, b, c, d])
-}
-
 #[cfg(test)]
 mod tests {
+    use sincro_dynamics::spatial::Vec3;
+
     use super::*;
 
     /// Six times the volume that the triangles enclose.
