@@ -14,6 +14,7 @@
 //! | springs, dampers, friction, motors, rotors | [`force`] |
 //! | closed loops, limits of joints, one solver for all constraints | [`constraint`] |
 //! | what touches what | [`contact`] |
+//! | what a ray hits, how far surfaces are apart | [`geometry`] |
 //! | a world that advances | [`integrate`], [`world`] |
 //! | the air that moves | [`wind`] |
 //! | whether it can start so | [`start`] |
@@ -33,6 +34,7 @@ pub mod crba;
 pub mod drive;
 pub mod energy;
 pub mod force;
+pub mod geometry;
 pub mod integrate;
 pub mod joint;
 pub mod kinematics;

@@ -19,6 +19,7 @@ pub mod results;
 pub mod rollout;
 pub mod run;
 pub mod scene;
+pub mod scenery;
 pub mod schema;
 pub mod script;
 pub mod sensor;

@@ -24,7 +24,7 @@ impl Detector {
     pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
         Self {
             points: colliders.iter().map(Collider::points).collect(),
-            reach: colliders.iter().map(Collider::reach).collect(),
+            reach: colliders.iter().map(|c| c.surface.reach()).collect(),
             manifolds: Manifolds::new(colliders, pairs),
             polytopes: polytopes(colliders, pairs),
             clipper: Clipper::default(),

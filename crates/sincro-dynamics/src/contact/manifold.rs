@@ -2,32 +2,24 @@
 //!
 //! A point of a manifold becomes a spot: a rounded point of one body over a plane of the other, so that balls, capsules and the flanks of cylinders
 //! keep their curvature, and flat faces are exact. What the library remembers from one call to the next is thrown away, because a result must
-//! not depend on the past. Its cylinders, cones and height fields have their axis along y: axes are exchanged in cyclic order.
+//! not depend on the past.
 
 use parry3d_f64::math::{Pose as LibraryPose, Vector};
 use parry3d_f64::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
 };
-use parry3d_f64::shape::{SharedShape, TriMeshFlags};
-use parry3d_f64::utils::Array2;
 
 use super::feature::{Feature, Spot};
 use super::{Collider, Pair, PairKind, Surface};
+use crate::geometry::library::{LibraryShape, library_pose, vec3};
 use crate::model::Shape;
-use crate::spatial::{Mat3, Pose, Quat, Vec3};
+use crate::spatial::{Pose, Vec3};
 
 /// A normal is across an axis if its component along it is below this.
 const ACROSS: f64 = 1e-9;
 
 /// Points of a manifold closer than this are one `[m]`.
 const SAME_POINT: f64 = 1e-6;
-
-/// A surface as the library has it, and where its frame stands in the surface's own.
-#[derive(Clone)]
-struct LibraryShape {
-    shape: SharedShape,
-    pose: Pose<f64>,
-}
 
 /// The library's shapes, one manifold list a pair.
 #[derive(Clone)]
@@ -48,7 +40,8 @@ impl std::fmt::Debug for Manifolds {
 impl Manifolds {
     pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
         let general = |k: usize| pairs.iter().any(|p| p.kind == PairKind::General && (p.a == k || p.b == k));
-        let shapes = colliders.iter().enumerate().map(|(k, c)| general(k).then(|| shape_of(&c.surface)).flatten());
+        let shapes =
+            colliders.iter().enumerate().map(|(k, c)| general(k).then(|| LibraryShape::of(&c.surface)).flatten());
         Self { shapes: shapes.collect(), pairs: vec![Vec::new(); pairs.len()], workspace: None, found: Vec::new() }
     }
 
@@ -184,52 +177,4 @@ fn core(c: &Collider, p: Vec3<f64>, n: Vec3<f64>) -> Core {
         Surface::Solid(Shape::Cylinder { radius, .. }) if n[2].abs() < ACROSS => inside(radius, z),
         _ => Core { point: p, radius: 0.0, axis: None },
     }
-}
-
-/// Axes (x, y, z) of ours as (y, z, x) of the library's.
-const CYCLIC: Mat3<f64> = Mat3([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-
-fn shape_of(surface: &Surface) -> Option<LibraryShape> {
-    let points = |list: &[[f64; 3]]| list.iter().map(|p| Vector::from_array(*p)).collect::<Vec<_>>();
-    let plain = |shape: SharedShape| Some(LibraryShape { shape, pose: Pose::identity() });
-    let turned =
-        |shape: SharedShape, z: f64| Some(LibraryShape { shape, pose: Pose { rot: CYCLIC, pos: Vec3([0.0, 0.0, z]) } });
-    match surface {
-        Surface::Solid(Shape::Sphere { radius }) => plain(SharedShape::ball(*radius)),
-        Surface::Solid(Shape::Cuboid { size: [x, y, z] }) => plain(SharedShape::cuboid(0.5 * x, 0.5 * y, 0.5 * z)),
-        Surface::Solid(Shape::Capsule { radius, length }) => plain(SharedShape::capsule_z(0.5 * length, *radius)),
-        Surface::Solid(Shape::Cylinder { radius, length }) => turned(SharedShape::cylinder(0.5 * length, *radius), 0.0),
-        // ours has its centre of mass in the origin, the library's the middle of its height
-        Surface::Solid(Shape::Cone { radius, length }) => {
-            turned(SharedShape::cone(0.5 * length, *radius), 0.25 * length)
-        }
-        Surface::HalfSpace => plain(SharedShape::halfspace(Vector::Z)),
-        Surface::Hull(list) => plain(SharedShape::convex_hull(&points(list))?),
-        Surface::Mesh(vertices, triangles) => {
-            let flags = TriMeshFlags::FIX_INTERNAL_EDGES | TriMeshFlags::ORIENTED;
-            plain(SharedShape::trimesh_with_flags(points(vertices), triangles.clone(), flags).ok()?)
-        }
-        Surface::HeightField { columns, heights, size } => {
-            let rows = heights.len() / columns;
-            // the library's rows go along its z, our x; its columns along its x, our y; stored column by column
-            let stored: Vec<f64> = (0..rows)
-                .flat_map(|j| (0..*columns).map(move |i| (i, j)))
-                .map(|(i, j)| heights[j * columns + i])
-                .collect();
-            let grid = Array2::new(*columns, rows, stored);
-            turned(SharedShape::heightfield(grid, Vector::new(size[1], 1.0, size[0])), 0.0)
-        }
-    }
-}
-
-fn library_pose(x: &Pose<f64>) -> LibraryPose {
-    let q = Quat::from_matrix(&x.rot);
-    let mut pose = LibraryPose::IDENTITY;
-    pose.translation = Vector::from_array(x.pos.0);
-    (pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w) = (q.xyz[0], q.xyz[1], q.xyz[2], q.w);
-    pose
-}
-
-fn vec3(v: Vector) -> Vec3<f64> {
-    Vec3([v.x, v.y, v.z])
 }

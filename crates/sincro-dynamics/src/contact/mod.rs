@@ -89,6 +89,29 @@ pub enum Surface {
     },
 }
 
+impl Surface {
+    /// Radius of a ball about the frame's origin that holds it `[m]`; infinite for a half space.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let length = |p: &[f64; 3]| Vec3(*p).norm();
+        match self {
+            Self::Solid(Shape::Sphere { radius }) => *radius,
+            Self::Solid(Shape::Cuboid { size }) => 0.5 * length(size),
+            Self::Solid(Shape::Capsule { radius, length }) => 0.5 * length + radius,
+            Self::Solid(Shape::Cylinder { radius, length }) => (0.25 * length * length + radius * radius).sqrt(),
+            Self::Solid(Shape::Cone { radius, length }) => {
+                (0.75 * length).max((length * length / 16.0 + radius * radius).sqrt())
+            }
+            Self::Hull(points) | Self::Mesh(points, _) => points.iter().map(length).fold(0.0, f64::max),
+            Self::HalfSpace => f64::INFINITY,
+            Self::HeightField { heights, size, .. } => {
+                let top = heights.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+                length(&[0.5 * size[0], 0.5 * size[1], top])
+            }
+        }
+    }
+}
+
 /// A surface where it is fixed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider {
@@ -159,26 +182,6 @@ impl Collider {
             }
             Surface::Hull(points) => (points.iter().map(|p| at(*p)).collect(), 0.0),
             _ => (Vec::new(), 0.0),
-        }
-    }
-
-    /// Radius of a ball about the pose's origin that holds it.
-    fn reach(&self) -> f64 {
-        let length = |p: &[f64; 3]| Vec3(*p).norm();
-        match &self.surface {
-            Surface::Solid(Shape::Sphere { radius }) => *radius,
-            Surface::Solid(Shape::Cuboid { size }) => 0.5 * length(size),
-            Surface::Solid(Shape::Capsule { radius, length }) => 0.5 * length + radius,
-            Surface::Solid(Shape::Cylinder { radius, length }) => (0.25 * length * length + radius * radius).sqrt(),
-            Surface::Solid(Shape::Cone { radius, length }) => {
-                (0.75 * length).max((length * length / 16.0 + radius * radius).sqrt())
-            }
-            Surface::Hull(points) | Surface::Mesh(points, _) => points.iter().map(length).fold(0.0, f64::max),
-            Surface::HalfSpace => f64::INFINITY,
-            Surface::HeightField { heights, size, .. } => {
-                let top = heights.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-                length(&[0.5 * size[0], 0.5 * size[1], top])
-            }
         }
     }
 

@@ -1,0 +1,111 @@
+//! Surfaces to look at: what a ray hits first. No part of a step; sensors and clients ask.
+//!
+//! Solids have closed forms, hulls are cut by the planes of their faces, meshes and height fields are the collision library's.
+
+pub(crate) mod library;
+mod ray;
+#[cfg(test)]
+mod tests;
+
+use parry3d_f64::query::Ray as LibraryRay;
+
+use crate::contact::Surface;
+use crate::spatial::Vec3;
+use library::{LibraryShape, vec3};
+
+/// A ray: a point and a direction of length one, in whatever frame is said.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it starts `[m]`.
+    pub origin: Vec3<f64>,
+    /// Where it goes, length one.
+    pub direction: Vec3<f64>,
+}
+
+impl Ray {
+    /// The point at a distance `[m]` from its start.
+    #[must_use]
+    pub fn at(&self, distance: f64) -> Vec3<f64> {
+        self.origin + self.direction.scale(distance)
+    }
+}
+
+/// Where a ray enters a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// From the ray's start `[m]`.
+    pub distance: f64,
+    /// Out of the surface, length one, in the frame of the ray.
+    pub normal: Vec3<f64>,
+}
+
+/// A surface, ready to be looked at.
+#[derive(Clone)]
+pub struct Geometry {
+    surface: Surface,
+    library: LibraryShape,
+    /// Of a hull: outward normals and distances from the origin.
+    faces: Vec<(Vec3<f64>, f64)>,
+    reach: f64,
+}
+
+impl std::fmt::Debug for Geometry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Geometry").field("surface", &self.surface).finish_non_exhaustive()
+    }
+}
+
+impl Geometry {
+    /// A surface; none if it has no extent that can be computed with, such as a flat hull.
+    #[must_use]
+    pub fn new(surface: Surface) -> Option<Self> {
+        let library = LibraryShape::of(&surface)?;
+        let faces = match library.shape.as_convex_polyhedron() {
+            Some(hull) => {
+                let of = |k: usize| {
+                    let normal = vec3(hull.faces()[k].normal);
+                    let first = hull.faces()[k].first_vertex_or_edge as usize;
+                    let corner = hull.points()[hull.vertices_adj_to_face()[first] as usize];
+                    (normal, normal.dot(vec3(corner)))
+                };
+                (0..hull.faces().len()).map(of).collect()
+            }
+            None => Vec::new(),
+        };
+        let reach = surface.reach();
+        Some(Self { surface, library, faces, reach })
+    }
+
+    /// The surface.
+    #[must_use]
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Radius of a ball about the frame's origin that holds it `[m]`; infinite for a half space.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Where a ray, given in the surface's frame, enters it from outside within `most` `[m]`; what starts inside a solid does not see it.
+    #[must_use]
+    pub fn hit(&self, ray: &Ray, most: f64) -> Option<Hit> {
+        let hit = match &self.surface {
+            Surface::Solid(shape) => ray::solid(shape, ray),
+            Surface::HalfSpace => ray::half_space(ray),
+            Surface::Hull(_) => ray::planes(self.faces.iter().copied(), ray),
+            Surface::Mesh(..) | Surface::HeightField { .. } => return self.hit_library(ray, most),
+        };
+        hit.filter(|hit| hit.distance <= most)
+    }
+
+    fn hit_library(&self, ray: &Ray, most: f64) -> Option<Hit> {
+        let LibraryShape { shape, pose } = &self.library;
+        let local = |v: Vec3<f64>| pose.rot.tr_mul_vec(v).0;
+        let theirs = LibraryRay::new(local(ray.origin - pose.pos).into(), local(ray.direction).into());
+        let hit = shape.cast_local_ray_and_get_normal(&theirs, most, false)?;
+        let normal = pose.rot.mul_vec(vec3(hit.normal));
+        Some(Hit { distance: hit.time_of_impact, normal })
+    }
+}
