@@ -1,9 +1,9 @@
 % Position control of the arm in scenes/two-dof-remote over the legacy remote API: the thesis's synchronisation recipe, step by step.
 %
-% For MATLAB (remApi.m, remoteApiProto.m and the library of a V-REP or CoppeliaSim installation in the path) and for GNU Octave (its
-% remApi.oct; calls are then simxFoo(id, …) instead of vrep.simxFoo(id, …), see README.md).
+% For MATLAB and GNU Octave, with remApi.m of this folder or of a V-REP or CoppeliaSim installation in the path:
 %
 %     sincro serve scenes/two-dof-remote
+%     octave-cli two_dof.m
 
 k_pos = 2.03;  goal = [1, -0.5];  duration = 6;  step = 0.005;
 
