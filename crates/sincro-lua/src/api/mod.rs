@@ -186,9 +186,9 @@ fn absent(shelf: &Shelf<'_>) -> mlua::Result<()> {
 /// Numbers by name: `sim.x` and `sim_x`.
 fn constants_of(shelf: &Shelf<'_>) -> mlua::Result<()> {
     let globals = shelf.lua.globals();
-    for (name, value) in constants::CONSTANTS {
-        shelf.sim.set(*name, *value)?;
-        globals.set(format!("sim_{name}"), *value)?;
+    for (name, value) in constants::constants() {
+        shelf.sim.set(name, value)?;
+        globals.set(format!("sim_{name}"), value)?;
     }
     for (name, _, number) in CALL_TYPES {
         let old = if name == "init" { "initialization" } else { name };

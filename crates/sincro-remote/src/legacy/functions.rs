@@ -159,6 +159,8 @@ fn parameter(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     let id = i64::from(call.ident_int(0)?);
     match call.function {
         0x1021 => ints([i32::try_from(desk.int_parameter(id)?).unwrap_or(i32::MAX)]),
+        // what belongs to windows: taken, and of no effect here
+        0x1022 => call.int(0).and_then(|_| desk.set_int_parameter(id)).and_then(|()| done()),
         0x1023 => reals([desk.float_parameter(id)?]),
         // what a client means by a float is the nearest number that the base step has a multiple of
         0x1024 => desk.set_float_parameter(id, call.float(0)?).and_then(|()| done()),

@@ -18,7 +18,6 @@ const REFUSED: &[(&[u16], &str)] = &[
     ),
     (&[0x102b, 0x102c, 0x102d, 0x300c], "there is nobody to answer a dialog here"),
     (&[0x1029, 0x2001, 0x2002, 0x2003, 0x2004, 0x2005, 0x2006, 0x3005, 0x3007], "there are no user interfaces here"),
-    (&[0x1022], "whole-number parameters cannot be set here"),
     (&[0x101e], "gravity belongs to the scene: change it there, or with --set when it is opened"),
     (&[0x1035], "objects have no model properties here"),
 ];

@@ -270,17 +270,17 @@ pub(crate) fn info(module: &str) -> Result<Value, Refusal> {
     }
     if module.starts_with("simIK") {
         let names = api::ik_functions().map(|f| f.name).chain(api::old_ik_names().map(|(old, _)| old));
-        return Ok(IK.get_or_init(|| members(names, api::ik::CONSTANTS)).clone());
+        return Ok(IK.get_or_init(|| members(names, api::ik::CONSTANTS.iter().copied())).clone());
     }
-    Ok(SIM.get_or_init(|| members(all(), constants::CONSTANTS)).clone())
+    Ok(SIM.get_or_init(|| members(all(), constants::constants())).clone())
 }
 
 /// A module as clients build their own from it.
-fn members<'a>(names: impl Iterator<Item = &'a str>, constants: &[(&str, i64)]) -> Value {
+fn members<'a>(names: impl Iterator<Item = &'a str>, constants: impl Iterator<Item = (&'a str, i64)>) -> Value {
     let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
     let constant = |x: i64| Value::Map(vec![("const".into(), Value::Int(x))]);
     let functions = names.map(|name| (name.to_owned(), func()));
-    let constants = constants.iter().map(|(name, x)| ((*name).to_owned(), constant(*x)));
+    let constants = constants.map(|(name, x)| (name.to_owned(), constant(x)));
     Value::Map(functions.chain(constants).collect())
 }
 

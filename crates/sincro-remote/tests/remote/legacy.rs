@@ -120,6 +120,9 @@ fn every_function_of_the_protocol_is_answered() {
     assert_eq!(client.call(0x1023, &ints(&[1]), &[]).unwrap().float(0), 0.05);
     assert_eq!(client.call(0x101d, &ints(&[0]), &[]).unwrap().float(2), -9.81);
     assert!(client.call(0x1025, &ints(&[13]), &[]).unwrap().data.ends_with(b"scene.toml\0"));
+    assert!(!client.call(0x1025, &ints(&[15]), &[]).unwrap().data.contains(&b'/'), "the scene's name");
+    client.call(0x1022, &ints(&[26]), &ints(&[0])).expect("the rate of idle frames is taken");
+    assert!(client.call(0x1022, &ints(&[8]), &ints(&[0])).is_err(), "there is one engine");
     assert_eq!(client.call(0x1021, &ints(&[22]), &[]).unwrap().int(0), 0, "the mouse");
     assert!(client.call(0x1021, &ints(&[9999]), &[]).is_err());
     client.call(0x1024, &ints(&[1]), &floats(&[0.1])).unwrap();

@@ -168,7 +168,6 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x1016, "consoles"),
         (0x1017, "vision"),
         (0x101e, "gravity"),
-        (0x1022, "cannot be set"),
         (0x1026, "collision"),
         (0x1027, "distances"),
         (0x1029, "user interfaces"),

@@ -1,7 +1,14 @@
 //! The constants that clients and scripts know, with the numbers that travel over the wire.
 
-/// Name without `sim.` (or `sim_`), and value.
-pub const CONSTANTS: &[(&str, i64)] = &[
+use super::program;
+
+/// Name without `sim.` (or `sim_`), and value, of every constant.
+pub fn constants() -> impl Iterator<Item = (&'static str, i64)> {
+    CONSTANTS.iter().copied().chain(program::names())
+}
+
+/// Those that are no parameters of the simulator.
+const CONSTANTS: &[(&str, i64)] = &[
     ("handle_world", -1),
     ("handle_all", -2),
     ("handle_all_except_explicit", -3),
@@ -98,7 +105,7 @@ pub const CONSTANTS: &[(&str, i64)] = &[
     ("jointfloatparam_pid_d", 2004),
     ("jointfloatparam_velocity", 2012),
     ("jointfloatparam_upper_limit", 2017),
-    ("jointfloatparam_maxvel", 2017),
+    ("jointfloatparam_maxvel", 2036),
     ("jointfloatparam_kc_k", 2018),
     ("jointfloatparam_kc_c", 2019),
     ("jointintparam_velocity_lock", 2030),
@@ -118,27 +125,6 @@ pub const CONSTANTS: &[(&str, i64)] = &[
     ("objfloatparam_abs_z_velocity", 13),
     ("objfloatparam_abs_rot_velocity", 14),
     ("objintparam_visibility_layer", 10),
-    ("intparam_program_version", 1),
-    ("intparam_program_revision", 2),
-    ("intparam_platform", 3),
-    ("intparam_dynamic_engine", 8),
-    ("intparam_scene_unique_id", 20),
-    ("intparam_mouse_x", 22),
-    ("intparam_mouse_y", 23),
-    ("intparam_stop_request_counter", 29),
-    ("floatparam_simulation_time_step", 1),
-    ("floatparam_dynamic_step_size", 3),
-    ("floatparam_physicstimestep", 5),
-    ("boolparam_display_enabled", 16),
-    ("boolparam_realtime_simulation", 25),
-    ("boolparam_rosinterface_donotrunmainscript", 31),
-    ("boolparam_waiting_for_trigger", 45),
-    ("arrayparam_gravity", 0),
-    ("stringparam_application_path", 0),
-    ("stringparam_scenedefaultdir", 1),
-    ("stringparam_scene_path_and_name", 13),
-    ("stringparam_scene_path", 13),
-    ("stringparam_scene_name", 14),
 ];
 
 /// Added to a first handle: the pose is against a joint's frame on its parent's side.

@@ -23,6 +23,7 @@ pub mod ik;
 mod joints;
 mod note;
 mod parameters;
+mod program;
 mod refusal;
 mod rotors;
 mod signals;

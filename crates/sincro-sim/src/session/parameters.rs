@@ -1,98 +1,12 @@
-//! Parameters of the simulator and of objects, by the numbers that clients use for them.
+//! Parameters of objects, by the numbers that clients use for them. Those of the simulator are in `program.rs`.
 
 use sincro_dynamics::force::MotorMode;
 
+use super::program::unknown;
 use super::table::{Handle, Kind};
-use super::{Desk, Phase, Refusal};
-
-/// What is answered for the version: the last that had the legacy remote API, which is what clients check for.
-const PROGRAM_VERSION: i64 = 40_501;
+use super::{Desk, Refusal};
 
 impl Desk<'_> {
-    /// A whole-number parameter of the simulator.
-    ///
-    /// # Errors
-    ///
-    /// There is none of that number.
-    pub fn int_parameter(&self, id: i64) -> Result<i64, Refusal> {
-        Ok(match id {
-            1 => PROGRAM_VERSION,
-            // program revision, instance, platform (Linux), scene id
-            2 | 23 | 22 => 0,
-            3 => 2,
-            // the physics engine is none of those that have a number; MuJoCo's is the nearest in kind
-            8 => 4,
-            20 => 1,
-            29 => self.table.stop_requests,
-            _ => return Err(unknown("whole-number", id)),
-        })
-    }
-
-    /// A number of the simulator.
-    ///
-    /// # Errors
-    ///
-    /// There is none of that number.
-    pub fn float_parameter(&self, id: i64) -> Result<f64, Refusal> {
-        match id {
-            1 => Ok(self.table.sample_time()),
-            3 | 5 => Ok(self.table.base_step()),
-            _ => Err(unknown("float", id)),
-        }
-    }
-
-    /// Sets a number of the simulator: 1, the simulation time step `[s]`, while stopped.
-    ///
-    /// # Errors
-    ///
-    /// There is none of that number, or it cannot be set.
-    pub fn set_float_parameter(&mut self, id: i64, value: f64) -> Result<(), Refusal> {
-        match id {
-            1 => self.table.set_sample_time(value),
-            3 | 5 => Err(Refusal::new("the physics step is the scene's base step: set `step` in experiment.toml")),
-            _ => Err(unknown("float", id)),
-        }
-    }
-
-    /// A truth value of the simulator.
-    ///
-    /// # Errors
-    ///
-    /// There is none of that number.
-    pub fn bool_parameter(&self, id: i64) -> Result<bool, Refusal> {
-        match id {
-            // dynamics, scripts and so on are always handled
-            0..=12 | 24 => Ok(true),
-            // display, real time, waiting for a trigger, and what belongs to windows
-            16 | 18 | 19 | 25..=50 => Ok(false),
-            _ => Err(unknown("truth", id)),
-        }
-    }
-
-    /// A vector of the simulator: 0, gravity [m/s²].
-    ///
-    /// # Errors
-    ///
-    /// There is none of that number.
-    pub fn array_parameter(&self, id: i64) -> Result<[f64; 3], Refusal> {
-        if id == 0 { Ok(self.world.model().gravity().0) } else { Err(unknown("vector", id)) }
-    }
-
-    /// A text of the simulator: 13, the scene's path.
-    ///
-    /// # Errors
-    ///
-    /// There is none of that number.
-    pub fn string_parameter(&self, id: i64) -> Result<String, Refusal> {
-        match id {
-            // folders of the program and of its scenes: clients build paths from them that are looked for by their last part
-            0 | 1 => Ok(String::new()),
-            13 => Ok(self.table.scene_path.clone()),
-            14 => Ok(self.table.scene_path.rsplit('/').nth(1).unwrap_or_default().to_owned()),
-            _ => Err(unknown("text", id)),
-        }
-    }
-
     /// A whole-number parameter of an object.
     ///
     /// # Errors
@@ -174,17 +88,6 @@ impl Desk<'_> {
             _ => Err(unknown("float object", id)),
         }
     }
-
-    /// The simulation's state as clients know it, see [`super::constants`].
-    #[must_use]
-    pub fn simulation_state(&self) -> i64 {
-        match self.table.phase {
-            Phase::Stopped => 0,
-            Phase::Paused => 8,
-            Phase::Running if self.world.state.tick == 0 => 16,
-            Phase::Running => 17,
-        }
-    }
 }
 
 /// The number of a mode of dynamic control.
@@ -212,8 +115,4 @@ fn control_mode(number: i64) -> Result<MotorMode, Refusal> {
             )));
         }
     })
-}
-
-fn unknown(what: &str, id: i64) -> Refusal {
-    Refusal(format!("there is no {what} parameter {id} here"))
 }

@@ -41,6 +41,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int intState=sim.getInt32Param(int parameter)",
         run: |d, a| one(d.int_parameter(a.int(0)?)?),
     },
+    Function { name: "setInt32Param", tip: "sim.setInt32Param(int parameter,int intState)", run: set_int },
     Function {
         name: "getFloatParam",
         tip: "float floatState=sim.getFloatParam(int parameter)",
@@ -89,6 +90,12 @@ fn log(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 fn message(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     desk.log(450, if a.has(0) { a.text(0)? } else { "" });
     one(1_i64)
+}
+
+fn set_int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    a.int(1)?;
+    desk.set_int_parameter(a.int(0)?)?;
+    done()
 }
 
 fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
