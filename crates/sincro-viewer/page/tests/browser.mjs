@@ -28,10 +28,18 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
+/** A child process that is ended with the tests. */
+export function started(child) {
+  children.push(child);
+  return child;
+}
+
+/** An empty page. */
+export const blank = (viewport) => browser.newPage({ viewport });
+
 /** Starts `sincro view` and waits for its address. */
 export async function view(what, ...more) {
-  const child = spawn(sincro, ["view", what, "--no-browser", ...more], { stdio: ["ignore", "pipe", "inherit"] });
-  children.push(child);
+  const child = started(spawn(sincro, ["view", what, "--no-browser", ...more], { stdio: ["ignore", "pipe", "inherit"] }));
   const url = await new Promise((done, failed) => {
     child.stdout.once("data", (data) => done(String(data).trim()));
     child.once("exit", (code) => failed(new Error(`sincro view ended with ${code}`)));
