@@ -14,6 +14,9 @@ use crate::machine::{self, Machine};
 use crate::shared::Shared;
 use crate::{api, fault, sandbox};
 
+/// How often one step may be held back: time stands still meanwhile, so that something else than time must let it go.
+const MOST_HELD: u32 = 1_000;
+
 /// Lua 5.4.
 #[derive(Debug)]
 pub(crate) struct Lua54;
@@ -27,7 +30,7 @@ impl Engine for Lua54 {
 
     fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host> {
         let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
-        Box::new(Scripts { shared, machines: Vec::new() })
+        Box::new(Scripts { shared, machines: Vec::new(), holder: 0 })
     }
 
     fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String> {
@@ -46,6 +49,8 @@ fn nothing() -> World {
 struct Scripts {
     shared: Arc<Shared>,
     machines: Vec<Machine>,
+    /// The last one that has held back a step.
+    holder: usize,
 }
 
 impl Host for Scripts {
@@ -106,7 +111,7 @@ impl Scripts {
         }
         self.machines.iter().for_each(Machine::refill);
         if phase == Phase::Actuation {
-            self.machines.iter_mut().try_for_each(Machine::call_before_main)?;
+            self.wait_for_main()?;
             self.machines.iter_mut().try_for_each(Machine::resume)?;
         }
         if phase == Phase::Sensing {
@@ -116,6 +121,39 @@ impl Scripts {
         if phase == Phase::Actuation {
             self.machines.iter_mut().try_for_each(|m| m.call_dynamics(step, false))?;
             self.machines.iter_mut().try_for_each(|m| m.call_joint(step))?;
+            self.decide_contacts()?;
+        }
+        Ok(())
+    }
+
+    /// Calls `sysCall_beforeMainScript` again and again while a script holds the step back.
+    fn wait_for_main(&mut self) -> Result<(), Fault> {
+        for _ in 0..MOST_HELD {
+            let mut holder = None;
+            for (k, machine) in self.machines.iter_mut().enumerate() {
+                if machine.call_before_main()? {
+                    holder = Some(k);
+                }
+            }
+            let Some(k) = holder else { return Ok(()) };
+            self.machines[k].refill();
+            self.holder = k;
+        }
+        Err(self.machines[self.holder].holds_back(MOST_HELD))
+    }
+
+    /// Asks `sysCall_contact` of each script in turn about each pair that may come to touch: the first that does not leave it to others decides.
+    fn decide_contacts(&mut self) -> Result<(), Fault> {
+        let Some(first) = self.machines.iter().position(Machine::has_contact) else { return Ok(()) };
+        let own = crate::shared::handle_of(&self.shared.scripts[first]);
+        // a table is there while scripts are called
+        let near = self.shared.with_desk(own, |desk| Ok(desk.near_bodies())).unwrap_or_default();
+        for bodies in near {
+            for machine in self.machines.iter_mut().filter(|m| m.has_contact()) {
+                if machine.call_contact(bodies)? {
+                    break;
+                }
+            }
         }
         Ok(())
     }

@@ -6,8 +6,8 @@
 //! `sandbox.rs` is what a script finds, `api/` the functions of `sim`, `machine.rs` how one script is called, `host.rs` all of them.
 
 mod api;
-mod bytes;
 mod callback;
+mod contact;
 mod convert;
 mod fault;
 mod files;

@@ -13,32 +13,28 @@ use std::sync::Arc;
 use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
 use sincro_sim::script::{Fault, Kind, Phase, Script, Style};
-use sincro_sim::session::{self, Refusal};
+use sincro_sim::session::{self, Handle, Refusal};
 
 use crate::guard::{Guard, THREAD};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
-use crate::{api, callback, convert, fault, files, power};
+use crate::{api, callback, contact, convert, fault, files, power};
 
 /// Names of phases in `sim_call_type`; any numbers will do, scripts compare names.
-pub(crate) const CALL_TYPES: [(&str, Phase, i64); 4] = [
+pub(crate) const CALL_TYPES: [(&str, Phase, i64); 7] = [
     ("init", Phase::Initialization, 0),
     ("actuation", Phase::Actuation, 1),
     ("sensing", Phase::Sensing, 2),
     ("cleanup", Phase::Cleanup, 3),
+    ("suspend", Phase::Suspend, 4),
+    ("suspended", Phase::Suspended, 5),
+    ("resume", Phase::Resume, 6),
 ];
 
 /// Callbacks of CoppeliaSim that are not called here, and why.
-const NOT_CALLED: [(&str, &str); 6] = [
-    ("sysCall_contact", "what touches what is decided by the scene's materials; read it with sim.getContactInfo"),
-    (
-        "sysCall_contactCallback",
-        "what touches what is decided by the scene's materials; read it with sim.getContactInfo",
-    ),
+const NOT_CALLED: [(&str, &str); 2] = [
     ("sysCall_trigger", "sensors trigger nothing"),
-    ("sysCall_suspend", "scripts are called while the simulation goes on"),
-    ("sysCall_resume", "scripts are called while the simulation goes on"),
-    ("sysCall_nonSimulation", "scripts are called within a run"),
+    ("sysCall_nonSimulation", "scripts live from the start of a run to its end"),
 ];
 
 /// See the head of this file.
@@ -64,6 +60,7 @@ struct Entries {
     sensing: Option<Function>,
     dynamics: Option<Function>,
     joint: Option<Function>,
+    contact: Option<Function>,
     before_main: Option<Function>,
 }
 
@@ -156,7 +153,12 @@ impl Machine {
     pub fn call(&mut self, phase: Phase) -> Result<(), Fault> {
         match phase {
             Phase::Initialization => self.within(false, Self::initialize),
+            // V-REP's old scripts know of no pauses
+            Phase::Suspend | Phase::Suspended | Phase::Resume if self.style == Style::Old => Ok(()),
             _ if self.style == Style::Old => self.within(false, |m| m.call_whole(phase)),
+            Phase::Suspend => self.call_named("sysCall_suspend"),
+            Phase::Suspended => self.call_named("sysCall_suspended"),
+            Phase::Resume => self.call_named("sysCall_resume"),
             Phase::Actuation => self.call_entry(|e| &e.actuation),
             Phase::Sensing => self.call_entry(|e| &e.sensing),
             Phase::Cleanup => self.within(false, Self::clean_up),
@@ -211,6 +213,7 @@ impl Machine {
             sensing: self.entry(&["sysCall_sensing"])?,
             dynamics: self.entry(&["sysCall_dyn", "sysCall_dynCallback"])?,
             joint: self.entry(&["sysCall_joint", "sysCall_jointCallback"])?,
+            contact: self.entry(&["sysCall_contact", "sysCall_contactCallback"])?,
             before_main: self
                 .entry(&["sysCall_beforeMainScript"])?
                 .filter(|_| self.script().kind == Kind::Customization),
@@ -274,6 +277,11 @@ impl Machine {
         self.within(false, |_| function.call(()))
     }
 
+    /// Calls a function if the script has it.
+    fn call_named(&mut self, name: &str) -> Result<(), Fault> {
+        self.within(false, |m| m.entry(&[name])?.map_or(Ok(()), |function| function.call(())))
+    }
+
     /// Lets the script's thread go on, if it is one and has not ended.
     pub fn resume(&mut self) -> Result<(), Fault> {
         let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
@@ -293,16 +301,32 @@ impl Machine {
         })
     }
 
-    /// Calls `sysCall_beforeMainScript` of a customization script: before anything else of the step.
-    pub fn call_before_main(&mut self) -> Result<(), Fault> {
-        let Some(function) = self.entries.before_main.clone() else { return Ok(()) };
-        let held: Value = self.within(false, |_| function.call(()))?;
-        let Value::Table(answer) = held else { return Ok(()) };
-        if answer.get::<Option<bool>>("doNotRunMainScript").ok().flatten() == Some(true) {
-            self.shared.say(self.index, "doNotRunMainScript has no effect: every step is made".to_owned());
-            self.entries.before_main = None;
-        }
-        Ok(())
+    /// Calls `sysCall_beforeMainScript` of a customization script, before anything else of the step; says whether it holds the step back.
+    pub fn call_before_main(&mut self) -> Result<bool, Fault> {
+        let Some(function) = self.entries.before_main.clone() else { return Ok(false) };
+        let answer: Value = self.within(false, |_| function.call(()))?;
+        let Value::Table(answer) = answer else { return Ok(false) };
+        Ok(answer.get::<Option<bool>>("doNotRunMainScript").ok().flatten() == Some(true))
+    }
+
+    /// The script has held a step back too often.
+    pub fn holds_back(&self, times: u32) -> Fault {
+        let message = format!(
+            "sysCall_beforeMainScript has held back one step {times} times: nothing can let it go, for time stands still meanwhile"
+        );
+        let (object, help) = (self.script().path.clone(), "hold back for a number of calls, or pause the simulation");
+        Fault { object, at: None, message, help: Some(help.to_owned()) }
+    }
+
+    /// Whether the script decides what touches.
+    pub fn has_contact(&self) -> bool {
+        self.entries.contact.is_some()
+    }
+
+    /// Asks the script what a pair of bodies does in the coming step; says whether it decided.
+    pub fn call_contact(&mut self, bodies: [Handle; 2]) -> Result<bool, Fault> {
+        let Some(function) = self.entries.contact.clone() else { return Ok(false) };
+        self.within(false, |m| contact::ask(&m.lua, &m.shared, m.index, &function, bodies))
     }
 
     /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what the joint is told.

@@ -198,6 +198,10 @@ impl Hub {
                 self.let_silent_go(&mut floor);
             }
             if !floor.runs_free() {
+                if floor.session.phase() == Phase::Paused {
+                    // what stops the run is told by the session's log
+                    let _ = floor.act(Session::idle);
+                }
                 drop(self.moved.wait_timeout(floor, GLANCE).unwrap_or_else(PoisonError::into_inner));
                 due = Instant::now();
                 continue;

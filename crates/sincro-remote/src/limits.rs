@@ -16,6 +16,8 @@ pub const STREAMS: usize = 4_096;
 pub const SPLIT: usize = 64 << 20;
 /// Steps in one call of `sim.step(n)`.
 pub const STEPS: i64 = 1_000_000;
+/// Callbacks of a client within each other.
+pub const CALLBACKS: usize = 16;
 /// How long a client may take to take an answer.
 pub const WRITE: Duration = Duration::from_secs(10);
 /// How long a message that has begun may take to be complete.

@@ -97,7 +97,7 @@ fn call(door: &Door, request: &Value) -> Result<Vec<Value>, Refusal> {
     }
     match door.call(name, arguments)? {
         Said::Done(results) => Ok(results),
-        Said::Callback { .. } => Err(Refusal::new("there are no callbacks over WebSocket")),
+        Said::Callback { after, .. } => Err(door.decline(after, "there are no callbacks over WebSocket")),
     }
 }
 

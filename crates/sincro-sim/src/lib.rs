@@ -3,6 +3,7 @@
 //! [`load`] opens a scene folder and reports every problem in it at once; [`run::run_campaign`] runs it with its variants, sweep,
 //! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
 
+pub mod camera;
 pub mod check;
 pub mod diagram;
 pub mod document;
@@ -11,6 +12,7 @@ mod folder;
 pub mod linear;
 pub mod linearize;
 mod load;
+pub mod motion;
 pub mod overrides;
 pub mod problem;
 pub mod record;

@@ -66,6 +66,7 @@ fn a_camera_changes_no_run_and_no_model() {
         (simulate(&loaded, Manner::default(), &mut watch).unwrap().trace.to_string(), signals)
     };
     assert_eq!(hash(SCENE), hash(&format!("{SCENE}{CAMERA}")));
+    assert_eq!(hash(SCENE), hash(&format!("{SCENE}{CAMERA}resolution = [320, 240]")));
 }
 
 /// What is replaced, by what, and what is said.
@@ -81,6 +82,29 @@ const REFUSED: &[(&str, &str, &str)] = &[
     ("look_at = [1.0, 0.0, 0.0]", "quaternion_wxyz = [0.0, 0.0, 0.0, 0.0]", "has no direction"),
     ("look_at = [1.0, 0.0, 0.0]", "look_at = [1.0, 0.0]", "`look_at` has 2 entries"),
     ("look_at = [1.0, 0.0, 0.0]", "lookat = [1.0, 0.0, 0.0]", "did you mean `look_at`?"),
+    ("look_at = [1.0, 0.0, 0.0]", "near = 0.1", "camera `eye` has `near`, but no `resolution`"),
+    ("look_at = [1.0, 0.0, 0.0]", "external_input = true", "camera `eye` has `external_input`, but no `resolution`"),
+    ("look_at = [1.0, 0.0, 0.0]", "resolution = [0, 8]", "camera `eye` has a resolution of 0 × 8 pixels"),
+    (
+        "look_at = [1.0, 0.0, 0.0]",
+        "resolution = [100000, 100000]",
+        "expected 1 to 4096 columns and rows, and at most 4194304",
+    ),
+    ("look_at = [1.0, 0.0, 0.0]", "resolution = [64]", "`resolution` has 1 entries"),
+    ("look_at = [1.0, 0.0, 0.0]", "resolution = [8, 8]\nnear = 0.0", "camera `eye` has a picture that begins at 0 m"),
+    ("look_at = [1.0, 0.0, 0.0]", "resolution = [8, 8]\nnear = nan", "`near` is not a number"),
+    ("look_at = [1.0, 0.0, 0.0]", "resolution = [8, 8]\nfar = 0.01", "camera `eye` has a picture that ends at 0.01 m"),
+    (
+        "look_at = [1.0, 0.0, 0.0]",
+        "resolution = [8, 8]\northographic_height = -1.0",
+        "camera `eye` has a picture -1 m high",
+    ),
+    (
+        "look_at = [1.0, 0.0, 0.0]",
+        "resolution = [8, 8]\northographic_height = 1.0\nfield_of_view_deg = 30.0",
+        "`field_of_view_deg` and `orthographic_height` exclude each other",
+    ),
+    ("look_at = [1.0, 0.0, 0.0]", "resolution = [8, 8]\nbackground = \"grey\"", "`grey` is not a colour"),
     (
         "parent = \"/hinge/rod\"\nposition",
         "parent = \"/hinge/rot\"\nposition",

@@ -267,7 +267,7 @@ const REFUSED: &[(&str, &str, &str)] = &[
     (
         "imu = {}",
         "",
-        "scene.toml:14:8: error: one of `imu`, `pose`, `velocity`, `height`, `contact` is missing in sensor `imu`",
+        "scene.toml:14:8: error: one of `imu`, `pose`, `velocity`, `height`, `contact`, `proximity` is missing in sensor `imu`",
     ),
     ("imu = {}", "imu = {}\nheight = {}", "scene.toml:"),
     ("imu = {}", "imu = {}\nsample_time = 0.0", "`sample_time`"),

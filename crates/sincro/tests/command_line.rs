@@ -336,3 +336,26 @@ fn a_folder_that_is_no_run_is_not_shown() {
         text(&output.stderr)
     );
 }
+
+#[test]
+fn a_camera_of_the_scene_takes_the_pictures_of_a_run() {
+    let folder = Folder::new("camera");
+    let lens = "[[camera]]\nname = \"side\"\nposition = [0.0, -2.0, 0.0]\nlook_at = [0.0, 0.0, 0.0]\n";
+    let eye = lens.replace("side", "eye").replace("-2.0", "-1.5") + "resolution = [40, 30]\n";
+    let (scene, out) = (folder.pendulum("", &format!("{lens}{eye}")), folder.path("out"));
+    let (_, stderr, _) = run(&scene, &out, &["--frames", "--camera", "eye"]);
+    let pictures: Vec<Vec<u8>> = (1..=16).map(|k| fs::read(out.join(format!("frames/{k:04}.png"))).unwrap()).collect();
+    assert!(!out.join("frames/0017.png").exists(), "30 a second, half a second: {stderr}");
+    for picture in &pictures {
+        assert!(picture.starts_with(b"\x89PNG\r\n\x1a\n") && picture[16..24] == [0, 0, 0, 40, 0, 0, 0, 30]);
+    }
+    assert!(pictures[0] != pictures[15], "the rod swings");
+    // one that is no vision sensor has the size of the other pictures
+    run(&scene, &out, &["--frames", "--camera", "/side"]);
+    assert_eq!(fs::read(out.join("frames/0001.png")).unwrap()[16..24], [0, 0, 3, 192, 0, 0, 2, 28]);
+    let (_, stderr, exit) = run(&scene, &folder.path("none"), &["--frames", "--camera", "eve"]);
+    assert!(exit == 2 && stderr.contains("there is no camera `eve`"), "{stderr}");
+    assert!(stderr.contains("cameras here: /side, /eye") && !folder.path("none").exists(), "{stderr}");
+    let (_, stderr, exit) = run(&scene, &out, &["--camera", "eye"]);
+    assert!(exit == 2 && stderr.contains("--frames"), "{stderr}");
+}

@@ -18,6 +18,8 @@ pub(crate) struct Detector {
     manifolds: Manifolds,
     polytopes: Vec<Option<Polytope>>,
     clipper: Clipper,
+    /// Pairs that are told not to touch.
+    pub ignored: Vec<bool>,
 }
 
 impl Detector {
@@ -28,6 +30,7 @@ impl Detector {
             manifolds: Manifolds::new(colliders, pairs),
             polytopes: polytopes(colliders, pairs),
             clipper: Clipper::default(),
+            ignored: vec![false; pairs.len()],
         }
     }
 
@@ -44,7 +47,7 @@ impl Detector {
             let slots = &mut spots[pair.first..pair.first + pair.slots];
             slots.fill(None);
             let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
-            if !self.is_near(pair, a, b, poses, margin) {
+            if self.ignored[k] || !self.is_near(pair, (a, b), poses, margin) {
                 continue;
             }
             let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
@@ -65,14 +68,24 @@ impl Detector {
         }
     }
 
-    fn is_near(&self, pair: &Pair, a: &Collider, b: &Collider, poses: &[Pose<f64>], margin: f64) -> bool {
-        let center = |c: &Collider| if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) };
+    /// Centre and radius of a ball that holds surface `k`, in the world.
+    pub fn ball(&self, k: usize, c: &Collider, poses: &[Pose<f64>]) -> (Vec3<f64>, f64) {
+        (center(c, poses), self.reach[k])
+    }
+
+    /// Whether balls around the two surfaces are closer than `margin` `[m]`.
+    pub fn is_near(&self, pair: &Pair, (a, b): (&Collider, &Collider), poses: &[Pose<f64>], margin: f64) -> bool {
         if let Surface::HalfSpace = b.surface {
-            return b.pose.rot.col(2).dot(center(a) - b.pose.pos) <= self.reach[pair.a] + margin;
+            return b.pose.rot.col(2).dot(center(a, poses) - b.pose.pos) <= self.reach[pair.a] + margin;
         }
-        let (d, reach) = (center(a) - center(b), self.reach[pair.a] + self.reach[pair.b] + margin);
+        let (d, reach) = (center(a, poses) - center(b, poses), self.reach[pair.a] + self.reach[pair.b] + margin);
         d.dot(d) <= reach * reach
     }
+}
+
+/// Centre of a surface's ball, in the world.
+fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
+    if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) }
 }
 
 fn polytopes(colliders: &[Collider], pairs: &[Pair]) -> Vec<Option<Polytope>> {

@@ -59,6 +59,17 @@ impl LibraryShape {
     }
 }
 
+impl LibraryShape {
+    /// Triangles of a mesh or height field, in the surface's frame; of others none.
+    pub fn triangles(&self) -> Vec<[Vec3<f64>; 3]> {
+        let ours = |t: parry3d_f64::shape::Triangle| [t.a, t.b, t.c].map(|p| self.pose.point(vec3(p)));
+        if let Some(mesh) = self.shape.as_trimesh() {
+            return mesh.triangles().map(ours).collect();
+        }
+        self.shape.as_heightfield().map(|field| field.triangles().map(ours).collect()).unwrap_or_default()
+    }
+}
+
 /// A pose as the library has it.
 pub(crate) fn library_pose(x: &Pose<f64>) -> LibraryPose {
     let q = Quat::from_matrix(&x.rot);

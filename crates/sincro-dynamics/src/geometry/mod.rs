@@ -1,17 +1,33 @@
-//! Surfaces to look at: what a ray hits first. No part of a step; sensors and clients ask.
+//! Surfaces to look at: what a ray hits first, what is closest, what a proximity sensor sees. No part of a step; sensors and clients ask.
 //!
-//! Solids have closed forms, hulls are cut by the planes of their faces, meshes and height fields are the collision library's.
+//! Rays have closed forms on solids, hulls are cut by the planes of their faces, meshes and height fields are the collision library's. Distances are
+//! those of convex sets (`gap`), triangle by triangle for meshes and height fields (`tree`).
 
+mod distance;
+#[cfg(test)]
+mod distance_tests;
+mod gap;
 pub(crate) mod library;
+mod nearest;
+#[cfg(test)]
+mod nearest_tests;
 mod ray;
+mod solid;
 #[cfg(test)]
 mod tests;
+mod tree;
+mod volume;
 
 use parry3d_f64::query::Ray as LibraryRay;
 
 use crate::contact::Surface;
 use crate::spatial::Vec3;
 use library::{LibraryShape, vec3};
+use tree::Tree;
+
+pub use distance::Closest;
+pub use nearest::Sighting;
+pub use volume::{Field, Volume};
 
 /// A ray: a point and a direction of length one, in whatever frame is said.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +62,8 @@ pub struct Geometry {
     library: LibraryShape,
     /// Of a hull: outward normals and distances from the origin.
     faces: Vec<(Vec3<f64>, f64)>,
+    /// Of a mesh or height field: its triangles.
+    tree: Tree,
     reach: f64,
 }
 
@@ -72,8 +90,8 @@ impl Geometry {
             }
             None => Vec::new(),
         };
-        let reach = surface.reach();
-        Some(Self { surface, library, faces, reach })
+        let (tree, reach) = (Tree::new(library.triangles()), surface.reach());
+        Some(Self { surface, library, faces, tree, reach })
     }
 
     /// The surface.

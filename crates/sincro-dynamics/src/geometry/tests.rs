@@ -4,20 +4,20 @@ use super::*;
 use crate::model::Shape;
 
 /// Numbers from −1 to 1, always the same.
-struct Numbers(u64);
+pub(super) struct Numbers(pub u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    fn vector(&mut self) -> Vec3<f64> {
+    pub fn vector(&mut self) -> Vec3<f64> {
         Vec3(std::array::from_fn(|_| self.next()))
     }
 }
 
-fn surfaces() -> Vec<Surface> {
+pub(super) fn surfaces() -> Vec<Surface> {
     let tetrahedron = [[0.6, 0.0, 0.0], [-0.4, 0.5, 0.0], [-0.4, -0.5, 0.1], [0.0, 0.0, 0.7]];
     vec![
         Surface::Solid(Shape::Sphere { radius: 0.5 }),

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
+use super::change::carried;
 use super::names::{FrameInfo, JointInfo, Names};
 use super::problem::{Problem, Severity};
 use super::{Dof, Link, Model, Shift, WORLD, check};
@@ -15,7 +16,7 @@ use crate::force::rotor::{MountedRotor, RotorLaw, SpeedFrom};
 use crate::force::{AirDrag, AppliedTorque, AppliedWrench};
 use crate::joint::{JointKind, StageKind};
 use crate::kinematics::Attached;
-use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
+use crate::spatial::{Mat3, Pose, RigidInertia, Vec3};
 
 /// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point leaves.
 const ON_AXIS: f64 = 1e-15;
@@ -177,11 +178,8 @@ impl Compiler<'_> {
         if at.link == WORLD {
             return;
         }
-        let placed = mass.placed(&at.pose.rot, at.pose.pos);
-        let inertia =
-            RigidInertia::from_center_of_mass(placed.mass, Vec3(placed.center_of_mass), &Sym3(placed.inertia));
         let link = &mut self.model.links[at.link as usize];
-        link.inertia = link.inertia.plus(&inertia);
+        link.inertia = link.inertia.plus(&carried(&at.pose, mass));
     }
 
     fn frame(&mut self, node: NodeId, at: Carrier, body: Option<([f64; 3], f64)>) {

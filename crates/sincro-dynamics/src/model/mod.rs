@@ -7,6 +7,7 @@
 //! [`Names`] keeps the way back from the user's objects to links and coordinates.
 
 mod builder;
+mod change;
 mod check;
 mod compile;
 mod mass;

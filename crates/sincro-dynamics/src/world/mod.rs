@@ -6,6 +6,7 @@
 //!
 //! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
 
+mod change;
 mod contacts;
 mod drives;
 

@@ -3,11 +3,10 @@
 //! What the simulation can be asked is [`sincro_sim::session::api`]: the same for scripts and clients. Here it becomes Lua, as
 //! `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their parameters, each other, threads.
 
-mod buffers;
 mod callbacks;
+mod moves;
 mod scripts;
 mod threads;
-mod windows;
 
 use std::sync::Arc;
 
@@ -58,9 +57,8 @@ pub(crate) fn offer(
     shelf.replace_some()?;
     scripts::offer(&shelf)?;
     threads::offer(&shelf, waits)?;
+    moves::offer(&shelf, waits)?;
     callbacks::offer(&shelf)?;
-    buffers::offer(&shelf)?;
-    windows::offer(&shelf)?;
     absent(&shelf)?;
     lua.globals().set("sim", &shelf.sim)?;
     let ik = inverse_kinematics(&shelf)?;
@@ -90,7 +88,7 @@ impl Shelf<'_> {
     /// A function of the session.
     fn of_session(&self, module: &'static str, function: &'static api::Function) -> mlua::Result<Function> {
         let (shared, own) = (self.shared.clone(), self.own);
-        let is_setter = function.name.starts_with("set");
+        let is_setter = function.name.starts_with("set") && !api::is_for_show(function.name);
         self.lua.create_function(move |lua, arguments: MultiValue| {
             let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
             // a client's nil may be a number that is none; a script's is a mistake

@@ -116,6 +116,12 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         });
         done.map_err(|refusal| super::refused("setScriptSimulationParameter", &refusal))
     })?;
+    // a script's suffix is that of its object
+    shelf.add("setNameSuffix", |_, _: LuaValue| Ok(-1))?;
+    shelf.add("getStackTraceback", |lua, _: Option<LuaValue>| {
+        let trace: mlua::Function = lua.globals().get::<mlua::Table>("debug")?.get("traceback")?;
+        trace.call::<LuaValue>(())
+    })?;
     shelf.add("getNameSuffix", |_, name: Option<String>| {
         let suffix = name.and_then(|name| name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<i64>().ok()));
         Ok(suffix.unwrap_or(-1))

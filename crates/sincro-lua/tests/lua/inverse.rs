@@ -140,3 +140,41 @@ fn what_cannot_be_reached_says_so_and_limits_hold() {
     }
     assert!(said[4].contains("(in function 'simIK.handleGroup')"), "{said:?}");
 }
+
+#[test]
+fn groups_with_names_are_handled_as_those_of_old() {
+    let code = format!(
+        "function sysCall_init() {SET_UP}
+        group = simIK.createIkGroup(env, 'reach')
+        simIK.setIkGroupCalculation(env, group, simIK.method_damped_least_squares, 0.01, 200)
+        local element = simIK.addIkElementFromScene(env, group, -1, tip, target, simIK.constraint_position)
+        simIK.setIkElementPrecision(env, group, element, {{ 1e-9, 0.1 }})
+        sim.setObjectPosition(target, {{ 0.3, 0.4, 0.2 }}, -1)
+        local h = simGetIkGroupHandle('reach#')
+        print(simIK.getGroupHandle(env, 'reach') == group)
+        local result, places = simCheckIkGroup(h, {{ joints[3], joints[1] }})
+        print(result == sim_ikresult_success, #places, sim.getJointTargetPosition(joints[1]) == 0)
+        print(simHandleIkGroup(h), simHandleIkGroup(sim_handle_all))
+        print(math.abs(sim.getJointTargetPosition(joints[3]) - places[1]) < 1e-9, math.abs(places[2] - math.atan2(0.4, 0.3)) < 1e-7)
+        sim.setObjectPosition(target, {{ 2, 0, 0 }}, -1)
+        print(simHandleIkGroup(h) == sim.ikresult_fail)
+        for _, call in ipairs {{ function() simGetIkGroupHandle('other') end, function() simHandleIkGroup(group) end,
+            function() simIK.createGroup(env, 'reach') end, function() simCheckIkGroup(h, 3) end, function() simHandleIkGroup(h + 1) end }} do
+            print(select(2, pcall(call)))
+        end
+    end"
+    );
+    let said = said(&code);
+    assert_eq!(said[..5], ["true", "true\t2\ttrue", "1\t1", "true\ttrue", "true"]);
+    let reasons = [
+        "there is no group `other` of inverse kinematics: groups have the names",
+        "1 is no handle of a group",
+        "a group has a name of its own",
+        "argument 2 is no list of handles",
+        "there is no group 2",
+    ];
+    for (reason, text) in reasons.iter().zip(&said[5..]) {
+        assert!(text.contains(reason), "{text}");
+    }
+    assert_eq!(said.len(), 10);
+}

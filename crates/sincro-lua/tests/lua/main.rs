@@ -2,11 +2,16 @@
 
 mod api;
 mod blocks;
+mod callbacks;
+mod graphs;
 mod inverse;
 mod language;
 mod limits;
+mod motion;
+mod names;
 mod parity;
 mod propeller;
+mod senses;
 mod styles;
 mod touching;
 mod world;

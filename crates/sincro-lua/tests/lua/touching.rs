@@ -110,8 +110,10 @@ fn contacts_force_sensors_and_stops_are_seen() {
     let said = texts(&run);
     assert!(said[0].starts_with("true\ttrue\t1\t"), "{said:?}");
     assert_eq!(said[1..3], ["1\ttrue\ttrue", "false\t-0.5\t1.5\t6\t0.0\t4.0"]);
-    assert!(said[3].contains("sim.createJoint is not offered: bodies, joints and sensors are made in the scene file"));
-    assert!(said[4].contains("`/scale/load` touches nothing: give the body `contact"), "{said:?}");
+    assert!(
+        said[3].contains("sim.createJoint is not offered: joints, bodies that move and sensors of forces are made in")
+    );
+    assert!(said[4].contains("`/scale/load` has no shape: it meets nothing"), "{said:?}");
 }
 
 #[test]
@@ -174,12 +176,12 @@ fn what_is_said_too_often_is_counted() {
 
 #[test]
 fn a_customization_script_comes_before_everything_else_of_the_step() {
-    let code = "function sysCall_beforeMainScript() print('before') return { doNotRunMainScript = true } end
+    let code = "function sysCall_beforeMainScript() print('before') end
         function sysCall_actuation() print('acts') end";
     let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nkind = \"customization\"\nfile = \"a.lua\"\n");
     let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap();
     let run = run(&loaded);
-    assert_eq!(texts(&run)[..3], ["before", "doNotRunMainScript has no effect: every step is made", "acts"]);
+    assert_eq!(texts(&run)[..2], ["before", "acts"]);
 }
 
 /// Every function of `sim`, with arguments of many kinds: a result or an error that says why.

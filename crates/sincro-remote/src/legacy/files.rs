@@ -1,8 +1,8 @@
 //! What the commands of the legacy API do: scenes, models and files.
 
-use super::functions::{Call, Reply, done};
+use super::functions::{Call, Reply, done, ints};
 use crate::hub::Floor;
-use sincro_sim::session::Refusal;
+use sincro_sim::session::{Refusal, Value, api};
 
 /// Commands of this file.
 pub(super) const COMMANDS: [u16; 4] = [0x3002, 0x3003, 0x3004, 0x3006];
@@ -19,8 +19,11 @@ pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
         }
         0x3004 => floor.session.files()?.put(last, call.data).and_then(|()| done()),
         0x3006 => floor.session.files()?.erase(last).and_then(|()| done()),
-        _ => Err(Refusal::new(
-            "a model cannot be loaded into a scene: a scene is compiled as a whole, put the model into its file",
-        )),
+        // meshes of the scene's folder; of others it says why not
+        _ => {
+            let made = api::call(&mut floor.session.desk(), "loadModel", &[Value::from(name)])?;
+            let handle = made.first().and_then(Value::as_int).and_then(|h| i32::try_from(h).ok());
+            ints([handle.ok_or_else(|| Refusal::new("nothing was loaded"))?])
+        }
     }
 }

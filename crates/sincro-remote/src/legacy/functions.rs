@@ -3,7 +3,7 @@
 use sincro_sim::session::{Desk, Handle, Refusal, Search};
 
 use super::message::{float, int, text};
-use super::{files, group, objects, sensing};
+use super::{files, group, objects, seeing, sensing};
 use crate::hub::Floor;
 
 /// `simxGetObjectHandle`
@@ -100,6 +100,9 @@ fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     if let Some(reply) = sensing::run(desk, call) {
         return reply;
     }
+    if let Some(reply) = seeing::run(desk, call) {
+        return reply;
+    }
     match call.function {
         0x0001..=0x0fff
         | 0x1012
@@ -168,6 +171,7 @@ fn parameter(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
         // display and real time: taken, and of no effect here
         0x1020 => desk.bool_parameter(id).and_then(|_| call.int(0)).and_then(|_| done()),
         0x101d => reals(desk.array_parameter(id)?),
+        0x101e => desk.set_array_parameter(id, call.floats(0)?).and_then(|()| done()),
         0x1025 => {
             let mut text = desk.string_parameter(id)?.into_bytes();
             text.push(0);

@@ -18,7 +18,11 @@ struct Gathered {
 pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     let (objects, what) = (call.ident_int(0)?, call.ident_int(1)?);
     let mut all = Gathered::default();
-    for handle in desk.objects_of_type(objects.into()) {
+    let handles = match Handle(objects) {
+        collection if desk.table.is_collection(collection) => desk.table.collected(collection)?,
+        _ => desk.objects_of_type(objects.into()),
+    };
+    for handle in handles {
         all.handles.push(handle.0);
         add(desk, handle, what, &mut all)?;
     }
@@ -60,10 +64,13 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
             }
             _ => all.floats.extend([0.0; 2]),
         },
-        // there are no proximity sensors: nothing is detected
         13 => {
-            all.ints.extend([0, -1]);
-            all.floats.extend([0.0; 6]);
+            let (state, object, numbers) = match entry.kind {
+                Kind::Proximity => super::sensing::seen(desk, handle)?,
+                _ => (0, -1, [0.0; 6]),
+            };
+            all.ints.extend([state, object]);
+            all.floats.extend(numbers);
         }
         14 => match entry.kind {
             Kind::ForceSensor(_) => {

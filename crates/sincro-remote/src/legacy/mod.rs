@@ -5,7 +5,7 @@
 //! | `packet.rs` | messages cut into packets and put together |
 //! | `message.rs` | headers, commands, replies |
 //! | `client.rs` | operation modes: streaming, splitting, discontinuing |
-//! | `functions.rs`, `objects.rs`, `group.rs`, `sensing.rs`, `files.rs`, `script.rs` | what each command does |
+//! | `functions.rs`, `objects.rs`, `group.rs`, `sensing.rs`, `seeing.rs`, `files.rs`, `script.rs` | what each command does |
 //!
 //! Everything in a message is executed before it is answered, the trigger of a synchronous step last, and what is streamed after that:
 //! values read with a trigger are those after the step.
@@ -18,6 +18,7 @@ pub mod message;
 mod objects;
 pub mod packet;
 mod script;
+mod seeing;
 mod sensing;
 
 use std::sync::Arc;

@@ -10,15 +10,17 @@ use super::functions::{Call, GET_HANDLE, Reply, counted, done, find, ints, reals
 pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     match call.function {
         GET_HANDLE => ints([find(desk, call.name()?)?.0]),
-        // a collection by name: an int signal of that name is what remains of them
+        // a collection by name, or an int signal of that name
         0x3019 => {
-            let known = desk.table.integers.get(call.name()?);
-            ints([*known.ok_or_else(|| Refusal::new("there is no such collection"))? as i32])
+            let name = call.name()?;
+            let known = desk.table.collection_named(name.strip_suffix('#').unwrap_or(name)).map(|h| h.0);
+            let known = known.or_else(|| desk.table.integers.get(name).map(|n| *n as i32));
+            ints([known.ok_or_else(|| Refusal::new("there is no such collection"))?])
         }
         0x0006 => counted(&[]),
         0x102f => done(),
         0x0009 => ints([desk.table.create_dummy("Dummy")?.0]),
-        0x1028 | 0x1037 => desk.table.remove(call.handle()?).and_then(|()| done()),
+        0x1028 | 0x1037 => desk.remove(call.handle()?).and_then(|()| done()),
         0x1012 => ints([desk.table.entry(call.handle()?)?.parent.map_or(-1, |h| h.0)]),
         0x200b => child(desk, call),
         0x101c => {

@@ -1,24 +1,18 @@
-//! What the commands of the legacy API do: sensors, collisions; and why those that are not here are not.
+//! What the commands of the legacy API do: sensors, collisions, distances; and why those that are not here are not.
 
-use sincro_sim::session::{Desk, Handle, Refusal};
+use sincro_sim::session::{Desk, Entity, Handle, Refusal};
 
 use super::functions::{Call, Reply, counted, ints, reals};
 
 /// Commands that are refused, and why. A client sees return code 8, and the text by `simxGetLastErrors`.
 const REFUSED: &[(&[u16], &str)] = &[
-    (&[0x1003, 0x1004, 0x1005, 0x1006, 0x1011, 0x1017], "there are no vision sensors here"),
-    (&[0x1009], "there are no proximity sensors here: a sensor of kind `height` measures a distance downwards"),
     (&[0x100b], "a ball joint is moved by forces and by its initial state, not put somewhere"),
     (&[0x1010], "force sensors do not break here"),
     (&[0x1014, 0x1015, 0x1016, 0x3009], "there are no consoles here: use simxAddStatusbarMessage"),
-    (&[0x1026, 0x300a], "there are no collision objects here: use simxCheckCollision with two bodies"),
-    (
-        &[0x1027, 0x300b, 0x2010],
-        "distances between shapes are not computed here: simxCheckCollision tells what touches",
-    ),
+    (&[0x1026, 0x300a], "there are no collision objects here: use simxCheckCollision with two bodies or collections"),
+    (&[0x1027, 0x300b], "there are no distance objects here: use simxCheckDistance with two bodies or collections"),
     (&[0x102b, 0x102c, 0x102d, 0x300c], "there is nobody to answer a dialog here"),
     (&[0x1029, 0x2001, 0x2002, 0x2003, 0x2004, 0x2005, 0x2006, 0x3005, 0x3007], "there are no user interfaces here"),
-    (&[0x101e], "gravity belongs to the scene: change it there, or with --set when it is opened"),
     (&[0x1035], "objects have no model properties here"),
 ];
 
@@ -27,6 +21,8 @@ pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Option<Reply> {
     match call.function {
         0x100f => Some(force_sensor(desk, call)),
         0x200f => Some(collision(desk, call)),
+        0x2010 => Some(distance(desk, call)),
+        0x1009 => Some(proximity(desk, call)),
         0x102e => Some(copies(desk, call)),
         function => {
             let (_, why) = REFUSED.iter().find(|(functions, _)| functions.contains(&function))?;
@@ -43,18 +39,45 @@ fn force_sensor(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     Ok(data)
 }
 
-/// Whether two bodies press on each other; −2 is any body.
-fn collision(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    let bodies = [Handle(call.ident_int(0)?), Handle(call.ident_int(1)?)];
-    for body in bodies.into_iter().filter(|body| body.0 != -2) {
-        desk.can_touch(body)?;
-    }
-    let touches = desk.touches();
-    let is_of = |touched: [Handle; 2], body: Handle| body.0 == -2 || touched.contains(&body);
-    ints([i32::from(touches.iter().any(|t| bodies.into_iter().all(|body| is_of(t.bodies, body))))])
+/// The two bodies or collections of a call; −2 is everything.
+fn entities(desk: &Desk<'_>, call: &Call<'_>) -> Result<[Entity; 2], Refusal> {
+    Ok([desk.entity(Handle(call.ident_int(0)?))?, desk.entity(Handle(call.ident_int(1)?))?])
 }
 
-/// Copies of points that were made by clients or scripts.
+/// Whether two bodies press on each other, or their surfaces meet.
+fn collision(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let [one, two] = entities(desk, call)?;
+    ints([i32::from(desk.collision(one, two)?.is_some())])
+}
+
+fn distance(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let [one, two] = entities(desk, call)?;
+    let found = desk.distance(one, two, f64::INFINITY)?;
+    reals([found.ok_or_else(|| Refusal::new("there is nothing that a distance could be measured to"))?.distance])
+}
+
+/// State, point in the sensor's axes, object, normal; the numbers are not aligned.
+fn proximity(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+    let (state, object, numbers) = seen(desk, call.handle()?)?;
+    let mut data = vec![state as u8];
+    data.extend(reals(numbers[..3].iter().copied())?);
+    data.extend(ints([object])?);
+    data.extend(reals(numbers[3..].iter().copied())?);
+    Ok(data)
+}
+
+/// What a proximity sensor saw: state, object, point and normal; zeros and −1 if nothing.
+pub(super) fn seen(desk: &Desk<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 6]), Refusal> {
+    Ok(match desk.proximity(sensor)?.flatten() {
+        Some(saw) => {
+            let ([x, y, z], [u, v, w]) = (saw.point.0, saw.normal.0);
+            (1, saw.handle().0, [x, y, z, u, v, w])
+        }
+        None => (0, -1, [0.0; 6]),
+    })
+}
+
+/// Copies of what was made by clients or scripts.
 fn copies(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     let handles = (0..call.data.len() / 4).map(|k| call.int(4 * k).map(Handle)).collect::<Result<Vec<_>, _>>()?;
     let copies = handles.into_iter().map(|handle| desk.copy(handle)).collect::<Result<Vec<_>, _>>()?;

@@ -5,8 +5,10 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
 use sincro_sim::script::Kind;
+use sincro_sim::session::api::Move;
 use sincro_sim::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
 
+use super::moves::Moving;
 use crate::hub::{ClientId, Hub};
 use crate::limits;
 
@@ -45,8 +47,16 @@ const UNSAFE: &[&str] = &["_evalExec"];
 pub(crate) enum Said {
     /// Its results.
     Done(Vec<Value>),
-    /// The client must run a callback: its name, what it is given, and how often still.
-    Callback { name: String, arguments: Vec<Value>, left: i64 },
+    /// The client must run a callback: its name, what it is given, and what comes after.
+    Callback { name: String, arguments: Vec<Value>, after: After },
+}
+
+/// What comes after a callback of the client.
+pub(crate) enum After {
+    /// The same again, this often; then its results are those of the call.
+    Again(i64),
+    /// The next step of a motion.
+    Move(Box<Moving>),
 }
 
 /// A client at the door.
@@ -84,9 +94,11 @@ impl Door {
             "getApiFunc" => vec![Value::List(names(a.text(1)?).map(Value::from).collect())],
             "getApiInfo" => vec![tip(a.text(1)?).map_or(Value::Text(String::new()), Value::from)],
             "getSystemTime" => vec![Value::Real(clock())],
+            "moveToConfig_step" | "moveToPose_step" => return self.step_move(bare, arguments),
             "callScriptFunction" => self.script(a)?,
             "executeScriptString" => self.evaluate(a)?,
             "getScript" | "getScriptHandle" => self.script_of(a)?,
+            name if let Some(this) = Move::of(name) => return self.begin_move(this, name, arguments),
             name if UNSAFE.contains(&name) => {
                 return Err(Refusal(format!("sim.{name} is not allowed over the network")));
             }
@@ -100,6 +112,31 @@ impl Door {
             }
         };
         Ok(Said::Done(results))
+    }
+
+    /// The client has run a callback, with these results.
+    ///
+    /// # Errors
+    ///
+    /// What comes after it cannot be done.
+    pub fn answer(&self, name: &str, arguments: &[Value], after: After, results: &[Value]) -> Result<Said, Refusal> {
+        match after {
+            After::Again(left) if left > 0 => {
+                let (name, arguments) = (name.to_owned(), arguments.to_vec());
+                Ok(Said::Callback { name, arguments, after: After::Again(left - 1) })
+            }
+            After::Again(_) => Ok(Said::Done(results.to_vec())),
+            After::Move(moving) => self.answer_move(*moving, results),
+        }
+    }
+
+    /// The client runs no callbacks, or is gone: what would come after one is given up.
+    pub fn decline(&self, after: After, why: &str) -> Refusal {
+        let refusal = Refusal::new(why);
+        match after {
+            After::Again(_) => refusal,
+            After::Move(moving) => self.give_up(&moving, refusal),
+        }
     }
 
     /// Calls a function of a script: (name, script, …), (script, name, …), or (`name@object`, type, …) of old clients.
@@ -164,7 +201,7 @@ impl Door {
         Ok(vec![object.into()])
     }
 
-    fn session(&self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
+    pub(super) fn session(&self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
         if !name.starts_with("sim") {
             let short: String = name.chars().take(100).collect();
             return Err(Refusal(format!("No such function: {short}")));
@@ -230,7 +267,7 @@ fn callback(a: Arguments<'_>) -> Result<Said, Refusal> {
     let name = a.text(1)?;
     let name = name.strip_suffix("@func").unwrap_or(name).to_owned();
     let left = a.int_or(3, 99)?.clamp(0, 10_000);
-    Ok(Said::Callback { name, arguments: vec![a.get(0).clone(), a.get(2).clone()], left })
+    Ok(Said::Callback { name, arguments: vec![a.get(0).clone(), a.get(2).clone()], after: After::Again(left) })
 }
 
 /// Seconds of the wall clock: for clients that time themselves, not for the simulation.
@@ -242,7 +279,8 @@ fn clock() -> f64 {
 fn all() -> impl Iterator<Item = &'static str> {
     let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| api::function(name).is_none());
     let old = api::old_names().filter(|(_, present)| api::function(present).is_some()).map(|(old, _)| old);
-    api::functions().map(|f| f.name).chain(own).chain(old)
+    let moves = api::MOVES.iter().map(|(name, _, _)| *name);
+    api::functions().map(|f| f.name).chain(own).chain(moves).chain(old)
 }
 
 /// Names that begin as asked for, with `sim.` before them; `+` before the beginning asks for all of it.
@@ -254,7 +292,8 @@ fn names(begin: &str) -> impl Iterator<Item = String> {
 fn tip(name: &str) -> Option<&'static str> {
     let bare = name.strip_prefix("sim.").unwrap_or(name);
     let own = FUNCTIONS.iter().find(|(known, _)| *known == bare).map(|(_, tip)| *tip);
-    own.or_else(|| api::function(name).map(|f| f.tip))
+    let of_move = || api::MOVES.iter().find(|(known, _, _)| *known == bare).map(|(_, tip, _)| *tip);
+    own.or_else(of_move).or_else(|| api::function(name).map(|f| f.tip))
 }
 
 /// Everything that a module has, as clients build their own from it.

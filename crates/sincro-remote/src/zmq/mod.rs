@@ -5,9 +5,11 @@
 //! | `wire.rs` | ZMTP 3.0, as far as REP and PUB need it |
 //! | `rpc.rs` | requests, answers, callbacks |
 //! | `functions.rs` | what the door itself offers: stepping, waiting, locks, information |
+//! | `moves.rs` | motions that last, with callbacks of the client |
 //! | `steps.rs` | the step counter that clients of version 1 wait for |
 
 mod functions;
+mod moves;
 mod rpc;
 mod steps;
 pub mod wire;

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use sincro_sim::session::{Refusal, Value};
 
-use super::functions::{self, Door, Said};
+use super::functions::{self, After, Door, Said};
 use crate::cbor;
 use crate::hub::Hub;
+use crate::limits;
 
 /// Longest identity of a client.
 const LONGEST_UUID: usize = 256;
@@ -16,14 +17,15 @@ pub(super) struct Conversation {
     hub: Arc<Hub>,
     /// The client that the connection is of, once it has said so.
     door: Option<(String, Door)>,
-    callback: Option<Callback>,
+    /// Callbacks that the client is running, the last one first: it may call while it runs one.
+    callbacks: Vec<Callback>,
 }
 
 /// A callback that the client is running.
 struct Callback {
     name: String,
     arguments: Vec<Value>,
-    left: i64,
+    after: After,
 }
 
 /// A request, taken apart.
@@ -35,7 +37,7 @@ struct Request {
 
 impl Conversation {
     pub fn new(hub: Arc<Hub>) -> Self {
-        Self { hub, door: None, callback: None }
+        Self { hub, door: None, callbacks: Vec::new() }
     }
 
     /// Answers a request.
@@ -63,8 +65,11 @@ impl Conversation {
     }
 
     fn leave(&mut self) {
-        self.callback = None;
+        let callbacks = std::mem::take(&mut self.callbacks);
         if let Some((_, door)) = self.door.take() {
+            for callback in callbacks {
+                door.decline(callback.after, "the client is gone");
+            }
             self.hub.detach(door.id);
         }
     }
@@ -76,7 +81,7 @@ impl Conversation {
                 self.leave();
                 return Ok(Value::Map(Vec::new()));
             }
-            "_*executed*_" => return Ok(self.executed(&request.arguments)),
+            "_*executed*_" => return self.executed(&request.arguments),
             "zmqRemoteApi.require" => {
                 self.door(key);
                 return functions::require(text(&request.arguments)?).map(ret);
@@ -87,29 +92,31 @@ impl Conversation {
             }
             _ => {}
         }
-        match self.door(key).call(&request.function, &request.arguments)? {
+        let said = self.door(key).call(&request.function, &request.arguments)?;
+        self.say(said)
+    }
+
+    fn say(&mut self, said: Said) -> Result<Value, Refusal> {
+        match said {
             Said::Done(results) => Ok(ret(results)),
-            Said::Callback { name, arguments, left } => {
+            Said::Callback { name, arguments, after } => {
+                if self.callbacks.len() >= limits::CALLBACKS {
+                    return Err(Refusal(format!("{} callbacks have not been answered", limits::CALLBACKS)));
+                }
                 let answer = run(&name, &arguments);
-                self.callback = Some(Callback { name, arguments, left });
+                self.callbacks.push(Callback { name, arguments, after });
                 Ok(answer)
             }
         }
     }
 
     /// The client has run a callback, or has waited.
-    fn executed(&mut self, results: &[Value]) -> Value {
-        match &mut self.callback {
-            Some(callback) if callback.left > 0 => {
-                callback.left -= 1;
-                run(&callback.name, &callback.arguments)
-            }
-            Some(_) => {
-                self.callback = None;
-                ret(results.to_vec())
-            }
-            None => ret(Vec::new()),
-        }
+    fn executed(&mut self, results: &[Value]) -> Result<Value, Refusal> {
+        let (Some(Callback { name, arguments, after }), Some((_, door))) = (self.callbacks.pop(), &self.door) else {
+            return Ok(ret(Vec::new()));
+        };
+        let said = door.answer(&name, &arguments, after, results)?;
+        self.say(said)
     }
 
     fn first_version(&mut self, request: &Request) -> Value {
@@ -155,7 +162,9 @@ impl Conversation {
                 };
                 match door.call(name, given)? {
                     Said::Done(results) => Ok(results),
-                    Said::Callback { .. } => Err(Refusal::new("version 1 of the client has no callbacks")),
+                    Said::Callback { after, .. } => {
+                        Err(door.decline(after, "version 1 of the client has no callbacks"))
+                    }
                 }
             }
         }

@@ -88,7 +88,7 @@ proptest! {
     }
 
     #[test]
-    fn any_function_takes_any_arguments(name in 0_usize..200, arguments in prop::collection::vec(values(), 0..5)) {
+    fn any_function_takes_any_arguments(name in 0_usize..400, arguments in prop::collection::vec(values(), 0..5)) {
         thread_local! {
             static SESSION: std::cell::RefCell<Session> =
                 std::cell::RefCell::new(Session::open(&folder("fuzz-calls", ""), &[], None).unwrap());

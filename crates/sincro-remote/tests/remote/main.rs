@@ -1,13 +1,20 @@
 //! Clients of every protocol against a server on loopback, ports of the system's choice. The clients are our own and speak what the real ones do.
 
 mod all_names;
+mod arguments;
 mod fuzz;
 mod legacy;
 mod legacy_client;
 mod many;
+mod moving;
+mod names;
 mod parity;
 mod scene;
+mod seeing;
+mod senses;
 mod touching;
 mod ws;
+mod ws_client;
+mod ws_names;
 mod zmq;
 mod zmq_client;

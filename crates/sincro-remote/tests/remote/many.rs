@@ -37,8 +37,27 @@ fn resident() -> Option<usize> {
     line.split_whitespace().nth(1)?.parse::<usize>().ok().map(|kib| kib << 10)
 }
 
+/// Set in the process of a test that is alone.
+const ALONE: &str = "SINCRO_TEST_ALONE";
+
+/// Whether this process is the test's own; if not, runs the test in one: beside it others take memory, too.
+fn is_alone(test: &str) -> bool {
+    if std::env::var_os(ALONE).is_some() {
+        return true;
+    }
+    let own =
+        std::process::Command::new(std::env::current_exe().unwrap()).args(["--exact", test]).env(ALONE, "1").output();
+    let done = own.unwrap();
+    let said = String::from_utf8_lossy(&done.stdout);
+    assert!(done.status.success() && said.contains("1 passed"), "{said}{}", String::from_utf8_lossy(&done.stderr));
+    false
+}
+
 #[test]
 fn a_long_run_of_a_client_takes_no_more_memory() {
+    if !is_alone("many::a_long_run_of_a_client_takes_no_more_memory") {
+        return;
+    }
     let server = serve("long");
     let mut client = Legacy::connect(server.ports().legacy[0]);
     client.start();
@@ -49,14 +68,17 @@ fn a_long_run_of_a_client_takes_no_more_memory() {
         }
     };
     steps(3_000);
-    let before = resident();
-    steps(10_000);
-    if let (Some(before), Some(after)) = (before, resident()) {
+    // other tests run in the same process: what they take at the time is not taken in every stretch
+    let mut stretch = || {
+        let before = resident();
+        steps(10_000);
+        Some(resident()?.saturating_sub(before?))
+    };
+    if let Some(grown) = (0..3).filter_map(|_| stretch()).min() {
         // a run that kept what the experiment's two seconds keep, for 500 s, would take 4 MB in its table alone
-        let grown = after.saturating_sub(before);
         assert!(grown < 2 << 20, "{grown} bytes in 10 000 steps");
     }
     client.simulation(2);
     let run = finished(&server);
-    assert_eq!((run.steps, run.simulated.table.times().len()), (13_000, 401));
+    assert_eq!((run.steps, run.simulated.table.times().len()), (33_000, 401));
 }

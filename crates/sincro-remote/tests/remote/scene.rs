@@ -40,6 +40,13 @@ name = "ball"
 parent = "/loose"
 density = 1000.0
 shape = [{ sphere = { radius = 0.1 } }]
+[[camera]]
+name = "eye"
+position = [0.0, -2.0, 0.0]
+look_at = [0.0, 0.0, 0.0]
+resolution = [16, 12]
+near = 0.5
+far = 4.5
 "#;
 
 pub const EXPERIMENT: &str = r#"

@@ -101,7 +101,7 @@ fn what_touches_is_told_to_clients() {
     let touch = |client: &mut Zmq, a: &Value, b: &Value| client.call("sim.checkCollision", &[a.clone(), b.clone()]);
     assert_eq!(touch(&mut client, &floor, &box_).unwrap()[0], Value::Int(1));
     assert_eq!(touch(&mut client, &box_, &Value::Int(-2)).unwrap()[0], Value::Int(1));
-    assert!(touch(&mut client, &floor, &load).unwrap_err().contains("`/scale/load` touches nothing"), "no `contact`");
+    assert!(touch(&mut client, &floor, &load).unwrap_err().contains("`/scale/load` has no shape"), "nothing to meet");
 
     // what it carries pulls it down, and tips it about y
     let reading = client.call("sim.readForceSensor", std::slice::from_ref(&scale)).unwrap();
@@ -167,9 +167,9 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x1015, "consoles"),
         (0x1016, "consoles"),
         (0x1017, "vision"),
-        (0x101e, "gravity"),
+        (0x101e, "vector parameter"),
         (0x1026, "collision"),
-        (0x1027, "distances"),
+        (0x1027, "distance objects"),
         (0x1029, "user interfaces"),
         (0x102b, "dialog"),
         (0x102c, "dialog"),
@@ -177,15 +177,15 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x1035, "model properties"),
         (0x2001, "user interfaces"),
         (0x2006, "user interfaces"),
-        (0x2010, "distances"),
-        (0x3003, "compiled as a whole"),
+        (0x2010, "no shape"),
+        (0x3003, "no mesh"),
         (0x3004, "--grant files"),
         (0x3005, "user interfaces"),
         (0x3006, "--grant files"),
         (0x3007, "user interfaces"),
         (0x3009, "consoles"),
         (0x300a, "collision"),
-        (0x300b, "distances"),
+        (0x300b, "distance objects"),
         (0x300c, "dialog"),
         (0x3019, "no such collection"),
     ];

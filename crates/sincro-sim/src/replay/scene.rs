@@ -228,7 +228,7 @@ impl Maker<'_> {
             force,
             drag: self.model.names().drags.iter().position(|name| *name == object.path),
             camera: match object.kind {
-                ObjectKind::Camera { field_of_view_deg } => Some(CameraView { field_of_view_deg }),
+                ObjectKind::Camera { field_of_view_deg, .. } => Some(CameraView { field_of_view_deg }),
                 _ => None,
             },
             other_end: None,

@@ -88,6 +88,13 @@ impl Layout {
         7 * self.links.len() + 3 * vectors + self.n_q + self.n_v
     }
 
+    /// The coordinates q in a frame.
+    #[must_use]
+    pub fn coordinates<'a>(&self, frame: &'a [f32]) -> &'a [f32] {
+        let end = self.width() - self.n_v;
+        &frame[end - self.n_q..end]
+    }
+
     /// Adds what is seen at time `t` `[s]` to `out`; `width` numbers.
     pub fn write(&self, seen: &Observation<'_>, t: f64, out: &mut Vec<f32>) {
         let poses = seen.scratch().link_poses();
@@ -175,6 +182,19 @@ impl Tape {
     pub fn frame(&self, k: usize) -> &[f32] {
         let width = self.layout.width();
         &self.numbers[k * width..(k + 1) * width]
+    }
+
+    /// Frames evenly over the run: at most `rate` a simulated second, `most` in all, the first and the last among them.
+    #[must_use]
+    pub fn spread(&self, rate: f64, most: usize) -> Vec<usize> {
+        let (Some(start), Some(end)) = (self.times.first(), self.times.last()) else { return Vec::new() };
+        let n = (((end - start) * rate) as usize + 1).min(most.max(1));
+        let at = |k: usize| {
+            let t = start + (end - start) * k as f64 / (n.max(2) - 1) as f64;
+            // half a nanosecond of grace: times are sums
+            self.times.partition_point(|known| *known <= t + 5e-10).max(1) - 1
+        };
+        (0..n).map(at).collect()
     }
 
     /// Forgets the frames after so many base steps.

@@ -57,6 +57,9 @@ pub struct RunReport {
     /// What scripts said, if they did.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub messages: Vec<MessageReport>,
+    /// What clients and scripts changed of the model, if they did.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<ChangeReport>,
     /// How long it took `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
@@ -98,6 +101,20 @@ pub struct MessageReport {
     pub object: String,
     /// What it said.
     pub text: String,
+}
+
+/// A number of the model that a client or script has changed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChangeReport {
+    /// From when on `[s]`; 0 also for what was changed before the run.
+    pub t: f64,
+    /// Path of the object; `/` for the world.
+    pub object: String,
+    /// Which number, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling` (ratio,
+    /// offset); `gravity`; `respondable` (0: it passes through all others).
+    pub quantity: String,
+    /// What it is now.
+    pub value: Vec<f64>,
 }
 
 /// How a run ended.

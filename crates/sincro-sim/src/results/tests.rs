@@ -66,6 +66,7 @@ fn report() -> RunReport {
         outside_theory: Vec::new(),
         warnings: vec!["the step is coarse".into()],
         messages: Vec::new(),
+        changes: Vec::new(),
         wall_time_s: 0.25,
         real_time_factor: 12.0,
     }

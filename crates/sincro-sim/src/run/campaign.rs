@@ -13,11 +13,12 @@ use crate::load::{Loaded, load, settings_with};
 use crate::overrides::Override;
 use crate::replay::SceneView;
 use crate::results::{
-    CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status, SweepReport,
-    VariantReport,
+    ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
+    SweepReport, VariantReport,
 };
 use crate::scene::{ObjectKind, Scene};
 use crate::script::Message;
+use crate::session::Change;
 use crate::sweep::Sweep;
 use crate::table::Table;
 
@@ -218,11 +219,15 @@ fn run_sweep(
     for (k, result) in points.into_iter().enumerate() {
         let run = result.expect("every point was run")?;
         if k == 0 {
-            let columns = run.table.columns.iter().skip(1).map(|c| (c.name.as_str(), c.unit.as_str()));
+            let columns =
+                run.table.columns[..n_recorded(&run)].iter().skip(1).map(|c| (c.name.as_str(), c.unit.as_str()));
             sweep = Sweep::new(&plan.parameter.value, unit, columns, n);
         }
-        let finals: Vec<f64> =
-            run.table.columns.iter().skip(1).map(|c| c.values.last().copied().unwrap_or(f64::NAN)).collect();
+        let finals: Vec<f64> = run.table.columns[..n_recorded(&run)]
+            .iter()
+            .skip(1)
+            .map(|c| c.values.last().copied().unwrap_or(f64::NAN))
+            .collect();
         match &run.status {
             // at a bound a run is at its end: the values there are its final ones
             Status::Completed | Status::Ended { .. } => sweep.push(plan.values[k], &finals),
@@ -283,9 +288,20 @@ fn report(
         outside_theory: main.simulated.outside.iter().map(Into::into).collect(),
         warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
         messages: main.simulated.messages.iter().map(message_report).collect(),
+        changes: main.simulated.changes.iter().map(change_report).collect(),
         wall_time_s: main.simulated.wall_time,
         real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
     }
+}
+
+/// Columns that every run of a sweep has: streams of graphs are a matter of the script.
+fn n_recorded(run: &Simulated) -> usize {
+    run.table.columns.len() - run.n_streams
+}
+
+fn change_report(change: &Change) -> ChangeReport {
+    let Change { t, object, quantity, value } = change;
+    ChangeReport { t: *t, object: object.clone(), quantity: (*quantity).to_owned(), value: value.clone() }
 }
 
 fn message_report(message: &Message) -> MessageReport {

@@ -192,6 +192,7 @@ impl LockStep {
     /// If a block gives what is not a finite number.
     pub fn start(&mut self) -> Result<(), Halt> {
         self.call_scripts(Phase::Initialization, 0)?;
+        self.look_around();
         self.look()?;
         if let Some(control) = self.control.as_ref().filter(|c| c.is_continuous()) {
             control.show(&mut self.world.state.commands);
@@ -207,6 +208,27 @@ impl LockStep {
     pub fn end(&mut self) -> Result<(), Halt> {
         let is_started = self.scripts.0.as_ref().is_some_and(Scripts::is_started);
         if is_started { self.call_scripts(Phase::Cleanup, self.tick) } else { Ok(()) }
+    }
+
+    /// Tells the scripts, if they were started, of a pause: that it begins, lasts or ends.
+    ///
+    /// # Errors
+    ///
+    /// If a script fails.
+    pub fn tell_scripts(&mut self, phase: Phase) -> Result<(), Halt> {
+        let is_started = self.scripts.0.as_ref().is_some_and(Scripts::is_started);
+        if is_started { self.call_scripts(phase, self.tick) } else { Ok(()) }
+    }
+
+    /// What clients and scripts have changed of the model.
+    #[must_use]
+    pub fn changes(&self) -> &[session::Change] {
+        self.table.as_ref().map_or(&[], |table| table.changes())
+    }
+
+    /// The streams of graphs, if there can be any.
+    pub(crate) fn graphs(&mut self) -> Option<&mut session::Graphs> {
+        self.table.as_mut().map(|table| &mut table.graphs)
     }
 
     /// Calls the scripts; they are told the time of `tick`.
@@ -275,6 +297,9 @@ impl LockStep {
         if self.is_due() {
             self.call_scripts(Phase::Actuation, tick)?;
         }
+        if let Some(table) = &mut self.table {
+            table.move_targets();
+        }
         self.latch();
         let advanced = match &mut self.control {
             None => self.world.advance(t, self.step),
@@ -293,8 +318,12 @@ impl LockStep {
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
+        self.look_around();
         if self.is_due() {
             self.world.release();
+            if let Some(table) = &mut self.table {
+                table.sense(&self.world.state.q);
+            }
             let ticks = self.table.as_ref().map_or(1, |table| table.sample_ticks());
             self.call_scripts(Phase::Sensing, self.tick - ticks.min(self.tick))?;
         }
@@ -322,6 +351,17 @@ impl LockStep {
     /// Whether a step of clients and scripts begins at the present tick.
     fn is_due(&self) -> bool {
         self.table.as_ref().is_some_and(|table| table.is_due(self.tick))
+    }
+
+    /// Proximity sensors see what is there at the present tick; those that clients and scripts have made, where a step of theirs begins.
+    fn look_around(&mut self) {
+        let (tick, t) = (self.tick, self.t());
+        self.sensors.look_around(&mut self.world, tick, t, self.table.as_deref_mut());
+        if self.is_due()
+            && let Some(mut desk) = self.desk()
+        {
+            desk.handle_made_sensors();
+        }
     }
 
     fn look(&mut self) -> Result<(), Halt> {

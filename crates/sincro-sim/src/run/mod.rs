@@ -15,6 +15,7 @@ mod lockstep;
 mod recording;
 mod refine;
 mod stop;
+mod streams;
 mod trace;
 mod validity;
 
@@ -39,7 +40,7 @@ use crate::replay::Tape;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::scene::Scene;
 use crate::script::Message;
-use crate::session::Request;
+use crate::session::{Change, Request};
 use crate::table::Table;
 
 /// Rate times base step above which `auto` takes the stiff method.
@@ -74,6 +75,10 @@ pub struct Simulated {
     pub warnings: Vec<String>,
     /// What scripts said.
     pub messages: Vec<Message>,
+    /// What clients and scripts changed of the model.
+    pub changes: Vec<Change>,
+    /// Columns of the table that streams of graphs made: its last ones.
+    pub n_streams: usize,
     /// How long it took `[s]`, recording included.
     pub wall_time: f64,
 }

@@ -15,6 +15,8 @@ use crate::replay::Tape;
 use crate::results::{EnergyReport, FileError, Status};
 use crate::table::{CsvWriter, Table};
 
+use super::streams::Streams;
+
 /// A run as it is recorded.
 pub(crate) struct Recording {
     recorder: Recorder,
@@ -22,6 +24,7 @@ pub(crate) struct Recording {
     /// What ends the run; none in the finer run of an error estimate, which goes as far as the first one.
     bounds: Option<Bounds>,
     csv: Option<CsvWriter>,
+    streams: Streams,
     tape: Option<Tape>,
     validity: validity::Register,
     ledger: Ledger,
@@ -52,7 +55,21 @@ impl Recording {
         let clock = Instant::now();
         let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
-        Ok(Self { recorder, table, bounds, csv, tape, validity, ledger, trace, record_every, last_tick, clock })
+        let streams = Streams::new(manner.csv, rows as usize);
+        Ok(Self {
+            recorder,
+            table,
+            bounds,
+            csv,
+            streams,
+            tape,
+            validity,
+            ledger,
+            trace,
+            record_every,
+            last_tick,
+            clock,
+        })
     }
 
     /// Hash of the states so far.
@@ -66,6 +83,8 @@ impl Recording {
     ///
     /// The CSV file cannot be written.
     pub fn start(&mut self, lockstep: &mut LockStep) -> Result<Option<String>, FileError> {
+        // scripts may have changed what the run starts with
+        self.ledger = Ledger::start(lockstep.world());
         let end = self.publish(lockstep, true)?;
         self.film(lockstep, false);
         Ok(end)
@@ -103,6 +122,7 @@ impl Recording {
         let row = self.recorder.row(&seen, signals, t, is_start);
         self.table.push_row(row);
         self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
+        self.streams.look(lockstep.graphs(), self.table.n_rows());
         Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
     }
 
@@ -118,8 +138,9 @@ impl Recording {
         method: MethodKind,
         mut warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
-        let Self { table, csv, tape, validity, ledger, trace, clock, .. } = self;
+        let Self { mut table, csv, streams, tape, validity, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
+        let n_streams = streams.finish(lockstep.graphs(), &mut table)?;
         let wall_time = clock.elapsed().as_secs_f64();
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
@@ -132,7 +153,22 @@ impl Recording {
         if n_more > 0 {
             warnings.push(format!("scripts and clients said {n_more} more things than are kept"));
         }
-        Ok(Simulated { table, status, method, trace, tape, energy, effort, outside, warnings, messages, wall_time })
+        let changes = lockstep.changes().to_vec();
+        Ok(Simulated {
+            table,
+            status,
+            method,
+            trace,
+            tape,
+            energy,
+            effort,
+            outside,
+            warnings,
+            messages,
+            changes,
+            n_streams,
+            wall_time,
+        })
     }
 }
 

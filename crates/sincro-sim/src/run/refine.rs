@@ -20,7 +20,9 @@ pub(super) fn columns(loaded: &Loaded, run: &Simulated, watch: &mut Watch<'_>) -
     let (factor, method) = estimate(run.method);
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
-        let (coarse, fine) = (&run.table.columns[k].values, &finer.table.columns[k].values);
+        // a script may have made another stream in the finer run
+        let Some(fine) = finer.table.column(&column.path).map(|c| &c.values) else { continue };
+        let coarse = &run.table.columns[k].values;
         let worst = coarse.iter().zip(fine).fold(0.0_f64, |worst, (a, b)| {
             // where both have no value, such as a signal that no script has set yet, they agree
             let difference = if a.is_nan() && b.is_nan() { 0.0 } else { (a - b).abs() };

@@ -13,7 +13,7 @@ use super::mesh::MeshInstance;
 use super::object::ShapeInstance;
 use super::placement::{self, Placement};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
+use crate::problem::{Location, Problem, Problems};
 
 /// Stands in for the mass of a body that has been refused, so that the rest can still be checked.
 const UNIT: MassProperties =
@@ -41,7 +41,7 @@ pub(super) fn shapes(
             shape: solid(shape),
             pose: placement::pose(&placement, &pointer, document, problems),
             density: shape.density.or(file.density),
-            color: shape.color.as_ref().and_then(|text| color(text, &pointer, document, problems)),
+            color: shape.color.as_ref().and_then(|text| color_of(text, &pointer, document, problems)),
         }
     };
     solids.map(one).collect()
@@ -63,15 +63,17 @@ fn solid(file: &ShapeFile) -> Shape {
     }
 }
 
+/// Red, green and blue of the `color` of a table; notes what is none.
+pub(super) fn color_of(text: &str, pointer: &str, document: &Document, problems: &mut Problems) -> Option<[u8; 3]> {
+    color(text, &document.at(&format!("{pointer}/color")), problems)
+}
+
 /// Red, green and blue of `#rrggbb`; notes what is none.
-pub(super) fn color(text: &str, pointer: &str, document: &Document, problems: &mut Problems) -> Option<[u8; 3]> {
+pub(super) fn color(text: &str, at: &Location, problems: &mut Problems) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
     let Some(digits) = digits else {
-        let at = document.at(&format!("{pointer}/color"));
-        problems.push(
-            Problem::error(&at, format!("`{text}` is not a colour"))
-                .with_help("write \"#rrggbb\", such as \"#8a5a2b\""),
-        );
+        let problem = Problem::error(at, format!("`{text}` is not a colour"));
+        problems.push(problem.with_help("write \"#rrggbb\", such as \"#8a5a2b\""));
         return None;
     };
     let number = u32::from_str_radix(digits, 16).ok()?;

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
+use super::body;
 use super::placement::{self, Placement};
+use crate::camera::{self, Lens, Optics};
 use crate::document::Document;
 use crate::problem::{Problem, Problems};
 
@@ -14,7 +16,8 @@ use crate::problem::{Problem, Problems};
 #[schemars(extend("allOf" = [
     {"not": {"required": ["rotation_deg", "quaternion_wxyz"]}},
     {"not": {"required": ["look_at", "rotation_deg"]}},
-    {"not": {"required": ["look_at", "quaternion_wxyz"]}}
+    {"not": {"required": ["look_at", "quaternion_wxyz"]}},
+    {"not": {"required": ["field_of_view_deg", "orthographic_height"]}}
 ]))]
 pub(crate) struct CameraFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
@@ -35,6 +38,33 @@ pub(crate) struct CameraFile {
     #[serde(default = "field_of_view")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub field_of_view_deg: f64,
+    /// Columns and rows of its pictures: it is then a vision sensor, whose pictures clients and scripts read.
+    pub resolution: Option<[u32; 2]>,
+    /// Distance along its z at which the pictures of a vision sensor begin; default 0.01 [m].
+    pub near: Option<f64>,
+    /// Distance along its z at which the pictures of a vision sensor end; default 100 [m].
+    pub far: Option<f64>,
+    /// Height of the pictures of a vision sensor that looks along parallel lines [m].
+    pub orthographic_height: Option<f64>,
+    /// What a vision sensor sees where nothing is: `#rrggbb`.
+    pub background: Option<String>,
+    /// A vision sensor takes pictures only when a client or script asks for one (`handleVisionSensor`), not in every step.
+    pub explicit_handling: Option<bool>,
+    /// A vision sensor takes no pictures: clients and scripts write them (`setVisionSensorImg`).
+    pub external_input: Option<bool>,
+}
+
+/// What the pictures of a camera are like that clients and scripts read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VisionSensor {
+    /// Pixels, lens, where they begin and end.
+    pub optics: Optics,
+    /// Red, green and blue where nothing is.
+    pub background: [u8; 3],
+    /// Taken only when asked for.
+    pub is_explicit: bool,
+    /// Not taken, but written.
+    pub is_external: bool,
 }
 
 fn world() -> String {
@@ -43,6 +73,56 @@ fn world() -> String {
 
 fn field_of_view() -> f64 {
     38.0
+}
+
+/// What its pictures are like, if it has any; notes what cannot be.
+pub(super) fn sensor(
+    file: &CameraFile,
+    pointer: &str,
+    document: &Document,
+    problems: &mut Problems,
+) -> Option<VisionSensor> {
+    let name = &file.name;
+    let Some(resolution) = file.resolution else {
+        let keys = ["near", "far", "orthographic_height", "background", "explicit_handling", "external_input"];
+        let given = [
+            file.near.is_some(),
+            file.far.is_some(),
+            file.orthographic_height.is_some(),
+            file.background.is_some(),
+            file.explicit_handling.is_some(),
+            file.external_input.is_some(),
+        ];
+        for (key, _) in keys.into_iter().zip(given).filter(|(_, is_given)| *is_given) {
+            let at = document.at(&format!("{pointer}/{key}"));
+            let problem = Problem::error(&at, format!("camera `{name}` has `{key}`, but no `resolution`"));
+            problems.push(problem.with_help("`resolution = [256, 256]` makes it a vision sensor"));
+        }
+        return None;
+    };
+    let optics = Optics {
+        resolution: resolution.map(|n| n as usize),
+        near: file.near.unwrap_or(camera::NEAR),
+        far: file.far.unwrap_or(camera::FAR),
+        lens: match file.orthographic_height {
+            Some(height) => Lens::Orthographic(height),
+            None => Lens::Perspective(file.field_of_view_deg.to_radians()),
+        },
+    };
+    // a wrong field of view is said of every camera
+    for wrong in optics.wrongs().into_iter().filter(|wrong| wrong.key != "field_of_view_deg") {
+        let at = document.at(&format!("{pointer}/{}", wrong.key));
+        let problem = Problem::error(&at, format!("camera `{name}` has {}", wrong.found));
+        problems.push(problem.with_help(format!("expected {}", wrong.expected)));
+    }
+    let at = document.at(&format!("{pointer}/background"));
+    let background = file.background.as_ref().and_then(|text| body::color(text, &at, problems));
+    Some(VisionSensor {
+        optics,
+        background: background.unwrap_or(camera::BACKGROUND),
+        is_explicit: file.explicit_handling.unwrap_or_default(),
+        is_external: file.external_input.unwrap_or_default(),
+    })
 }
 
 /// Its frame in its parent's; notes what cannot be.
@@ -67,7 +147,7 @@ pub(super) fn pose(file: &CameraFile, pointer: &str, document: &Document, proble
 }
 
 /// Axes of a camera that looks along `ahead`, z up in the picture; straight up or down: y.
-fn looking(ahead: Vec3<f64>) -> Option<Mat3<f64>> {
+pub(crate) fn looking(ahead: Vec3<f64>) -> Option<Mat3<f64>> {
     let length = ahead.norm();
     if length < 1e-9 || !length.is_finite() {
         return None;

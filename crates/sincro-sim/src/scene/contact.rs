@@ -83,7 +83,7 @@ pub(super) fn skin(
         }
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
         surfaces.push((surface, placement::pose(&placement, &pointer, document, problems)));
-        colors.push(shape.color.as_ref().and_then(|text| body::color(text, &pointer, document, problems)));
+        colors.push(shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, problems)));
     }
     let material = file.contact.as_ref().map(|contact| {
         if file.shape.is_empty() {

@@ -1,6 +1,7 @@
 //! Triangle meshes from files: STL, binary and text, and Wavefront OBJ; what of them makes a solid.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use sincro_dynamics::contact::Surface;
@@ -28,8 +29,8 @@ const STL_TRIANGLE: usize = 50;
 /// Corners `[m]` and triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Triangles {
-    corners: Vec<[f64; 3]>,
-    triangles: Vec<[u32; 3]>,
+    pub corners: Vec<[f64; 3]>,
+    pub triangles: Vec<[u32; 3]>,
 }
 
 /// A mesh of a body.
@@ -86,7 +87,7 @@ pub(super) fn meshes(
         match read(&named, mesh, scale, folder) {
             Ok(found) => {
                 let density = shape.density.or(file.density);
-                let color = shape.color.as_ref().and_then(|text| body::color(text, &pointer, document, problems));
+                let color = shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, problems));
                 list.push(MeshInstance { mesh: found, is_convex: mesh.convex, pose, density, color });
             }
             Err(found) => found.into_iter().for_each(|p| problems.push(p)),
@@ -98,16 +99,7 @@ pub(super) fn meshes(
 /// The mesh of a file, scaled; its hull if that is asked for.
 fn read(named: &Located<String>, file: &MeshFile, scale: &[f64], folder: &Folder) -> Result<Triangles, Vec<Problem>> {
     let bytes = folder.bytes_named(named).map_err(|p| vec![p])?;
-    let shown = folder.path_of(&named.value);
-    let source = |text: &str| Arc::new(SourceText { path: shown.clone(), text: text.to_owned() });
-    let lower = named.value.to_lowercase();
-    let found = if lower.ends_with(".stl") {
-        stl(&bytes, &source)
-    } else if lower.ends_with(".obj") {
-        text_of(&bytes).and_then(|text| obj(text, &source(text)))
-    } else {
-        Err(Problem::nowhere("a mesh is an STL or an OBJ file").with_help("name a file that ends in .stl or .obj"))
-    };
+    let found = triangles_of(&bytes, &folder.path_of(&named.value));
     // what has no place of its own in the file stands where the file is named
     let found = found.map_err(|p| match p.source {
         Some(_) => vec![p],
@@ -118,6 +110,32 @@ fn read(named: &Located<String>, file: &MeshFile, scale: &[f64], folder: &Folder
     let corners = found.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c.min(scale.len() - 1)]));
     let found = Triangles { corners: corners.collect(), triangles: found.triangles };
     if file.convex { convex(&found, named) } else { closed(found, named) }
+}
+
+/// The triangles of a file's bytes; its name tells what it is.
+fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Problem> {
+    let source = |text: &str| Arc::new(SourceText { path: path.to_path_buf(), text: text.to_owned() });
+    let lower = path.to_string_lossy().to_lowercase();
+    if lower.ends_with(".stl") {
+        stl(bytes, &source)
+    } else if lower.ends_with(".obj") {
+        text_of(bytes).and_then(|text| obj(text, &source(text)))
+    } else {
+        Err(Problem::nowhere("a mesh is an STL or an OBJ file").with_help("name a file that ends in .stl or .obj"))
+    }
+}
+
+/// Largest mesh file that is read for clients and scripts.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The triangles of a mesh file; what is wrong, in a sentence.
+pub(crate) fn mesh_of_file(path: &Path) -> Result<Triangles, String> {
+    let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
+    if size > MOST_BYTES {
+        return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MOST_BYTES >> 20));
+    }
+    let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
+    triangles_of(&bytes, path).map_err(|problem| problem.message)
 }
 
 fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {

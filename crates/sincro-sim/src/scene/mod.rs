@@ -14,6 +14,7 @@ mod joint;
 mod mesh;
 mod object;
 mod placement;
+mod proximity;
 mod rotor;
 mod script;
 mod sensor;
@@ -34,6 +35,9 @@ pub(crate) use file::SceneFile;
 pub use sincro_dynamics::model::Model;
 pub use sincro_dynamics::start::Freedom;
 
+pub use camera::VisionSensor;
+pub(crate) use camera::looking;
+pub(crate) use mesh::{Triangles, mesh_of_file};
 pub use object::{Object, ObjectKind, ShapeInstance};
 pub use text::from_text;
 
@@ -89,7 +93,7 @@ enum Spec {
     Rotor(Box<rotor::RotorMade>, Signal),
     Drag(DragSpec),
     Sensor(Option<SensorSpec>),
-    Camera(f64),
+    Camera(f64, Option<VisionSensor>),
 }
 
 /// Compiles a document that fits the schema; `seed` is that of the turbulence.
@@ -161,7 +165,10 @@ impl Maker<'_> {
                 let (path, pointer) = (&entry.path, &entry.pointer);
                 Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.problems))
             }
-            tree::AnyFile::Camera(file) => Spec::Camera(file.field_of_view_deg),
+            tree::AnyFile::Camera(file) => {
+                let sensor = camera::sensor(file, &entry.pointer, self.document, self.problems);
+                Spec::Camera(file.field_of_view_deg, sensor)
+            }
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
     }
@@ -256,7 +263,7 @@ impl Assembly {
             }
             Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
             // nothing hangs on a camera, and the model knows none
-            Spec::Camera(field_of_view_deg) => (parent, ObjectKind::Camera { field_of_view_deg }),
+            Spec::Camera(field_of_view_deg, sensor) => (parent, ObjectKind::Camera { field_of_view_deg, sensor }),
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
             Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
             Spec::Rotor(made, speed) => {
@@ -321,6 +328,7 @@ impl Assembly {
         let Some(mut model) = model else { return Err(problems.sorted()) };
         crate::sensor::register(&mut model, &self.sensors);
         sensor::find_bodies(&mut self.sensors, &self.objects, &mut problems);
+        proximity::find_bodies(&mut self.sensors, &self.objects, &mut problems);
         let mut starts = Vec::new();
         for (object, &entry) in self.objects.iter().zip(&self.entry_of) {
             if let tree::AnyFile::Joint(file) = entries[entry].file {

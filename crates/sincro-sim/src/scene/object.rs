@@ -5,6 +5,7 @@ use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{MassProperties, Shape};
 use sincro_dynamics::spatial::Pose;
 
+use super::camera::VisionSensor;
 use crate::problem::Location;
 
 /// A joint, body, frame or force.
@@ -63,6 +64,8 @@ pub enum ObjectKind {
     Camera {
         /// Angle between the upper and the lower edge of its picture `[deg]`.
         field_of_view_deg: f64,
+        /// What its pictures are like, if clients and scripts can read them.
+        sensor: Option<VisionSensor>,
     },
 }
 

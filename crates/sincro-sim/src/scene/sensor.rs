@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::object::{Object, ObjectKind};
+use super::proximity::{self, ProximityFile};
 use crate::document::Document;
 use crate::problem::{Located, Problem, Problems};
 use crate::sensor::{Errors, SensorKind, SensorSpec};
@@ -15,7 +16,7 @@ use crate::suggest;
 #[schemars(extend("allOf" = [
     {"not": {"required": ["rotation_deg", "quaternion_wxyz"]}},
     {"oneOf": [{"required": ["imu"]}, {"required": ["pose"]}, {"required": ["velocity"]}, {"required": ["height"]},
-        {"required": ["contact"]}]}
+        {"required": ["contact"]}, {"required": ["proximity"]}]}
 ]))]
 pub(crate) struct SensorFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
@@ -42,6 +43,8 @@ pub(crate) struct SensorFile {
     pub height: Option<HeightFile>,
     /// Force and torque of what touches its body, own axes, about its origin.
     pub contact: Option<ContactSensorFile>,
+    /// What of other bodies is closest inside a volume before it.
+    pub proximity: Option<ProximityFile>,
 }
 
 /// Accelerometer, which measures acceleration without gravity (at rest: g upwards), and gyro.
@@ -152,7 +155,7 @@ pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems
     }
 }
 
-/// What it measures; none, with the reason noted, if numbers are not finite.
+/// What it measures; none, with the reason noted, if it cannot be.
 pub(super) fn spec(
     file: &SensorFile,
     path: &str,
@@ -160,10 +163,15 @@ pub(super) fn spec(
     document: &Document,
     problems: &mut Problems,
 ) -> Option<SensorSpec> {
-    let place = |k: usize| document.at(&format!("{pointer}/contact/with/{k}"));
-    let paths = file.contact.iter().flat_map(|contact| contact.with.iter().flatten()).enumerate();
+    let of = if file.proximity.is_some() { "proximity" } else { "contact" };
+    let place = |k: usize| document.at(&format!("{pointer}/{of}/with/{k}"));
+    let paths = file.contact.iter().flat_map(|contact| contact.with.iter().flatten());
+    let paths = paths.chain(file.proximity.iter().flat_map(|proximity| proximity.with.iter().flatten())).enumerate();
     let with = paths.map(|(k, path)| Located { value: path.clone(), at: place(k) }).collect();
     let kind = match (&file.imu, &file.pose, &file.velocity, &file.height) {
+        _ if file.proximity.is_some() => {
+            proximity::kind(file.proximity.as_ref()?, &file.name, pointer, document, problems)?
+        }
         (Some(imu), ..) => SensorKind::Imu {
             accelerometer: Errors { bias: imu.accelerometer_bias, noise: imu.accelerometer_noise_density },
             gyro: Errors { bias: imu.gyro_bias, noise: imu.gyro_noise_density },
@@ -176,7 +184,7 @@ pub(super) fn spec(
             SensorKind::Contact { force_noise, torque_noise, threshold }
         }
     };
-    if file.parent == "/" && file.contact.is_none() {
+    if file.parent == "/" && file.contact.is_none() && file.proximity.is_none() {
         let at = document.at(&format!("{pointer}/parent"));
         let problem = Problem::error(&at, format!("sensor `{}` is fixed in the world", file.name)).as_warning();
         problems.push(problem.with_help("it measures nothing that moves; hang it on a body"));

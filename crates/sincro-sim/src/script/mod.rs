@@ -97,6 +97,12 @@ pub enum Phase {
     Actuation,
     /// At each tick, after the world has advanced; the time is still that of the start of the step.
     Sensing,
+    /// When the run is about to be paused.
+    Suspend,
+    /// Now and then while it is paused.
+    Suspended,
+    /// When it is about to go on after a pause.
+    Resume,
     /// Once, when the run is over.
     Cleanup,
 }

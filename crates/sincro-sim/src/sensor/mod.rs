@@ -11,15 +11,18 @@
 //! | `velocity` | `.measured_velocity.x y z` [m/s] of its origin, world axes |
 //! | `height` | `.measured_height` `[m]` |
 //! | `contact` | `.measured_force.x y z` `[N]` of all that touches its body, `.measured_torque.x y z` [N·m] about its origin, own axes; `.touching` 0 or 1; `.points` |
+//! | `proximity` | `.detected` 0 or 1; `.distance` `[m]`, offset and range if nothing is there; `.detected_point.x y z` `[m]`, `.detected_normal.x y z`, own axes |
 //!
 //! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's path, the component and
 //! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
 //! N/√(sample time).
 
+pub mod proximity;
 mod running;
 
 pub(crate) use running::Sensors;
 
+use sincro_dynamics::geometry::{Field, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};
 
 use crate::experiment::Experiment;
@@ -34,9 +37,9 @@ pub struct SensorSpec {
     pub kind: SensorKind,
     /// Time between two samples `[s]`; none: every base step.
     pub sample_time: Option<Located<f64>>,
-    /// Path of the body whose contacts a contact sensor feels; empty for others.
+    /// Path of the body whose contacts a contact sensor feels, or of what carries a proximity sensor; empty for others.
     pub of: String,
-    /// Paths of the bodies whose touch it feels; empty: of all.
+    /// Paths of the bodies whose touch it feels, or that it sees; empty: of all.
     pub with: Vec<Located<String>>,
 }
 
@@ -78,6 +81,17 @@ pub enum SensorKind {
         /// Normal force of a point below which it does not count as touching `[N]`.
         threshold: f64,
     },
+    /// The closest point of other bodies inside a volume.
+    Proximity {
+        /// What it looks into.
+        volume: Volume,
+        /// Where that begins before it `[m]`.
+        offset: f64,
+        /// How far it goes from there `[m]`.
+        range: f64,
+        /// Standard deviation of the distance `[m]`.
+        noise: f64,
+    },
 }
 
 /// Errors of three components.
@@ -90,6 +104,15 @@ pub struct Errors {
 }
 
 impl SensorKind {
+    /// What a proximity sensor looks into; none for others.
+    #[must_use]
+    pub fn field(self) -> Option<Field> {
+        match self {
+            Self::Proximity { volume, offset, range, .. } => Field::new(volume, offset, range),
+            _ => None,
+        }
+    }
+
     /// Names of its values after its path, each with its unit, in the order in which they are kept.
     #[must_use]
     pub fn values(self) -> Vec<(&'static str, &'static str)> {
@@ -127,6 +150,16 @@ impl SensorKind {
                 ("measured_torque.z", "N·m"),
                 ("touching", "1"),
                 ("points", "1"),
+            ],
+            Self::Proximity { .. } => vec![
+                ("detected", "1"),
+                ("distance", "m"),
+                ("detected_point.x", "m"),
+                ("detected_point.y", "m"),
+                ("detected_point.z", "m"),
+                ("detected_normal.x", "1"),
+                ("detected_normal.y", "1"),
+                ("detected_normal.z", "1"),
             ],
         }
     }

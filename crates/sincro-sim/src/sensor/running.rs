@@ -8,10 +8,13 @@ use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
 
+use super::proximity::{Detection, Eye};
 use super::{Errors, SensorKind, every};
 use crate::experiment::Experiment;
 use crate::record::probe::attached;
 use crate::scene::Scene;
+use crate::scenery::Scenery;
+use crate::session::{Handle, Table};
 
 /// All sensors of a scene with what they gave last.
 #[derive(Clone, Debug)]
@@ -22,11 +25,17 @@ pub(crate) struct Sensors {
     accelerations: Vec<f64>,
     /// What presses at the tick.
     points: Vec<ContactPoint>,
+    /// What can be seen, if there is a sensor that looks.
+    scenery: Scenery,
+    zero: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
 struct Sensor {
     kind: SensorKind,
+    /// Its object in the scene; of one that looks, what it looks into.
+    object: usize,
+    eye: Option<Eye>,
     /// Frame of the body whose contacts it feels, and of those it feels; none: of all.
     of: usize,
     with: Vec<usize>,
@@ -49,8 +58,13 @@ impl Sensors {
             let frame_of = |path: &str| frames.iter().position(|f| f.name == path);
             let every = every(spec, experiment.step).expect("sample times have been checked");
             let n = spec.kind.values().len();
+            let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
+            let with = || spec.with.iter().filter_map(|path| object_of(&path.value)).collect();
+            let eye = spec.kind.field().map(|field| Eye { field, with: with(), carrier: object_of(&spec.of) });
             list.push(Sensor {
                 kind: spec.kind,
+                object: object_of(&spec.path).expect("a sensor is an object"),
+                eye,
                 of: frame_of(&spec.of).unwrap_or(usize::MAX),
                 with: spec.with.iter().filter_map(|path| frame_of(&path.value)).collect(),
                 at: attached(&scene.model, frame),
@@ -64,12 +78,35 @@ impl Sensors {
         }
         let accelerations = vec![0.0; scene.model.n_v()];
         let points = Vec::with_capacity(scene.model.constraints().n_contacts());
-        Self { list, values: vec![0.0; first], accelerations, points }
+        let looks = list.iter().any(|sensor: &Sensor| sensor.eye.is_some());
+        let scenery = if looks { Scenery::new(scene) } else { Scenery::default() };
+        let zero = vec![0.0; if looks { scene.model.n_v() } else { 0 }];
+        Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
     }
 
-    /// Takes the samples that are due at a tick.
+    /// Sensors that look take their samples before scripts sense, as in V-REP, and tell the table what they saw. What was made at run time is seen, too.
+    pub fn look_around(&mut self, world: &mut World, tick: u64, t: f64, mut table: Option<&mut Table>) {
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_some();
+        if !self.list.iter().any(|s| due(&s)) {
+            return;
+        }
+        let (list, values, zero, scenery) = (&self.list, &mut self.values, &self.zero, &self.scenery);
+        world.with_seen(t, |seen| {
+            kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
+            for sensor in list.iter().filter(due) {
+                let made = table.as_deref().map_or(&[][..], Table::made_pieces);
+                let found = sensor.look(&seen, scenery.pieces.iter().chain(made), tick / sensor.every);
+                sensor.write(found.as_ref(), &mut values[sensor.first..][..sensor.n]);
+                if let Some(table) = table.as_deref_mut() {
+                    table.tell(Handle(sensor.object as i32 + 1), found);
+                }
+            }
+        });
+    }
+
+    /// Takes the samples that are due at a tick, but for those of sensors that look.
     pub fn sample(&mut self, world: &mut World, tick: u64, t: f64) {
-        let due = |s: &&Sensor| tick.is_multiple_of(s.every);
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_none();
         if !self.list.iter().any(|s| due(&s)) {
             return;
         }
@@ -127,7 +164,37 @@ impl Sensor {
                 y[6] = f64::from(n > 0);
                 y[7] = f64::from(n);
             }
+            SensorKind::Proximity { .. } => unreachable!("sensors that look have their samples taken before"),
         }
+    }
+
+    /// Sample `k` of a sensor that looks, after the kinematics.
+    fn look<'a>(
+        &self,
+        seen: &Seen<'_, f64>,
+        pieces: impl Iterator<Item = &'a crate::scenery::Piece>,
+        k: u64,
+    ) -> Option<Detection> {
+        let (eye, at) = (self.eye.as_ref()?, &self.at);
+        let SensorKind::Proximity { noise, .. } = self.kind else { return None };
+        let pieces = pieces.filter(|piece| eye.admits(at, piece));
+        let found = eye.look(&frame_pose(seen.scratch, at), pieces, seen.scratch, f64::INFINITY)?;
+        if noise == 0.0 {
+            return Some(found);
+        }
+        Some(found.at_distance(found.distance + noise * gaussian(splitmix(self.seed, 0), k)))
+    }
+
+    /// What it saw as values.
+    fn write(&self, found: Option<&Detection>, y: &mut [f64]) {
+        let Some(found) = found else {
+            y.fill(0.0);
+            y[1] = self.eye.as_ref().map_or(0.0, |eye| eye.field.offset() + eye.field.range());
+            return;
+        };
+        (y[0], y[1]) = (1.0, found.distance);
+        y[2..5].copy_from_slice(&found.point.0);
+        y[5..8].copy_from_slice(&found.normal.0);
     }
 
     /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that press with more than `threshold`.

@@ -1,6 +1,7 @@
 //! Bodies: mass, velocity of the centre of mass, forces for the coming step.
 
 use sincro_dynamics::force::Push;
+use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::{Pose, Vec3};
@@ -18,6 +19,7 @@ impl Desk<'_> {
         let entry = self.table.entry(handle)?;
         match entry.kind {
             Kind::Body(mass) => Ok(mass),
+            Kind::Shape => Err(Refusal(format!("`{}` has no mass: {}", entry.path, super::parameters::STATIC))),
             _ => Err(Refusal(format!("`{}` is no body", entry.path))),
         }
     }
@@ -38,6 +40,46 @@ impl Desk<'_> {
         let center = self.center(handle)?;
         let twist = self.twist(&center);
         Ok((twist.lin.0, twist.ang.0))
+    }
+
+    /// Sets one component of the velocity that a body begins with: 0–2 of its centre of mass [m/s], 3–5 of its rotation [rad/s], world axes. The others
+    /// stay.
+    ///
+    /// # Errors
+    ///
+    /// There is no such body, a run is on, it is not carried by a free joint of its own, or the number is not finite.
+    pub fn set_initial_velocity(&mut self, handle: Handle, component: usize, value: f64) -> Result<(), Refusal> {
+        self.mass(handle)?;
+        let entry = self.table.entry(handle)?.clone();
+        if self.is_running() {
+            return Err(Refusal(format!(
+                "`{}`: an initial velocity is set while the simulation is stopped",
+                entry.path
+            )));
+        }
+        if !value.is_finite() {
+            return Err(Refusal(format!("velocity {value} is not finite")));
+        }
+        let joints = &self.world.model().names().joints;
+        let carrier = joints.iter().find(|j| j.kind == JointKind::Free && j.moving.link == entry.frame.link);
+        let Some((v_idx, moving)) = carrier.filter(|j| j.base.link.is_none()).map(|j| (j.v_idx, j.moving)) else {
+            let help = "set the velocities of the joints that carry it, `initial` in the scene";
+            return Err(Refusal(format!("`{}` hangs on no free joint of the world: {help}", entry.path)));
+        };
+        let (mut v, mut w) = self.center_velocity(handle)?;
+        *(if component < 3 { &mut v[component] } else { &mut w[component - 3] }) = value;
+        // twist of the joint's moving frame, in its own axes
+        let center = self.center(handle)?;
+        let (x_wc, x_wm) = (self.place(&center), self.place(&moving));
+        let lin = Vec3(v) + Vec3(w).cross(x_wm.pos - x_wc.pos);
+        let (ang, lin) = (x_wm.rot.tr_mul_vec(Vec3(w)), x_wm.rot.tr_mul_vec(lin));
+        if !ang.0.iter().chain(&lin.0).all(|x| x.is_finite()) {
+            return Err(Refusal(format!("velocity {value} is too large")));
+        }
+        self.world.state.v[v_idx..v_idx + 3].copy_from_slice(&ang.0);
+        self.world.state.v[v_idx + 3..v_idx + 6].copy_from_slice(&lin.0);
+        self.moved();
+        Ok(())
     }
 
     /// Pushes on a body's centre of mass over the coming step: force `[N]` and torque [N·m], world axes. What is added

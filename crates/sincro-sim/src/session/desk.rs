@@ -129,20 +129,39 @@ impl<'a> Desk<'a> {
             return Err(Refusal::new("a pose has numbers that are not finite"));
         }
         let x_wo = self.reference(handle, reference)?.compose(pose);
+        self.before_move(handle);
         let entry = self.table.entry(handle)?;
-        if entry.kind == Kind::Dummy {
-            let carrier = match entry.parent {
-                Some(parent) => self.table.entry(parent)?.moving,
-                None => super::table::WORLD,
-            };
-            let x_wl = self.place(&Attached { pose: Pose::identity(), ..carrier });
-            let at = Attached { pose: x_wl.inverse().compose(&x_wo), ..carrier };
-            let entry = self.table.made(handle, "moved")?;
-            (entry.frame, entry.moving) = (at, at);
+        // a camera of the scene is no part of the model: it can stand anywhere, until the run ends
+        if entry.is_made || matches!(entry.kind, Kind::Vision(_)) {
+            let before = self.pose(handle, Reference::World)?;
+            self.put_made(handle, &x_wo)?;
+            // what was made and hangs on it goes with it
+            let moved = x_wo.compose(&before.inverse());
+            let below: Vec<Handle> = self.table.tree(handle).into_iter().skip(1).collect();
+            for child in below {
+                if self.table.entry(child)?.is_made {
+                    let x_wc = self.pose(child, Reference::World)?;
+                    self.put_made(child, &moved.compose(&x_wc))?;
+                }
+            }
             return Ok(());
         }
         let entry = entry.clone();
         self.set_free(&entry, &x_wo)
+    }
+
+    /// Puts something that was made by a client or script somewhere in the world, fixed to what carries it.
+    fn put_made(&mut self, handle: Handle, x_wo: &Pose<f64>) -> Result<(), Refusal> {
+        let carrier = match self.table.entry(handle)?.parent {
+            Some(parent) => self.table.entry(parent)?.moving,
+            None => super::table::WORLD,
+        };
+        let x_wl = self.place(&Attached { pose: Pose::identity(), ..carrier });
+        let at = Attached { pose: x_wl.inverse().compose(x_wo), ..carrier };
+        let entry = self.table.entry_mut(handle);
+        (entry.frame, entry.moving) = (at, at);
+        self.table.senses.moved(handle, &at);
+        Ok(())
     }
 
     /// Moves the free joint that carries an object.
@@ -184,16 +203,30 @@ impl<'a> Desk<'a> {
         self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
     }
 
-    /// Another point where one that was made by a client or script is.
+    /// Removes what was made by a client or script.
+    ///
+    /// # Errors
+    ///
+    /// There is none, or it belongs to the scene.
+    pub fn remove(&mut self, handle: Handle) -> Result<(), Refusal> {
+        self.before_move(handle);
+        self.table.remove(handle)
+    }
+
+    /// Another object like one that was made by a client or script, where that one is.
     ///
     /// # Errors
     ///
     /// There is no such object, it belongs to the scene, or there are too many.
     pub fn copy(&mut self, handle: Handle) -> Result<Handle, Refusal> {
         let entry = self.table.made(handle, "copied")?;
-        let (name, parent) = (entry.name.clone(), entry.parent);
+        if let Kind::Vision(_) = entry.kind {
+            return Err(Refusal(format!("`{}` is not copied: make another one", entry.path)));
+        }
+        let (name, parent, kind) = (entry.name.clone(), entry.parent, entry.kind.clone());
         let pose = self.pose(handle, Reference::World)?;
-        let copy = self.table.create_dummy(&name)?;
+        let copy = self.table.create(&name, kind, super::table::WORLD)?;
+        self.table.copy_senses(handle, copy);
         self.set_pose(copy, &pose, Reference::World)?;
         self.set_parent(copy, parent, true)?;
         Ok(copy)

@@ -49,6 +49,8 @@ pub struct Environment {
 /// Elements that are solved together.
 #[derive(Clone, Debug)]
 pub struct Group {
+    /// Empty for none.
+    name: String,
     /// λ; 0 for the pseudo-inverse.
     damping: f64,
     iterations: usize,
@@ -130,14 +132,17 @@ impl Desk<'_> {
     ///
     /// # Errors
     ///
-    /// There is no such environment, or it has too many.
-    pub fn create_group(&mut self, environment: i64) -> Result<usize, Refusal> {
+    /// There is no such environment, it has too many, or one of the name (empty for none).
+    pub fn create_group(&mut self, environment: i64, name: &str) -> Result<usize, Refusal> {
         let groups = &mut self.environment(environment)?.groups;
         if groups.len() >= MOST {
             return Err(Refusal(format!("there are {MOST} groups already")));
         }
+        if !name.is_empty() && (name.len() > 100 || groups.iter().any(|group| group.name == name)) {
+            return Err(Refusal(format!("a group has a name of its own of up to 100 bytes, not `{name:.100}`")));
+        }
         // CoppeliaSim's: the pseudo-inverse, three iterations
-        groups.push(Group { damping: 0.0, iterations: 3, elements: Vec::new() });
+        groups.push(Group { name: name.to_owned(), damping: 0.0, iterations: 3, elements: Vec::new() });
         Ok(groups.len() - 1)
     }
 
@@ -148,6 +153,32 @@ impl Desk<'_> {
     /// There is no such environment.
     pub fn group_count(&mut self, environment: i64) -> Result<usize, Refusal> {
         Ok(self.environment(environment)?.groups.len())
+    }
+
+    /// Environment and number of the group of a name, in an environment or in any.
+    ///
+    /// # Errors
+    ///
+    /// There is none.
+    pub fn group_of_name(&self, environment: Option<i64>, name: &str) -> Result<(i64, i64), Refusal> {
+        self.named_groups()
+            .find(|(e, _, known)| environment.is_none_or(|wanted| wanted == *e) && *known == name)
+            .map(|(e, group, _)| (e, group))
+            .ok_or_else(|| {
+                let help = "groups have the names that simIK.createGroup gives them";
+                Refusal(format!("there is no group `{name:.100}` of inverse kinematics: {help}"))
+            })
+    }
+
+    /// Environment, number and name of all groups with names.
+    pub fn named_groups(&self) -> impl Iterator<Item = (i64, i64, &str)> {
+        let environments = self.table.environments.iter().enumerate();
+        let groups = environments.flat_map(|(e, environment)| {
+            environment.iter().flat_map(move |environment| {
+                environment.groups.iter().enumerate().map(move |(k, group)| (e as i64, k as i64, group.name.as_str()))
+            })
+        });
+        groups.filter(|(_, _, name)| !name.is_empty())
     }
 
     fn group(&mut self, environment: i64, number: i64) -> Result<&mut Group, Refusal> {
@@ -218,6 +249,19 @@ impl Desk<'_> {
         group: i64,
         (apply, allow_error): (bool, bool),
     ) -> Result<Outcome, Refusal> {
+        let (outcome, found) = self.solve_group(environment, group)?;
+        if apply && (outcome.is_reached || allow_error) {
+            found.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))?;
+        }
+        Ok(outcome)
+    }
+
+    /// Solves a group and moves nothing: how it went, and where each of its joints would be.
+    ///
+    /// # Errors
+    ///
+    /// As [`Desk::handle_group`].
+    pub fn solve_group(&mut self, environment: i64, group: i64) -> Result<(Outcome, Vec<(Handle, f64)>), Refusal> {
         let group = self.group(environment, group)?.clone();
         if group.elements.is_empty() {
             return Err(Refusal::new("the group has no elements"));
@@ -225,13 +269,9 @@ impl Desk<'_> {
         let movers = self.movers(&group.elements)?;
         let before: Vec<f64> = movers.iter().map(|m| self.world.state.q[m.q_idx]).collect();
         let solved = self.solve(&group, &movers);
-        let after: Vec<f64> = movers.iter().map(|m| self.world.state.q[m.q_idx]).collect();
+        let after: Vec<(Handle, f64)> = movers.iter().map(|m| (m.handle, self.world.state.q[m.q_idx])).collect();
         self.put(&movers, &before);
-        let outcome = solved?;
-        if apply && (outcome.is_reached || allow_error) {
-            movers.iter().zip(after).try_for_each(|(mover, q)| self.apply(mover.handle, q))?;
-        }
-        Ok(outcome)
+        Ok((solved?, after))
     }
 
     fn put(&mut self, movers: &[Mover], q: &[f64]) {
@@ -239,7 +279,8 @@ impl Desk<'_> {
         self.moved();
     }
 
-    fn apply(&mut self, joint: Handle, q: f64) -> Result<(), Refusal> {
+    /// A motor in position or spring mode gets it as its target while a run is on; any other joint is put there.
+    pub(super) fn apply(&mut self, joint: Handle, q: f64) -> Result<(), Refusal> {
         use sincro_dynamics::force::MotorMode::{Position, Spring};
         let has_target = matches!(self.joint_mode(joint)?, Position | Spring);
         if self.table.phase != Phase::Stopped && has_target {

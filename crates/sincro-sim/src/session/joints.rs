@@ -255,8 +255,9 @@ impl Desk<'_> {
         self.table.held(motor).unwrap_or_else(present)
     }
 
-    /// Holds what a motor is told in its present mode, if it was told anything.
+    /// Holds what a motor is told in its present mode, if it was told anything; where its target was on its way to is forgotten.
     fn command(&mut self, handle: Handle) -> Result<(), Refusal> {
+        self.table.courses.remove(&handle);
         let joint = self.table.joint(handle)?;
         let (Some(motor), Some(drive)) = (joint.motor, joint.drive) else { return Ok(()) };
         let position = self.world.state.q[joint.q_idx];

@@ -13,36 +13,57 @@
 pub mod api;
 mod bodies;
 pub mod cbor;
+mod change;
+mod collections;
 pub mod constants;
 mod contacts;
 pub mod convention;
 mod desk;
+mod distances;
 mod files;
 mod find;
+mod graphs;
 pub mod ik;
 mod joints;
+mod lens;
+mod made;
+mod motions;
 mod note;
+mod pairs;
 mod parameters;
 mod program;
+mod proximity;
 mod refusal;
 mod rotors;
+mod senses;
+pub mod shapes;
 mod signals;
 mod table;
+mod unpack;
 mod value;
+mod vision;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 
+pub use change::Change;
+pub use collections::{Collection, Entity, Item};
 pub use contacts::Touch;
 pub use desk::{Desk, Reference};
+pub use distances::Nearness;
 pub use files::Files;
 pub use find::Search;
+pub use graphs::{Graphs, Stream};
+pub use motions::{Motion, Stepped};
+pub use pairs::Answer;
 pub use refusal::Refusal;
 pub use signals::Signals;
 pub use table::{Entry, Handle, JointEntry, Kind, LogLine, Request, Table};
 pub use value::{Arguments, Value};
+pub use vision::Sensors;
 
 pub use sincro_dynamics::spatial::{Pose, Vec3};
 
@@ -51,6 +72,8 @@ use crate::overrides::Override;
 use crate::problem::Problems;
 use crate::results::Status;
 use crate::run::{LockStep, Manner, Recording, RunError, Simulated, Trace, method_for};
+use crate::scene::ObjectKind;
+use crate::script;
 
 /// What a simulation is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,7 +123,11 @@ pub struct Grants {
 }
 
 /// Scenes that the example programs of CoppeliaSim load, and what they are called here.
-const EXAMPLES: &[(&str, &str)] = &[("messaging/pControllerViaRemoteApi", "pcontroller")];
+const EXAMPLES: &[(&str, &str)] = &[
+    ("messaging/pControllerViaRemoteApi", "pcontroller"),
+    ("messaging/movementViaRemoteApi", "movement"),
+    ("messaging/synchronousImageTransmissionViaRemoteApi", "camera-stream"),
+];
 
 /// A run under way.
 struct Run {
@@ -310,10 +337,14 @@ impl Session {
         match self.phase() {
             Phase::Running => return Ok(()),
             Phase::Paused => {
+                self.tell_scripts(script::Phase::Resume)?;
                 self.table().phase = Phase::Running;
                 return Ok(());
             }
             Phase::Stopped => {}
+        }
+        if std::mem::take(&mut self.table().is_model_changed) {
+            self.adopt();
         }
         let before = self.table().clone();
         self.table().begin_run();
@@ -342,17 +373,59 @@ impl Session {
         }
     }
 
+    /// What clients have changed of the model while stopped is the scene's from now on, until it is closed: the next run is made as if the file said so.
+    fn adopt(&mut self) {
+        let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
+        let scene = &mut self.loaded.scene;
+        Arc::make_mut(&mut scene.model).take_numbers(self.lockstep.world().model());
+        let table = self.lockstep.take_table().expect("a session's lock-step has a table");
+        for (object, entry) in scene.objects.iter_mut().zip(table.entries()) {
+            if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {
+                *mass = *new;
+            }
+        }
+        (self.method, self.warnings) = method_for(&self.loaded);
+        self.lockstep = fresh(&self.loaded, self.method, *table);
+        let initial = &self.loaded.scene.initial;
+        if q != initial.q || v != initial.v {
+            // nothing of what was settled for other numbers is kept
+            self.lockstep.place(State { q, v, ..initial.clone() }, &[]);
+        }
+        self.restore();
+    }
+
     /// Pauses the run; nothing if there is none.
     ///
     /// # Errors
     ///
-    /// None yet.
+    /// A script fails in `sysCall_suspend`: the run has ended.
     pub fn pause(&mut self) -> Result<(), Refusal> {
-        let table = self.table();
-        if table.phase == Phase::Running {
-            table.phase = Phase::Paused;
+        if self.phase() == Phase::Running {
+            self.tell_scripts(script::Phase::Suspend)?;
+            self.table().phase = Phase::Paused;
         }
         Ok(())
+    }
+
+    /// To be called now and then while the run is paused: scripts have `sysCall_suspended` called, and what they ask for is done.
+    ///
+    /// # Errors
+    ///
+    /// A script fails: the run has ended.
+    pub fn idle(&mut self) -> Result<(), Refusal> {
+        if self.phase() != Phase::Paused {
+            return Ok(());
+        }
+        self.tell_scripts(script::Phase::Suspended)?;
+        self.do_requests()
+    }
+
+    /// Tells the scripts of the run of a pause.
+    fn tell_scripts(&mut self, phase: script::Phase) -> Result<(), Refusal> {
+        self.lockstep.tell_scripts(phase).map_err(|halt| {
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            self.fail(status)
+        })
     }
 
     /// Ends the run and goes back to where it started; nothing if there is none.
@@ -482,8 +555,14 @@ impl Session {
         table.phase = Phase::Stopped;
         self.lockstep = fresh(&self.loaded, self.method, table);
         self.lockstep.place(run.start, &[]);
-        self.restore_motors();
+        self.restore();
         self.steps = 0;
+    }
+
+    /// What a client changed before the run is so again.
+    fn restore(&mut self) {
+        self.restore_motors();
+        self.desk().restore_pairs();
     }
 
     /// Motors that a client changed before the run are so again.

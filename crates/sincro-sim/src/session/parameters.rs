@@ -2,9 +2,13 @@
 
 use sincro_dynamics::force::MotorMode;
 
+use super::lens::{vision_float, vision_int};
 use super::program::unknown;
 use super::table::{Handle, Kind};
 use super::{Desk, Refusal};
+
+/// Why a shape that was made at run time does not move by itself.
+pub(super) const STATIC: &str = "what is made at run time is static and touches nothing: it is seen, measured and put somewhere; give bodies that move or touch in the scene";
 
 impl Desk<'_> {
     /// A whole-number parameter of an object.
@@ -17,12 +21,15 @@ impl Desk<'_> {
         let mode = |desk: &Self| desk.joint_mode(handle);
         Ok(match (id, &entry.kind) {
             (10, _) => 1,
+            (_, Kind::Vision(_)) => vision_int(&self.table.vision_sensor(handle)?.optics, id)?,
             (2000, Kind::Joint(_)) => i64::from(mode(self)? != MotorMode::Free),
             (2001, Kind::Joint(_)) => i64::from(matches!(mode(self)?, MotorMode::Position | MotorMode::Spring)),
             (2030, Kind::Joint(_)) => i64::from(mode(self)? == MotorMode::Velocity),
             (2039, Kind::Joint(_)) => control_number(mode(self)?),
+            (3003, Kind::Shape) => 1,
+            (3004 | 3019, Kind::Shape) => 0,
             (3003, Kind::Body(_)) => i64::from(entry.frame.link.is_none()),
-            (3004, Kind::Body(_)) => 1,
+            (3004, Kind::Body(_)) => i64::from(self.is_respondable(handle)?),
             (3019, Kind::Body(_)) => 0xffff,
             _ => return Err(unknown("whole-number object", id)),
         })
@@ -34,7 +41,28 @@ impl Desk<'_> {
     ///
     /// There is no such object or parameter, or it cannot be set.
     pub fn set_object_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), Refusal> {
-        self.table.entry(handle)?;
+        let entry = self.table.entry(handle)?;
+        if let Kind::Vision(_) = entry.kind {
+            return self.set_vision_int(handle, id, value);
+        }
+        if entry.kind == Kind::Shape && matches!(id, 3003 | 3004 | 3019) {
+            // static and not respondable it is
+            return if (value != 0) == (id == 3003) { Ok(()) } else { Err(Refusal::new(STATIC)) };
+        }
+        let is_body = matches!(entry.kind, Kind::Body(_));
+        let belongs = |what: &str| Refusal(format!("`{}`: {what}", entry.path));
+        match id {
+            3004 if is_body => return self.set_respondable(handle, value != 0),
+            3003 if is_body => {
+                return Err(belongs("whether a body moves belongs to the scene: hang it on a joint, or on `/`"));
+            }
+            3019 if is_body => {
+                return Err(belongs(
+                    "who touches whom belongs to the scene: `contact = { group = … }`; sysCall_contact may decide at each step",
+                ));
+            }
+            _ => {}
+        }
         let mode = match id {
             2000 if value == 0 => MotorMode::Free,
             2000 if self.joint_mode(handle)? == MotorMode::Free => MotorMode::Velocity,
@@ -55,6 +83,9 @@ impl Desk<'_> {
     pub fn object_float(&mut self, handle: Handle, id: i64) -> Result<f64, Refusal> {
         let motor =
             |desk: &Self| Ok(desk.joint_motor(handle)?.unwrap_or(sincro_dynamics::force::Motor::new(MotorMode::Free)));
+        if let (1000.., Kind::Vision(_)) = (id, &self.table.entry(handle)?.kind) {
+            return vision_float(&self.table.vision_sensor(handle)?.optics, id);
+        }
         match id {
             11..=13 => Ok(self.velocity(handle)?.0[(id - 11) as usize]),
             14 => {
@@ -79,12 +110,17 @@ impl Desk<'_> {
     ///
     /// There is no such object or parameter, or it cannot be set.
     pub fn set_object_float(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), Refusal> {
-        self.table.entry(handle)?;
+        if let Kind::Vision(_) = self.table.entry(handle)?.kind {
+            return self.set_vision_float(handle, id, value);
+        }
         match id {
             2002 => self.change_motor(handle, |m| m.kp = value),
             2017 => self.change_motor(handle, |m| m.max_velocity = value),
             2018 => self.change_motor(handle, |m| m.stiffness = value),
             2019 => self.change_motor(handle, |m| m.damping = value),
+            3005 => self.mass_scaled(handle, value).and_then(|mass| self.set_mass(handle, mass)),
+            3000..=3002 => self.set_initial_velocity(handle, (id - 3000) as usize, value),
+            3020..=3022 => self.set_initial_velocity(handle, (id - 3020) as usize + 3, value),
             _ => Err(unknown("float object", id)),
         }
     }

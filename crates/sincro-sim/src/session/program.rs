@@ -231,6 +231,15 @@ impl Desk<'_> {
         if id == GRAVITY { Ok(self.world.model().gravity().0) } else { Err(unknown("vector", id)) }
     }
 
+    /// Sets a vector of the simulator: 0, gravity [m/s²].
+    ///
+    /// # Errors
+    ///
+    /// There is none of that number, or a number is not finite.
+    pub fn set_array_parameter(&mut self, id: i64, value: [f64; 3]) -> Result<(), Refusal> {
+        if id == GRAVITY { self.set_gravity(value) } else { Err(unknown("vector", id)) }
+    }
+
     /// A text of the simulator, such as the path of its scene.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The table of objects, as clients and scripts know them: handles, names, what they hold. Plain data; what needs the world is in
 //! [`super::Desk`].
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use sincro_dynamics::force::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
@@ -10,8 +10,14 @@ use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
+use super::change::Change;
+use super::graphs::Graphs;
+use super::motions::{Course, Motions};
 use super::note::Notes;
+use super::pairs::{self, Pair};
+use super::senses::Senses;
 use super::signals::Signals;
+use super::vision::Vision;
 use super::{Phase, Refusal, convention};
 use crate::load::Loaded;
 use crate::scene::{Object, ObjectKind};
@@ -20,8 +26,6 @@ use crate::scene::{Object, ObjectKind};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Handle(pub i32);
 
-/// Objects that may exist at once, beyond those of the scene.
-const MOST_CREATED: usize = 10_000;
 /// Bytes that clients and scripts may store: string signals, data with objects, named parameters.
 const MOST_BYTES: usize = 256 << 20;
 /// Lines of the log that are kept until somebody takes them.
@@ -42,8 +46,14 @@ pub enum Kind {
     Rotor(usize),
     /// A fixed joint that measures what goes through it: its first degree of freedom, which is held.
     ForceSensor(usize),
+    /// A camera whose pictures are read: its index among the table's.
+    Vision(usize),
     /// Made by a client or script: a named point.
     Dummy,
+    /// Made by a client or script: something to be seen, without mass.
+    Shape,
+    /// A proximity sensor, of the scene or made.
+    Proximity,
 }
 
 /// An object.
@@ -57,6 +67,8 @@ pub struct Entry {
     pub path: String,
     /// What it is.
     pub kind: Kind,
+    /// Whether a client or script has made it.
+    pub is_made: bool,
     /// What it hangs on; none: the world.
     pub parent: Option<Handle>,
     /// Its frame; of a joint, the one on its parent's side. z is the axis of a joint.
@@ -118,8 +130,11 @@ pub enum Request {
 #[derive(Clone, Debug)]
 pub struct Table {
     /// Handle 1 is the first; a hole where an object was removed.
-    entries: Vec<Option<Entry>>,
-    n_created: usize,
+    pub(super) entries: Vec<Option<Entry>>,
+    pub(super) n_created: usize,
+    /// How many objects have a name, and the first number that may be free behind a name that is taken.
+    pub(super) names: BTreeMap<String, usize>,
+    pub(super) numbers: BTreeMap<String, usize>,
     joints: Vec<JointEntry>,
     /// Joint of each handle, where there is one.
     joint_of: BTreeMap<Handle, usize>,
@@ -152,9 +167,29 @@ pub struct Table {
     pub scene_path: String,
     /// How often a stop was asked for.
     pub stop_requests: i64,
+    /// Vision sensors.
+    pub(super) vision: Vision,
     /// Environments of inverse kinematics.
     pub(super) environments: Vec<Option<super::ik::Environment>>,
     pub(super) zero: Vec<f64>,
+    /// What is other than in the scene.
+    pub(super) changes: Vec<Change>,
+    /// Whether the model was changed while stopped, and the next run must be made of it.
+    pub(super) is_model_changed: bool,
+    /// Pairs of surfaces, in the model's order.
+    pub(super) pairs: Vec<Pair>,
+    /// Bodies that pass through all others.
+    pub(super) passing: BTreeSet<Handle>,
+    /// Mass properties of the solids of bodies at density 1, where all of a body is solids of closed form.
+    pub(super) solids: BTreeMap<Handle, MassProperties>,
+    /// Streams of graphs.
+    pub graphs: Graphs,
+    /// Motions of numbers.
+    pub(super) motions: Motions,
+    /// Targets of motors that are on their way.
+    pub(super) courses: BTreeMap<Handle, Course>,
+    /// What can be seen, and who looks.
+    pub(super) senses: Senses,
 }
 
 impl Table {
@@ -165,6 +200,8 @@ impl Table {
         let mut new = Self {
             entries: Vec::with_capacity(scene.objects.len()),
             n_created: 0,
+            names: BTreeMap::new(),
+            numbers: BTreeMap::new(),
             joints: Vec::new(),
             joint_of: BTreeMap::new(),
             held: vec![None; scene.model.n_commands()],
@@ -185,8 +222,18 @@ impl Table {
             phase: Phase::Stopped,
             scene_path: loaded.experiment.scene_path.display().to_string(),
             stop_requests: 0,
+            vision: Vision::default(),
             environments: Vec::new(),
             zero: vec![0.0; scene.model.n_v()],
+            changes: Vec::new(),
+            is_model_changed: false,
+            pairs: Vec::new(),
+            passing: BTreeSet::new(),
+            solids: BTreeMap::new(),
+            graphs: Graphs::default(),
+            motions: Motions::default(),
+            courses: BTreeMap::new(),
+            senses: Senses::new(scene),
         };
         for object in &scene.objects {
             let handle = new.next_handle();
@@ -229,9 +276,13 @@ impl Table {
                 }
                 ObjectKind::Frame | ObjectKind::Sensor => {
                     let at = of_frame().unwrap_or(beside);
-                    (Kind::Frame, at, at)
+                    let looks = new.senses.looks.contains_key(&handle);
+                    (if looks { Kind::Proximity } else { Kind::Frame }, at, at)
                 }
-                ObjectKind::Camera { .. } => (Kind::Frame, beside, beside),
+                ObjectKind::Camera { sensor, .. } => {
+                    let eye = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
+                    (eye.unwrap_or(Kind::Frame), beside, beside)
+                }
                 ObjectKind::Fixture => {
                     let at = of_frame().unwrap_or(beside);
                     let none = MassProperties { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
@@ -243,8 +294,10 @@ impl Table {
                     (Kind::Rotor(index.expect("every rotor has a name")), beside, beside)
                 }
             };
+            new.solids.extend(unit_mass(object).map(|mass| (handle, mass)));
             new.add(object, kind, parent, (frame, moving));
         }
+        new.pairs = pairs::pairs_of(loaded, &new);
         for script in &scene.scripts {
             let object = Handle(script.object as i32 + 1);
             let texts = script.parameters.iter().map(|(name, value)| ((object, name.clone()), value.to_string()));
@@ -256,10 +309,12 @@ impl Table {
     /// An object of the scene.
     fn add(&mut self, object: &Object, kind: Kind, parent: Option<Handle>, at: (Attached<f64>, Attached<f64>)) {
         let (handle, name, path) = (self.next_handle(), object.name.clone(), object.path.clone());
-        self.entries.push(Some(Entry { handle, name, path, kind, parent, frame: at.0, moving: at.1 }));
+        let is_made = false;
+        *self.names.entry(name.clone()).or_default() += 1;
+        self.entries.push(Some(Entry { handle, name, path, kind, is_made, parent, frame: at.0, moving: at.1 }));
     }
 
-    fn next_handle(&self) -> Handle {
+    pub(super) fn next_handle(&self) -> Handle {
         Handle(self.entries.len() as i32 + 1)
     }
 
@@ -276,6 +331,11 @@ impl Table {
     pub fn entry(&self, handle: Handle) -> Result<&Entry, Refusal> {
         let found = usize::try_from(handle.0 - 1).ok().and_then(|k| self.entries.get(k)?.as_ref());
         found.ok_or_else(|| Refusal(format!("there is no object with the handle {}", handle.0)))
+    }
+
+    /// The entry of a handle that was found.
+    pub(super) fn entry_mut(&mut self, handle: Handle) -> &mut Entry {
+        self.entries[handle.0 as usize - 1].as_mut().expect("it was found")
     }
 
     /// What hangs directly on an object, or on the world; in its order.
@@ -411,64 +471,6 @@ impl Table {
         self.has_stepped.then(|| self.impulse[motor])
     }
 
-    /// Makes a named point on the world.
-    ///
-    /// # Errors
-    ///
-    /// There are too many.
-    pub fn create_dummy(&mut self, name: &str) -> Result<Handle, Refusal> {
-        if self.n_created >= MOST_CREATED {
-            return Err(Refusal(format!("{MOST_CREATED} objects were made already: remove some")));
-        }
-        let handle = self.next_handle();
-        let taken = |name: &str| self.entries().any(|e| e.name == name);
-        let mut new_name = name.to_owned();
-        let mut k = 0;
-        while taken(&new_name) {
-            new_name = format!("{name}{k}");
-            k += 1;
-        }
-        let (path, kind) = (format!("/{new_name}"), Kind::Dummy);
-        self.n_created += 1;
-        self.entries.push(Some(Entry {
-            handle,
-            name: new_name,
-            path,
-            kind,
-            parent: None,
-            frame: WORLD,
-            moving: WORLD,
-        }));
-        Ok(handle)
-    }
-
-    /// Removes a named point that was made by a client or script.
-    ///
-    /// # Errors
-    ///
-    /// There is none, or it belongs to the scene.
-    pub fn remove(&mut self, handle: Handle) -> Result<(), Refusal> {
-        let entry = self.made(handle, "removed")?;
-        let parent = entry.parent;
-        let orphans: Vec<Handle> = self.children(Some(handle)).map(|e| e.handle).collect();
-        for orphan in orphans {
-            self.entries[orphan.0 as usize - 1].as_mut().expect("a child is there").parent = parent;
-        }
-        self.entries[handle.0 as usize - 1] = None;
-        self.n_created -= 1;
-        self.data.retain(|(h, _), _| *h != handle);
-        Ok(())
-    }
-
-    /// The entry of something that was made by a client or script.
-    pub(super) fn made(&mut self, handle: Handle, what: &str) -> Result<&mut Entry, Refusal> {
-        let entry = self.entry(handle)?;
-        if entry.kind != Kind::Dummy {
-            return Err(Refusal(format!("`{}` belongs to the scene: it cannot be {what}", entry.path)));
-        }
-        Ok(self.entries[handle.0 as usize - 1].as_mut().expect("it was found"))
-    }
-
     /// Refuses bytes that would be too many together with those that clients and scripts have stored already.
     ///
     /// # Errors
@@ -528,21 +530,35 @@ impl Table {
         self.integers.forget_run();
         self.floats.forget_run();
         self.strings.forget_run();
+        self.graphs.forget_run();
         self.notes = Notes::default();
         self.has_stepped = false;
+        self.vision.forget();
+        self.reset_looks();
+    }
+
+    /// A step of clients and scripts has been made: vision sensors that are not handled explicitly are handled.
+    pub(crate) fn sense(&mut self, q: &[f64]) {
+        self.vision.handle(q);
     }
 
     /// A run has ended: everything told to joints is as it was `before` it, the rest stays.
     pub(super) fn end_run(&mut self, before: Self) {
         self.joints = before.joints;
         self.held = before.held;
+        (self.motions, self.courses) = (before.motions, before.courses);
+        self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
+        (self.changes, self.passing) = (before.changes, before.passing);
         self.has_stepped = false;
+        let n_before = before.entries.len();
         for (now, then) in self.entries.iter_mut().zip(before.entries) {
             if let (Some(now), Some(then)) = (now.as_mut(), then) {
                 (now.frame, now.moving, now.parent) = (then.frame, then.moving, then.parent);
+                now.kind = then.kind;
             }
         }
+        self.settle_senses(n_before);
     }
 }
 
@@ -551,6 +567,15 @@ pub(super) const WORLD: Attached<f64> = Attached {
     link: None,
     pose: Pose { rot: Mat3([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), pos: Vec3([0.0; 3]) },
 };
+
+/// Mass properties of a body's solids at density 1; none if there are none, or something that is no solid of closed form.
+fn unit_mass(object: &Object) -> Option<MassProperties> {
+    if object.shapes.is_empty() || !object.surfaces.is_empty() {
+        return None;
+    }
+    let parts = object.shapes.iter().map(|s| s.shape.mass_properties(1.0).placed(&s.pose.rot, s.pose.pos));
+    Some(MassProperties::sum(&parts.collect::<Vec<_>>()))
+}
 
 /// The axis of a joint with one coordinate, in its own frame.
 fn axis_of(kind: &JointKind) -> Option<[f64; 3]> {

@@ -33,13 +33,6 @@ pub fn still(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
 /// Pictures of a run, all framed alike, to be files of their own: at most `rate` a simulated second and `most` in all.
 #[must_use]
 pub fn strip(view: &SceneView, tape: &Tape, (rate, most): (f64, usize), size: (f64, f64)) -> Vec<String> {
-    let (Some(start), Some(end)) = (tape.times.first(), tape.times.last()) else { return Vec::new() };
-    let n = (((end - start) * rate) as usize + 1).min(most.max(1));
-    let at = |k: usize| {
-        let t = start + (end - start) * k as f64 / (n.max(2) - 1) as f64;
-        // half a nanosecond of grace: times are sums
-        tape.times.partition_point(|known| *known <= t + 5e-10).max(1) - 1
-    };
     // the whole run is in view from the first picture on
     let mut all = Vec::new();
     for k in (0..tape.n_frames()).step_by(tape.n_frames().div_ceil(200)) {
@@ -52,13 +45,13 @@ pub fn strip(view: &SceneView, tape: &Tape, (rate, most): (f64, usize), size: (f
     let framing = framing(&all, &first, size);
     drop(all);
     let one = |k: usize| {
-        let frame = tape.frame(at(k));
+        let frame = tape.frame(k);
         let picture = paint(&planes(view, frame, whole), &faces(view, frame), &eye(view, frame), (framing, size));
         let (width, height) = size;
         let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"");
         picture.replacen("<svg", &head, 1).replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"#f7f8fa\"/>", 1)
     };
-    (0..n).map(one).collect()
+    tape.spread(rate, most).into_iter().map(one).collect()
 }
 
 /// Everything but planes.

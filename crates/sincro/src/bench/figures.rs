@@ -35,6 +35,8 @@ pub(crate) enum FigureKind {
     Diagram,
     /// What a message of a client and a call of a script cost
     Doors,
+    /// A picture of 256 × 256 pixels of what a camera sees
+    Picture,
     /// A minute of the quadrotor's flight test, controller and recording included
     Flight,
     /// Bytes of one world
@@ -70,6 +72,9 @@ fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
         FigureKind::Step if TOUCHING.contains(&model) => {
             let euler = |scene: &Scene, _| subjects::step(scene, MethodKind::SemiImplicitEuler, false);
             vec![Timed::new("step semi-implicit-euler", &[step("euler")], euler)]
+        }
+        FigureKind::Picture if TOUCHING.contains(&model) => {
+            vec![Timed::new("picture 256 × 256", &[], |scene, _| subjects::picture(scene))]
         }
         _ if TOUCHING.contains(&model) => Vec::new(),
         FigureKind::Step => vec![
@@ -137,7 +142,14 @@ impl<'a> Session<'a> {
     }
 
     fn kinds(&self) -> Vec<FigureKind> {
-        let all = [FigureKind::Step, FigureKind::Rates, FigureKind::Forward, FigureKind::Inverse, FigureKind::Batch];
+        let all = [
+            FigureKind::Step,
+            FigureKind::Rates,
+            FigureKind::Forward,
+            FigureKind::Inverse,
+            FigureKind::Batch,
+            FigureKind::Picture,
+        ];
         all.into_iter().filter(|kind| self.wants(*kind)).collect()
     }
 

@@ -14,6 +14,7 @@ use sincro_dynamics::rnea;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
+use sincro_sim::camera::{Camera, Lens, NOTHING, Optics};
 use sincro_sim::experiment::{ErrorBar, Experiment, Integrator};
 use sincro_sim::rollout::rollout;
 use sincro_sim::run::choose_method;
@@ -58,6 +59,20 @@ pub(super) fn default_experiment(step: f64, duration: f64) -> Experiment {
 /// The method that sincro chooses for a scene at the step of the figures.
 pub(super) fn default_method(scene: &Scene) -> MethodKind {
     choose_method(scene, &default_experiment(STEP, 1.0)).0
+}
+
+/// What a camera beside the robot sees of it at its start: colours, depths and which body.
+pub(super) fn picture(scene: &Scene) -> Subject {
+    let lens = Lens::Perspective(38_f64.to_radians());
+    let optics = Optics { resolution: [256, 256], near: 0.01, far: 100.0, lens };
+    let camera = Camera::looking_at(scene, optics, [1.6, -2.6, 1.6], [0.0, 0.0, 0.7]);
+    let (mut camera, q) = (camera.expect("it stands beside the robot"), scene.initial.q.clone());
+    let seen = camera.look(&q).pieces().iter().filter(|piece| **piece != NOTHING).count();
+    let note = format!("{seen} of 65536 pixels show something");
+    Subject::new(move || {
+        black_box(camera.look(black_box(&q)));
+    })
+    .with_note(note)
 }
 
 /// A world at the scene's start.

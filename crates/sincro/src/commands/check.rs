@@ -189,6 +189,10 @@ fn words(object: &Object) -> String {
             format!("body, {} kg, principal moments {} {} {} kg·m²", short(mass.mass), short(a), short(b), short(c))
         }
         ObjectKind::Joint { motor: Some(_), .. } => format!("{} with motor", object.kind.word()),
+        ObjectKind::Camera { sensor: Some(sensor), .. } => {
+            let [columns, rows] = sensor.optics.resolution;
+            format!("vision sensor, {columns} × {rows} pixels")
+        }
         other => other.word().to_owned(),
     }
 }

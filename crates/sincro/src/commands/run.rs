@@ -9,6 +9,7 @@ use sincro_sim::overrides::Override;
 use sincro_sim::problem::Problems;
 use sincro_sim::results::{self, Override as Setting, VerdictReport};
 use sincro_sim::run::{Campaign, run_campaign};
+use sincro_sim::scene::ObjectKind;
 use sincro_sim::{Loaded, load};
 
 use super::console::{self, Bar};
@@ -46,6 +47,9 @@ pub(crate) struct Arguments {
     /// Write pictures of the run too, as SVG files in `frames`: 30 a simulated second, 1800 at most
     #[arg(long)]
     frames: bool,
+    /// Take the pictures of --frames through this camera of the scene, as PNG files
+    #[arg(long, value_name = "NAME", requires = "frames")]
+    camera: Option<String>,
     /// Print run.json on standard output instead of the summary
     #[arg(long)]
     json: bool,
@@ -61,6 +65,10 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(loaded) => loaded,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };
+    let camera = match arguments.camera.as_deref().map(|name| camera_of(&loaded, name)).transpose() {
+        Ok(camera) => camera,
+        Err(exit) => return exit,
+    };
     let name = scene_name(&arguments.scene);
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
     let job = Job { scene: &arguments.scene, overrides: &overrides, loaded: &loaded, out: &out, up: None };
@@ -74,7 +82,10 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         return diagnostics::refuse_file(&error);
     }
     if arguments.frames
-        && let Err(error) = present::write_frames(&campaign.main, &out)
+        && let Err(error) = match camera {
+            Some(k) => present::write_photographs(&loaded, &campaign.main, k, &out),
+            None => present::write_frames(&campaign.main, &out),
+        }
     {
         return diagnostics::refuse_file(&error);
     }
@@ -85,6 +96,22 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         console::print_summary(&loaded, &campaign, &out);
     }
     verdict(&campaign)
+}
+
+/// The place among the objects of a camera that is named by its path or by the last part of that.
+fn camera_of(loaded: &Loaded, name: &str) -> Result<usize, Exit> {
+    let objects = &loaded.scene.objects;
+    let is_camera = |k: &usize| matches!(objects[*k].kind, ObjectKind::Camera { .. });
+    let cameras: Vec<usize> = (0..objects.len()).filter(is_camera).collect();
+    let found = cameras.iter().find(|k| objects[**k].path == name || objects[**k].name == name);
+    found.copied().ok_or_else(|| {
+        let paths: Vec<&str> = cameras.iter().map(|k| objects[*k].path.as_str()).collect();
+        let help = match paths.as_slice() {
+            [] => "the scene has none: add a [[camera]] to it".to_owned(),
+            _ => format!("cameras here: {}", paths.join(", ")),
+        };
+        diagnostics::refuse(&format!("there is no camera `{name}`"), Some(&help))
+    })
 }
 
 /// What stands after every `--set`.

@@ -20,14 +20,18 @@ const SAME_INSTANT: f64 = 1e-9;
 pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
     let mut figures = sweep_figures(loaded, campaign);
     let plots = &loaded.experiment.plots;
+    let (table, n_streams) = (&campaign.main.simulated.table, campaign.main.simulated.n_streams);
+    let (recorded, streams) = table.columns.split_at(table.columns.len() - n_streams);
     if plots.is_empty() {
-        figures.extend(groups(&campaign.main.simulated.table).iter().map(|names| {
+        figures.extend(groups(recorded).iter().map(|names| {
             let title = group_title(names);
             figure(&title, names, None, Below::default(), campaign)
         }));
     } else {
         figures.extend(plots.iter().map(|plot| asked_for(plot, campaign)));
     }
+    let of_graphs = graphs(streams).into_iter();
+    figures.extend(of_graphs.map(|(title, names)| figure(&title, &names, None, Below::default(), campaign)));
     figures
 }
 
@@ -72,10 +76,24 @@ fn path(plot: &Plot, campaign: &Campaign) -> Figure {
     Figure { title: plot.title.clone(), space: Some(space), ..Figure::default() }
 }
 
-/// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together.
-fn groups(table: &Table) -> Vec<Vec<&str>> {
+/// Streams by their graph and unit, as clients and scripts made them.
+fn graphs(streams: &[Column]) -> Vec<(String, Vec<&str>)> {
+    let mut figures: Vec<(&str, &str, Vec<&str>)> = Vec::new();
+    for column in streams {
+        let graph = column.name.split_once('.').map_or(&*column.name, |(graph, _)| graph);
+        match figures.iter_mut().find(|(g, unit, _)| *g == graph && *unit == column.unit) {
+            Some((.., names)) => names.push(&column.name),
+            None => figures.push((graph, &column.unit, vec![&column.name])),
+        }
+    }
+    let title = |graph: &str| format!("Graph {graph}");
+    figures.into_iter().map(|(graph, _, names)| (title(graph), names)).collect()
+}
+
+/// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together; time is the first column.
+fn groups(columns: &[Column]) -> Vec<Vec<&str>> {
     let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
-    for column in table.columns.iter().skip(1) {
+    for column in columns.iter().skip(1) {
         let key = format!("{} {}", quantity(&column.name), column.unit);
         match groups.iter_mut().find(|(k, names)| *k == key && names.len() < MOST_SIGNALS) {
             Some((_, names)) => names.push(&column.name),

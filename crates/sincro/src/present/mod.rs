@@ -5,6 +5,7 @@ mod figures;
 use std::path::Path;
 
 use sincro_sim::Loaded;
+use sincro_sim::camera::{Camera, png};
 use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
 use sincro_sim::run::{Campaign, Done};
 use sincro_viewer::film::Film;
@@ -52,6 +53,26 @@ pub(crate) fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
     sincro_sim::results::prepare(&folder)?;
     for (k, picture) in sincro_viewer::picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
         write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
+    }
+    Ok(())
+}
+
+/// Writes what a camera of the scene (its place among the objects) saw of a run into `frames` in a results folder, as PNG.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub(crate) fn write_photographs(loaded: &Loaded, done: &Done, camera: usize, out: &Path) -> Result<(), FileError> {
+    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let resolution = [FRAME.0 as usize, FRAME.1 as usize];
+    let Some(mut camera) = Camera::of_scene(&loaded.scene, camera, resolution) else { return Ok(()) };
+    let folder = out.join("frames");
+    sincro_sim::results::prepare(&folder)?;
+    for (n, k) in tape.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
+        let q: Vec<f64> = tape.layout.coordinates(tape.frame(k)).iter().copied().map(f64::from).collect();
+        let image = camera.look(&q);
+        let bytes = png::encode(image.rgb(), image.resolution(), png::Channels::Rgb);
+        file::write_atomically(&folder.join(format!("{:04}.png", n + 1)), &bytes)?;
     }
     Ok(())
 }
@@ -254,6 +275,14 @@ fn settings(campaign: &Campaign) -> Vec<(String, String)> {
     ]);
     for setting in &s.overrides {
         rows.push((format!("set {}", setting.path), setting.value.clone()));
+    }
+    for change in &report.changes {
+        let value = change.value.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
+        let since = if change.t > 0.0 { format!(" from {} s", number(change.t)) } else { String::new() };
+        rows.push((
+            format!("{} of {}", change.quantity.replace('_', " "), change.object),
+            format!("{value}{since}, by a client or script"),
+        ));
     }
     rows.extend([
         ("model hash".to_owned(), report.model_hash.clone()),

@@ -6,6 +6,7 @@ mod arm;
 #[path = "../../../sincro-remote/tests/remote/legacy_client.rs"]
 #[allow(dead_code)]
 mod legacy_client;
+mod movement;
 mod quadrotor;
 mod scripts;
 #[path = "../../../sincro-remote/tests/remote/zmq_client.rs"]

@@ -1,6 +1,7 @@
 //! Shelf: bodies, forces on them, their mass.
 
-use sincro_dynamics::spatial::{Sym3, Vec3};
+use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::spatial::{Pose, Sym3, Vec3};
 
 use super::{Function, Outcome, done, handle, one};
 use crate::session::convention::{matrix_of, pose_of_matrix};
@@ -23,6 +24,22 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "getShapeMassAndInertia",
         tip: "float mass,float[9] inertiaMatrix,float[3] centerOfMass=sim.getShapeMassAndInertia(int shapeHandle,float[12] matrix=nil)",
         run: both,
+    },
+    Function { name: "setShapeMass", tip: "sim.setShapeMass(int shapeHandle,float mass)", run: set_mass },
+    Function {
+        name: "setShapeInertia",
+        tip: "sim.setShapeInertia(int shapeHandle,float[9] inertiaMatrix,float[12] transformationMatrix)",
+        run: set_inertia,
+    },
+    Function {
+        name: "setShapeMassAndInertia",
+        tip: "int result=sim.setShapeMassAndInertia(int shapeHandle,float mass,float[9] inertiaMatrix,float[3] centerOfMass,float[12] matrix=nil)",
+        run: set_both,
+    },
+    Function {
+        name: "computeMassAndInertia",
+        tip: "int result=sim.computeMassAndInertia(int shapeHandle,float density)",
+        run: compute,
     },
     Function {
         name: "isDynamicallyEnabled",
@@ -76,6 +93,54 @@ fn both(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let x_fb = if a.has(1) { pose_of_matrix(&a.reals(1)?).inverse().compose(&x_wb) } else { x_wb };
     let placed = mass.placed(&x_fb.rot, x_fb.pos);
     Ok(vec![Value::Real(mass.mass), nine(placed.inertia), Value::reals(placed.center_of_mass)])
+}
+
+/// V-REP keeps the inertia of a unit of mass: it grows with the mass.
+fn set_mass(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(desk, a)?;
+    let scaled = desk.mass_scaled(own, a.real(1)?)?;
+    desk.set_mass(own, scaled)?;
+    done()
+}
+
+/// Six numbers of a symmetric matrix of nine; the mean of what should be the same, as far as rounding goes.
+fn symmetric(a: Arguments<'_>, k: usize) -> Result<Sym3<f64>, Refusal> {
+    let m: [f64; 9] = a.reals(k)?;
+    let largest = m.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    if let Some((i, j)) = [(1, 3), (2, 6), (5, 7)].into_iter().find(|(i, j)| (m[*i] - m[*j]).abs() > 1e-6 * largest) {
+        return Err(Refusal(format!("the inertia is not symmetric: {} and {}", m[i], m[j])));
+    }
+    let mean = |i: usize, j: usize| 0.5 * (m[i] + m[j]);
+    Ok(Sym3([m[0], mean(1, 3), mean(2, 6), m[4], mean(5, 7), m[8]]))
+}
+
+/// About the centre of mass, which the matrix places in the shape, in the matrix's axes.
+fn set_inertia(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(desk, a)?;
+    let (inertia, at) = (symmetric(a, 1)?, pose_of_matrix(&a.reals(2)?));
+    let mass = desk.mass(own)?.mass;
+    let about = MassProperties { mass, center_of_mass: [0.0; 3], inertia: inertia.0 };
+    desk.set_mass(own, about.placed(&at.rot, at.pos))?;
+    done()
+}
+
+/// Centre of mass and inertia are in the given frame, the world if none is given.
+fn set_both(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(desk, a)?;
+    let (mass, inertia, center_of_mass) = (a.real(1)?, symmetric(a, 2)?.0, a.reals(3)?);
+    let x_wb = desk.pose(own, Reference::World)?;
+    let x_wf = if a.has(4) { pose_of_matrix(&a.reals(4)?) } else { Pose::identity() };
+    let x_bf = x_wb.inverse().compose(&x_wf);
+    let given = MassProperties { mass, center_of_mass, inertia };
+    desk.set_mass(own, given.placed(&x_bf.rot, x_bf.pos))?;
+    one(1_i64)
+}
+
+fn compute(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(desk, a)?;
+    let mass = desk.mass_at_density(own, a.real(1)?)?;
+    desk.set_mass(own, mass)?;
+    one(1_i64)
 }
 
 fn is_dynamic(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {

@@ -55,6 +55,33 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
     Function { name: "setBoolParam", tip: "sim.setBoolParam(int parameter,bool boolState)", run: set_bool },
     Function { name: "getArrayParam", tip: "float[3] arrayOfValues=sim.getArrayParam(int parameter)", run: array },
+    Function { name: "setArrayParam", tip: "sim.setArrayParam(int parameter,float[3] arrayOfValues)", run: set_array },
+    Function {
+        name: "setNamedInt32Param",
+        tip: "sim.setNamedInt32Param(string paramName,int intParam)",
+        run: |d, a| keep_named(d, a, a.int(1)?.to_string()),
+    },
+    Function {
+        name: "getNamedInt32Param",
+        tip: "int intParam=sim.getNamedInt32Param(string paramName)",
+        run: |d, a| Ok(vec![number(d, a)?.map_or(Value::Nil, |x: i64| Value::Int(x))]),
+    },
+    Function {
+        name: "setNamedFloatParam",
+        tip: "sim.setNamedFloatParam(string paramName,float floatParam)",
+        run: |d, a| keep_named(d, a, format!("{:?}", a.real(1)?)),
+    },
+    Function {
+        name: "getNamedFloatParam",
+        tip: "float floatParam=sim.getNamedFloatParam(string paramName)",
+        run: |d, a| Ok(vec![number(d, a)?.map_or(Value::Nil, |x: f64| Value::Real(x))]),
+    },
+    Function {
+        name: "persistentDataWrite",
+        tip: "sim.persistentDataWrite(string dataTag,buffer dataValue,int options=0)",
+        run: set_named,
+    },
+    Function { name: "persistentDataRead", tip: "buffer dataValue=sim.persistentDataRead(string dataTag)", run: named },
     Function {
         name: "getStringParam",
         tip: "string stringState=sim.getStringParam(int parameter)",
@@ -115,8 +142,25 @@ fn array(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     super::list(desk.array_parameter(a.int(0)?)?)
 }
 
+fn set_array(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.set_array_parameter(a.int(0)?, a.reals(1)?)?;
+    done()
+}
+
+/// Named numbers are kept as text: all kinds share their names.
+fn number<T: std::str::FromStr>(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Option<T>, crate::session::Refusal> {
+    let name = a.text(0)?;
+    let Some(bytes) = desk.table.named.get(name) else { return Ok(None) };
+    let text = std::str::from_utf8(bytes).ok().and_then(|text| text.trim().parse().ok());
+    text.map(Some).ok_or_else(|| crate::session::Refusal(format!("the parameter `{name}` is no such number")))
+}
+
 fn set_named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (name, bytes) = (a.text(0)?, a.bytes(1)?);
+    keep_named(desk, a, a.bytes(1)?)
+}
+
+fn keep_named(desk: &mut Desk<'_>, a: Arguments<'_>, bytes: impl AsRef<[u8]>) -> Outcome {
+    let (name, bytes) = (a.text(0)?, bytes.as_ref());
     if desk.table.named.len() >= 1_000 && !desk.table.named.contains_key(name) {
         return Err(crate::session::Refusal::new("there are 1000 named parameters already"));
     }

@@ -10,8 +10,13 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "eraseEnvironment", tip: "simIK.eraseEnvironment(int environmentHandle)", run: erase },
     Function {
         name: "createGroup",
-        tip: "int groupHandle=simIK.createGroup(int environmentHandle)",
+        tip: "int groupHandle=simIK.createGroup(int environmentHandle,string groupName='')",
         run: create_group,
+    },
+    Function {
+        name: "getGroupHandle",
+        tip: "int groupHandle=simIK.getGroupHandle(int environmentHandle,string groupName)",
+        run: |d, a| one(d.group_of_name(Some(a.int(0)?), a.text(1)?)?.1),
     },
     Function {
         name: "setGroupCalculation",
@@ -72,10 +77,11 @@ pub(super) const OLD: &[(&str, &str)] = &[
     ("setIkElementPrecision", "setElementPrecision"),
     ("setIkElementWeights", "setElementWeights"),
     ("handleIkGroup", "handleGroup"),
+    ("getIkGroupHandle", "getGroupHandle"),
 ];
 
-const NOT_WITHIN_TOLERANCE: i64 = 16;
-const LIMIT_HIT: i64 = 64;
+pub(super) const NOT_WITHIN_TOLERANCE: i64 = 16;
+pub(super) const LIMIT_HIT: i64 = 64;
 
 /// Precision that an element begins with `[m]`, `[rad]`: CoppeliaSim's half a millimetre and a tenth of a degree.
 const PRECISION: [f64; 2] = [0.0005, 0.1 * std::f64::consts::PI / 180.0];
@@ -90,7 +96,7 @@ fn erase(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn create_group(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(desk.create_group(a.int(0)?)? as i64)
+    one(desk.create_group(a.int(0)?, if a.has(1) { a.text(1)? } else { "" })? as i64)
 }
 
 fn calculation(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {

@@ -20,7 +20,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
     Function {
         name: "setJointTargetVelocity",
-        tip: "sim.setJointTargetVelocity(int objectHandle,float targetVelocity)",
+        tip: "sim.setJointTargetVelocity(int objectHandle,float targetVelocity,float[] motionParams={})",
         run: set_target_velocity,
     },
     Function {
@@ -30,7 +30,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
     Function {
         name: "setJointTargetPosition",
-        tip: "sim.setJointTargetPosition(int objectHandle,float targetPosition)",
+        tip: "sim.setJointTargetPosition(int objectHandle,float targetPosition,float[] motionParams={})",
         run: set_target_position,
     },
     Function {
@@ -56,6 +56,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: interval,
     },
     Function {
+        name: "setJointInterval",
+        tip: "sim.setJointInterval(int objectHandle,bool cyclic,float[2] interval)",
+        run: set_interval,
+    },
+    Function {
+        name: "setJointDependency",
+        tip: "sim.setJointDependency(int jointHandle,int masterJointHandle,float offset,float multCoeff)",
+        run: set_dependency,
+    },
+    Function {
         name: "getJointDependency",
         tip: "int masterJointHandle,float offset,float multCoeff=sim.getJointDependency(int jointHandle)",
         run: dependency,
@@ -73,6 +83,15 @@ fn set_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     done()
 }
 
+/// Limits within which a target is to go there, if they are given.
+fn limits<const N: usize>(a: Arguments<'_>, what: &str) -> Result<Option<[f64; N]>, Refusal> {
+    match a.get(2) {
+        Value::Nil => Ok(None),
+        Value::List(list) if list.is_empty() => Ok(None),
+        _ => a.reals(2).map(Some).map_err(|Refusal(why)| Refusal(format!("{why}: {what}"))),
+    }
+}
+
 fn velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
     one(desk.joint_velocity(own)?)
@@ -85,7 +104,10 @@ fn target_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 
 fn set_target_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
-    desk.set_target_velocity(own, a.real(1)?)?;
+    match limits(a, "largest acceleration and jerk")? {
+        Some(limits) => desk.go_to_velocity(own, a.real(1)?, limits)?,
+        None => desk.set_target_velocity(own, a.real(1)?)?,
+    }
     done()
 }
 
@@ -96,7 +118,10 @@ fn target_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 
 fn set_target_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
-    desk.set_target_position(own, a.real(1)?)?;
+    match limits(a, "largest velocity, acceleration and jerk")? {
+        Some(limits) => desk.go_to_position(own, a.real(1)?, limits)?,
+        None => desk.set_target_position(own, a.real(1)?)?,
+    }
     done()
 }
 
@@ -136,6 +161,33 @@ fn interval(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
     let (is_cyclic, range) = desk.joint_interval(own)?;
     Ok(vec![Value::Bool(is_cyclic), Value::reals(range)])
+}
+
+/// A lower limit and a range, as V-REP has it.
+fn set_interval(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    if a.bool_or(1, false)? {
+        return match desk.joint_interval(own)? {
+            (true, _) => done(),
+            _ => Err(Refusal::new("stops are moved, not taken away: leave `limits` out in the scene")),
+        };
+    }
+    let [lower, range]: [f64; 2] = a.reals(2)?;
+    desk.set_joint_interval(own, lower, lower + range)?;
+    done()
+}
+
+fn set_dependency(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    if a.handle(1)? == -1 {
+        return match desk.joint_dependency(own)? {
+            None => done(),
+            Some(_) => Err(Refusal::new("a coupling of the scene is changed, not taken away")),
+        };
+    }
+    let master = handle(desk, a, 1)?;
+    desk.set_joint_dependency(own, master, (a.real(2)?, a.real(3)?))?;
+    done()
 }
 
 /// A joint that follows none has no master, offset 0 and factor 1.

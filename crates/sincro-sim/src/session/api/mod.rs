@@ -6,17 +6,31 @@
 
 mod absent;
 mod bodies;
+mod buffers;
+mod collections;
 mod control;
+mod distances;
+mod fields;
+mod graphs;
 pub mod ik;
+mod ik_groups;
+mod images;
 mod joints;
+mod motions;
+mod moves;
 mod names;
 mod objects;
 mod paths;
 mod poses;
 mod rotations;
+mod sensing;
+mod shapes;
 mod signals;
 mod touching;
 mod transforms;
+mod vision;
+mod waiting;
+mod windows;
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -26,6 +40,8 @@ use super::{Arguments, Desk, Handle, Reference, Refusal, Value};
 
 pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
+pub use waiting::{MOVES, Move};
+pub use windows::is_for_show;
 
 /// What a function gives.
 pub type Outcome = Result<Vec<Value>, Refusal>;
@@ -53,6 +69,18 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         signals::FUNCTIONS,
         touching::FUNCTIONS,
         paths::FUNCTIONS,
+        graphs::FUNCTIONS,
+        ik_groups::FUNCTIONS,
+        buffers::FUNCTIONS,
+        windows::FUNCTIONS,
+        motions::FUNCTIONS,
+        moves::FUNCTIONS,
+        vision::FUNCTIONS,
+        images::FUNCTIONS,
+        sensing::FUNCTIONS,
+        distances::FUNCTIONS,
+        collections::FUNCTIONS,
+        shapes::FUNCTIONS,
     ];
     shelves.into_iter().flatten()
 }

@@ -85,6 +85,27 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "sim.setObjectFloatParam(int objectHandle,int parameterID,float parameter)",
         run: set_float,
     },
+    Function { name: "setObjectAlias", tip: "sim.setObjectAlias(int objectHandle,string objectAlias)", run: rename },
+    Function {
+        name: "setObjectName",
+        tip: "int result=sim.setObjectName(int objectHandle,string objectName)",
+        run: |d, a| rename(d, a).and_then(|_| one(1_i64)),
+    },
+    Function {
+        name: "setObjectProperty",
+        tip: "int result=sim.setObjectProperty(int objectHandle,int property)",
+        run: set_property,
+    },
+    Function {
+        name: "getObjectSpecialProperty",
+        tip: "int property=sim.getObjectSpecialProperty(int objectHandle)",
+        run: property,
+    },
+    Function {
+        name: "getExtensionString",
+        tip: "string theString=sim.getExtensionString(int objectHandle,int index,string key=nil)",
+        run: |_, _| one(""),
+    },
     Function { name: "getObjectProperty", tip: "int property=sim.getObjectProperty(int objectHandle)", run: property },
     Function { name: "getModelProperty", tip: "int property=sim.getModelProperty(int objectHandle)", run: property },
     Function {
@@ -110,17 +131,19 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 impl Desk<'_> {
-    /// The number of an object's type: 0 shapes, 1 joints, 4 points.
+    /// The number of an object's type: 0 shapes, 1 joints, 4 points, 9 vision sensors, 12 force sensors.
     #[must_use]
     pub fn type_of(&self, entry: &Entry) -> i64 {
         match entry.kind {
-            Kind::Body(_) => 0,
+            Kind::Body(_) | Kind::Shape => 0,
+            Kind::Proximity => 5,
             Kind::Joint(Some(_)) => 1,
             // a ball joint is V-REP's spherical one; what V-REP does not have is a point to it
             Kind::Joint(None) if is_ball(self, entry) => 1,
             // a rotor is the joint that would turn it
             Kind::Rotor(_) => 1,
             Kind::ForceSensor(_) => 12,
+            Kind::Vision(_) => 9,
             _ => 4,
         }
     }
@@ -256,18 +279,18 @@ fn create_dummy(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 
 fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
-    desk.table.remove(own)?;
+    desk.remove(own)?;
     one(1_i64)
 }
 
-/// Copies of points that were made by clients or scripts; what belongs to the scene is not copied.
+/// Copies of what was made by clients or scripts; what belongs to the scene is not copied.
 fn copy(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let copies = handles(a, 0)?.into_iter().map(|handle| desk.copy(handle));
     Ok(vec![Value::handles(copies.collect::<Result<Vec<_>, _>>()?)])
 }
 
 /// A list of handles.
-fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, Refusal> {
+pub(super) fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, Refusal> {
     let wrong = || Refusal(format!("argument {} is no list of handles", k + 1));
     let Value::List(list) = a.get(k) else { return Err(wrong()) };
     let handles = list.iter().map(|v| v.as_int().and_then(|h| i32::try_from(h).ok()).map(Handle));
@@ -276,7 +299,7 @@ fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, Refusal> {
 
 fn remove_all(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     for handle in handles(a, 0)? {
-        desk.table.remove(handle)?;
+        desk.remove(handle)?;
     }
     done()
 }
@@ -306,6 +329,19 @@ fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 fn property(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     handle(desk, a, 0)?;
     one(0_i64)
+}
+
+/// Properties say what a window shows and lets be selected: taken, and of no effect.
+fn set_property(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    handle(desk, a, 0)?;
+    a.int(1)?;
+    one(1_i64)
+}
+
+fn rename(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    desk.table.rename(own, a.text(1)?)?;
+    done()
 }
 
 fn read_data(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {

@@ -3,7 +3,7 @@
 use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::{Function, Outcome, done, handle, list, reference, setter};
-use crate::session::{Arguments, Desk, Handle, Reference, Refusal, Value, convention};
+use crate::session::{Arguments, Desk, Handle, Kind, Reference, Refusal, Value, convention};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -60,6 +60,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "getJointMatrix",
         tip: "float[12] matrix=sim.getJointMatrix(int objectHandle)",
         run: joint_matrix,
+    },
+    Function {
+        name: "setObjectChildPose",
+        tip: "sim.setObjectChildPose(int objectHandle,float[7] pose)",
+        run: set_child_pose,
     },
     Function {
         name: "getObjectChildPose",
@@ -147,6 +152,17 @@ fn set_matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 fn joint_matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(desk, a, 0)?;
     list(convention::matrix_of(&desk.joint_pose(own)?))
+}
+
+/// Against the parent; the one of a joint is its position, which is set otherwise.
+fn set_child_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(desk, a, 0)?;
+    if matches!(desk.table.entry(own)?.kind, Kind::Joint(_) | Kind::ForceSensor(_) | Kind::Rotor(_)) {
+        return Err(Refusal::new("the pose of a joint is its position: use sim.setJointPosition"));
+    }
+    let pose = convention::pose_of_seven(a.reals(1)?).ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
+    desk.set_pose(own, &pose, Reference::Parent)?;
+    done()
 }
 
 fn child_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {

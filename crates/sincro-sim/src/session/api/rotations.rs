@@ -32,7 +32,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// Axis times angle `[rad]` of a rotation, the shorter way round.
-fn rotation_vector(rot: &Mat3<f64>) -> Vec3<f64> {
+pub(super) fn rotation_vector(rot: &Mat3<f64>) -> Vec3<f64> {
     let q = Quat::from_matrix(rot);
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
     let sine = q.xyz.norm();

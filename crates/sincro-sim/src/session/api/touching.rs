@@ -11,11 +11,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: contact,
     },
     Function {
-        name: "checkCollision",
-        tip: "int result,int[2] collidingObjectHandles=sim.checkCollision(int entity1Handle,int entity2Handle)",
-        run: collision,
-    },
-    Function {
         name: "readForceSensor",
         tip: "int result,float[3] forceVector,float[3] torqueVector=sim.readForceSensor(int objectHandle)",
         run: force_sensor,
@@ -54,17 +49,6 @@ fn contact(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
             let vectors = [touch.point, touch.force, touch.normal].map(|v| Value::reals(v.0));
             [Value::handles(touch.bodies)].into_iter().chain(vectors).collect()
         },
-    ))
-}
-
-/// Whether two bodies press on each other now.
-fn collision(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (first, second) = (entity(desk, a, 0)?, entity(desk, a, 1)?);
-    let touches = desk.touches();
-    let found = touches.iter().find(|touch| is_of(touch, first) && is_of(touch, second));
-    Ok(found.map_or_else(
-        || vec![Value::Int(0), Value::List(Vec::new())],
-        |touch| vec![Value::Int(1), Value::handles(touch.bodies)],
     ))
 }
 

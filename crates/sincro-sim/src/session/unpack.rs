@@ -1,6 +1,6 @@
-//! Tables from bytes: the part of CBOR (RFC 8949) that [`sincro_sim::session::cbor`] writes.
+//! Tables from bytes: the part of CBOR (RFC 8949) that [`super::cbor`] writes.
 
-use sincro_sim::session::Value;
+use super::Value;
 
 /// Lists and maps inside each other beyond which bytes are refused.
 const MAX_DEPTH: usize = 64;
@@ -10,7 +10,7 @@ const MAX_DEPTH: usize = 64;
 /// # Errors
 ///
 /// They are no table that was packed here, or something follows it.
-pub(crate) fn read(bytes: &[u8]) -> Result<Value, String> {
+pub(super) fn read(bytes: &[u8]) -> Result<Value, String> {
     let mut reader = Reader { rest: bytes };
     let value = reader.value(0)?;
     if reader.rest.is_empty() { Ok(value) } else { Err(format!("{} bytes follow the packed table", reader.rest.len())) }
@@ -79,8 +79,7 @@ impl<'a> Reader<'a> {
 
 #[cfg(test)]
 mod tests {
-    use sincro_sim::session::cbor::encode;
-
+    use super::super::cbor::encode;
     use super::*;
 
     #[test]

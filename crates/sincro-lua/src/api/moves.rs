@@ -1,0 +1,59 @@
+//! Functions that move something and wait until it is there, and their single steps with functions to call back: `moves.lua`, over the session's own.
+
+use mlua::{Error, Function, MultiValue, Table};
+use sincro_sim::session::{Refusal, api};
+
+use super::Shelf;
+use crate::convert;
+use crate::sandbox::Waits;
+
+pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
+    let lua = shelf.lua;
+    let host = lua.create_table()?;
+    let names = lua.create_table()?;
+    for (name, _, this) in api::MOVES {
+        names.set(*name, this.stem())?;
+        if !host.contains_key(this.stem())? {
+            let steps = lua.create_table()?;
+            for step in ["init", "step", "cleanup"] {
+                let own: Function = shelf.sim.get(format!("{}_{step}", this.stem()))?;
+                steps.set(step, own)?;
+            }
+            host.set(this.stem(), steps)?;
+        }
+    }
+    host.set("names", names)?;
+    host.set("switch", &waits.switch)?;
+    let stepping: Function = shelf.sim.get("setStepping")?;
+    host.set("stepping", stepping)?;
+    let coroutine: Table = lua.globals().get("coroutine")?;
+    let yieldable: Function = coroutine.get("isyieldable")?;
+    host.set("yieldable", yieldable)?;
+    let (shared, own) = (shelf.shared.clone(), shelf.own);
+    let parameters = lua.create_function(move |lua, (name, given): (String, MultiValue)| {
+        let this = known(&name)?;
+        let given = convert::list_from_lua(given).map_err(|error| super::named(&name, error))?;
+        let map = shared.with_desk(own, |desk| this.parameters(desk, &given));
+        convert::to_lua(lua, &map.map_err(|refusal: Refusal| super::refused(&name, &refusal))?)
+    })?;
+    host.set("parameters", parameters)?;
+    let results = lua.create_function(move |lua, (name, data): (String, mlua::Value)| {
+        let values = known(&name)?.results(&convert::from_lua(data)?);
+        convert::list_to_lua(lua, &values)
+    })?;
+    host.set("results", results)?;
+    let functions: Table = lua.load(include_str!("../moves.lua")).set_name("=sincro").call(host)?;
+    for pair in functions.pairs::<String, Function>() {
+        let (name, function) = pair?;
+        shelf.put(&name, function.clone())?;
+        // as V-REP wrote them
+        if let Some(rest) = name.strip_prefix("rml") {
+            lua.globals().set(format!("simRML{rest}"), function)?;
+        }
+    }
+    Ok(())
+}
+
+fn known(name: &str) -> mlua::Result<api::Move> {
+    api::Move::of(name).ok_or_else(|| Error::RuntimeError(format!("there is no motion sim.{name}")))
+}

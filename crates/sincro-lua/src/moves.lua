@@ -1,0 +1,107 @@
+-- Motions that wait: what the session knows of one step (`host.init`, `step`, `cleanup` of each) goes on from step to step of the thread that calls.
+-- Callbacks and their data stay here: functions cannot leave the script.
+local host = ...
+local callbacks = setmetatable({}, { __mode = 'k' })
+local forms = {}
+
+-- a copy without what stays here
+local function plain(t)
+  local copy = {}
+  for k, v in pairs(t) do
+    if k ~= 'callback' and k ~= 'auxData' then copy[k] = v end
+  end
+  return copy
+end
+
+for _, stem in ipairs { 'moveToConfig', 'moveToPose' } do
+  local raw = host[stem]
+  local form = {}
+  forms[stem] = form
+
+  function form.init(params)
+    if type(params) ~= 'table' then error('a table of parameters is expected (in function \'sim.' .. stem .. '_init\')', 2) end
+    local callback = params.callback
+    if type(callback) == 'string' then
+      if type(_G[callback]) ~= 'function' then error('there is no function `' .. callback .. '` to call back', 2) end
+      callback = _G[callback]
+    end
+    local data = raw.init(plain(params))
+    data.auxData = params.auxData
+    callbacks[data] = callback
+    return data
+  end
+
+  function form.step(data)
+    local callback, aux = callbacks[data], data.auxData
+    local result, now = raw.step(plain(data), callback ~= nil)
+    for k, v in pairs(now) do data[k] = v end
+    if callback then
+      local stop
+      if data.legacyFunc then
+        local place = data.pos
+        if data.pose then place = data.useMatrices and data.matrix or data.pose end
+        stop = callback(place, data.vel, data.accel, aux)
+      else
+        stop = callback(data)
+      end
+      if stop then result = 2 end
+    end
+    return result, data
+  end
+
+  function form.cleanup(data)
+    callbacks[data] = nil
+    if data.ruckigObj then raw.cleanup(plain(data)) end
+    data.ruckigObj, data.ik = nil, nil
+  end
+end
+
+-- callback and data of the older forms, by their places
+local places = { moveToConfig = { 10, 11 }, moveToPose = { 7, 8 } }
+
+local function waiting(name, stem)
+  local form = forms[stem]
+  return function(...)
+    if not host.yieldable() then
+      error('sim.' .. name .. ' waits for the simulation: call it in a thread (sysCall_thread), or use sim.' .. stem
+        .. '_init, _step and _cleanup', 2)
+    end
+    local given, n = { ... }, select('#', ...)
+    local callback, aux
+    if type(given[1]) == 'table' and places[name] then
+      callback, aux = given[1].callback, given[1].auxData
+      given = { plain(given[1]) }
+      n = 1
+    elseif places[name] then
+      callback, aux = given[places[name][1]], given[places[name][2]]
+      given[places[name][1]], given[places[name][2]] = nil, nil
+    end
+    local params = host.parameters(name, table.unpack(given, 1, n))
+    params.callback, params.auxData = callback, aux
+    local level = host.stepping(true)
+    local data = form.init(params)
+    local result
+    repeat
+      result = form.step(data)
+      host.switch()
+    until result ~= 0
+    form.cleanup(data)
+    host.stepping(level)
+    data.auxData = nil
+    local results = table.pack(host.results(name, data))
+    if results.n == 1 and type(results[1]) == 'table' and not data.legacyFunc then
+      data.auxData = aux
+      return data
+    end
+    return table.unpack(results, 1, results.n)
+  end
+end
+
+local functions = {}
+for stem, form in pairs(forms) do
+  functions[stem .. '_init'] = form.init
+  functions[stem .. '_step'] = form.step
+  functions[stem .. '_cleanup'] = form.cleanup
+end
+for name, stem in pairs(host.names) do functions[name] = waiting(name, stem) end
+return functions

@@ -1,0 +1,59 @@
+//! Proximity sensors and distances in scripts: the law of `stop-at-wall` in Lua gives the bits of its diagram.
+
+use std::path::PathBuf;
+
+use sincro_sim::load;
+use sincro_sim::results::Status;
+
+use super::world::{folder, run};
+
+const LAW: &str = r#"
+function sysCall_init()
+    nose, rail = sim.getObject('./nose'), sim.getObject('..')
+    robot = sim.createCollection(0)
+    sim.addItemToCollection(robot, sim.handle_tree, rail, 0)
+    wall = sim.getObject('/wall')
+end
+
+function sysCall_actuation()
+    local result, d = sim.readProximitySensor(nose)
+    if result < 1 then d = 1.5 end
+    local speed = math.min(math.max(2.03 * (d - 0.3), 0), 0.5)
+    sim.setJointTargetVelocity(rail, math.floor(speed * 1024 + 0.5) / 1024)
+end
+
+function sysCall_sensing()
+    -- the sensors were handled before: what they saw is where things are now
+    local result, d, point, object, normal = sim.readProximitySensor(nose)
+    local near, data, pair = sim.checkDistance(robot, wall)
+    assert(near == 1 and pair[2] == wall)
+    if result == 1 then
+        assert(object == wall and normal[3] == -1 and math.abs(data[7] - d) < 1e-12 and math.abs(point[3] - d) < 1e-12)
+    else
+        assert(result == 0 and d == nil and data[7] > 1.5 - 1e-9)
+    end
+end
+"#;
+
+#[test]
+fn the_cart_stops_before_the_wall_by_a_script_with_the_same_bits() {
+    sincro_lua::install();
+    let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/stop-at-wall");
+    let by_diagram = run(&load(&scene, &[]).unwrap_or_else(|p| panic!("{p}"))).trace;
+    let read = |name: &str| std::fs::read_to_string(scene.join(name)).unwrap();
+    let with_script = format!("{}\n[[script]]\nobject = \"/rail/cart\"\ncode = '''{LAW}'''\n", read("scene.toml"));
+    // a script wins over the diagram: one that drives backwards
+    let diagram = read("stop.toml").replace("upper = \"v_max\"", "upper = 0.0");
+    let (experiment, reference) = (read("experiment.toml"), read("reference.csv"));
+    let files = [
+        ("scene.toml", with_script.as_str()),
+        ("stop.toml", diagram.as_str()),
+        ("experiment.toml", experiment.as_str()),
+        ("reference.csv", reference.as_str()),
+    ];
+    let folder = folder(&files);
+    let scripted = run(&load(&folder, &[]).unwrap_or_else(|p| panic!("{p}")));
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(scripted.status, Status::Completed, "{:?}", scripted.messages);
+    assert_eq!(scripted.trace, by_diagram);
+}

@@ -1,0 +1,221 @@
+//! Arguments right and wrong for every name that a client may call, whatever the door.
+
+use sincro_sim::session::Value;
+
+use super::zmq_client::map;
+
+/// What starts and stops runs is tried elsewhere: here one is to go on.
+pub const ELSEWHERE: [&str; 5] = ["startSimulation", "stopSimulation", "closeScene", "loadScene", "pauseSimulation"];
+
+/// Functions that need what is not here: a script, sensors, bodies that touch, stops, couplings, groups, a motion, mesh
+/// files, a simulation that stands still.
+pub const NEEDS_MORE: [&str; 22] = [
+    "setFloatParam",
+    "setJointDependency",
+    "getContactInfo",
+    "readForceSensor",
+    "getIkGroupHandle",
+    "handleIkGroup",
+    "checkIkGroup",
+    "moveToConfig_step",
+    "moveToConfig_cleanup",
+    "moveToPose_step",
+    "moveToPose_cleanup",
+    "importShape",
+    "importMesh",
+    "loadModel",
+    "callScriptFunction",
+    "executeScriptString",
+    "moveToConfig",
+    "moveToPose",
+    "rmlMoveToJointPositions",
+    "rmlMoveToPosition",
+    "setFloatingParameter",
+    "setFloatParameter",
+];
+
+/// Objects to call functions with.
+pub struct Things {
+    pub joint: Value,
+    pub body: Value,
+    pub eye: Value,
+    pub made: Made,
+}
+
+/// What is made anew for each name, because some names remove it.
+pub struct Made {
+    point: Value,
+    shapes: [Value; 2],
+    sensor: Value,
+    collection: Value,
+    motion: Value,
+}
+
+impl Made {
+    /// By a function that calls functions by name.
+    pub fn new(mut make: impl FnMut(&str, &[Value]) -> Value) -> Self {
+        let point = make("sim.createDummy", &[Value::Real(0.01)]);
+        let box_ = [Value::Int(3), Value::reals([0.1, 0.2, 0.3])];
+        let shapes = [(); 2].map(|()| make("sim.createPrimitiveShape", &box_));
+        let sensor = make("sim.createProximitySensor", &sensor_arguments());
+        let collection = make("sim.createCollection", &[Value::Int(0)]);
+        Self { point, shapes, sensor, collection, motion: make("sim.ruckigPos", &motion_arguments()) }
+    }
+}
+
+/// A proximity sensor that is a ray of 1 m.
+fn sensor_arguments() -> Vec<Value> {
+    let numbers = Value::reals([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    vec![Value::Int(34), Value::Int(16), Value::Int(0), Value::List(vec![Value::Int(0); 8]), numbers]
+}
+
+/// A motion of one number.
+fn motion_arguments() -> Vec<Value> {
+    let three = || Value::reals([0.1, 0.2, 0.3]);
+    let target = [Value::reals([1.0]), Value::reals([1.0, 0.0])];
+    [Value::Int(1), Value::Real(1e-4), Value::Int(-1), three(), three()].into_iter().chain(target).collect()
+}
+
+/// Arguments that fit where none of the others do.
+pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
+    let Things { joint, body, eye, made: Made { point, shapes: [shape, other], sensor, collection, motion } } = things;
+    let three = || Value::reals([0.1, 0.2, 0.3]);
+    let turn = || Value::reals([0.0, 0.0, 0.0, 1.0]);
+    let pose = || Value::reals([1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0]);
+    let matrix = || Value::reals([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    let nine = || Value::reals([0.1, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0, 0.1]);
+    let (int, text) = (Value::Int, || Value::from("tag"));
+    Some(match name {
+        "getObject" | "getObjectHandle" | "getGraphHandle" => vec![Value::from("/ball")],
+        "getObjectChild" => vec![joint.clone(), int(0)],
+        "readCustomDataBlock" => vec![joint.clone(), text()],
+        "writeCustomDataBlock" => vec![joint.clone(), text(), Value::Bytes(vec![1])],
+        "getScriptSimulationParameter" => vec![joint.clone(), text()],
+        "setScriptSimulationParameter" => vec![joint.clone(), text(), text()],
+        "setObjectParent" => vec![point.clone(), int(-1), Value::Bool(true)],
+        "checkDistance" | "checkCollision" => vec![body.clone(), int(-2)],
+        "createPrimitiveShape" => vec![int(3), three()],
+        "createPureShape" => vec![int(0), int(16), three(), Value::Real(1.0)],
+        "createMeshShape" | "createShape" => {
+            vec![
+                int(0),
+                Value::Real(0.0),
+                Value::reals([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
+                Value::List(vec![int(0), int(1), int(2)]),
+            ]
+        }
+        "createHeightfieldShape" => {
+            vec![int(0), Value::Real(0.0), int(2), int(2), Value::Real(1.0), Value::reals([0.0, 0.1, 0.0, 0.1])]
+        }
+        "createProximitySensor" => sensor_arguments(),
+        "checkProximitySensor" => vec![sensor.clone(), int(-2)],
+        "checkProximitySensorEx" => vec![sensor.clone(), int(-2), int(1), Value::Real(0.0), Value::Real(0.0)],
+        _ if name.ends_with("ProximitySensor") => vec![sensor.clone()],
+        "addItemToCollection" => vec![collection.clone(), int(-8), body.clone(), int(0)],
+        "addObjectToCollection" => vec![collection.clone(), body.clone(), int(-8), int(0)],
+        "emptyCollection" | "removeCollection" | "destroyCollection" | "getCollectionObjects" => {
+            vec![collection.clone()]
+        }
+        "groupShapes" => vec![Value::List(vec![shape.clone(), other.clone()])],
+        "ungroupShape" => vec![shape.clone()],
+        "scaleObject" => vec![shape.clone(), Value::Real(2.0), Value::Real(2.0), Value::Real(2.0)],
+        "scaleObjects" => vec![Value::List(vec![shape.clone()]), Value::Real(0.5), Value::Bool(true)],
+        "setShapeColor" => vec![shape.clone(), Value::Nil, int(0), three()],
+        "setObjectColor" => vec![shape.clone(), int(0), int(0), three()],
+        "copyPasteObjects" | "removeObjects" => vec![Value::List(vec![point.clone()])],
+        "removeObject" => vec![point.clone()],
+        "setObjectQuaternion" => vec![body.clone(), int(-1), turn()],
+        "setObjectPose" => vec![body.clone(), pose(), int(-1)],
+        "setObjectMatrix" => vec![body.clone(), int(-1), matrix()],
+        "buildMatrix" | "buildPose" => vec![three(), three()],
+        "buildMatrixQ" => vec![three(), turn()],
+        "rotateAroundAxis" => vec![matrix(), three(), three(), Value::Real(0.1)],
+        "setJointInterval" | "setJointDependency" => return None,
+        "setShapeMass" => vec![body.clone(), Value::Real(2.0)],
+        "computeMassAndInertia" => vec![body.clone(), Value::Real(1000.0)],
+        "setShapeInertia" => vec![body.clone(), nine(), matrix()],
+        "setShapeMassAndInertia" => vec![body.clone(), Value::Real(2.0), nine(), three()],
+        "addGraphStream" => vec![body.clone(), text(), text()],
+        "setGraphStreamValue" => vec![body.clone(), int(1), Value::Real(0.5)],
+        "setGraphStreamTransformation" => vec![body.clone(), int(1), int(0), Value::Real(2.0)],
+        "setGraphUserData" => vec![body.clone(), text(), Value::Real(0.5)],
+        "addGraphCurve" => vec![body.clone(), text()],
+        "resetGraph" | "handleGraph" => vec![body.clone(), Value::Real(0.0)],
+        "setArrayParam" | "setArrayParameter" => vec![int(0), Value::reals([0.0, 0.0, -9.81])],
+        "setObjectAlias" | "setObjectName" => vec![point.clone(), text()],
+        "setObjectChildPose" => vec![body.clone(), pose()],
+        "setJointMode" => vec![joint.clone(), int(5), int(0)],
+        "addForceAndTorque" | "addForce" => vec![body.clone(), three(), three()],
+        "getShapeMassAndInertia" => vec![body.clone(), matrix()],
+        "getPathInterpolatedConfig" => vec![Value::reals([0.0, 1.0]), Value::reals([0.0, 1.0]), Value::Real(0.5)],
+        "unpackTable" => vec![Value::Bytes(vec![0xf6])],
+        _ if name.starts_with("unpack") => vec![Value::Bytes(vec![1; 8])],
+        "createVisionSensor" => {
+            let lens = [0.01, 10.0, 1.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            vec![int(2), Value::reals([2.0, 2.0, 0.0, 0.0]), Value::reals(lens)]
+        }
+        "transformImage" => vec![Value::Bytes(vec![1; 12]), Value::reals([2.0, 2.0]), int(6)],
+        "getScaledImage" => {
+            vec![Value::Bytes(vec![1; 12]), Value::reals([2.0, 2.0]), Value::reals([3.0, 5.0]), int(0)]
+        }
+        "saveImage" => {
+            vec![Value::Bytes(vec![1; 12]), Value::reals([2.0, 2.0]), int(0), Value::from(".png"), int(-1)]
+        }
+        "transformBuffer" => vec![Value::Bytes(vec![1; 12]), int(0), Value::Real(2.0), Value::Real(0.5), int(6)],
+        _ if name.starts_with("setVisionSensor") => vec![eye.clone(), Value::Bytes(vec![9; 3 * 16 * 12])],
+        _ if name.starts_with("checkVisionSensor") => vec![eye.clone(), body.clone(), Value::Bool(false)],
+        _ if name.contains("VisionSensor") => vec![eye.clone()],
+        "getExplicitHandling" | "setExplicitHandling" => vec![eye.clone(), int(0)],
+        "wait" => vec![Value::Real(0.05)],
+        "moveToConfig_init" => vec![map(&[("pos", Value::reals([0.0])), ("targetPos", Value::reals([1.0]))])],
+        "moveToPose_init" => vec![map(&[("pose", pose()), ("targetPose", pose())])],
+        "ruckigPos" | "rmlPos" | "rMLPos" => motion_arguments(),
+        "ruckigStep" | "rmlStep" | "rMLStep" => vec![motion.clone(), Value::Real(0.05)],
+        "ruckigRemove" | "rmlRemove" | "rMLRemove" => vec![motion.clone()],
+        "ruckigVel" | "rmlVel" | "rMLVel" => {
+            vec![
+                int(1),
+                Value::Real(1e-4),
+                int(-1),
+                three(),
+                Value::reals([1.0, 2.0]),
+                Value::reals([1.0]),
+                Value::reals([0.5]),
+            ]
+        }
+        "testCB" => vec![int(1), Value::from("cb@func"), int(2), int(0)],
+        _ if name.starts_with("getObjectInt") => vec![joint.clone(), int(2000)],
+        _ if name.starts_with("setObjectInt") => vec![joint.clone(), int(2000), int(1)],
+        _ if name.starts_with("getObjectFloat") => vec![joint.clone(), int(2012)],
+        _ if name.starts_with("setObjectFloat") => vec![joint.clone(), int(2017), Value::Real(1.0)],
+        _ => return None,
+    })
+}
+
+/// Arguments of many kinds; the first ones fit most functions.
+pub fn arguments(joint: &Value, body: &Value) -> Vec<Vec<Value>> {
+    let three = || Value::reals([0.1, 0.2, 0.3]);
+    let matrix = || Value::reals([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    vec![
+        vec![joint.clone()],
+        vec![body.clone(), Value::Int(-1)],
+        vec![joint.clone(), Value::Real(0.1)],
+        vec![body.clone(), three(), three()],
+        vec![body.clone(), three(), Value::Int(-1)],
+        vec![matrix(), matrix(), Value::Real(0.5)],
+        vec![Value::Int(450), Value::from("text")],
+        vec![Value::from("name"), Value::Real(1.0)],
+        vec![Value::from("name"), joint.clone()],
+        vec![three(), Value::Int(3)],
+        vec![Value::Int(0), Value::Int(0), Value::Int(0)],
+        vec![],
+        vec![Value::Nil; 3],
+        vec![Value::Real(f64::NAN); 3],
+        vec![Value::Int(i64::MIN), Value::Int(i64::MAX), Value::Int(-1)],
+        vec![Value::Int(0x00ff_ffff), Value::Int(-5)],
+        vec![Value::Bool(true), Value::List(vec![Value::List(vec![])]), Value::Map(vec![])],
+        vec![Value::Bytes(vec![0xff; 3]), Value::from("\u{1f600}\0")],
+        vec![Value::reals([f64::INFINITY; 7]), Value::reals([0.0; 12]), Value::Real(-0.0)],
+        vec![Value::from("x".repeat(5000).as_str()); 2],
+    ]
+}

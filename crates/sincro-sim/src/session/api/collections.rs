@@ -1,0 +1,77 @@
+//! Shelf: collections.
+
+use super::{Function, Outcome, done, one, plain};
+use crate::session::{Arguments, Desk, Handle, Item, Refusal, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function { name: "createCollection", tip: "int collectionHandle=sim.createCollection(int options=0)", run: create },
+    Function {
+        name: "addItemToCollection",
+        tip: "sim.addItemToCollection(int collectionHandle,int what,int objectHandle,int options=0)",
+        run: |d, a| add(d, a, (1, 2)),
+    },
+    Function {
+        name: "addObjectToCollection",
+        tip: "int result=sim.addObjectToCollection(int collectionHandle,int objectHandle,int what,int options)",
+        run: |d, a| add(d, a, (2, 1)),
+    },
+    Function {
+        name: "emptyCollection",
+        tip: "sim.emptyCollection(int collectionHandle)",
+        run: |d, a| d.table.empty_collection(Handle(a.handle(0)?)).and_then(|()| done()),
+    },
+    Function { name: "removeCollection", tip: "sim.removeCollection(int collectionHandle)", run: remove },
+    Function { name: "destroyCollection", tip: "sim.destroyCollection(int collectionHandle)", run: remove },
+    Function {
+        name: "getCollectionObjects",
+        tip: "int[] objectHandles=sim.getCollectionObjects(int collectionHandle)",
+        run: |d, a| Ok(vec![Value::handles(d.table.collected(Handle(a.handle(0)?))?)]),
+    },
+    Function {
+        name: "getCollectionHandle",
+        tip: "int collectionHandle=sim.getCollectionHandle(string collectionName)",
+        run: |d, a| {
+            let name = a.text(0)?;
+            let found = d.table.collection_named(name.strip_suffix('#').unwrap_or(name));
+            one(found.ok_or_else(|| Refusal(format!("there is no collection `{}`", short(name))))?)
+        },
+    },
+];
+
+fn short(name: &str) -> String {
+    name.chars().take(100).collect()
+}
+
+/// Of options, or, as V-REP had it, of a name and options; the options override properties that objects do not have here.
+fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let name = if let Value::Text(_) | Value::Bytes(_) = a.get(0) { a.text(0)? } else { "" };
+    if name.is_empty() {
+        a.int_or(0, 0)?;
+    } else if desk.table.collection_named(name).is_some() {
+        return Err(Refusal(format!("there is a collection `{}` already", short(name))));
+    }
+    one(desk.table.create_collection(&short(name))?)
+}
+
+fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    desk.table.remove_collection(Handle(a.handle(0)?))?;
+    done()
+}
+
+/// What is −2 all, −8 single, −6 tree, −7 chain; option 1 takes away, option 2 leaves the base of a tree or the tip of a chain out.
+fn add(desk: &mut Desk<'_>, a: Arguments<'_>, (what, object): (usize, usize)) -> Outcome {
+    let (collection, options) = (Handle(a.handle(0)?), a.int_or(3, 0)?);
+    let base = || plain(desk, a.handle(object)?);
+    let item = match a.handle(what)? {
+        -2 => Item::All,
+        -8 => Item::Single(base()?),
+        -6 => Item::Tree(base()?, options & 2 != 0),
+        -7 => Item::Chain(base()?, options & 2 != 0),
+        other => {
+            let known = "sim.handle_all, handle_single, handle_tree or handle_chain";
+            return Err(Refusal(format!("{other} is no item of a collection: {known}")));
+        }
+    };
+    desk.table.add_to_collection(collection, item, options & 1 == 0)?;
+    done()
+}

@@ -1,0 +1,377 @@
+//! Shelf: motions of joints and objects within limits, step by step: `sim.moveToConfig_init`, `_step`, `_cleanup`, the same of poses.
+//!
+//! `sim.moveToConfig` and `sim.moveToPose` themselves wait for the simulation between steps: doors make them of these ([`Move`]). A motion is a map: what was
+//! given, where it is, and the handle of what moves (`ruckigObj`).
+
+use sincro_dynamics::spatial::{Pose, Quat, Vec3};
+
+use super::fields::Fields;
+use super::motions::{MIN_ACCELERATION, MIN_VELOCITY, synchronization};
+use super::rotations::rotation_vector;
+use super::{Function, Outcome, done, plain};
+use crate::motion::{Axis, Goal, Limits, Point};
+use crate::session::convention::{matrix_of, pose_of_matrix, pose_of_seven, seven_of};
+use crate::session::ik::Element;
+use crate::session::{Arguments, Desk, Handle, Motion, Reference, Refusal, Value};
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "moveToConfig_init",
+        tip: "map motionObject=sim.moveToConfig_init(map params)",
+        run: |d, a| begin_config(d, Fields::of(a.get(0))?),
+    },
+    Function {
+        name: "moveToConfig_step",
+        tip: "int res,map data=sim.moveToConfig_step(map motionObject)",
+        run: |d, a| step_config(d, Fields::of(a.get(0))?, a.bool_or(1, false)?),
+    },
+    Function { name: "moveToConfig_cleanup", tip: "sim.moveToConfig_cleanup(map motionObject)", run: end },
+    Function {
+        name: "moveToPose_init",
+        tip: "map motionObject=sim.moveToPose_init(map params)",
+        run: |d, a| begin_pose(d, Fields::of(a.get(0))?),
+    },
+    Function {
+        name: "moveToPose_step",
+        tip: "int res,map data=sim.moveToPose_step(map motionObject)",
+        run: |d, a| step_pose(d, Fields::of(a.get(0))?, a.bool_or(1, false)?),
+    },
+    Function { name: "moveToPose_cleanup", tip: "sim.moveToPose_cleanup(map motionObject)", run: end },
+];
+
+/// Limits that mean none.
+const FREE: [f64; 3] = [9_999.0, 99_999.0, 9_999_999.0];
+/// Below this share of half a turn two orientations are the same on the way.
+const SAME: f64 = 1e-5 * std::f64::consts::PI;
+/// Distances below this are none.
+const NEAR: f64 = 1e-6;
+
+/// Axes of a motion from its fields, with their defaults; these are set.
+fn axes(fields: &mut Fields, from: &[f64], to: &[f64]) -> Result<Motion, Refusal> {
+    let n = from.len();
+    let most: Vec<Vec<f64>> = ["maxVel", "maxAccel", "maxJerk"]
+        .into_iter()
+        .zip(FREE)
+        .map(|(name, free)| fields.each(name, n, || vec![free; n]))
+        .collect::<Result<_, _>>()?;
+    let negative = |list: &[f64]| list.iter().map(|x| -x).collect::<Vec<f64>>();
+    let low_v = fields.each("minVel", n, || negative(&most[0]))?;
+    let low_a = fields.each("minAccel", n, || negative(&most[1]))?;
+    let zero = || vec![0.0; n];
+    let (v, a) = (fields.each("vel", n, zero)?, fields.each("accel", n, zero)?);
+    let v_end = fields.each("targetVel", n, zero)?;
+    let flags = fields.int_or("flags", -1)?;
+    let flags = if flags < 0 { 0 } else { flags };
+    let step = fields.real_or("timeStep", 0.0)?;
+    if !(step.is_finite() && step >= 0.0) {
+        return Err(Refusal(format!("`timeStep` is {step} s, expected 0 (a step of the simulation) or more")));
+    }
+    let all: Vec<Axis> = (0..n)
+        .map(|k| Axis {
+            start: Point { p: from[k], v: v[k], a: a[k] },
+            limits: Limits {
+                max_velocity: most[0][k],
+                min_velocity: low_v[k],
+                max_acceleration: most[1][k],
+                min_acceleration: low_a[k],
+                max_jerk: most[2][k],
+            },
+            goal: Goal::Position(to[k], v_end[k]),
+        })
+        .collect();
+    let motion = Motion::new(&all, synchronization(flags))?;
+    let [max_v, max_a, max_j] = <[Vec<f64>; 3]>::try_from(most).expect("three lists were made");
+    for (name, list) in [
+        ("maxVel", max_v),
+        ("maxAccel", max_a),
+        ("maxJerk", max_j),
+        ("minVel", low_v),
+        ("minAccel", low_a),
+        ("vel", v),
+        ("accel", a),
+        ("targetVel", v_end),
+    ] {
+        fields.set_list(name, list);
+    }
+    fields.set("flags", flags | MIN_VELOCITY | MIN_ACCELERATION);
+    fields.set("timeStep", step);
+    fields.set("timeLeft", 0.0);
+    Ok(motion)
+}
+
+/// Handles of a field that is a list of them, each of a joint with one coordinate.
+fn joints(desk: &Desk<'_>, fields: &Fields) -> Result<Vec<Handle>, Refusal> {
+    let Value::List(list) = fields.get("joints") else {
+        return Err(Refusal(format!("`joints` is {}, expected a list of handles", fields.get("joints").word())));
+    };
+    let handle = |value: &Value| {
+        let raw = value.as_int().and_then(|n| i32::try_from(n).ok());
+        let raw = raw.ok_or_else(|| Refusal(format!("`joints` has {}, expected handles", value.word())))?;
+        Ok(desk.table.joint(plain(desk, raw)?)?.handle)
+    };
+    list.iter().map(handle).collect()
+}
+
+fn begin_config(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
+    let own = if fields.has("joints") { Some(joints(desk, &fields)?) } else { None };
+    let n = match (&own, fields.get("pos")) {
+        (Some(joints), _) => joints.len(),
+        (None, Value::List(list)) => list.len(),
+        (None, Value::Nil) => return Err(Refusal::new("either `joints` or `pos` is needed")),
+        (None, other) => return Err(Refusal(format!("`pos` is {}, expected a list of numbers", other.word()))),
+    };
+    if n == 0 {
+        return Err(Refusal::new("nothing is to be moved: `joints` or `pos` is an empty list"));
+    }
+    let pos = match (&own, fields.has("pos")) {
+        (Some(joints), false) => joints.iter().map(|h| desk.joint_position(*h)).collect::<Result<Vec<f64>, _>>()?,
+        _ => fields.numbers("pos", n)?,
+    };
+    let mut target = fields.numbers("targetPos", n)?;
+    if let Value::List(cyclic) = fields.get("cyclicJoints") {
+        for (k, is_cyclic) in cyclic.iter().enumerate().take(n) {
+            if is_cyclic.as_bool() == Some(true) {
+                target[k] = nearest_turn(target[k], pos[k]);
+            }
+        }
+    }
+    let motion = axes(&mut fields, &pos, &target)?;
+    fields.set_list("pos", pos);
+    fields.set_list("targetPos", target);
+    fields.set("ruckigObj", desk.add_motion(motion)?);
+    Ok(vec![fields.into_value()])
+}
+
+/// The angle, or one that is whole turns from it, that is nearest to another; half a turn forwards rather than backwards.
+fn nearest_turn(angle: f64, to: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    if !(angle.is_finite() && to.is_finite()) {
+        return angle;
+    }
+    angle - TAU * ((angle - to - PI) / TAU).ceil()
+}
+
+/// Lets the motion of a map go on; whether it has ended, and the axes.
+fn go_on(desk: &mut Desk<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>), Refusal> {
+    let step = fields.real_or("timeStep", 0.0)?;
+    let step = if step == 0.0 { desk.table.sample_time() } else { step };
+    let stepped = desk.step_motion(fields.int("ruckigObj")?, step)?;
+    if !stepped.is_done {
+        fields.set("timeLeft", step - stepped.left);
+    }
+    fields.set_list("vel", stepped.points.iter().map(|x| x.v));
+    fields.set_list("accel", stepped.points.iter().map(|x| x.a));
+    Ok((stepped.is_done, stepped.points))
+}
+
+/// The next step; joints are told of it unless a callback is.
+fn step_config(desk: &mut Desk<'_>, mut fields: Fields, is_told: bool) -> Outcome {
+    let own = if fields.has("joints") { joints(desk, &fields)? } else { Vec::new() };
+    let (is_done, points) = go_on(desk, &mut fields)?;
+    fields.set_list("pos", points.iter().map(|x| x.p));
+    if !is_told {
+        own.iter().zip(&points).try_for_each(|(joint, x)| put(desk, *joint, x.p))?;
+    }
+    Ok(vec![Value::Int(is_done.into()), fields.into_value()])
+}
+
+/// Of a joint that turns without end, at the turn where it is.
+fn put(desk: &mut Desk<'_>, joint: Handle, position: f64) -> Result<(), Refusal> {
+    let is_cyclic = desk.joint_interval(joint)?.0;
+    let now = desk.world.state.q[desk.table.joint(joint)?.q_idx];
+    desk.apply(joint, if is_cyclic { nearest_turn(position, now) } else { position })
+}
+
+/// Seven numbers of a field.
+fn pose(fields: &Fields, name: &str) -> Result<Pose<f64>, Refusal> {
+    let numbers = <[f64; 7]>::try_from(fields.numbers(name, 7)?).expect("seven were asked for");
+    if let Some(x) = numbers.iter().find(|x| !x.is_finite()) {
+        return Err(Refusal(format!("`{name}` has {x}, expected finite numbers")));
+    }
+    pose_of_seven(numbers).ok_or_else(|| Refusal(format!("`{name}` has a quaternion without direction")))
+}
+
+/// What the pose of an object is given against.
+fn against(desk: &Desk<'_>, fields: &Fields) -> Result<Reference, Refusal> {
+    Ok(match fields.int_or("relObject", -1)? {
+        -1 => Reference::World,
+        -11 => Reference::Parent,
+        _ => Reference::Object(plain(desk, fields.handle("relObject")?)?),
+    })
+}
+
+fn begin_pose(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
+    let mut chain = None;
+    let from = if fields.has("pose") {
+        fields.set("object", Value::Nil);
+        fields.set("ik", Value::Nil);
+        pose(&fields, "pose")?
+    } else if fields.has("object") {
+        fields.set("ik", Value::Nil);
+        let object = plain(desk, fields.handle("object")?)?;
+        desk.pose(object, against(desk, &fields)?)?
+    } else if fields.has("ik") {
+        let ik = Chain::of(desk, &Fields::of(fields.get("ik"))?)?;
+        let at = desk.pose(ik.element.tip, Reference::World)?;
+        chain = Some(ik);
+        at
+    } else {
+        return Err(Refusal::new("one of `object`, `pose` and `ik` is needed"));
+    };
+    let to = pose(&fields, "targetPose")?;
+    let turn = rotation_vector(&from.rot.transpose().mul(&to.rot));
+    let (way, angle) = (to.pos - from.pos, turn.norm());
+    let motion = if fields.has("metric") {
+        let metric = fields.numbers("metric", 4)?;
+        if let Some(x) = metric.iter().find(|x| !(x.is_finite() && **x >= 0.0)) {
+            return Err(Refusal(format!("`metric` has {x}, expected numbers that are not negative")));
+        }
+        let parts = [way[0], way[1], way[2], angle];
+        let distance = parts.iter().zip(&metric).map(|(x, m)| (x * m) * (x * m)).sum::<f64>().sqrt();
+        fields.set("dist", distance);
+        let motion = axes(&mut fields, &[0.0], &[distance])?;
+        (distance > NEAR).then_some(motion)
+    } else {
+        fields.set("dist", 1.0);
+        Some(axes(&mut fields, &[0.0; 4], &[way[0], way[1], way[2], angle])?)
+    };
+    let motion = motion.map(|motion| desk.add_motion(motion)).transpose()?;
+    if let Some(chain) = chain {
+        let entered = chain.enter(desk).inspect_err(|_| {
+            let _ = motion.map(|motion| desk.remove_motion(motion));
+        });
+        fields.set("ik", entered?);
+        fields.set("object", chain.element.target);
+        fields.set("relObject", -1_i64);
+    }
+    fields.set("angle", angle);
+    fields.set_list("startMatrix", matrix_of(&from));
+    fields.set_list("targetMatrix", matrix_of(&to));
+    place(&mut fields, &from);
+    fields.set("ruckigObj", motion.map_or(Value::Nil, Value::Int));
+    Ok(vec![fields.into_value()])
+}
+
+fn place(fields: &mut Fields, pose: &Pose<f64>) {
+    fields.set_list("matrix", matrix_of(pose));
+    fields.set_list("pose", seven_of(pose));
+}
+
+fn matrix(fields: &Fields, name: &str) -> Result<Pose<f64>, Refusal> {
+    Ok(pose_of_matrix(&<[f64; 12]>::try_from(fields.numbers(name, 12)?).expect("twelve were asked for")))
+}
+
+/// The next step; the object is put there unless a callback is told.
+fn step_pose(desk: &mut Desk<'_>, mut fields: Fields, is_told: bool) -> Outcome {
+    if !fields.has("ruckigObj") {
+        return Ok(vec![Value::Int(1), fields.into_value()]);
+    }
+    let (from, to) = (matrix(&fields, "startMatrix")?, matrix(&fields, "targetMatrix")?);
+    let turn = rotation_vector(&from.rot.transpose().mul(&to.rot));
+    let (is_done, points) = go_on(desk, &mut fields)?;
+    let between = |share: f64| from.rot.mul(&Quat::exp(turn.scale(share)).matrix());
+    let at = match points[..] {
+        // there, exactly
+        _ if is_done && points.iter().all(|x| x.v == 0.0) => to,
+        [x] => {
+            let share = x.p / fields.real_or("dist", 1.0)?;
+            Pose { rot: between(share), pos: from.pos + (to.pos - from.pos).scale(share) }
+        }
+        [x, y, z, angle] => {
+            let share = if turn.norm() > SAME { angle.p / turn.norm() } else { 0.0 };
+            Pose { rot: between(share), pos: from.pos + Vec3([x.p, y.p, z.p]) }
+        }
+        _ => return Err(Refusal::new("`ruckigObj` is the motion of something else")),
+    };
+    place(&mut fields, &at);
+    if !is_told {
+        if fields.has("object") {
+            let object = plain(desk, fields.handle("object")?)?;
+            desk.set_pose(object, &at, against(desk, &fields)?)?;
+        }
+        if fields.has("ik") {
+            follow(desk, &Fields::of(fields.get("ik"))?)?;
+        }
+    }
+    Ok(vec![Value::Int(is_done.into()), fields.into_value()])
+}
+
+/// A chain of joints that brings its tip to what is moved.
+struct Chain {
+    element: Element,
+    method: i64,
+    damping: f64,
+    iterations: i64,
+    fields: Fields,
+}
+
+impl Chain {
+    fn of(desk: &Desk<'_>, fields: &Fields) -> Result<Self, Refusal> {
+        if fields.has("joints") {
+            return Err(Refusal::new("`ik.joints` is not offered: all joints between base and tip move"));
+        }
+        let base = match fields.int_or("base", -1)? {
+            -1 => None,
+            _ => Some(plain(desk, fields.handle("base")?)?),
+        };
+        let precision = match fields.has("precision") {
+            true => <[f64; 2]>::try_from(fields.numbers("precision", 2)?).expect("two were asked for"),
+            false => [0.001, 0.5 * std::f64::consts::PI / 180.0],
+        };
+        let element = Element {
+            base,
+            tip: plain(desk, fields.handle("tip")?)?,
+            target: plain(desk, fields.handle("target")?)?,
+            constraints: fields.int_or("constraints", 31)?,
+            precision,
+            weights: [1.0; 2],
+        };
+        let (method, damping) = (fields.int_or("method", 1)?, fields.real_or("damping", 0.02)?);
+        Ok(Self { element, method, damping, iterations: fields.int_or("iterations", 20)?, fields: fields.clone() })
+    }
+
+    /// Makes what solves it; the target begins at the tip.
+    fn enter(&self, desk: &mut Desk<'_>) -> Result<Value, Refusal> {
+        let environment = desk.create_environment()? as i64;
+        self.fill(desk, environment).inspect_err(|_| {
+            let _ = desk.erase_environment(environment);
+        })
+    }
+
+    fn fill(&self, desk: &mut Desk<'_>, environment: i64) -> Result<Value, Refusal> {
+        let group = desk.create_group(environment, "")? as i64;
+        let damping = if self.method == 1 { self.damping } else { 0.0 };
+        desk.set_calculation(environment, group, damping, self.iterations)?;
+        desk.add_element(environment, group, self.element.clone())?;
+        let tip = desk.pose(self.element.tip, Reference::World)?;
+        desk.set_pose(self.element.target, &tip, Reference::World)?;
+        let mut fields = self.fields.clone();
+        fields.set("ikEnv", environment);
+        fields.set("ikGroup", group);
+        Ok(fields.into_value())
+    }
+}
+
+fn follow(desk: &mut Desk<'_>, ik: &Fields) -> Result<(), Refusal> {
+    let allowed = ik.bool_or("allowError", false)?;
+    let outcome = desk.handle_group(ik.int("ikEnv")?, ik.int("ikGroup")?, (true, allowed))?;
+    let tolerance = if outcome.is_reached { 0 } else { super::ik::NOT_WITHIN_TOLERANCE };
+    let flags = tolerance | if outcome.hit_limit { super::ik::LIMIT_HIT } else { 0 };
+    let breaking = flags & ik.int_or("breakFlags", 0)?;
+    if breaking == 0 { Ok(()) } else { Err(Refusal(format!("simIK.handleGroup returned flags {flags}"))) }
+}
+
+/// Forgets what moves.
+fn end(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+    let fields = Fields::of(a.get(0))?;
+    if fields.has("ik") {
+        let ik = Fields::of(fields.get("ik"))?;
+        if ik.has("ikEnv") {
+            desk.erase_environment(ik.int("ikEnv")?)?;
+        }
+    }
+    if fields.has("ruckigObj") {
+        desk.remove_motion(fields.int("ruckigObj")?)?;
+    }
+    done()
+}

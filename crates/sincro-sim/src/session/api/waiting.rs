@@ -1,0 +1,250 @@
+//! Functions that move something and wait until it is there: what doors need to make them of single steps.
+//!
+//! | function | steps of |
+//! |---|---|
+//! | `moveToConfig` (a map, or flags, positions … as before 4.7) | `moveToConfig_…` |
+//! | `moveToPose` (the same) | `moveToPose_…` |
+//! | `rmlMoveToJointPositions`, `rmlMoveToPosition` of V-REP | the same two |
+
+use super::fields::Fields;
+use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
+use crate::session::convention::{pose_of_matrix, seven_of};
+use crate::session::{Arguments, Desk, Reference, Refusal, Value};
+
+/// A function that waits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Move {
+    /// `moveToConfig`
+    Config,
+    /// `moveToPose`
+    Pose,
+    /// `rmlMoveToJointPositions`
+    JointPositions,
+    /// `rmlMoveToPosition`
+    Position,
+}
+
+/// Their names, with what they give and take.
+pub const MOVES: &[(&str, &str, Move)] = &[
+    ("moveToConfig", "map data=sim.moveToConfig(map params)", Move::Config),
+    ("moveToPose", "map data=sim.moveToPose(map params)", Move::Pose),
+    (
+        "rmlMoveToJointPositions",
+        "int result,float[] newPos,float[] newVel,float[] newAccel,float timeLeft=sim.rmlMoveToJointPositions(int[] jointHandles,int flags,float[] currentVel,float[] currentAccel,float[] maxVel,float[] maxAccel,float[] maxJerk,float[] targetPos,float[] targetVel,float[] direction=nil)",
+        Move::JointPositions,
+    ),
+    (
+        "rmlMoveToPosition",
+        "int result,float[3] newPos,float[4] newQuaternion,float[4] newVel,float[4] newAccel,float timeLeft=sim.rmlMoveToPosition(int objectHandle,int relativeToObjectHandle,int flags,float[4] currentVel,float[4] currentAccel,float[4] maxVel,float[4] maxAccel,float[4] maxJerk,float[3] targetPosition,float[4] targetQuaternion,float[4] targetVel=nil)",
+        Move::Position,
+    ),
+];
+
+impl Move {
+    /// The function of a name, without `sim.`; older spellings too.
+    #[must_use]
+    pub fn of(name: &str) -> Option<Self> {
+        let present = super::present_name(name);
+        let present = match &*present {
+            "rMLMoveToJointPositions" => "rmlMoveToJointPositions",
+            "rMLMoveToPosition" => "rmlMoveToPosition",
+            other => other,
+        };
+        MOVES.iter().find(|(known, _, _)| *known == present).map(|(_, _, this)| *this)
+    }
+
+    /// The beginning of the names of its steps: `moveToConfig`, `moveToPose`.
+    #[must_use]
+    pub fn stem(self) -> &'static str {
+        match self {
+            Self::Config | Self::JointPositions => "moveToConfig",
+            Self::Pose | Self::Position => "moveToPose",
+        }
+    }
+
+    /// What it is given, as the map that `_init` takes. What is called at each step is its field `callback`; where that wants
+    /// (position, velocity, acceleration, data) as it did before 4.7, there is a field `legacyFunc`.
+    ///
+    /// # Errors
+    ///
+    /// Something else is given, or an object of it is not there.
+    pub fn parameters(self, desk: &mut Desk<'_>, arguments: &[Value]) -> Result<Value, Refusal> {
+        let a = Arguments(arguments);
+        match self {
+            Self::Config | Self::Pose if a.get(0).as_int().is_none() => Ok(Fields::of(a.get(0))?.into_value()),
+            Self::Config => config(a),
+            Self::Pose => pose(a),
+            Self::JointPositions => joint_positions(desk, a),
+            Self::Position => position(desk, a),
+        }
+    }
+
+    /// What it gives in the end, from the map of the motion.
+    #[must_use]
+    pub fn results(self, data: &Value) -> Vec<Value> {
+        let Ok(fields) = Fields::of(data) else { return vec![data.clone()] };
+        let get = |name: &str| fields.get(name).clone();
+        let is_old = fields.has("legacyFunc");
+        match self {
+            Self::Config if is_old => vec![get("pos"), get("vel"), get("accel"), get("timeLeft")],
+            Self::Pose if is_old => vec![get("matrix"), get("timeLeft")],
+            Self::Config | Self::Pose => vec![data.clone()],
+            Self::JointPositions => vec![Value::Int(1), get("pos"), get("vel"), get("accel"), get("timeLeft")],
+            Self::Position => {
+                let numbers = fields.get("pose").as_reals().unwrap_or_default();
+                let part =
+                    |from: usize, to: usize| Value::reals(numbers.get(from..to).unwrap_or_default().iter().copied());
+                vec![Value::Int(1), part(0, 3), part(3, 7), get("vel"), get("accel"), get("timeLeft")]
+            }
+        }
+    }
+
+    /// What its callback is given.
+    #[must_use]
+    pub fn told(data: &Value) -> Vec<Value> {
+        let Ok(fields) = Fields::of(data) else { return vec![data.clone()] };
+        if !fields.has("legacyFunc") {
+            return vec![data.clone()];
+        }
+        let get = |name: &str| fields.get(name).clone();
+        let place = match (fields.has("targetMatrix"), fields.has("useMatrices")) {
+            (true, true) => get("matrix"),
+            (true, false) => get("pose"),
+            (false, _) => get("pos"),
+        };
+        vec![place, get("vel"), get("accel"), get("auxData")]
+    }
+}
+
+/// The first numbers of a list, and the rest.
+fn split(a: Arguments<'_>, k: usize, n: usize) -> Result<(Vec<f64>, Vec<f64>), Refusal> {
+    let list = a.get(k).as_reals().filter(|list| list.len() >= n);
+    let mut list = list.ok_or_else(|| Refusal(format!("argument {} is no list of at least {n} numbers", k + 1)))?;
+    let rest = list.split_off(n);
+    Ok((list, rest))
+}
+
+/// Flags, largest velocities, accelerations and jerks of the older forms: lowest ones stand behind the largest if the flags say so.
+fn limits(fields: &mut Fields, a: Arguments<'_>, (flags, first): (i64, usize), n: usize) -> Result<(), Refusal> {
+    let (v, low_v) = split(a, first, n)?;
+    let (acceleration, low_a) = split(a, first + 1, n)?;
+    let (jerk, _) = split(a, first + 2, n)?;
+    let has = |bit: i64| flags >= 0 && flags & bit != 0;
+    fields.set_list("maxVel", v);
+    fields.set_list("maxAccel", acceleration);
+    fields.set_list("maxJerk", jerk);
+    if has(MIN_VELOCITY) {
+        fields.set_list("minVel", low_v);
+    }
+    if has(MIN_ACCELERATION) {
+        fields.set_list("minAccel", low_a);
+    }
+    fields.set("flags", flags);
+    fields.set("tolerantArgs", true);
+    Ok(())
+}
+
+fn copy(fields: &mut Fields, a: Arguments<'_>, list: &[(&str, usize)]) {
+    for (name, k) in list {
+        if a.has(*k) {
+            fields.set(name, a.get(*k).clone());
+        }
+    }
+}
+
+/// (flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, callback, auxData, cyclicJoints, timeStep)
+fn config(a: Arguments<'_>) -> Result<Value, Refusal> {
+    let mut fields = Fields::default();
+    let n = a.get(1).as_reals().map(|list| list.len());
+    let n = n.ok_or_else(|| Refusal::new("argument 2 is no list of numbers: the present positions"))?;
+    limits(&mut fields, a, (a.int(0)?, 4), n)?;
+    let rest = [("pos", 1), ("vel", 2), ("accel", 3), ("targetPos", 7), ("targetVel", 8)];
+    copy(&mut fields, a, &rest);
+    copy(&mut fields, a, &[("callback", 9), ("auxData", 10), ("cyclicJoints", 11), ("timeStep", 12)]);
+    fields.set("legacyFunc", true);
+    Ok(fields.into_value())
+}
+
+/// (flags, pose, maxVel, maxAccel, maxJerk, targetPose, callback, auxData, metric, timeStep); poses may be matrices.
+fn pose(a: Arguments<'_>) -> Result<Value, Refusal> {
+    let mut fields = Fields::default();
+    let n = if a.has(8) { 1 } else { 4 };
+    limits(&mut fields, a, (a.int(0)?, 2), n)?;
+    for (name, k) in [("pose", 1), ("targetPose", 5)] {
+        match a.get(k).as_reals().map(|list| list.len()) {
+            Some(12) => {
+                let numbers = a.reals::<12>(k)?;
+                fields.set_list(name, seven_of(&pose_of_matrix(&numbers)));
+                if k == 1 {
+                    fields.set("useMatrices", true);
+                }
+            }
+            _ => fields.set_list(name, a.reals::<7>(k)?),
+        }
+    }
+    copy(&mut fields, a, &[("callback", 6), ("auxData", 7), ("metric", 8), ("timeStep", 9)]);
+    fields.set("legacyFunc", true);
+    Ok(fields.into_value())
+}
+
+/// (joints, flags, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, direction)
+fn joint_positions(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Value, Refusal> {
+    let mut fields = Fields::default();
+    let Value::List(joints) = a.get(0) else {
+        return Err(Refusal(format!("argument 1 is {}, expected a list of joints", a.get(0).word())));
+    };
+    let n = joints.len();
+    limits(&mut fields, a, (a.int(1)?, 4), n)?;
+    copy(&mut fields, a, &[("joints", 0), ("vel", 2), ("accel", 3), ("targetVel", 8)]);
+    let (mut target, _) = split(a, 7, n)?;
+    let direction = if a.has(9) { split(a, 9, n)?.0 } else { vec![0.0; n] };
+    for (k, joint) in joints.iter().enumerate() {
+        let raw = joint.as_int().and_then(|h| i32::try_from(h).ok());
+        let raw = raw.ok_or_else(|| Refusal(format!("argument 1 has {}, expected joints", joint.word())))?;
+        let handle = super::plain(desk, raw)?;
+        if desk.joint_interval(handle)?.0 {
+            target[k] = turned(target[k], desk.joint_position(handle)?, direction[k]);
+        }
+    }
+    fields.set_list("targetPos", target);
+    Ok(fields.into_value())
+}
+
+/// The way that a joint without end takes: 0 the shortest, a positive number forwards, a negative one backwards, with as many more turns as it is beyond one.
+fn turned(target: f64, from: f64, direction: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    let turns = (target - from) / TAU;
+    let ahead = TAU * (turns - turns.floor());
+    if !(turns.is_finite() && direction.is_finite()) {
+        return target;
+    }
+    let more = TAU * (direction.abs() - 1.0).max(0.0).floor();
+    from + match direction {
+        d if d > 0.0 => ahead + more,
+        d if d < 0.0 => ahead - TAU - more,
+        _ if ahead > PI => ahead - TAU,
+        _ => ahead,
+    }
+}
+
+/// (object, relativeTo, flags, vel, accel, maxVel, maxAccel, maxJerk, position, quaternion, targetVel)
+fn position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Value, Refusal> {
+    let mut fields = Fields::default();
+    limits(&mut fields, a, (a.int(2)?, 5), 4)?;
+    copy(&mut fields, a, &[("object", 0), ("relObject", 1), ("vel", 3), ("accel", 4), ("targetVel", 10)]);
+    let object = super::handle(desk, a, 0)?;
+    let against = match a.handle(1)? {
+        -1 => Reference::World,
+        -11 => Reference::Parent,
+        other => Reference::Object(super::plain(desk, other)?),
+    };
+    let mut seven = seven_of(&desk.pose(object, against)?);
+    if a.has(8) {
+        seven[..3].copy_from_slice(&a.reals::<3>(8)?);
+    }
+    if a.has(9) {
+        seven[3..].copy_from_slice(&a.reals::<4>(9)?);
+    }
+    fields.set_list("targetPose", seven);
+    Ok(fields.into_value())
+}

@@ -1,0 +1,65 @@
+//! Shelf: what a window would show. It is taken, and nothing is done: scripts and clients that draw run here as they are.
+
+use super::{Function, Outcome, one};
+use crate::session::{Arguments, Desk};
+
+/// Gives a handle of something that is not there, or says that it went well.
+fn taken(_: &mut Desk<'_>, _: Arguments<'_>) -> Outcome {
+    one(1_i64)
+}
+
+/// A function of which nothing is seen.
+const fn shown(name: &'static str, tip: &'static str) -> Function {
+    Function { name, tip, run: taken }
+}
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    shown(
+        "adjustView",
+        "int result=sim.adjustView(int viewHandleOrIndex,int associatedViewableObjectHandle,int options,string viewLabel=nil)",
+    ),
+    shown(
+        "floatingViewAdd",
+        "int floatingViewHandle=sim.floatingViewAdd(float posX,float posY,float sizeX,float sizeY,int options)",
+    ),
+    shown("floatingViewRemove", "int result=sim.floatingViewRemove(int floatingViewHandle)"),
+    shown(
+        "cameraFitToView",
+        "int result=sim.cameraFitToView(int viewHandleOrIndex,int[] objectHandles=nil,int options=0,float scaling=1)",
+    ),
+    shown("auxiliaryConsoleOpen", "int consoleHandle=sim.auxiliaryConsoleOpen(string title,int maxLines,int mode)"),
+    shown("auxiliaryConsolePrint", "int result=sim.auxiliaryConsolePrint(int consoleHandle,string text)"),
+    shown("auxiliaryConsoleShow", "int result=sim.auxiliaryConsoleShow(int consoleHandle,bool showState)"),
+    shown("auxiliaryConsoleClose", "int result=sim.auxiliaryConsoleClose(int consoleHandle)"),
+    shown(
+        "displayDialog",
+        "int dlgHandle=sim.displayDialog(string title,string mainTxt,int style,bool modal,string initTxt)",
+    ),
+    shown("endDialog", "int result=sim.endDialog(int dialogHandle)"),
+    shown(
+        "addDrawingObject",
+        "int drawingObjectHandle=sim.addDrawingObject(int objectType,float size,float duplicateTolerance,int parentObjectHandle,int maxItemCount,float[3] color=nil)",
+    ),
+    shown("addDrawingObjectItem", "int result=sim.addDrawingObjectItem(int drawingObjectHandle,float[] itemData)"),
+    shown("removeDrawingObject", "sim.removeDrawingObject(int drawingObjectHandle)"),
+    shown(
+        "addParticleObject",
+        "int particleObjectHandle=sim.addParticleObject(int objectType,float size,float density,any params,float lifeTime,int maxItemCount,float[3] color=nil)",
+    ),
+    shown("addParticleObjectItem", "sim.addParticleObjectItem(int objectHandle,float[] itemData)"),
+    shown("removeParticleObject", "sim.removeParticleObject(int particleObjectHandle)"),
+    shown(
+        "setShapeTexture",
+        "sim.setShapeTexture(int shapeHandle,int textureId,int mappingMode,int options,float[2] uvScaling)",
+    ),
+    shown("setShapeMaterial", "sim.setShapeMaterial(int shapeHandle,int materialIdOrShapeHandle)"),
+    shown("setEngineFloatParam", "sim.setEngineFloatParam(int paramId,int objectHandle,float floatParam)"),
+    shown("setEngineInt32Param", "sim.setEngineInt32Param(int paramId,int objectHandle,int int32Param)"),
+    shown("setEngineBoolParam", "sim.setEngineBoolParam(int paramId,int objectHandle,bool boolParam)"),
+];
+
+/// Whether a function is one of these: whatever it is given is as good.
+#[must_use]
+pub fn is_for_show(name: &str) -> bool {
+    FUNCTIONS.iter().any(|f| f.name == name)
+}

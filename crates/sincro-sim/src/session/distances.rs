@@ -1,0 +1,133 @@
+//! Distances and collisions of objects and collections, now: of bodies with shapes, of shapes made at run time, and of points.
+
+use std::sync::{Arc, OnceLock};
+
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::geometry::Geometry;
+use sincro_dynamics::kinematics::Attached;
+use sincro_dynamics::model::Shape;
+use sincro_dynamics::spatial::{Pose, Vec3};
+
+use super::senses::handle_of;
+use super::{Desk, Entity, Handle, Kind, Refusal};
+
+/// The closest points of two entities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearness {
+    /// `[m]`; 0 if they meet.
+    pub distance: f64,
+    /// On the first and the second, in the world `[m]`.
+    pub points: [Vec3<f64>; 2],
+    /// The objects that they are on.
+    pub objects: [Handle; 2],
+}
+
+/// A surface where it is.
+struct Part {
+    object: Handle,
+    geometry: Arc<Geometry>,
+    at: Pose<f64>,
+}
+
+impl Desk<'_> {
+    /// Everything of an entity that has a place: surfaces, and points of single objects that have none.
+    fn parts(&mut self, entity: Entity) -> Result<Vec<Part>, Refusal> {
+        let members = self.members(entity)?;
+        let found: Vec<(Handle, Arc<Geometry>, Attached<f64>)> = {
+            let pieces = self.table.senses.pieces().filter(|p| members.binary_search(&handle_of(p)).is_ok());
+            pieces.map(|p| (handle_of(p), p.geometry.clone(), p.at)).collect()
+        };
+        let mut parts = Vec::with_capacity(found.len());
+        for (object, geometry, at) in found {
+            parts.push(Part { object, geometry, at: self.place(&at) });
+        }
+        if let Entity::Object(object) = entity
+            && parts.is_empty()
+        {
+            let entry = self.table.entry(object)?;
+            if !matches!(entry.kind, Kind::Frame | Kind::Dummy) {
+                return Err(Refusal(format!("`{}` has no shape that a distance could be measured from", entry.path)));
+            }
+            let frame = entry.frame;
+            parts.push(Part { object, geometry: point(), at: self.place(&frame) });
+        }
+        Ok(parts)
+    }
+
+    /// The closest points of two entities, if they are within `most` `[m]`. All means everything that has a shape and is not part of the other.
+    ///
+    /// # Errors
+    ///
+    /// One of them is gone, or is an object without shape that is no point either.
+    pub fn distance(&mut self, one: Entity, two: Entity, most: f64) -> Result<Option<Nearness>, Refusal> {
+        let (mut first, mut second) = (self.parts(one)?, self.parts(two)?);
+        match (one, two) {
+            (_, Entity::All) => {
+                let own = self.members(one)?;
+                second.retain(|part| one == Entity::All || own.binary_search(&part.object).is_err());
+            }
+            (Entity::All, _) => {
+                let own = self.members(two)?;
+                first.retain(|part| own.binary_search(&part.object).is_err());
+            }
+            _ => {}
+        }
+        let mut best: Option<Nearness> = None;
+        for a in &first {
+            for b in second.iter().filter(|b| b.object != a.object) {
+                let limit = best.map_or(most, |best| best.distance);
+                let apart = (a.at.pos - b.at.pos).norm() - a.geometry.reach() - b.geometry.reach();
+                if apart > limit {
+                    continue;
+                }
+                let x_ab = a.at.inverse().compose(&b.at);
+                if let Some(found) = a.geometry.closest(&b.geometry, &x_ab, limit)
+                    && best.is_none_or(|best| found.distance < best.distance)
+                {
+                    let points = found.points.map(|p| a.at.point(p));
+                    best = Some(Nearness { distance: found.distance, points, objects: [a.object, b.object] });
+                }
+                if best.is_some_and(|best| best.distance == 0.0) {
+                    return Ok(best);
+                }
+            }
+        }
+        Ok(best)
+    }
+
+    /// Two bodies, one of each entity, that press on each other or whose surfaces meet.
+    ///
+    /// # Errors
+    ///
+    /// One of them is gone, or is an object without shape.
+    pub fn collision(&mut self, one: Entity, two: Entity) -> Result<Option<[Handle; 2]>, Refusal> {
+        for entity in [one, two] {
+            if let Entity::Object(object) = entity
+                && !self.table.senses.pieces().any(|piece| handle_of(piece) == object)
+            {
+                let path = &self.table.entry(object)?.path;
+                return Err(Refusal(format!("`{path}` has no shape: it meets nothing")));
+            }
+        }
+        let (first, second) = (self.members(one)?, self.members(two)?);
+        let is_of = |members: &[Handle], body: Handle| members.binary_search(&body).is_ok();
+        let pressing = self.touches().into_iter().map(|touch| touch.bodies).find_map(|[a, b]| {
+            if is_of(&first, a) && is_of(&second, b) {
+                Some([a, b])
+            } else {
+                (is_of(&first, b) && is_of(&second, a)).then_some([b, a])
+            }
+        });
+        if pressing.is_some() {
+            return Ok(pressing);
+        }
+        Ok(self.distance(one, two, 0.0)?.map(|found| found.objects))
+    }
+}
+
+/// A point as a surface.
+fn point() -> Arc<Geometry> {
+    static POINT: OnceLock<Arc<Geometry>> = OnceLock::new();
+    let new = || Geometry::new(Surface::Solid(Shape::Sphere { radius: 0.0 })).expect("a point has a place");
+    POINT.get_or_init(|| Arc::new(new())).clone()
+}

@@ -1,0 +1,145 @@
+//! Graphs: what clients and scripts record by `sim.addGraphStream` and `sim.setGraphStreamValue`. Any object of the scene is a graph, a `[[frame]]`
+//! named `graph` say; each stream becomes a column of the run, `/graph.name`.
+
+use super::table::Handle;
+use super::{Desk, Refusal};
+
+/// Streams that may exist at once.
+const MOST: usize = 200;
+/// Bytes of a name or unit.
+const LONGEST: usize = 100;
+
+/// A stream of a graph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stream {
+    graph: Handle,
+    /// Its number in the graph, from 1: stays when others go.
+    number: i64,
+    name: String,
+    /// Name of its column.
+    pub column: String,
+    /// Its unit, as it was given.
+    pub unit: String,
+    /// What it was last told; not a number before.
+    pub value: f64,
+    factor: f64,
+    offset: f64,
+    /// Made during a run: it is gone when the next one starts.
+    of_run: bool,
+}
+
+/// The streams of all graphs.
+#[derive(Clone, Debug, Default)]
+pub struct Graphs {
+    streams: Vec<Stream>,
+    /// Streams whose past is to be forgotten.
+    cleared: Vec<usize>,
+}
+
+impl Graphs {
+    /// All streams, in the order in which they were made; those of a run stay until the next one.
+    #[must_use]
+    pub fn streams(&self) -> &[Stream] {
+        &self.streams
+    }
+
+    /// Takes the streams whose past is to be forgotten.
+    pub(crate) fn take_cleared(&mut self) -> Vec<usize> {
+        std::mem::take(&mut self.cleared)
+    }
+
+    /// Forgets what the last run made.
+    pub(super) fn forget_run(&mut self) {
+        self.streams.retain(|stream| !stream.of_run);
+        self.streams.iter_mut().for_each(|stream| stream.value = f64::NAN);
+        self.cleared.clear();
+    }
+
+    fn place(&self, graph: Handle, name: &str) -> Option<usize> {
+        self.streams.iter().position(|s| s.graph == graph && s.name == name)
+    }
+}
+
+impl Desk<'_> {
+    /// A stream of a graph; that of the same name if there is one. Its number in the graph.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, there are too many streams, or the name is none.
+    pub fn add_stream(&mut self, graph: Handle, name: &str, unit: &str) -> Result<i64, Refusal> {
+        let path = self.table.entry(graph)?.path.clone();
+        let is_plain = |text: &str| text.len() <= LONGEST && !text.chars().any(char::is_control);
+        if name.is_empty() || !is_plain(name) || !is_plain(unit) {
+            return Err(Refusal(format!(
+                "a stream of a graph has a name and a unit of up to {LONGEST} bytes in one line"
+            )));
+        }
+        let of_run = self.is_running();
+        let graphs = &mut self.table.graphs;
+        if let Some(k) = graphs.place(graph, name) {
+            unit.clone_into(&mut graphs.streams[k].unit);
+            return Ok(graphs.streams[k].number);
+        }
+        if graphs.streams.len() >= MOST {
+            return Err(Refusal(format!("there are {MOST} streams of graphs already")));
+        }
+        let (name, unit, column) = (name.to_owned(), unit.to_owned(), format!("{path}.{name}"));
+        let of_graph = graphs.streams.iter().filter(|s| s.graph == graph);
+        let number = of_graph.map(|s| s.number).max().unwrap_or(0) + 1;
+        let (value, factor, offset) = (f64::NAN, 1.0, 0.0);
+        graphs.streams.push(Stream { graph, number, name, column, unit, value, factor, offset, of_run });
+        Ok(number)
+    }
+
+    fn stream(&mut self, graph: Handle, number: i64) -> Result<&mut Stream, Refusal> {
+        let path = self.table.entry(graph)?.path.clone();
+        let found = self.table.graphs.streams.iter_mut().find(|s| s.graph == graph && s.number == number);
+        found.ok_or_else(|| {
+            Refusal(format!("the graph `{path}` has no stream {number}: addGraphStream gives their numbers"))
+        })
+    }
+
+    /// What a stream shows from now on.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object or stream.
+    pub fn set_stream(&mut self, graph: Handle, number: i64, value: f64) -> Result<(), Refusal> {
+        let stream = self.stream(graph, number)?;
+        stream.value = stream.factor * value + stream.offset;
+        Ok(())
+    }
+
+    /// Values of a stream are multiplied and shifted before they are recorded.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object or stream, or a number is not finite.
+    pub fn scale_stream(&mut self, graph: Handle, number: i64, (factor, offset): (f64, f64)) -> Result<(), Refusal> {
+        if !(factor.is_finite() && offset.is_finite()) {
+            return Err(Refusal(format!("factor {factor} and offset {offset}, expected numbers")));
+        }
+        let stream = self.stream(graph, number)?;
+        (stream.factor, stream.offset) = (factor, offset);
+        Ok(())
+    }
+
+    /// Forgets what the streams of a graph have shown so far, of all graphs if none is given.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object.
+    pub fn clear_graph(&mut self, graph: Option<Handle>) -> Result<(), Refusal> {
+        if let Some(graph) = graph {
+            self.table.entry(graph)?;
+        }
+        let graphs = &mut self.table.graphs;
+        for (k, stream) in graphs.streams.iter_mut().enumerate().filter(|(_, s)| graph.is_none_or(|g| s.graph == g)) {
+            stream.value = f64::NAN;
+            if !graphs.cleared.contains(&k) {
+                graphs.cleared.push(k);
+            }
+        }
+        Ok(())
+    }
+}
