@@ -328,3 +328,39 @@ fn friction_only_takes_energy_at_every_point_at_every_instant() {
     }
     assert!(slips > 5, "{slips}");
 }
+
+#[test]
+fn a_club_that_turns_about_the_origin_does_not_pass_through_a_ball_at_velocity_level() {
+    // the club's head goes 0.1 m a step, the two are 0.08 m thick together
+    let (speed, radius, step) = (20.0, 0.02, 5e-3);
+    let mut b = ModelBuilder::new([0.0; 3]);
+    let along_z = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
+    let hinge = b.joint("hinge", NodeId::WORLD, Pose::identity(), along_z);
+    let head = Shape::Sphere { radius };
+    let at = Pose { pos: Vec3([1.0, 0.0, 0.0]), ..Pose::identity() };
+    let club = b.body("club", hinge, at, BodySpec { mass: head.mass_properties(8000.0) });
+    b.collider(club, Pose::identity(), Surface::Solid(head), material(0.0, 0.0));
+    let free = b.joint("free", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+    let ball = b.body("ball", free, Pose::identity(), BodySpec { mass: head.mass_properties(1000.0) });
+    b.collider(ball, Pose::identity(), Surface::Solid(head), material(0.0, 0.0));
+    let model = b.build().unwrap().0;
+    for phase in [0.0, 0.3, 0.6, 0.9] {
+        let mut x = State::new(&model);
+        let place = Quat::exp(Vec3([0.0, 0.0, 0.5 + 0.1 * phase])).matrix().col(0);
+        x.q[1..4].copy_from_slice(&place.0);
+        Quat::identity().write(&mut x.q[4..8]);
+        x.v[0] = speed;
+        let mut world = World::new(model.clone(), x, MethodKind::SemiImplicitEuler, 1e-9, 1e-3);
+        let mut nearest = f64::INFINITY;
+        for _ in 0..10 {
+            run(&mut world, step, 1);
+            let q = &world.state.q;
+            let club = Quat::exp(Vec3([0.0, 0.0, q[0]])).matrix().col(0);
+            nearest = nearest.min((Vec3([q[1], q[2], q[3]]) - club).norm() - 2.0 * radius);
+        }
+        // a light ball struck by a heavy club without bounce goes with it, along the tangent
+        let fast = Vec3([world.state.v[4], world.state.v[5], world.state.v[6]]).norm();
+        assert!(fast > 0.8 * speed * 8.0 / 9.0, "{phase}: {fast} m/s");
+        assert!(nearest > -2e-3, "{phase}: {nearest} m");
+    }
+}

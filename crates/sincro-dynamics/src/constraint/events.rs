@@ -2,12 +2,12 @@
 
 use super::Constraints;
 use crate::aba::{self, Held};
-use crate::contact::Pair;
+use crate::contact::{Collider, Pair};
 use crate::contact::feature::{Gap, Spot, tangents};
 use crate::integrate::System;
 use crate::kinematics;
 use crate::mechanism::Mechanism;
-use crate::spatial::Vec3;
+use crate::spatial::{Pose, Vec3};
 
 /// A gap below this is closed `[m]` or `[rad]`: what projection leaves is a thousandth of it.
 pub(crate) const CLOSED: f64 = 1e-9;
@@ -52,7 +52,7 @@ impl Mechanism<f64> {
         let set = &*model.constraints;
         let gravity = model.gravity.norm();
         let margin = match closing {
-            Closing::Within(h) => 1e-3 + h * fastest(c, model.links.len()) + 4.0 * h * h * gravity,
+            Closing::Within(h) => 1e-3 + 4.0 * h * c.fastest(&set.colliders, &scratch.poses) + 4.0 * h * h * gravity,
             _ => 1e-6,
         };
         c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.spots);
@@ -257,8 +257,20 @@ impl Mechanism<f64> {
     }
 }
 
-fn fastest(c: &Constraints<f64>, n: usize) -> f64 {
-    (0..n).map(|i| c.motions.twist[i].lin.norm()).fold(0.0, f64::max)
+impl Constraints<f64> {
+    /// The greatest speed of a point of surface `k` [m/s], at most; after the motions were placed.
+    pub(crate) fn speed(&self, k: usize, collider: &Collider, poses: &[Pose<f64>]) -> f64 {
+        let (at, reach) = self.detector.ball(k, collider, poses);
+        let spin = self.motions.twist_of(collider.link).ang.norm();
+        // what is fixed may be endless
+        let around = if spin > 0.0 { spin * reach } else { 0.0 };
+        self.motions.velocity_of(collider.link, at).norm() + around
+    }
+
+    /// That of all surfaces.
+    fn fastest(&self, colliders: &[Collider], poses: &[Pose<f64>]) -> f64 {
+        colliders.iter().enumerate().map(|(k, collider)| self.speed(k, collider, poses)).fold(0.0, f64::max)
+    }
 }
 
 fn normal_rate(c: &Constraints<f64>, spot: &Spot, at: &Gap<f64>) -> f64 {

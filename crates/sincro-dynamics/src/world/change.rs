@@ -96,13 +96,7 @@ impl World {
         c.motions.place(model, scratch, &self.state.v);
         let set = &*model.constraints;
         let fall = 4.0 * h * h * model.gravity.norm();
-        let speed = |k: usize| {
-            let (at, reach) = c.detector.ball(k, &set.colliders[k], &scratch.poses);
-            let spin = c.motions.twist_of(set.colliders[k].link).ang.norm();
-            // what is fixed may be endless
-            let spin = if spin > 0.0 { spin * reach } else { 0.0 };
-            c.motions.velocity_of(set.colliders[k].link, at).norm() + spin
-        };
+        let speed = |k: usize| c.speed(k, &set.colliders[k], &scratch.poses);
         let is_near = |k: &usize| {
             let pair = &set.pairs[*k];
             let margin = NEAR + 2.0 * h * (speed(pair.a) + speed(pair.b)) + fall;
