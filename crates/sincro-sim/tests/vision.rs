@@ -110,6 +110,37 @@ fn a_picture_is_that_of_the_last_step_whenever_it_is_read() {
 }
 
 #[test]
+fn what_is_made_at_run_time_is_in_the_pictures_as_it_was_at_their_instant() {
+    let blue = |image: &[u8]| image.chunks(3).filter(|p| p[2] > 100 && p[0] == 0 && p[1] == 0).count();
+    let (mut late, mut early) = (open("made-late"), open("made-early"));
+    let eye = find(&mut late, "/eye");
+    let mut shapes = Vec::new();
+    for session in [&mut late, &mut early] {
+        let shape =
+            call(session, "sim.createPrimitiveShape", &[Value::Int(3), Value::reals([0.3, 0.1, 0.3])]).remove(0);
+        call(session, "sim.setObjectPosition", &[shape.clone(), Value::reals([0.6, 0.0, 1.0])]);
+        call(session, "sim.setShapeColor", &[shape.clone(), Value::Nil, Value::Int(0), Value::reals([0.0, 0.0, 1.0])]);
+        session.start().unwrap();
+        session.step().unwrap();
+        shapes.push(shape);
+    }
+    let at_once = image(&mut early, &eye);
+    assert!(blue(&at_once) > 12, "{} pixels are blue", blue(&at_once));
+    // moved, coloured anew, joined by another one and taken away after the step: the picture is the step's
+    let (shape, white) = (shapes[0].clone(), Value::reals([1.0; 3]));
+    call(&mut late, "sim.setObjectPosition", &[shape.clone(), Value::reals([-0.6, 0.0, 1.0])]);
+    call(&mut late, "sim.setShapeColor", &[shape.clone(), Value::Nil, Value::Int(0), white]);
+    call(&mut late, "sim.createPrimitiveShape", &[Value::Int(3), Value::reals([9.0; 3])]);
+    call(&mut late, "sim.removeObject", &[shape]);
+    assert_eq!(image(&mut late, &eye), at_once);
+    // another one is drawn from what there is at the next step
+    call(&mut early, "sim.removeObject", &[shapes[1].clone()]);
+    assert_eq!(image(&mut early, &eye), at_once);
+    early.step().unwrap();
+    assert_eq!(blue(&image(&mut early, &eye)), 0);
+}
+
+#[test]
 fn looking_changes_no_hash() {
     let traces = [false, true].map(|looks| {
         let mut session = open(if looks { "looks" } else { "blind" });

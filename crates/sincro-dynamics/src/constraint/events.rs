@@ -2,8 +2,8 @@
 
 use super::Constraints;
 use crate::aba::{self, Held};
-use crate::contact::{Collider, Pair};
 use crate::contact::feature::{Gap, Spot, tangents};
+use crate::contact::{Collider, Pair};
 use crate::integrate::System;
 use crate::kinematics;
 use crate::mechanism::Mechanism;
