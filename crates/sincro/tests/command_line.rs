@@ -107,6 +107,19 @@ fn a_run_writes_what_the_contract_says() {
 }
 
 #[test]
+fn signals_of_different_units_do_not_share_an_axis() {
+    let folder = Folder::new("units");
+    let plot = "\n[[plot]]\ntitle = \"Both\"\nsignals = [\"/hinge.position\", \"/hinge/rod.position.z\"]\n";
+    let scene = folder.pendulum(plot, "");
+    let out = folder.path("out");
+    assert_eq!(run(&scene, &out, &[]).2, 0);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    let from = page.find(">Both<").expect("the plot is there");
+    let figure = &page[from..from + page[from..].find("</figure>").unwrap()];
+    assert!(figure.contains("[rad]") && figure.contains("[m]"), "{figure:.2000}");
+}
+
+#[test]
 fn the_same_run_gives_the_same_bytes() {
     let folder = Folder::new("bytes");
     let scene = folder.pendulum("", "");

@@ -30,7 +30,7 @@ function sysCall_sensing()
     if result == 1 then
         assert(object == wall and normal[3] == -1 and math.abs(data[7] - d) < 1e-12 and math.abs(point[3] - d) < 1e-12)
     else
-        assert(result == 0 and d == nil and data[7] > 1.5 - 1e-9)
+        assert(result == 0 and d == 0 and object == -1 and data[7] > 1.5 - 1e-9)
     end
 end
 "#;

@@ -143,12 +143,46 @@ impl<'a> Below<'a> {
     }
 }
 
-/// A figure of recorded signals; `reference` is drawn with the first one instead of what the checks say.
+/// A figure of recorded signals, a panel for each unit; `reference` is drawn with the first one instead of what the checks say.
 fn figure(title: &str, names: &[&str], reference: Option<Expected>, wanted: Below<'_>, campaign: &Campaign) -> Figure {
-    let drawn: Vec<Drawn<'_>> = names.iter().filter_map(|name| Drawn::find(name, campaign)).collect();
-    let unit = drawn.first().map_or("", |d| d.column.unit.as_str());
-    let label = drawn.first().map_or_else(String::new, |d| quantity(&d.column.name).replace('_', " "));
-    let mut panel = Panel::new(Axis::new(label, unit));
+    let mut by_unit: Vec<(&str, Vec<Drawn<'_>>)> = Vec::new();
+    for drawn in names.iter().filter_map(|name| Drawn::find(name, campaign)) {
+        let unit = drawn.column.unit.as_str();
+        match by_unit.iter_mut().find(|(known, _)| *known == unit) {
+            Some((_, list)) => list.push(drawn),
+            None => by_unit.push((unit, vec![drawn])),
+        }
+    }
+    let mut reference = reference;
+    let panels = by_unit.iter().flat_map(|(unit, drawn)| panels(drawn, unit, reference.take(), wanted, campaign));
+    let mut panels: Vec<Panel> = panels.collect();
+    if panels.is_empty() {
+        panels.push(Panel::new(Axis::new("", "")));
+    }
+    Figure { title: title.to_owned(), x: Axis::time(), panels, space: None }
+}
+
+/// What signals are, each once: `position, offset`.
+fn quantities(drawn: &[Drawn<'_>]) -> String {
+    let mut all: Vec<String> = Vec::new();
+    for quantity in drawn.iter().map(|d| quantity(&d.column.name).replace('_', " ")) {
+        if !all.contains(&quantity) {
+            all.push(quantity);
+        }
+    }
+    // more than an axis is long
+    if all.len() > 3 { String::new() } else { all.join(", ") }
+}
+
+/// Signals of one unit, and below them how far they are from what is expected, or variants from the main run.
+fn panels(
+    drawn: &[Drawn<'_>],
+    unit: &str,
+    reference: Option<Expected>,
+    wanted: Below<'_>,
+    campaign: &Campaign,
+) -> Vec<Panel> {
+    let mut panel = Panel::new(Axis::new(quantities(drawn), unit));
     let mut error = Panel::error(unit);
     for (k, Drawn { name, column, done, of_variant }) in drawn.iter().enumerate() {
         let times = done.simulated.table.times();
@@ -169,13 +203,12 @@ fn figure(title: &str, names: &[&str], reference: Option<Expected>, wanted: Belo
         }
     }
     let below = match wanted.compares_variants {
-        Some(true) => comparison(&drawn, unit, wanted, campaign),
+        Some(true) => comparison(drawn, unit, wanted, campaign),
         Some(false) => error,
-        None if error.series.is_empty() => comparison(&drawn, unit, wanted, campaign),
+        None if error.series.is_empty() => comparison(drawn, unit, wanted, campaign),
         None => error,
     };
-    let panels = if below.series.is_empty() { vec![panel] } else { vec![panel, below] };
-    Figure { title: title.to_owned(), x: Axis::time(), panels, space: None }
+    if below.series.is_empty() { vec![panel] } else { vec![panel, below] }
 }
 
 /// How the variants differ from the main run, where they have rows at the same times.

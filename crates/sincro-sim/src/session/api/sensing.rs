@@ -11,7 +11,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "readProximitySensor",
         tip: "int result,float distance,float[3] detectedPoint,int detectedObjectHandle,float[3] normalVector=sim.readProximitySensor(int sensorHandle)",
-        run: |d, a| Ok(d.proximity(handle(d, a, 0)?)?.map_or_else(|| vec![Value::Int(-1)], seen)),
+        run: |d, a| Ok(d.proximity(handle(d, a, 0)?)?.map_or_else(|| nothing(-1), seen)),
     },
     Function {
         name: "handleProximitySensor",
@@ -36,9 +36,9 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-/// Result, distance, point in the sensor's axes, object, normal; of nothing only the result.
+/// Result, distance, point in the sensor's axes, object, normal.
 fn seen(saw: Option<Detection>) -> Vec<Value> {
-    let Some(saw) = saw else { return vec![Value::Int(0)] };
+    let Some(saw) = saw else { return nothing(0) };
     vec![
         Value::Int(1),
         Value::Real(saw.distance),
@@ -46,6 +46,12 @@ fn seen(saw: Option<Detection>) -> Vec<Value> {
         Value::from(saw.handle()),
         Value::reals(saw.normal.0),
     ]
+}
+
+/// A result without a detection: clients in C++ and Java take the other values all the same.
+fn nothing(result: i64) -> Vec<Value> {
+    let zeros = || Value::reals([0.0; 3]);
+    vec![Value::Int(result), Value::Real(0.0), zeros(), Value::Int(-1), zeros()]
 }
 
 impl Detection {
