@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use sincro_dynamics::geometry::{Geometry, Hit, Ray};
+use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::kinematics::{self, Attached};
-use sincro_dynamics::model::{Model, Names};
+use sincro_dynamics::model::Names;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::Pose;
 
@@ -43,18 +43,9 @@ pub struct Scenery {
     pub pieces: Vec<Piece>,
 }
 
-/// The pieces at one instant.
-#[derive(Clone, Debug)]
-pub struct Sight<'a> {
-    pieces: &'a [Piece],
-    /// Of each piece, in the world.
-    poses: Vec<Pose<f64>>,
-}
-
 impl Scenery {
-    /// Of a scene.
-    #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    /// Of a scene, which keeps it: [`Scene::scenery`].
+    pub(crate) fn new(scene: &Scene) -> Self {
         let names = scene.model.names();
         let mut n_bodies = 0;
         let mut pieces = Vec::new();
@@ -64,47 +55,14 @@ impl Scenery {
         }
         Self { pieces }
     }
-
-    /// Where everything is, after `scratch` has the poses of the links.
-    #[must_use]
-    pub fn sight(&self, scratch: &Scratch<f64>) -> Sight<'_> {
-        let poses = self.pieces.iter().map(|piece| kinematics::frame_pose(scratch, &piece.at));
-        Sight { pieces: &self.pieces, poses: poses.collect() }
-    }
-
-    /// Where everything is at coordinates `q`.
-    #[must_use]
-    pub fn at(&self, model: &Model<f64>, q: &[f64], scratch: &mut Scratch<f64>) -> Sight<'_> {
-        kinematics::poses(model, q, scratch);
-        self.sight(scratch)
-    }
 }
 
-impl<'a> Sight<'a> {
-    /// Every piece and its pose in the world.
-    pub fn iter(&self) -> impl Iterator<Item = (&'a Piece, &Pose<f64>)> {
-        self.pieces.iter().zip(&self.poses)
-    }
-
-    /// The first piece that a ray in the world meets within `most` `[m]`, among those that `sees` admits: its index, and where.
-    #[must_use]
-    pub fn hit(&self, ray: &Ray, most: f64, sees: impl Fn(&Piece) -> bool) -> Option<(usize, Hit)> {
-        let mut nearest: Option<(usize, Hit)> = None;
-        for (k, (piece, pose)) in self.iter().enumerate() {
-            let limit = nearest.map_or(most, |(_, hit)| hit.distance);
-            if !sees(piece) {
-                continue;
-            }
-            let local = Ray {
-                origin: pose.rot.tr_mul_vec(ray.origin - pose.pos),
-                direction: pose.rot.tr_mul_vec(ray.direction),
-            };
-            if let Some(hit) = piece.geometry.hit(&local, limit) {
-                nearest = Some((k, Hit { normal: pose.rot.mul_vec(hit.normal), ..hit }));
-            }
-        }
-        nearest
-    }
+/// Pieces with their poses in the world, after `scratch` has the poses of the links.
+pub fn placed<'a>(
+    pieces: impl Iterator<Item = &'a Piece>,
+    scratch: &Scratch<f64>,
+) -> impl Iterator<Item = (&'a Piece, Pose<f64>)> {
+    pieces.map(|piece| (piece, kinematics::frame_pose(scratch, &piece.at)))
 }
 
 /// The pieces of object `k`; `plain` is the colour of what has none.

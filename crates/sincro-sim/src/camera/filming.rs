@@ -9,7 +9,7 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::{BACKGROUND, FAR, Image, Lens, NEAR, Optics, Renderer};
 use crate::scene::{ObjectKind, Scene, VisionSensor, looking};
-use crate::scenery::{Scenery, frame_of};
+use crate::scenery::{Scenery, frame_of, placed};
 
 /// A camera with all it needs; what it takes is used again for the next picture.
 pub struct Camera {
@@ -50,7 +50,7 @@ impl Camera {
     #[must_use]
     pub fn new(scene: &Scene, sensor: VisionSensor, frame: Attached<f64>) -> Self {
         let image = Image::new(&sensor.optics);
-        let (scenery, scratch) = (Scenery::new(scene), Scratch::new(&scene.model));
+        let (scenery, scratch) = (scene.scenery().clone(), Scratch::new(&scene.model));
         Self { model: scene.model.clone(), sensor, frame, scenery, scratch, renderer: Renderer::new(), image }
     }
 
@@ -64,7 +64,7 @@ impl Camera {
     pub fn look(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);
-        let pieces = self.scenery.pieces.iter().map(|piece| (piece, kinematics::frame_pose(&self.scratch, &piece.at)));
+        let pieces = placed(self.scenery.pieces.iter(), &self.scratch);
         self.renderer.draw(pieces, (&x_wc, &self.sensor.optics), self.sensor.background, &mut self.image);
         &self.image
     }

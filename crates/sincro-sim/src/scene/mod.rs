@@ -23,7 +23,7 @@ mod text;
 mod tree;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use sincro_dynamics::contact::Surface;
 use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
@@ -44,6 +44,7 @@ pub use text::from_text;
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Problem, Problems};
+use crate::scenery::Scenery;
 use crate::script::Script;
 use crate::sensor::SensorSpec;
 use file::{ForceFile, InFrameFile};
@@ -67,9 +68,17 @@ pub struct Scene {
     pub scripts: Vec<Script>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
+    /// Made when somebody looks first.
+    scenery: OnceLock<Scenery>,
 }
 
 impl Scene {
+    /// What of it can be seen.
+    #[must_use]
+    pub fn scenery(&self) -> &Scenery {
+        self.scenery.get_or_init(|| Scenery::new(self))
+    }
+
     /// Degrees of freedom at the start, closed loops counted.
     #[must_use]
     pub fn freedom(&self) -> Freedom {
@@ -356,6 +365,7 @@ impl Assembly {
             objects: self.objects,
             scripts,
             warnings,
+            scenery: OnceLock::new(),
         })
     }
 

@@ -5,6 +5,8 @@ use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
+use super::SensorSpec;
+use crate::scene::Scene;
 use crate::scenery::Piece;
 
 /// What a proximity sensor looks into, and what it sees there.
@@ -16,6 +18,16 @@ pub struct Eye {
     pub with: Vec<usize>,
     /// Object that carries it.
     pub carrier: Option<usize>,
+}
+
+impl Eye {
+    /// That of a sensor of a scene; none if it does not look.
+    #[must_use]
+    pub fn of(spec: &SensorSpec, scene: &Scene) -> Option<Self> {
+        let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
+        let with = || spec.with.iter().filter_map(|path| object_of(&path.value)).collect();
+        spec.kind.field().map(|field| Self { field, with: with(), carrier: object_of(&spec.of) })
+    }
 }
 
 /// What it saw, in its own axes.

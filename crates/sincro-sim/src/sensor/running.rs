@@ -59,8 +59,7 @@ impl Sensors {
             let every = every(spec, experiment.step).expect("sample times have been checked");
             let n = spec.kind.values().len();
             let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
-            let with = || spec.with.iter().filter_map(|path| object_of(&path.value)).collect();
-            let eye = spec.kind.field().map(|field| Eye { field, with: with(), carrier: object_of(&spec.of) });
+            let eye = Eye::of(spec, scene);
             list.push(Sensor {
                 kind: spec.kind,
                 object: object_of(&spec.path).expect("a sensor is an object"),
@@ -79,7 +78,7 @@ impl Sensors {
         let accelerations = vec![0.0; scene.model.n_v()];
         let points = Vec::with_capacity(scene.model.constraints().n_contacts());
         let looks = list.iter().any(|sensor: &Sensor| sensor.eye.is_some());
-        let scenery = if looks { Scenery::new(scene) } else { Scenery::default() };
+        let scenery = if looks { scene.scenery().clone() } else { Scenery::default() };
         let zero = vec![0.0; if looks { scene.model.n_v() } else { 0 }];
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
     }

@@ -54,15 +54,13 @@ impl Senses {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
         let mut looks = BTreeMap::new();
         for spec in &scene.sensors {
-            let (Some(field), Some(own)) = (spec.kind.field(), object_of(&spec.path)) else { continue };
-            let with = spec.with.iter().filter_map(|path| object_of(&path.value)).collect();
-            let eye = Eye { field, with, carrier: object_of(&spec.of) };
+            let (Some(eye), Some(own)) = (Eye::of(spec, scene), object_of(&spec.path)) else { continue };
             looks.insert(
                 Handle(own as i32 + 1),
                 Look { eye, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },
             );
         }
-        Self { scenery: Scenery::new(scene), looks, ..Self::default() }
+        Self { scenery: scene.scenery().clone(), looks, ..Self::default() }
     }
 
     /// Every piece, the scene's first.

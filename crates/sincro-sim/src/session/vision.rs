@@ -12,6 +12,7 @@ use super::table::{Handle, Kind, Table};
 use super::{Desk, Refusal};
 use crate::camera::{Image, Layer, Optics, Part, Renderer};
 use crate::scene::VisionSensor;
+use crate::scenery::placed;
 
 /// Pixels that all vision sensors may have together: 16 Mi, which take 250 MB once they are read.
 const MOST_PIXELS: usize = 1 << 24;
@@ -399,7 +400,7 @@ impl Desk<'_> {
         let Eye { sensor, image, .. } = &mut eyes[k];
         let image = image.get_or_insert_with(|| Image::new(&sensor.optics));
         let pieces = table.senses.pieces().filter(|piece| object.is_none_or(|object| handle_of(piece) == object));
-        let placed = pieces.map(|piece| (piece, kinematics::frame_pose(scratch, &piece.at)));
-        studio.renderer.get_or_insert_default().draw(placed, (&x_wc, &sensor.optics), sensor.background, image);
+        let pieces = placed(pieces, scratch);
+        studio.renderer.get_or_insert_default().draw(pieces, (&x_wc, &sensor.optics), sensor.background, image);
     }
 }
