@@ -10,7 +10,10 @@ use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use sincro_access::{ConnectionLimits, Connections};
 use sincro_sim::session::{Finished, Phase, Refusal, Session};
+
+use crate::limits::{self, Deadlines};
 
 /// Longest wait before the state of the server is looked at again.
 const GLANCE: Duration = Duration::from_millis(100);
@@ -38,6 +41,8 @@ pub struct Manner {
     pub real_time: bool,
     /// How long a client that steps may stay silent before it is let go.
     pub patience: Duration,
+    /// Deadlines of connections.
+    pub deadlines: Deadlines,
 }
 
 /// The session and who is attached.
@@ -73,7 +78,7 @@ pub struct Hub {
     /// Threads that want the floor: the free run lets them in between steps.
     waiting: AtomicUsize,
     closing: AtomicBool,
-    connections: AtomicUsize,
+    connections: Arc<Connections>,
     manner: Manner,
 }
 
@@ -96,7 +101,11 @@ impl Hub {
             moved: Condvar::new(),
             waiting: AtomicUsize::new(0),
             closing: AtomicBool::new(false),
-            connections: AtomicUsize::new(0),
+            connections: Connections::new(ConnectionLimits {
+                total: limits::CONNECTIONS,
+                per_address: limits::PER_ADDRESS,
+                idle_under_pressure: limits::IDLE_UNDER_PRESSURE,
+            }),
             manner,
         })
     }
@@ -127,24 +136,16 @@ impl Hub {
         self.wake();
     }
 
-    /// Counts a connection in; says whether there is room for it.
-    pub fn admit(&self) -> bool {
-        let n = self.connections.fetch_add(1, Ordering::SeqCst);
-        if n >= crate::limits::CONNECTIONS {
-            self.connections.fetch_sub(1, Ordering::SeqCst);
-        }
-        n < crate::limits::CONNECTIONS
-    }
-
-    /// Counts a connection out.
-    pub fn leave(&self) {
-        self.connections.fetch_sub(1, Ordering::SeqCst);
-    }
-
-    /// Connections now open.
+    /// The connections of all ports.
     #[must_use]
-    pub fn n_connections(&self) -> usize {
-        self.connections.load(Ordering::SeqCst)
+    pub fn connections(&self) -> &Arc<Connections> {
+        &self.connections
+    }
+
+    /// Deadlines of connections.
+    #[must_use]
+    pub fn deadlines(&self) -> &Deadlines {
+        &self.manner.deadlines
     }
 
     /// One connection less of a client; with the last one all that it holds is let go.

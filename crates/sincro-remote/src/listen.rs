@@ -1,17 +1,23 @@
-//! Listening: one thread a port that accepts, one a connection.
+//! Listening: one thread a port that accepts, one a connection; deadlines of reading and writing.
+//!
+//! A message must be complete within [`Deadlines::read`] of its first byte, an answer be taken within [`Deadlines::write`], however the bytes are
+//! spread over that time; between messages a connection may be idle for a limited time only.
 
-use std::io::{self, ErrorKind, Read};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{IpAddr, Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::ops::Range;
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::hub::Hub;
-use crate::limits;
+use sincro_access::Permit;
 
-/// How often a thread that waits for input looks whether the server is being closed.
-const GLANCE: Duration = Duration::from_millis(200);
+use crate::hub::Hub;
+#[cfg(doc)]
+use crate::limits::Deadlines;
+
+/// Interval at which a thread that waits for input checks its deadline and whether shutdown has begun.
+const POLL: Duration = Duration::from_millis(200);
 
 /// Accepts connections until the hub is closed; each is served by `serve` in a thread of its own.
 pub(crate) fn accept<F>(
@@ -29,113 +35,178 @@ where
             if hub.is_closing() {
                 return;
             }
-            // a connection that failed before it was accepted is none
+            // a connection that failed before it was accepted is none, and one without a slot is closed
             let Ok(stream) = stream else { continue };
-            if !hub.admit() {
-                continue;
-            }
+            let Some(permit) = admit(&stream, &hub) else { continue };
             let (of_thread, serve) = (hub.clone(), serve.clone());
-            let spawned =
-                thread::Builder::new().name(format!("{name} client")).stack_size(512 << 10).spawn(move || {
-                    if let Ok(connection) = Connection::new(stream, of_thread.clone()) {
-                        serve(connection, &of_thread);
-                    }
-                    of_thread.leave();
-                });
-            if spawned.is_err() {
-                hub.leave();
-            }
+            // a thread that cannot be started drops the connection and its slot
+            let _ = thread::Builder::new().name(format!("{name} client")).stack_size(512 << 10).spawn(move || {
+                if let Ok(connection) = Connection::new(stream, permit, of_thread.clone()) {
+                    serve(connection, &of_thread);
+                }
+            });
         }
     })
+}
+
+/// Takes a slot for a connection.
+fn admit(stream: &TcpStream, hub: &Hub) -> Option<Permit> {
+    let peer = stream.peer_addr().ok()?;
+    let handle = stream.try_clone().ok()?;
+    hub.connections().admit(peer.ip(), move || drop(handle.shutdown(Shutdown::Both)))
 }
 
 /// Wakes a thread that accepts, so that it sees that the hub is closed.
 pub(crate) fn nudge(address: SocketAddr) {
     let mut address = address;
     if address.ip().is_unspecified() {
-        address.set_ip(std::net::Ipv4Addr::LOCALHOST.into());
+        let loopback: IpAddr =
+            if address.is_ipv4() { Ipv4Addr::LOCALHOST.into() } else { std::net::Ipv6Addr::LOCALHOST.into() };
+        address.set_ip(loopback);
     }
     let _ = TcpStream::connect_timeout(&address, Duration::from_secs(1));
 }
 
-/// A connection whose reads end when the server is closed.
+/// A connection whose reads and writes end at their deadlines and when the server is closed.
 pub(crate) struct Connection {
     stream: TcpStream,
     hub: Arc<Hub>,
-    /// What has come and was not asked for yet: a message then costs one call of the system, not one for each of its parts.
-    ahead: Box<[u8; AHEAD]>,
-    /// Its part that is still to be taken.
-    waiting: Range<usize>,
+    permit: Permit,
+    /// Bytes that were read and not asked for yet: a message then costs one system call, not one for each of its parts.
+    buffer: Box<[u8; BUFFER]>,
+    /// Part of the buffer that is still to be taken.
+    unread: Range<usize>,
+    stage: Stage,
+    /// Instant by which the present answer must have been taken; none before its first byte.
+    write_by: Option<Instant>,
 }
 
-/// Bytes that are read ahead.
-const AHEAD: usize = 4096;
+/// Progress of the present message.
+#[derive(Clone, Copy, Debug)]
+enum Stage {
+    /// No byte of it has come; the connection is closed at the instant.
+    Waiting { until: Instant },
+    /// Its first byte has come; it must be complete by the instant.
+    Begun { until: Instant },
+}
+
+/// Size of the read buffer [bytes].
+const BUFFER: usize = 4096;
 
 impl Connection {
-    fn new(stream: TcpStream, hub: Arc<Hub>) -> io::Result<Self> {
+    fn new(stream: TcpStream, permit: Permit, hub: Arc<Hub>) -> io::Result<Self> {
         stream.set_nodelay(true)?;
-        stream.set_read_timeout(Some(GLANCE))?;
-        stream.set_write_timeout(Some(limits::WRITE))?;
-        Ok(Self { stream, hub, ahead: Box::new([0; AHEAD]), waiting: 0..0 })
+        stream.set_read_timeout(Some(POLL))?;
+        stream.set_write_timeout(Some(POLL))?;
+        let stage = Stage::Begun { until: Instant::now() + hub.deadlines().handshake };
+        let (buffer, unread) = (Box::new([0; BUFFER]), 0..0);
+        Ok(Self { stream, hub, permit, buffer, unread, stage, write_by: None })
     }
 
-    /// Who it is.
+    /// Address of the peer, as text.
     pub fn peer(&self) -> String {
         self.stream.peer_addr().map_or_else(|_| "unknown".to_owned(), |a| a.to_string())
     }
 
-    /// For writing.
-    pub fn stream(&mut self) -> &mut TcpStream {
-        &mut self.stream
+    /// Another handle of the stream, for a thread that only writes.
+    pub fn try_clone_stream(&self) -> io::Result<TcpStream> {
+        self.stream.try_clone()
     }
 
-    /// Fills a buffer. A message may begin whenever it likes (`is_start`), but once begun it must go on.
-    pub fn fill(&mut self, buffer: &mut [u8], is_start: bool) -> io::Result<()> {
-        let (mut done, mut since) = (0, Instant::now());
-        while done < buffer.len() {
-            match self.read(&mut buffer[done..]) {
-                Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
-                Ok(n) => {
-                    done += n;
-                    since = Instant::now();
-                }
-                Err(e) if matches!(e.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
-                    let has_begun = !is_start || done > 0;
-                    if self.hub.is_closing() || (has_begun && since.elapsed() > limits::READ) {
-                        return Err(ErrorKind::TimedOut.into());
-                    }
-                }
-                Err(e) if e.kind() == ErrorKind::Interrupted => {}
-                Err(e) => return Err(e),
-            }
-        }
-        Ok(())
+    /// Begins to wait for a message. Until this is called first, the deadline of the handshake holds.
+    pub fn next_message(&mut self) {
+        self.stage = Stage::Waiting { until: Instant::now() + self.hub.deadlines().idle };
     }
 
-    /// What waits, else what comes: at least a byte, unless the peer has gone.
-    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        if self.waiting.is_empty() {
-            if out.len() >= AHEAD {
-                return self.stream.read(out);
-            }
-            self.waiting = 0..self.stream.read(&mut self.ahead[..])?;
-        }
-        let n = out.len().min(self.waiting.len());
-        out[..n].copy_from_slice(&self.ahead[self.waiting.start..][..n]);
-        self.waiting.start += n;
-        Ok(n)
+    /// Notes that a whole message has come: this connection is in use.
+    pub fn end_message(&mut self) {
+        self.permit.mark_message();
+    }
+
+    /// True if the idle time-out has passed before a byte of the present message has come, and the server goes on.
+    pub fn is_timed_out(&self) -> bool {
+        matches!(self.stage, Stage::Waiting { until } if Instant::now() >= until) && !self.hub.is_closing()
     }
 
     /// Reads `n` bytes onto the end of `out`, in pieces, so that a length that was made up takes no memory.
-    pub fn take(&mut self, n: usize, out: &mut Vec<u8>) -> io::Result<()> {
+    ///
+    /// # Errors
+    ///
+    /// The peer has gone, a deadline has passed, or the server is being closed.
+    pub fn read_appending(&mut self, n: usize, out: &mut Vec<u8>) -> io::Result<()> {
         let mut left = n;
         while left > 0 {
             let piece = left.min(1 << 16);
             let start = out.len();
             out.resize(start + piece, 0);
-            self.fill(&mut out[start..], false)?;
+            self.read_exact(&mut out[start..])?;
             left -= piece;
         }
+        Ok(())
+    }
+
+    /// Reads what is in the buffer, else what comes: at least a byte, unless the peer has gone.
+    fn receive(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        if self.unread.is_empty() {
+            if out.len() >= BUFFER {
+                return receive(&self.stream, out, &self.hub, self.stage);
+            }
+            self.unread = 0..receive(&self.stream, &mut self.buffer[..], &self.hub, self.stage)?;
+        }
+        let n = out.len().min(self.unread.len());
+        out[..n].copy_from_slice(&self.buffer[self.unread.start..][..n]);
+        self.unread.start += n;
+        Ok(n)
+    }
+}
+
+/// Reads from a stream until something comes, the deadline of the stage passes or the server is being closed.
+fn receive(mut stream: &TcpStream, out: &mut [u8], hub: &Hub, stage: Stage) -> io::Result<usize> {
+    let (Stage::Waiting { until } | Stage::Begun { until }) = stage;
+    loop {
+        // looked at before every read: a byte now and then does not put the deadline off
+        if hub.is_closing() || Instant::now() >= until {
+            return Err(ErrorKind::ConnectionAborted.into());
+        }
+        match stream.read(out) {
+            Err(e) if is_pending(&e) => {}
+            done => return done,
+        }
+    }
+}
+
+/// True of the errors after which a call is made again.
+fn is_pending(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted)
+}
+
+impl Read for Connection {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let n = self.receive(out)?;
+        self.write_by = None;
+        if let Stage::Waiting { .. } = self.stage {
+            self.stage = Stage::Begun { until: Instant::now() + self.hub.deadlines().read };
+        }
+        Ok(n)
+    }
+}
+
+impl Write for Connection {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        // what is written between two reads is one answer
+        let until = *self.write_by.get_or_insert_with(|| Instant::now() + self.hub.deadlines().write);
+        loop {
+            if self.hub.is_closing() || Instant::now() >= until {
+                return Err(ErrorKind::ConnectionAborted.into());
+            }
+            match self.stream.write(bytes) {
+                Err(e) if is_pending(&e) => {}
+                done => return done,
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
 }

@@ -8,9 +8,11 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use sincro_access::Guard;
 use sincro_sim::session::Session;
 
 use crate::hub::{Event, Hub, Manner};
+use crate::limits::Deadlines;
 use crate::{legacy, listen, ws, zmq};
 
 /// Events that wait to be taken.
@@ -31,6 +33,11 @@ pub struct Options {
     pub real_time: bool,
     /// How long a client that steps may stay silent before it is let go.
     pub patience: Duration,
+    /// Deadlines of connections.
+    pub deadlines: Deadlines,
+    /// Lets everybody who reaches the ports of the legacy and the ZeroMQ API in, beyond loopback: their clients have no way to
+    /// show that they may.
+    pub unauthenticated: bool,
 }
 
 impl Default for Options {
@@ -42,7 +49,28 @@ impl Default for Options {
             ws: Some(23050),
             real_time: false,
             patience: Duration::from_secs(600),
+            deadlines: Deadlines::default(),
+            unauthenticated: false,
         }
+    }
+}
+
+impl Options {
+    /// Refuses to open ports to other machines that cannot tell who calls, unless that is what the user asks for.
+    fn check(&self) -> Result<(), ServeError> {
+        let has_open = !self.legacy.is_empty() || self.zmq.is_some();
+        if self.bind.is_loopback() || self.unauthenticated || !has_open {
+            return Ok(());
+        }
+        Err(ServeError {
+            message: format!(
+                "on {} everybody who reaches this machine could drive the simulation: clients of the legacy and the ZeroMQ API have no password",
+                self.bind
+            ),
+            help: "add --unauthenticated if that is meant (a closed network), serve only WebSocket, which has a token (--no-legacy --no-zmq), or \
+                   stay on loopback and forward the ports (ssh -L 23000:127.0.0.1:23000 HOST)"
+                .into(),
+        })
     }
 }
 
@@ -80,6 +108,7 @@ pub struct Ports {
 pub struct Server {
     hub: Arc<Hub>,
     ports: Ports,
+    ws_guard: Option<Arc<Guard>>,
     threads: Vec<JoinHandle<()>>,
     events: Receiver<Event>,
 }
@@ -89,8 +118,10 @@ impl Server {
     ///
     /// # Errors
     ///
-    /// A port cannot be had; then nothing is served.
+    /// A port cannot be had, or the ports that know no token would be open to other machines without [`Options::unauthenticated`]; then
+    /// nothing is served.
     pub fn start(session: Session, options: &Options) -> Result<Self, ServeError> {
+        options.check()?;
         let open = |port: u16, flag: &str| open(options.bind, port, flag);
         let legacy = options.legacy.iter().map(|p| open(*p, "--legacy-port")).collect::<Result<Vec<_>, _>>()?;
         let zmq = options.zmq.map(|p| open(p, "--zmq-port")).transpose()?;
@@ -105,7 +136,7 @@ impl Server {
             ws: ws.as_ref().map(address),
         };
         let (send, events) = sync_channel(EVENTS);
-        let manner = Manner { real_time: options.real_time, patience: options.patience };
+        let manner = Manner { real_time: options.real_time, patience: options.patience, deadlines: options.deadlines };
         let hub = Hub::new(session, manner, send);
         let mut threads = Vec::new();
         let failed =
@@ -120,22 +151,30 @@ impl Server {
             let publisher = zmq::Publisher::default();
             let of_hub = publisher.clone();
             hub.enter().on_step(Box::new(move |step| of_hub.publish(step)));
-            let serve = move |connection, _: &Arc<Hub>| publisher.serve(connection);
+            let serve = move |connection, hub: &Arc<Hub>| publisher.serve(connection, hub.deadlines().idle);
             threads.push(listen::accept(listener, &hub, "zmq steps", serve).map_err(failed)?);
         }
-        if let Some(listener) = ws {
-            threads.push(listen::accept(listener, &hub, "ws", ws::serve).map_err(failed)?);
+        let ws_guard = ports.ws.map(|address| Arc::new(Guard::for_api(address)));
+        if let (Some(listener), Some(guard)) = (ws, ws_guard.clone()) {
+            let serve = move |connection, hub: &Arc<Hub>| ws::serve(connection, hub, &guard);
+            threads.push(listen::accept(listener, &hub, "ws", serve).map_err(failed)?);
         }
         let of_run = hub.clone();
         let run = std::thread::Builder::new().name("simulation".into()).spawn(move || of_run.run());
         threads.push(run.map_err(failed)?);
-        Ok(Self { hub, ports, threads, events })
+        Ok(Self { hub, ports, ws_guard, threads, events })
     }
 
     /// The addresses that are listened on.
     #[must_use]
     pub fn ports(&self) -> &Ports {
         &self.ports
+    }
+
+    /// Link of the WebSocket API with its token, which pages need everywhere and programs beyond loopback.
+    #[must_use]
+    pub fn ws_link(&self) -> Option<String> {
+        self.ws_guard.as_ref().map(|guard| guard.link("ws"))
     }
 
     /// Where the clients meet.

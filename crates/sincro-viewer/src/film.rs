@@ -12,7 +12,7 @@ use sincro_sim::results::Status;
 use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::Table;
 
-use crate::base64;
+use crate::encoding;
 
 /// What the page checks before it reads on.
 pub const FORMAT: &str = "sincro-film-2";
@@ -185,11 +185,11 @@ pub(crate) fn frames(tape: &Tape, most_bytes: usize) -> Frames {
     let kept = thinned(tape.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1));
     let counts = kept.clone().filter(|_| points > 0).map(|k| tape.contacts.count(k) as f32);
     Frames {
-        counts: base64::singles(&counts.collect::<Vec<_>>()),
-        contacts: base64::singles(kept.clone().flat_map(|k| tape.contacts.frame(k))),
+        counts: encoding::singles(&counts.collect::<Vec<_>>()),
+        contacts: encoding::singles(kept.clone().flat_map(|k| tape.contacts.frame(k))),
         width: tape.layout.width(),
-        times: base64::doubles(kept.clone().map(|k| tape.times[k])),
-        numbers: base64::singles(kept.flat_map(|k| tape.frame(k))),
+        times: encoding::doubles(kept.clone().map(|k| tape.times[k])),
+        numbers: encoding::singles(kept.flat_map(|k| tape.frame(k))),
     }
 }
 
@@ -217,14 +217,14 @@ pub(crate) fn signals(table: &Table, bars: &[Option<f64>], outcomes: &[Outcome],
                 (c.name.clone(), c.unit.clone(), bars.get(k - 1).copied().flatten())
             })
             .collect(),
-        times: base64::doubles(kept.clone().map(|row| column(0)[row])),
-        numbers: base64::doubles((1..table.columns.len()).flat_map(|k| kept.clone().map(move |row| column(k)[row]))),
+        times: encoding::doubles(kept.clone().map(|row| column(0)[row])),
+        numbers: encoding::doubles((1..table.columns.len()).flat_map(|k| kept.clone().map(move |row| column(k)[row]))),
         references: expected
             .into_iter()
             .map(|(signal, s)| {
                 let kept = thinned(s.times.len(), every);
-                let times = base64::doubles(kept.clone().map(|k| s.times[k]));
-                (signal.to_owned(), times, base64::doubles(kept.map(|k| s.values[k])))
+                let times = encoding::doubles(kept.clone().map(|k| s.times[k]));
+                (signal.to_owned(), times, encoding::doubles(kept.map(|k| s.values[k])))
             })
             .collect(),
     }

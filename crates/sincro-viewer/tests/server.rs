@@ -24,12 +24,21 @@ fn engine(name: &str) -> (Arc<Board>, SyncSender<Command>) {
     (engine.board(), engine.start())
 }
 
-/// A server on loopback that ends with the test's process.
-fn serve(show: Show) -> SocketAddr {
+/// A server that ends with the test's process: where it listens, and the query with its token.
+#[derive(Clone)]
+struct Served {
+    address: SocketAddr,
+    token: String,
+    single_use_url: String,
+}
+
+/// A server on loopback.
+fn serve(show: Show) -> Served {
     let server = Server::bind(SocketAddr::from(([127, 0, 0, 1], 0)), show).unwrap();
-    let url = server.url();
+    let (url, single_use_url) = (server.url(), server.single_use_url());
     std::thread::spawn(move || server.run());
-    url.trim_start_matches("http://").trim_end_matches('/').parse().unwrap()
+    let (address, token) = url.strip_prefix("http://").unwrap().split_once("/?").unwrap();
+    Served { address: address.parse().unwrap(), token: token.to_owned(), single_use_url }
 }
 
 /// The first line and the body of the answer to a raw request.
@@ -44,14 +53,17 @@ fn ask(address: SocketAddr, request: &str) -> (String, String) {
     (status, text.split_once("\r\n\r\n").map_or(String::new(), |(_, body)| body.to_owned()))
 }
 
-fn get(address: SocketAddr, path: &str, more: &str) -> (String, String) {
-    ask(address, &format!("GET {path} HTTP/1.1\r\nHost: {address}\r\n{more}Connection: close\r\n\r\n"))
+/// Asks for a path with the token.
+fn get(served: &Served, path: &str, more: &str) -> (String, String) {
+    let Served { address, token, .. } = served;
+    ask(*address, &format!("GET {path}?{token} HTTP/1.1\r\nHost: {address}\r\n{more}Connection: close\r\n\r\n"))
 }
 
 type Line = WebSocket<MaybeTlsStream<TcpStream>>;
 
-fn connect(address: SocketAddr) -> Line {
-    let (line, _) = tungstenite::connect(format!("ws://{address}/live")).unwrap();
+fn connect(served: &Served) -> Line {
+    let Served { address, token, .. } = served;
+    let (line, _) = tungstenite::connect(format!("ws://{address}/live?{token}")).unwrap();
     if let MaybeTlsStream::Plain(stream) = line.get_ref() {
         stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
     }
@@ -96,25 +108,67 @@ fn hash_of(name: &str) -> String {
 
 #[test]
 fn only_this_page_is_let_in() {
-    let address = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
-    let port = address.port();
-    assert!(get(address, "/", "").0.contains("200"));
-    assert!(get(address, "/film.json", "").1.contains("sincro-film-2"));
-    assert!(get(address, "/film.json", &format!("Origin: http://{address}\r\n")).0.contains("200"));
-    for origin in ["http://evil.example", "null", "https://127.0.0.1"] {
-        let (status, body) = get(address, "/film.json", &format!("Origin: {origin}\r\n"));
+    let served = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
+    let Served { address, token, .. } = &served;
+    assert!(get(&served, "/", "").0.contains("200"));
+    assert!(get(&served, "/film.json", "").1.contains("sincro-film-2"));
+    assert!(get(&served, "/film.json", &format!("Origin: http://{address}\r\n")).0.contains("200"));
+    for origin in ["http://evil.example", "null", "file://", "https://127.0.0.1"] {
+        let (status, body) = get(&served, "/film.json", &format!("Origin: {origin}\r\n"));
         assert!(status.contains("403") && !body.contains("sincro-film"), "{origin}: {status}");
     }
-    for host in [format!("evil.example:{port}"), "127.0.0.1".into(), String::new()] {
-        let (status, body) =
-            ask(address, &format!("GET /film.json HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"));
+    for host in [format!("evil.example:{}", address.port()), "127.0.0.1".into(), String::new()] {
+        let request = format!("GET /film.json?{token} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n");
+        let (status, body) = ask(*address, &request);
         assert!(!status.contains("200") && !body.contains("sincro-film"), "{host}: {status}");
     }
 }
 
 #[test]
+fn another_user_of_the_machine_lacks_the_token() {
+    let served = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
+    for token in ["", "token=", "token=00000000000000000000000000000000", "ticket=", "ticket=0"] {
+        let guessed = Served { token: token.to_owned(), ..served.clone() };
+        for path in ["/", "/film.json", "/live"] {
+            let (status, body) = get(&guessed, path, "");
+            assert!(status.contains("403") && body.contains("lacks its token"), "{path} {token}: {status} {body}");
+        }
+    }
+    // the page's program is the same for everybody
+    assert!(get(&Served { token: String::new(), ..served.clone() }, "/viewer.js", "").0.contains("200"));
+    // the link in the argument list of a browser opens the page once
+    let ticket = served.single_use_url.split_once('?').unwrap().1.to_owned();
+    let by_ticket = Served { token: ticket, ..served.clone() };
+    let request =
+        format!("GET /?{} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", by_ticket.token, served.address);
+    let mut stream = TcpStream::connect(served.address).unwrap();
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 303") && answer.contains(&format!("/?{}", served.token)), "{answer}");
+    assert!(get(&by_ticket, "/", "").0.contains("403"), "a second time");
+}
+
+#[test]
+fn heads_that_do_not_come_and_silent_connections_keep_nobody_out() {
+    let served = serve(Show::Film("{}".into()));
+    let silent: Vec<TcpStream> = (0..200).filter_map(|_| TcpStream::connect(served.address).ok()).collect();
+    assert!(silent.len() > 100);
+    assert!(get(&served, "/", "").0.contains("200"));
+    let mut slow = TcpStream::connect(served.address).unwrap();
+    slow.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
+    slow.write_all(format!("GET / HTTP/1.1\r\nHost: {}\r\nX: ", served.address).as_bytes()).unwrap();
+    let (begin, mut bytes) = (Instant::now(), [0; 512]);
+    // a byte now and then does not put the deadline of ten seconds off
+    while slow.write_all(b"x").is_ok() && !matches!(slow.read(&mut bytes), Ok(0)) {
+        assert!(begin.elapsed() < Duration::from_secs(30), "the head is still being read");
+    }
+    drop(silent);
+}
+
+#[test]
 fn no_path_leads_to_a_file() {
-    let address = serve(Show::Film("{}".into()));
+    let served = serve(Show::Film("{}".into()));
     for path in [
         "/Cargo.toml",
         "/../Cargo.toml",
@@ -124,30 +178,37 @@ fn no_path_leads_to_a_file() {
         "/viewer.js/../../Cargo.toml",
         "/live",
     ] {
-        let (status, body) = get(address, path, "");
+        let (status, body) = get(&served, path, "");
         assert!(!status.contains("200") && !body.contains("[package]") && !body.contains("root:"), "{path}: {status}");
     }
-    assert!(ask(address, "POST /film.json HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").0.contains("40"));
+    assert!(ask(served.address, "POST /film.json HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").0.contains("40"));
 }
 
 #[test]
 fn a_live_line_is_refused_to_other_sites() {
     let (board, commands) = engine("free-body");
-    let address = serve(Show::Live(board, commands));
+    let Served { address, token, .. } = serve(Show::Live(board, commands));
     let upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
-    let request = format!("GET /live HTTP/1.1\r\nHost: {address}\r\nOrigin: http://evil.example\r\n{upgrade}\r\n");
-    let mut stream = TcpStream::connect(address).unwrap();
-    stream.write_all(request.as_bytes()).unwrap();
-    let mut answer = [0; 12];
-    stream.read_exact(&mut answer).unwrap();
-    assert_eq!(&answer, b"HTTP/1.1 403");
+    let attempts = [
+        (format!("/live?{token}"), "Origin: http://evil.example\r\n"),
+        (format!("/live?{token}"), "Origin: null\r\n"),
+        ("/live".to_owned(), ""),
+    ];
+    for (path, origin) in attempts {
+        let request = format!("GET {path} HTTP/1.1\r\nHost: {address}\r\n{origin}{upgrade}\r\n");
+        let mut stream = TcpStream::connect(address).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut answer = [0; 12];
+        stream.read_exact(&mut answer).unwrap();
+        assert_eq!(&answer, b"HTTP/1.1 403", "{path} {origin}");
+    }
 }
 
 #[test]
 fn malformed_messages_are_refused_and_the_run_goes_on() {
     let (board, commands) = engine("motor-step");
-    let address = serve(Show::Live(board.clone(), commands.clone()));
-    let mut line = connect(address);
+    let served = serve(Show::Live(board.clone(), commands.clone()));
+    let mut line = connect(&served);
     for text in
         ["", "play", "{\"do\":\"fly\"}", "{\"do\":\"play\",\"now\":1}", "{\"do\":\"speed\",\"speed\":-1}", "[1e999]"]
     {
@@ -172,9 +233,9 @@ fn viewers_neither_change_nor_slow_a_run() {
     let expected = hash_of(name);
     for n_viewers in [0, 1, 5] {
         let (board, commands) = engine(name);
-        let address = serve(Show::Live(board.clone(), commands.clone()));
+        let served = serve(Show::Live(board.clone(), commands.clone()));
         // one of them reads, the others stop after the handshake
-        let mut lines: Vec<Line> = (0..n_viewers).map(|_| connect(address)).collect();
+        let mut lines: Vec<Line> = (0..n_viewers).map(|_| connect(&served)).collect();
         let begin = Instant::now();
         send(&commands, r#"{"do":"speed","speed":null}"#);
         send(&commands, r#"{"do":"play"}"#);
@@ -318,8 +379,8 @@ fn next_frames(line: &mut Line) -> Vec<u8> {
 #[test]
 fn points_of_contact_travel_with_their_frames() {
     let (board, commands) = engine("gripper");
-    let address = serve(Show::Live(board, commands.clone()));
-    let mut line = connect(address);
+    let served = serve(Show::Live(board, commands.clone()));
+    let mut line = connect(&served);
     let run = next(&mut line, "run");
     let surfaces = run["view"]["surfaces"].as_array().unwrap().clone();
     let paths: Vec<&str> = surfaces

@@ -1,16 +1,16 @@
 // The remote API in a browser, over WebSocket: `sim.getObject("/joint")` is a promise of what the server answers.
 //
-//     const sim = await connect("ws://127.0.0.1:23050");
+//     const sim = await connect("ws://127.0.0.1:23050/?token=…");   // the link that `sincro serve` prints
 //     const joint = await sim.getObject("/shoulder");
 //
 // A call with several results gives a list, as in Python. Errors of the server are thrown with its text.
 
-/** Connects to `sincro serve`; every function of `sim` (docs/remote.md) is a function of what is given, and `close`. */
-async function connect(url = "ws://127.0.0.1:23050") {
+/** Connects to `sincro serve` with the link that it prints (pages need its token); every function of `sim` (docs/remote.md) is a function of what is given, and `close`. */
+async function connect(url) {
   const socket = new WebSocket(url);
   await new Promise((open, failed) => {
     socket.onopen = open;
-    socket.onerror = () => failed(new Error(`no server at ${url}: start \`sincro serve SCENE\``));
+    socket.onerror = () => failed(new Error(`no connection to ${url}: start \`sincro serve SCENE\` and take the link that it prints`));
   });
   // answers come in the order of the questions
   const waiting = [];

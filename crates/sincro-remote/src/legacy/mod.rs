@@ -30,14 +30,17 @@ use client::Client;
 /// Serves one connection until it ends.
 pub(crate) fn serve(mut connection: Connection, hub: &Arc<Hub>) {
     let key = format!("legacy {}", connection.peer());
+    // there is no handshake: a client may connect and say nothing for a while
+    connection.next_message();
     let id = hub.enter().attach(&key);
     let mut client = Client::new(hub.clone(), id);
     let (mut incoming, mut outgoing) = (Vec::new(), Vec::new());
     while packet::receive(&mut connection, &mut incoming).is_ok() {
         let Ok(goes_on) = client.answer(&incoming, &mut outgoing) else { break };
-        if packet::send(connection.stream(), &outgoing).is_err() || !goes_on {
+        if packet::send(&mut connection, &outgoing).is_err() || !goes_on {
             break;
         }
+        connection.next_message();
     }
     hub.detach(id);
 }

@@ -1,6 +1,6 @@
 //! Messages of the legacy API as packets: a head of three 16-bit integers (1, length of the payload, packets to come), then the payload.
 
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, Read, Write};
 
 use crate::limits;
 use crate::listen::Connection;
@@ -17,19 +17,18 @@ pub const PAYLOAD: usize = 1294;
 /// The connection has ended, or sent something else.
 pub(crate) fn receive(connection: &mut Connection, message: &mut Vec<u8>) -> io::Result<()> {
     message.clear();
-    let mut is_start = true;
     loop {
         let mut head = [0; HEAD];
-        connection.fill(&mut head, is_start)?;
+        connection.read_exact(&mut head)?;
         let (length, left) = parse_head(&head).ok_or(ErrorKind::InvalidData)?;
         if message.len() + length > limits::MESSAGE {
             return Err(ErrorKind::InvalidData.into());
         }
-        connection.take(length, message)?;
+        connection.read_appending(length, message)?;
         if left == 0 {
+            connection.end_message();
             return Ok(());
         }
-        is_start = false;
     }
 }
 
@@ -46,7 +45,7 @@ pub fn parse_head(head: &[u8; HEAD]) -> Option<(usize, u16)> {
 /// # Errors
 ///
 /// The connection does not take it, or it is too long for the counter of packets.
-pub fn send(stream: &mut impl Write, message: &[u8]) -> io::Result<()> {
+pub(crate) fn send(connection: &mut Connection, message: &[u8]) -> io::Result<()> {
     // a message of up to 32767 usual packets; beyond it larger ones, which the client takes too
     let payload = PAYLOAD.max(message.len().div_ceil(i16::MAX as usize));
     let n = message.len().div_ceil(payload).max(1);
@@ -61,5 +60,5 @@ pub fn send(stream: &mut impl Write, message: &[u8]) -> io::Result<()> {
         }
         bytes.extend(part);
     }
-    stream.write_all(&bytes)
+    connection.write_all(&bytes)
 }

@@ -3,40 +3,57 @@
 use std::io::Write;
 use std::net::TcpStream;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::wire;
 use crate::listen::Connection;
 
-/// How long a subscriber may take to take twelve bytes; then it is gone.
-const PATIENCE: Duration = Duration::from_millis(50);
+/// Time that a subscriber may take to take twelve bytes; then it is dropped.
+const WRITE: Duration = Duration::from_millis(50);
 
-/// Everybody who listens to the counter.
+/// Subscribers of the counter.
 #[derive(Clone, Debug, Default)]
-pub struct Publisher(Arc<Mutex<Vec<TcpStream>>>);
+pub struct Publisher(Arc<Mutex<Subscribers>>);
+
+#[derive(Debug, Default)]
+struct Subscribers {
+    streams: Vec<TcpStream>,
+    /// Instant of the last number that was sent.
+    last: Option<Instant>,
+}
 
 impl Publisher {
-    /// Tells the number of the step, 32 bits little endian.
+    /// Sends the number of the step, 32 bits little endian.
     pub fn publish(&self, step: u64) {
         let mut frame = Vec::new();
         wire::write_frame(0, &(step as u32).to_le_bytes(), &mut frame);
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        all.retain_mut(|stream| stream.write_all(&frame).is_ok());
+        let mut all = self.lock();
+        all.last = Some(Instant::now());
+        all.streams.retain_mut(|stream| stream.write_all(&frame).is_ok());
     }
 
-    /// Keeps a subscriber until it goes.
-    pub(crate) fn serve(&self, connection: Connection) {
+    /// Keeps a subscriber until it goes, or until nothing was sent either way for the idle time-out of the server.
+    pub(crate) fn serve(&self, connection: Connection, idle_timeout: Duration) {
         let Ok(mut socket) = wire::Socket::accept(connection, "PUB") else { return };
-        let stream = socket.connection().stream();
-        let Ok(copy) = stream.try_clone() else { return };
-        if stream.set_write_timeout(Some(PATIENCE)).is_err() {
+        let Ok(stream) = socket.connection().try_clone_stream() else { return };
+        if stream.set_write_timeout(Some(WRITE)).is_err() {
             return;
         }
         let address = stream.peer_addr().ok();
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(copy);
-        // what it subscribes to does not matter: there is one thing only
-        while socket.drop_frame().is_ok() {}
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        all.retain(|other| other.peer_addr().ok() != address);
+        self.lock().streams.push(stream);
+        loop {
+            socket.connection().end_message();
+            socket.connection().next_message();
+            // what it subscribes to does not matter: there is one thing only
+            let is_served = || self.lock().last.is_some_and(|last| last.elapsed() < idle_timeout);
+            if socket.drop_frame().is_err() && !(socket.connection().is_timed_out() && is_served()) {
+                break;
+            }
+        }
+        self.lock().streams.retain(|other| other.peer_addr().ok() != address);
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Subscribers> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

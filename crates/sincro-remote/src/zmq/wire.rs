@@ -4,7 +4,7 @@
 //! Each side sends a greeting of 64 bytes, then a READY command, then frames: flags (1 more, 2 long, 4 command), length (1 byte, or 8 big endian),
 //! body.
 
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, Read, Write};
 
 use crate::limits;
 use crate::listen::Connection;
@@ -34,45 +34,48 @@ impl Socket {
     ///
     /// The peer does not speak ZMTP 3 with the NULL mechanism, or has gone.
     pub fn accept(mut connection: Connection, kind: &str) -> io::Result<Self> {
-        connection.stream().write_all(&greeting())?;
+        connection.write_all(&greeting())?;
         let mut theirs = [0; 64];
-        connection.fill(&mut theirs, false)?;
+        connection.read_exact(&mut theirs)?;
         if !is_greeting(&theirs) {
             return Err(ErrorKind::InvalidData.into());
         }
-        connection.stream().write_all(&ready(kind))?;
+        connection.write_all(&ready(kind))?;
         let mut socket = Self { connection, out: Vec::new() };
-        let first = socket.frame(false)?;
+        let first = socket.frame()?;
         if first.flags & COMMAND == 0 || !first.body.starts_with(b"\x05READY") {
             return Err(ErrorKind::InvalidData.into());
         }
         Ok(socket)
     }
 
-    fn frame(&mut self, is_start: bool) -> io::Result<Frame> {
+    fn frame(&mut self) -> io::Result<Frame> {
         let mut head = [0; 2];
-        self.connection.fill(&mut head[..1], is_start)?;
+        self.connection.read_exact(&mut head[..1])?;
         let flags = head[0];
         let length = if flags & LONG == 0 {
-            self.connection.fill(&mut head[1..], false)?;
+            self.connection.read_exact(&mut head[1..])?;
             u64::from(head[1])
         } else {
             let mut long = [0; 8];
-            self.connection.fill(&mut long, false)?;
+            self.connection.read_exact(&mut long)?;
             u64::from_be_bytes(long)
         };
         if flags > 7 || length > limits::MESSAGE as u64 {
             return Err(ErrorKind::InvalidData.into());
         }
         let mut body = Vec::new();
-        self.connection.take(length as usize, &mut body)?;
+        self.connection.read_appending(length as usize, &mut body)?;
         Ok(Frame { flags, body })
     }
 
-    /// Waits for the next frame that is part of a message.
-    fn message_frame(&mut self, is_start: bool) -> io::Result<Frame> {
+    /// Waits for the next frame that is part of a message; a command before the first one is passed over.
+    fn message_frame(&mut self, is_first: bool) -> io::Result<Frame> {
         loop {
-            let frame = self.frame(is_start)?;
+            if is_first {
+                self.connection.next_message();
+            }
+            let frame = self.frame()?;
             if frame.flags & COMMAND == 0 {
                 return Ok(frame);
             }
@@ -100,6 +103,7 @@ impl Socket {
                 envelope.push(frame.body);
             }
             if !has_more {
+                self.connection.end_message();
                 return body.map(|body| (envelope, body)).ok_or_else(|| ErrorKind::InvalidData.into());
             }
         }
@@ -116,7 +120,7 @@ impl Socket {
             write_frame(MORE, part, &mut self.out);
         }
         write_frame(0, body, &mut self.out);
-        self.connection.stream().write_all(&self.out)
+        self.connection.write_all(&self.out)
     }
 
     /// The connection, for a socket that only sends.
@@ -130,7 +134,7 @@ impl Socket {
     ///
     /// The peer has gone.
     pub fn drop_frame(&mut self) -> io::Result<()> {
-        self.frame(true).map(|_| ())
+        self.frame().map(|_| ())
     }
 }
 

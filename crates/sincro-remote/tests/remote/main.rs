@@ -10,6 +10,7 @@ mod moving;
 mod names;
 mod parity;
 mod scene;
+mod security;
 mod seeing;
 mod senses;
 mod touching;

@@ -1,6 +1,6 @@
 //! The WebSocket remote API.
 
-use std::io::Read;
+use tungstenite::{Bytes, Message};
 
 use super::scene::serve;
 use super::ws_client::Client;
@@ -10,10 +10,8 @@ fn a_browser_steps_the_simulation_in_json_and_cbor() {
     let server = serve("ws");
     let mut client = Client::connect(server.ports().ws.unwrap());
     let mut call = |text: &str| {
-        client.send(1, text.as_bytes());
-        let (code, body) = client.receive();
-        assert_eq!(code, 1);
-        String::from_utf8(body).unwrap()
+        client.send_text(text);
+        client.text()
     };
     assert_eq!(call(r#"{"func":"setStepping","args":[true],"id":7}"#), r#"{"id":7,"ret":[],"success":true}"#);
     call(r#"{"func":"sim.startSimulation"}"#);
@@ -23,13 +21,13 @@ fn a_browser_steps_the_simulation_in_json_and_cbor() {
     assert!(call(r#"{"func":3}"#).contains("the request has no `func`"));
     assert!(call(r"{").contains("no JSON"));
     assert!(call(r#"{"func":"wsRemoteApi.info","args":["simOMPL"]}"#).contains("no module"));
-    client.send(2, b"\xa1\x64func\x78\x19sim.getSimulationTimeStep");
-    let (code, body) = client.receive();
-    assert_eq!((code, body[0] >> 5), (2, 5), "CBOR is answered in CBOR");
-    client.send(9, b"ping");
-    assert_eq!(client.receive(), (10, b"ping".to_vec()));
-    client.send(8, &[3, 0xe8]);
-    assert_eq!(client.receive().0, 8);
-    let mut byte = [0];
-    assert_eq!(client.stream.read(&mut byte).unwrap(), 0);
+    client.send_bytes(b"\xa1\x64func\x78\x19sim.getSimulationTimeStep");
+    assert_eq!(client.bytes()[0] >> 5, 5, "CBOR is answered in CBOR");
+    client.send_bytes(br#"{"func":"sim.getSimulationTime"}"#);
+    assert_eq!(client.bytes(), br#"{"ret":[0.05],"success":true}"#, "JSON in bytes is answered in bytes");
+    client.socket.send(Message::Ping(Bytes::from_static(b"ping"))).unwrap();
+    assert_eq!(client.socket.read().unwrap(), Message::Pong(Bytes::from_static(b"ping")));
+    client.socket.close(None).unwrap();
+    assert!(client.socket.read().unwrap().is_close());
+    assert!(matches!(client.socket.read(), Err(tungstenite::Error::ConnectionClosed)));
 }

@@ -1,66 +1,70 @@
 //! A WebSocket client, in JSON and in CBOR.
 
-use std::io::{Read, Write};
+use std::io::Write;
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
 use serde_json::{Value as Json, json};
 use sincro_remote::cbor;
 use sincro_sim::session::Value;
+use tungstenite::protocol::frame::coding::{Data, OpCode};
+use tungstenite::protocol::frame::{Frame, FrameHeader};
+use tungstenite::{Message, WebSocket};
 
 pub struct Client {
-    pub stream: TcpStream,
+    pub socket: WebSocket<TcpStream>,
 }
 
 impl Client {
     pub fn connect(address: SocketAddr) -> Self {
-        let mut stream = TcpStream::connect(address).unwrap();
+        Self::connect_to(address, &format!("ws://{address}/")).unwrap()
+    }
+
+    /// Connects to an address with a link, whose host goes into the handshake.
+    pub fn connect_to(address: SocketAddr, link: &str) -> Result<Self, String> {
+        let stream = TcpStream::connect(address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
-        let request =
-            "GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-        stream.write_all(request.as_bytes()).unwrap();
-        let mut head = Vec::new();
-        while !head.ends_with(b"\r\n\r\n") {
-            let mut byte = [0];
-            stream.read_exact(&mut byte).unwrap();
-            head.push(byte[0]);
+        let (socket, _) = tungstenite::client(link, stream).map_err(|e| e.to_string())?;
+        Ok(Self { socket })
+    }
+
+    /// The stream below, for bytes that are no frames.
+    pub fn stream(&mut self) -> &mut TcpStream {
+        self.socket.get_mut()
+    }
+
+    pub fn send_text(&mut self, text: &str) {
+        self.socket.send(Message::text(text)).unwrap();
+    }
+
+    pub fn send_bytes(&mut self, bytes: &[u8]) {
+        self.socket.send(Message::binary(bytes.to_vec())).unwrap();
+    }
+
+    pub fn text(&mut self) -> String {
+        match self.socket.read().unwrap() {
+            Message::Text(text) => text.to_string(),
+            other => panic!("{other:?}"),
         }
-        assert!(String::from_utf8(head).unwrap().contains("Sec-WebSocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo=\r\n"));
-        Self { stream }
     }
 
-    /// A masked frame, the last of its message.
-    pub fn send(&mut self, code: u8, body: &[u8]) {
-        self.stream.write_all(&frame(0x80 | code, body)).unwrap();
+    pub fn bytes(&mut self) -> Vec<u8> {
+        match self.socket.read().unwrap() {
+            Message::Binary(bytes) => bytes.to_vec(),
+            other => panic!("{other:?}"),
+        }
     }
 
-    pub fn receive(&mut self) -> (u8, Vec<u8>) {
-        let mut head = [0; 2];
-        self.stream.read_exact(&mut head).unwrap();
-        let mut long = [0; 8];
-        let n = match head[1] {
-            126 => {
-                self.stream.read_exact(&mut long[6..]).unwrap();
-                u64::from_be_bytes(long)
-            }
-            127 => {
-                self.stream.read_exact(&mut long).unwrap();
-                u64::from_be_bytes(long)
-            }
-            short => short.into(),
-        };
-        let mut body = vec![0; n as usize];
-        self.stream.read_exact(&mut body).unwrap();
-        (head[0] & 15, body)
+    /// Sends bytes that need not be frames; the server may close while they are written.
+    pub fn throw(&mut self, bytes: &[u8]) {
+        let _ = self.stream().write_all(bytes);
     }
 
     /// A call in JSON: the whole answer.
     pub fn json(&mut self, name: &str, arguments: &[Value]) -> Json {
         let arguments: Vec<Json> = arguments.iter().map(json_of).collect();
-        self.send(1, json!({ "func": name, "args": arguments }).to_string().as_bytes());
-        let (code, body) = self.receive();
-        assert_eq!(code, 1, "{name}");
-        serde_json::from_slice(&body).unwrap_or_else(|e| panic!("{name}: {e}"))
+        self.send_text(&json!({ "func": name, "args": arguments }).to_string());
+        serde_json::from_str(&self.text()).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
 
     /// A call in CBOR: the whole answer.
@@ -68,29 +72,18 @@ impl Client {
         let request = [("func".to_owned(), Value::from(name)), ("args".to_owned(), Value::List(arguments.to_vec()))];
         let mut bytes = Vec::new();
         cbor::encode(&Value::Map(request.to_vec()), &mut bytes);
-        self.send(2, &bytes);
-        let (code, body) = self.receive();
-        assert_eq!(code, 2, "{name}");
-        cbor::decode(&body).unwrap_or_else(|e| panic!("{name}: {e}"))
+        self.send_bytes(&bytes);
+        cbor::decode(&self.bytes()).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
 }
 
-/// A masked frame with this first byte.
+/// A masked frame with this first byte, which need not be one that the protocol has.
 pub fn frame(first: u8, body: &[u8]) -> Vec<u8> {
-    let mut out = vec![first];
-    match body.len() {
-        n @ 0..126 => out.push(0x80 | n as u8),
-        n @ 126..0x1_0000 => {
-            out.push(0x80 | 126);
-            out.extend((n as u16).to_be_bytes());
-        }
-        n => {
-            out.push(0x80 | 127);
-            out.extend((n as u64).to_be_bytes());
-        }
-    }
-    out.extend([1, 2, 3, 4]);
-    out.extend(body.iter().zip([1, 2, 3, 4].iter().cycle()).map(|(b, m)| b ^ m));
+    let mut out = Vec::new();
+    let mask = Some([1, 2, 3, 4]);
+    let header = FrameHeader { opcode: OpCode::Data(Data::Binary), mask, ..FrameHeader::default() };
+    Frame::from_payload(header, body.to_vec().into()).format(&mut out).unwrap();
+    out[0] = first;
     out
 }
 

@@ -17,9 +17,12 @@ let browser;
 const children = [];
 export const folder = mkdtempSync(join(tmpdir(), "sincro-viewer-"));
 
+/** A browser with further arguments; who starts it closes it. */
+export const launch = (more) =>
+  chromium.launch({ executablePath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...more] });
+
 before(async () => {
-  if (skip) return;
-  browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+  if (!skip) browser = await launch([]);
 });
 
 after(async () => {

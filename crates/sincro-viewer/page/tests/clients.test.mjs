@@ -22,12 +22,18 @@ test("a page drives a scene over WebSocket", options, async () => {
       look();
     });
   server.stdout.on("data", (data) => (said += data));
-  const port = await says(/WebSocket\s+127\.0\.0\.1:(\d+)/);
+  const link = await says(/(ws:\/\/127\.0\.0\.1:\d+\/\?token=[0-9a-f]{32})/);
 
   const page = await blank({ width: 900, height: 640 });
   const wrong = [];
   page.on("pageerror", (error) => wrong.push(error.message));
-  await page.goto(`${pathToFileURL(join(root, "examples/clients/browser/two_dof.html"))}?port=${port}`);
+  const example = pathToFileURL(join(root, "examples/clients/browser/two_dof.html"));
+  // a page from disk is nobody's page: without the token it is refused, and says what to do
+  await page.goto(`${example}#server=${link.split("/?")[0]}`);
+  await page.getByRole("button", { name: "Run" }).click();
+  await page.waitForFunction(() => document.getElementById("says").textContent.includes("link that it prints"));
+  await page.goto("about:blank");
+  await page.goto(`${example}#server=${link}`);
   await page.getByRole("button", { name: "Run" }).click();
   assert.equal(await says(/run 1 ended .* trace (\w+)/), expected);
   await page.waitForFunction(() => document.getElementById("says").textContent.startsWith("6 s: 0.99976"));
@@ -36,7 +42,7 @@ test("a page drives a scene over WebSocket", options, async () => {
   // without a server it says so
   server.kill();
   await page.getByRole("button", { name: "Run" }).click();
-  await page.waitForFunction(() => document.getElementById("says").textContent.includes("start `sincro serve SCENE`"));
+  await page.waitForFunction(() => document.getElementById("says").textContent.includes("`sincro serve SCENE`"));
   assert.deepEqual(wrong, []);
   await page.close();
 });

@@ -7,11 +7,11 @@
 //! | `/film.json` | the film of finished runs, if that is what is shown |
 //! | `/live` | the line to a live run (WebSocket), if that is what is shown |
 //!
-//! No path leads to a file. Every request must name this server in `Host`, and come from its own page if it names an `Origin`
-//! (a page of another site cannot look or command, nor can a name that was pointed at this machine); a server that other machines can
-//! reach also wants its token in every address.
+//! No path leads to a file. Every request must name this server in `Host`, come from its own page if it names an `Origin`, and carry the token
+//! ([`sincro_access::guard`]): a page of another site, a name that was pointed at this machine and another user of it can neither look nor
+//! command. A head must come within ten seconds, and an address has its share of the connections only.
 
-mod guard;
+mod connection;
 mod socket;
 
 use std::io;
@@ -19,16 +19,18 @@ use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
 
-use axum::Router;
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{Request, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
-use axum::response::{Html, IntoResponse, Response};
+use axum::response::{Html, IntoResponse, Redirect, Response};
 use axum::routing::get;
+use axum::{Extension, Router};
 
-pub use guard::Guard;
 use serde_json::Value;
+use sincro_access::{Guard, guard};
+
+use connection::Line;
 
 use crate::embed::{SCRIPT, STYLE};
 use crate::live::{Board, Command};
@@ -75,7 +77,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// Takes an address; port 0 is any free one. An address that other machines can reach gets a token.
+    /// Takes an address; port 0 is any free one.
     ///
     /// # Errors
     ///
@@ -83,14 +85,20 @@ impl Server {
     pub fn bind(address: SocketAddr, show: Show) -> io::Result<Self> {
         let listener = TcpListener::bind(address)?;
         listener.set_nonblocking(true)?;
-        let guard = Arc::new(Guard::new(listener.local_addr()?));
+        let guard = Arc::new(Guard::for_page(listener.local_addr()?));
         Ok(Self { listener, guard, show })
     }
 
-    /// Address of the page, with its token if it has one.
+    /// Link of the page, with its token.
     #[must_use]
     pub fn url(&self) -> String {
-        self.guard.url()
+        self.guard.link("http")
+    }
+
+    /// Link that opens the page once, for the argument list of a browser, which every user of the machine can read.
+    #[must_use]
+    pub fn single_use_url(&self) -> String {
+        self.guard.single_use_link()
     }
 
     /// Serves until the process ends.
@@ -103,7 +111,7 @@ impl Server {
         runtime.block_on(async {
             let listener = tokio::net::TcpListener::from_std(self.listener)?;
             let shared = Shared { show: self.show, guard: self.guard };
-            axum::serve(listener, router(shared)).await
+            connection::accept(listener, router(shared)).await
         })
     }
 }
@@ -122,11 +130,26 @@ fn router(shared: Shared) -> Router {
         .with_state(shared)
 }
 
-/// Lets in who may come in, and sets the headers that every answer has.
-async fn admit(State(shared): State<Shared>, request: Request, next: Next) -> Response {
-    if let Err(reason) = may_enter(&shared.guard, &request) {
-        return (StatusCode::FORBIDDEN, reason).into_response();
+/// Admits a request or refuses it, and sets the headers that every answer has.
+async fn admit(
+    State(shared): State<Shared>,
+    Extension(line): Extension<Arc<Line>>,
+    request: Request,
+    next: Next,
+) -> Response {
+    let guard = &shared.guard;
+    let asked = asked(&request);
+    let path = request.uri().path();
+    if path == "/" && guard.redeem(&asked) {
+        return Redirect::to(&format!("/?{}", guard.token_query())).into_response();
     }
+    // the page's own program and style carry no secrets, and are asked for without a token
+    let is_static = matches!(path, "/viewer.js" | "/viewer.css");
+    let admitted = if is_static { guard.check_without_token(&asked) } else { guard.check(&asked) };
+    if let Err(refused) = admitted {
+        return (StatusCode::FORBIDDEN, refused.0).into_response();
+    }
+    line.mark_message();
     let mut response = next.run(request).await;
     let headers = response.headers_mut();
     let policy = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
@@ -138,13 +161,10 @@ async fn admit(State(shared): State<Shared>, request: Request, next: Next) -> Re
     response
 }
 
-fn may_enter(guard: &Guard, request: &Request) -> Result<(), String> {
+/// Parts of a request that decide about its admission.
+fn asked(request: &Request) -> guard::Request<'_> {
     let text = |name: header::HeaderName| request.headers().get(name).map(|value| value.to_str().unwrap_or("?"));
-    let (host, origin) = (text(header::HOST), text(header::ORIGIN));
-    // the page's own program and style carry no secrets, and are asked for without a token
-    let is_static = matches!(request.uri().path(), "/viewer.js" | "/viewer.css");
-    let query = if is_static { guard.token_query() } else { request.uri().query().map(str::to_owned) };
-    guard.check(host, origin, query.as_deref())
+    guard::Request { host: text(header::HOST), origin: text(header::ORIGIN), query: request.uri().query() }
 }
 
 async fn page(State(shared): State<Shared>) -> Html<String> {
@@ -168,12 +188,16 @@ async fn film(State(shared): State<Shared>) -> Response {
     }
 }
 
-async fn live(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+async fn live(
+    State(shared): State<Shared>,
+    Extension(line): Extension<Arc<Line>>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
     match shared.show {
         Show::Film(_) => (StatusCode::NOT_FOUND, "these are finished runs").into_response(),
         Show::Live(board, commands) => upgrade
             .max_message_size(MOST_BYTES)
             .max_frame_size(MOST_BYTES)
-            .on_upgrade(move |socket| socket::attend(socket, board, commands)),
+            .on_upgrade(move |socket| socket::attend(socket, line, board, commands)),
     }
 }

@@ -9,14 +9,22 @@ use std::time::Duration;
 
 use axum::extract::ws::{Message, WebSocket};
 use sincro_sim::replay::CONTACT;
-use tokio::time::{Instant, sleep_until};
+use tokio::time::{Instant, interval, sleep_until, timeout};
 
+use super::connection::Line;
 use crate::live::{Board, Command};
 
 /// Least time between two messages of frames.
 const PAUSE: Duration = Duration::from_millis(16);
 /// Frames in one message at most.
 const MOST_FRAMES: usize = 1000;
+
+/// Interval of pings, which browsers answer by themselves.
+const PING: Duration = Duration::from_secs(20);
+/// Silence after which a viewer counts as gone.
+const SILENCE: Duration = Duration::from_secs(65);
+/// Time that a viewer may take to take a message.
+const TAKE: Duration = Duration::from_secs(10);
 
 /// What one viewer has seen.
 struct Seen {
@@ -26,18 +34,31 @@ struct Seen {
     standing: String,
 }
 
-/// Serves one viewer until it goes.
-pub(super) async fn attend(mut socket: WebSocket, board: Arc<Board>, commands: SyncSender<Command>) {
+/// Sends a message; false if the viewer is gone or does not take it in time.
+async fn send(socket: &mut WebSocket, message: Message) -> bool {
+    matches!(timeout(TAKE, socket.send(message)).await, Ok(Ok(())))
+}
+
+/// Serves one viewer until it goes or its line must be closed.
+pub(super) async fn attend(socket: WebSocket, line: Arc<Line>, board: Arc<Board>, commands: SyncSender<Command>) {
+    tokio::select! {
+        () = show(socket, &line, board, commands) => {}
+        () = line.closed() => {}
+    }
+}
+
+async fn show(mut socket: WebSocket, line: &Line, board: Arc<Board>, commands: SyncSender<Command>) {
     let mut changes = board.watch();
     let (film, words) = {
         let content = board.read();
         (content.film.clone(), content.last_words())
     };
-    if socket.send(Message::text(film)).await.is_err() {
+    if !send(&mut socket, Message::text(film)).await {
         return;
     }
     let mut seen = Seen { frames: Vec::new(), words, standing: String::new() };
     let mut has_complained = false;
+    let (mut ping, mut heard) = (interval(PING), Instant::now());
     loop {
         let started = Instant::now();
         changes.mark_unchanged();
@@ -48,7 +69,7 @@ pub(super) async fn attend(mut socket: WebSocket, board: Arc<Board>, commands: S
             }
             for message in news {
                 // a viewer that does not read waits here, and nobody else
-                if socket.send(message).await.is_err() {
+                if !send(&mut socket, message).await {
                     return;
                 }
             }
@@ -56,29 +77,38 @@ pub(super) async fn attend(mut socket: WebSocket, board: Arc<Board>, commands: S
         // until something is new and the least pause is over; messages are taken meanwhile
         let mut is_new = false;
         while !(is_new && started.elapsed() >= PAUSE) {
-            tokio::select! {
+            let answer = tokio::select! {
                 changed = changes.changed(), if !is_new => match changed {
-                    Ok(()) => is_new = true,
+                    Ok(()) => {
+                        is_new = true;
+                        continue;
+                    }
                     Err(_) => return,
                 },
-                () = sleep_until(started + PAUSE), if is_new => {}
-                message = socket.recv() => match message {
-                    Some(Ok(Message::Text(text))) => {
-                        if let Some(reply) = take(&text, &commands, &mut has_complained)
-                            && socket.send(Message::text(reply)).await.is_err()
-                        {
-                            return;
-                        }
+                () = sleep_until(started + PAUSE), if is_new => continue,
+                _ = ping.tick() => {
+                    if heard.elapsed() > SILENCE {
+                        return;
                     }
-                    Some(Ok(Message::Binary(_))) => {
-                        let reply = refuse("messages are text", &mut has_complained);
-                        if socket.send(Message::text(reply)).await.is_err() {
-                            return;
+                    Some(Message::Ping(Vec::new().into()))
+                }
+                message = socket.recv() => {
+                    heard = Instant::now();
+                    line.mark_message();
+                    match message {
+                        Some(Ok(Message::Text(text))) => take(&text, &commands, &mut has_complained).map(Message::text),
+                        Some(Ok(Message::Binary(_))) => {
+                            Some(Message::text(refuse("messages are text", &mut has_complained)))
                         }
+                        Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                        Some(Ok(_)) => None,
                     }
-                    Some(Ok(Message::Close(_)) | Err(_)) | None => return,
-                    Some(Ok(_)) => {}
-                },
+                }
+            };
+            if let Some(answer) = answer
+                && !send(&mut socket, answer).await
+            {
+                return;
             }
         }
     }
