@@ -3,13 +3,19 @@
 //! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run stopped
 //! (what was recorded is kept).
 
+#[path = "../../sincro-bench/src/lib.rs"]
 mod bench;
 mod commands;
 mod diagnostics;
+#[path = "../../sincro-figures/src/draw/mod.rs"]
 mod draw;
+#[path = "../../sincro-figures/src/linear/mod.rs"]
 mod linear;
+#[path = "../../sincro-figures/src/plot/mod.rs"]
 mod plot;
+#[path = "../../sincro-figures/src/campaign/mod.rs"]
 mod present;
+#[path = "../../sincro-figures/src/report/mod.rs"]
 mod report;
 
 use std::process::ExitCode;
