@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const MOST_LINES: usize = 1000;
 
 /// Which crates of ours each crate may use.
-const ARROWS: [(&str, &[&str]); 8] = [
+const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
     ("sincro-dynamics", &["sincro-math"]),
     ("sincro-blocks", &["sincro-math"]),
@@ -16,16 +16,22 @@ const ARROWS: [(&str, &[&str]); 8] = [
     ("sincro-lua", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim"]),
     ("sincro-remote", &["sincro-sim"]),
     ("sincro-viewer", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
+    ("sincro-figures", &["sincro-math", "sincro-blocks", "sincro-sim"]),
+    (
+        "sincro-bench",
+        &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim", "sincro-lua", "sincro-remote"],
+    ),
     (
         "sincro",
         &[
             "sincro-math",
-            "sincro-dynamics",
             "sincro-blocks",
             "sincro-sim",
             "sincro-lua",
             "sincro-remote",
             "sincro-viewer",
+            "sincro-figures",
+            "sincro-bench",
         ],
     ),
 ];

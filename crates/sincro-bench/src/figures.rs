@@ -33,8 +33,9 @@ pub(crate) enum FigureKind {
     Growth,
     /// What a block diagram adds to a step
     Diagram,
-    /// What a message of a client and a call of a script cost
-    Doors,
+    /// Cost of a message of a client and of a call of a script
+    #[value(alias = "adapters")]
+    Adapters,
     /// A picture of 256 × 256 pixels of what a camera sees
     Picture,
     /// A minute of the quadrotor's flight test, controller and recording included
@@ -196,8 +197,8 @@ impl<'a> Session<'a> {
         if both && self.wants(FigureKind::Growth) {
             self.measure_growth();
         }
-        if self.options.only.is_empty() && self.wants(FigureKind::Doors) {
-            self.measure_doors();
+        if self.options.only.is_empty() && self.wants(FigureKind::Adapters) {
+            self.measure_adapters();
         }
         if self.options.only.is_empty() && self.wants(FigureKind::Flight) {
             self.measure_flight();
@@ -205,32 +206,32 @@ impl<'a> Session<'a> {
     }
 
     /// Messages of clients, on the wall because another thread answers; and a script's call.
-    fn measure_doors(&mut self) {
+    fn measure_adapters(&mut self) {
         let seconds = self.options.seconds_per_figure;
-        match super::doors::clients() {
+        match super::adapters::clients() {
             Ok(pairs) => {
                 let figures = [("legacy message", "simxGetJointPosition"), ("ZeroMQ call", "sim.getJointPosition")];
                 for ((figure, call), (with, without)) in figures.into_iter().zip(pairs) {
                     let (value, whole) = least(with, without, seconds);
                     let note =
                         format!("{call}; shortest round trip {:.1} µs on the wall, less that of an echo", whole * 1e-3);
-                    self.push_door(figure, value * 1e-3, note);
+                    self.push_adapter(figure, value * 1e-3, note);
                 }
             }
             Err(problem) => complain(&problem),
         }
-        match super::doors::script() {
+        match super::adapters::script() {
             Ok((with, without)) => {
                 let (value, whole) = added(with, without, seconds, |sample| sample.cpu);
                 let note = format!("sysCall_actuation without host calls; of {whole:.0} ns, semi-implicit step");
-                self.push_door("Lua actuation call", value * 1e-3, note);
+                self.push_adapter("Lua actuation call", value * 1e-3, note);
             }
             Err(problem) => complain(&problem),
         }
     }
 
-    fn push_door(&mut self, figure: &'static str, value: f64, note: String) {
-        self.push(Row { model: "doors", figure, value, unit: "µs", timing: None, note, rivals: Vec::new() });
+    fn push_adapter(&mut self, figure: &'static str, value: f64, note: String) {
+        self.push(Row { model: "adapters", figure, value, unit: "µs", timing: None, note, rivals: Vec::new() });
     }
 
     /// A minute of flight: processor time, as everywhere here, and beside it the wall, which is what a user waits for.

@@ -13,11 +13,11 @@ use super::clock::Subject;
 /// Length of the flight `[s]`.
 pub(super) const SECONDS: f64 = 60.0;
 
-/// The files of the scene, carried in the program so that it measures anywhere.
+/// Files of the scene, carried in the program so that it measures anywhere; a test keeps them equal to those of the scene.
 const FILES: [(&str, &str); 3] = [
-    ("experiment.toml", include_str!("../../../scenes/quadrotor-flight-1/experiment.toml")),
-    ("scene.toml", include_str!("../../../scenes/quadrotor-flight-1/scene.toml")),
-    ("backstepping.toml", include_str!("../../../scenes/quadrotor-flight-1/backstepping.toml")),
+    ("experiment.toml", include_str!("../flight/experiment.toml")),
+    ("scene.toml", include_str!("../flight/scene.toml")),
+    ("backstepping.toml", include_str!("../flight/backstepping.toml")),
 ];
 
 /// The experiment without what it is compared with: a folder for temporary files holds it while it is read.
@@ -65,5 +65,9 @@ mod tests {
         let loaded = loaded().unwrap();
         assert_eq!(loaded.experiment.duration, SECONDS);
         assert!(loaded.controller.is_some() && loaded.experiment.record.len() > 30);
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/quadrotor-flight-1");
+        for (name, text) in FILES {
+            assert!(text == std::fs::read_to_string(folder.join(name)).unwrap(), "{name}: copy that of the scene here");
+        }
     }
 }

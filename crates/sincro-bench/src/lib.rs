@@ -5,10 +5,10 @@
 //! why it is fair: `crates/sincro-bench/README.md`.
 
 mod accuracy;
+mod adapters;
 mod bars;
 mod clock;
 mod diagrams;
-mod doors;
 mod figures;
 mod flight;
 mod models;
@@ -27,7 +27,7 @@ use table::say;
 
 /// What to measure, and beside whom.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub struct Options {
     /// Measure a peer in turn with us; may be given twice. Needs Python with the peer's package
     #[arg(long, value_enum, value_name = "PEER")]
     against: Vec<Against>,
@@ -66,7 +66,8 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// # Errors
 ///
 /// If a robot is unknown or the JSON file cannot be written, in words.
-pub(crate) fn run(options: &Options) -> Result<(), String> {
+pub fn run(options: &Options) -> Result<(), String> {
+    sincro_lua::install();
     let clock = Instant::now();
     let robots = models::robots(&options.only)?;
     if let Some(path) = &options.json {

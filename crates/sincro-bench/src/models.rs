@@ -92,7 +92,7 @@ pub(super) fn robot(name: &'static str) -> Result<Robot, String> {
 
 /// The folder with the peers' models: as given, else that of the checkout this program was built from.
 pub(super) fn folder(given: Option<&Path>) -> Result<PathBuf, String> {
-    let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sincro-bench/models");
+    let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     let folder = given.map_or(built_from, Path::to_path_buf);
     let shown = folder.display();
     let help = "give the folder `crates/sincro-bench/models` of a checkout with --models DIR";
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn generated_chains_are_those_of_the_checkout() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sincro-bench/models");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
         for name in NAMES.into_iter().filter(|name| name.starts_with("chain")) {
             let file = std::fs::read_to_string(folder.join(name).join("scene.toml")).unwrap();
             assert!(text(name) == file, "{name}");

@@ -3,24 +3,13 @@
 //! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run stopped
 //! (what was recorded is kept).
 
-#[path = "../../sincro-bench/src/lib.rs"]
-mod bench;
 mod commands;
 mod diagnostics;
-#[path = "../../sincro-figures/src/draw/mod.rs"]
-mod draw;
-#[path = "../../sincro-figures/src/linear/mod.rs"]
-mod linear;
-#[path = "../../sincro-figures/src/plot/mod.rs"]
-mod plot;
-#[path = "../../sincro-figures/src/campaign/mod.rs"]
-mod present;
-#[path = "../../sincro-figures/src/report/mod.rs"]
-mod report;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use sincro::Verdict;
 
 /// Simulates robots and their controllers in lock-step: exact, deterministic, with an error bar on every run.
 #[derive(Debug, Parser)]
@@ -55,10 +44,10 @@ enum Command {
     /// Run every experiment of the thesis and put measured beside expected on one page
     Reproduce(commands::reproduce::Arguments),
     /// Measure speed, memory and accuracy on this machine, beside peers if asked
-    Bench(bench::Options),
+    Bench(sincro_bench::Options),
 }
 
-/// What a command ends with.
+/// Exit of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     /// All checks hold.
@@ -69,6 +58,16 @@ pub(crate) enum Exit {
     Refused,
     /// The run stopped.
     Stopped,
+}
+
+impl From<Verdict> for Exit {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Holds => Self::Holds,
+            Verdict::Fails => Self::Fails,
+            Verdict::Stopped => Self::Stopped,
+        }
+    }
 }
 
 impl From<Exit> for ExitCode {
@@ -83,7 +82,6 @@ impl From<Exit> for ExitCode {
 }
 
 fn main() -> ExitCode {
-    sincro_lua::install();
     let exit = match Cli::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
@@ -96,7 +94,7 @@ fn main() -> ExitCode {
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
-        Command::Bench(options) => match bench::run(&options) {
+        Command::Bench(options) => match sincro_bench::run(&options) {
             Ok(()) => Exit::Holds,
             Err(message) => diagnostics::refuse(&message, None),
         },

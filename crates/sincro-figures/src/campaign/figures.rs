@@ -12,12 +12,13 @@ use sincro_sim::table::{Column, Table};
 use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Space, Stroke, Track};
 
 /// Most signals in a figure that nobody asked for.
-const MOST_SIGNALS: usize = 4;
+const MAX_SIGNALS: usize = 4;
 /// Instants closer than this are the same `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
 /// All figures of a campaign: the sweep first, if it has one, then the asked-for plots, or one a kind of signal.
-pub(super) fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
+#[must_use]
+pub fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
     let mut figures = sweep_figures(loaded, campaign);
     let plots = &loaded.experiment.plots;
     let (table, n_streams) = (&campaign.main.simulated.table, campaign.main.simulated.n_streams);
@@ -90,12 +91,12 @@ fn graphs(streams: &[Column]) -> Vec<(String, Vec<&str>)> {
     figures.into_iter().map(|(graph, _, names)| (title(graph), names)).collect()
 }
 
-/// Recorded signals by what they are (`position`, `velocity`), at most [`MOST_SIGNALS`] together; time is the first column.
+/// Recorded signals by what they are (`position`, `velocity`), at most [`MAX_SIGNALS`] together; time is the first column.
 fn groups(columns: &[Column]) -> Vec<Vec<&str>> {
     let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
     for column in columns.iter().skip(1) {
         let key = format!("{} {}", quantity(&column.name), column.unit);
-        match groups.iter_mut().find(|(k, names)| *k == key && names.len() < MOST_SIGNALS) {
+        match groups.iter_mut().find(|(k, names)| *k == key && names.len() < MAX_SIGNALS) {
             Some((_, names)) => names.push(&column.name),
             None => groups.push((key, vec![&column.name])),
         }

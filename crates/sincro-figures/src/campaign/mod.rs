@@ -1,125 +1,55 @@
-//! From what came out of a run to what is shown: report, figures, card.
+//! Figures and page of a run with its variants, sweep and checks.
 
 mod figures;
 
-use std::path::Path;
-
 use sincro_sim::Loaded;
-use sincro_sim::camera::{Camera, png};
-use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
-use sincro_sim::run::{Campaign, Done};
-use sincro_viewer::film::Film;
+use sincro_sim::diagram::Controller;
+use sincro_sim::results::{CheckReport, Status, VerdictReport};
+use sincro_sim::run::Campaign;
 
-use crate::plot::{self, Figure, Size};
-use crate::report::{self, Card, CheckRow, CheckVerdict, Energy, Page, SignalRow, Stop};
+use crate::draw::{self, Options};
+use crate::plot::{self, number};
+use crate::report::{Card, CheckRow, CheckVerdict, Energy, Page, SignalRow, Stop};
 
-/// Writes `report.html`, `replay.json` and the figures as SVG files into a results folder.
-///
-/// # Errors
-///
-/// A file cannot be written.
-pub(crate) fn write(
-    loaded: &Loaded,
-    campaign: &Campaign,
-    out: &Path,
-    up: Option<(String, String)>,
-) -> Result<(), FileError> {
-    let figures = figures::all(loaded, campaign);
-    let folder = out.join("figures");
-    sincro_sim::results::prepare(&folder)?;
-    for (k, figure) in figures.iter().enumerate() {
-        let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
-        write_text(&folder.join(name), &plot::svg(figure, Size::wide(figure)))?;
-    }
-    let film = film(loaded, campaign).to_json();
-    write_text(&out.join("replay.json"), &film)?;
-    let replay = sincro_viewer::embed::replay(&film);
-    write_text(&out.join("report.html"), &report::html(&Page { replay, ..page(loaded, campaign, figures, up) }))
-}
+pub use figures::all as figures;
 
-/// Size of a picture of a run `[px]`.
-const FRAME: (f64, f64) = (960.0, 540.0);
-/// Pictures of a run a simulated second [1/s], and in all.
-const FRAMES: (f64, usize) = (30.0, 1800);
-
-/// Writes pictures of a run into `frames` in a results folder.
+/// Card of a run for the index of many runs; `href` is the address of its report relative to the index.
 ///
-/// # Errors
-///
-/// A file cannot be written.
-pub(crate) fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
-    let Some(tape) = &done.simulated.tape else { return Ok(()) };
-    let folder = out.join("frames");
-    sincro_sim::results::prepare(&folder)?;
-    for (k, picture) in sincro_viewer::picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
-        write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
-    }
-    Ok(())
-}
-
-/// Writes what a camera of the scene (its place among the objects) saw of a run into `frames` in a results folder, as PNG.
-///
-/// # Errors
-///
-/// A file cannot be written.
-pub(crate) fn write_photographs(loaded: &Loaded, done: &Done, camera: usize, out: &Path) -> Result<(), FileError> {
-    let Some(tape) = &done.simulated.tape else { return Ok(()) };
-    let resolution = [FRAME.0 as usize, FRAME.1 as usize];
-    let Some(mut camera) = Camera::of_scene(&loaded.scene, camera, resolution) else { return Ok(()) };
-    let folder = out.join("frames");
-    sincro_sim::results::prepare(&folder)?;
-    for (n, k) in tape.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
-        let q: Vec<f64> = tape.layout.coordinates(tape.frame(k)).iter().copied().map(f64::from).collect();
-        let image = camera.look(&q);
-        let bytes = png::encode(image.rgb(), image.resolution(), png::Channels::Rgb);
-        file::write_atomically(&folder.join(format!("{:04}.png", n + 1)), &bytes)?;
-    }
-    Ok(())
-}
-
-/// What the viewer shows of a campaign.
-pub(crate) fn film(loaded: &Loaded, campaign: &Campaign) -> Film {
-    let draw = |controller| crate::commands::draw::drawing(controller, "", &campaign.report.scene, true);
-    Film::of_campaign(loaded, campaign, loaded.controller.as_ref().map(draw))
-}
-
-/// Writes a text file, whole or not at all.
-///
-/// # Errors
-///
-/// The file cannot be written.
-pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
-    file::write_atomically(path, text.as_bytes())
-}
-
-/// The card of a run in the gallery; `href` leads to its report.
-pub(crate) fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
-    let figures = figures::all(loaded, campaign);
+/// Address of the replay and picture of the scene are left empty: they are the caller's.
+#[must_use]
+pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
     let report = &campaign.report;
     Card {
         title: report.title.clone(),
         source: report.scene.clone(),
         summary: loaded.experiment.description.clone(),
         href: href.to_owned(),
-        replay: format!("{href}#sincro-viewer"),
-        picture: picture(campaign),
-        figure: figures.into_iter().next(),
+        replay: String::new(),
+        picture: String::new(),
+        figure: figures(loaded, campaign).into_iter().next(),
         checks: checks(campaign),
         stop: stop(&report.status),
-        run_time: format!("{} s", plot::number::significant(report.wall_time_s, 2)),
+        run_time: format!("{} s", number::significant(report.wall_time_s, 2)),
     }
 }
 
-/// The scene half way through the run.
-fn picture(campaign: &Campaign) -> String {
-    let main = &campaign.main;
-    let half = |tape: &sincro_sim::replay::Tape| {
-        sincro_viewer::picture::still(&main.view, tape.frame(tape.n_frames() / 2), (320.0, 150.0))
-    };
-    main.simulated.tape.as_ref().filter(|tape| tape.n_frames() > 0).map(half).unwrap_or_default()
+/// Block diagram as SVG: a file of its own, or for a page (`is_inline`). `world` labels the box of the world, usually with the
+/// name of the scene.
+#[must_use]
+pub fn diagram(controller: &Controller, title: &str, world: &str, is_inline: bool) -> String {
+    let outputs = controller.wiring.program().steps.iter().flat_map(|step| {
+        let ports = step.output_names.iter().zip(&step.node.outputs);
+        ports.map(|(port, width)| (format!("{}.{port}", step.path), *width))
+    });
+    let options = Options { title: title.to_owned(), world: world.to_owned(), is_inline, widths: outputs.collect() };
+    draw::draw(&controller.diagram, &options)
 }
 
-fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(String, String)>) -> Page {
+/// Report page of a run with all its figures, which are also those to be written as files.
+///
+/// The replay and the link to an index are left empty: they are the caller's.
+#[must_use]
+pub fn page(loaded: &Loaded, campaign: &Campaign) -> Page {
     let report = &campaign.report;
     let signals = report.columns.iter().skip(1).enumerate().map(|(k, column)| {
         let values = &campaign.main.simulated.table.columns[k + 1].values;
@@ -141,11 +71,11 @@ fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(
     Page {
         title: report.title.clone(),
         description: loaded.experiment.description.clone(),
-        up,
+        up: None,
         stop: stop(&report.status),
         warnings: warnings(campaign),
         replay: String::new(),
-        figures,
+        figures: figures(loaded, campaign),
         diagrams: diagrams(loaded, campaign),
         checks: checks(campaign),
         signals: signals.collect(),
@@ -157,15 +87,15 @@ fn page(loaded: &Loaded, campaign: &Campaign, figures: Vec<Figure>, up: Option<(
 }
 
 /// Messages that a page shows; `run.json` has the rest.
-const MOST_MESSAGES: usize = 200;
+const MAX_MESSAGES: usize = 200;
 
 fn messages(campaign: &Campaign) -> Vec<(String, String, String)> {
     let all = &campaign.report.messages;
-    let shown = all.iter().take(MOST_MESSAGES);
+    let shown = all.iter().take(MAX_MESSAGES);
     let time = |t: f64| format!("{} s", (t * 1e6).round() / 1e6);
     let mut list: Vec<_> = shown.map(|m| (time(m.t), m.object.clone(), m.text.clone())).collect();
-    if let Some(next) = all.get(MOST_MESSAGES) {
-        let more = all.len() - MOST_MESSAGES;
+    if let Some(next) = all.get(MAX_MESSAGES) {
+        let more = all.len() - MAX_MESSAGES;
         list.push((time(next.t), String::new(), format!("and {more} more: they are in run.json")));
     }
     list
@@ -178,7 +108,7 @@ fn diagrams(loaded: &Loaded, campaign: &Campaign) -> Vec<(String, String)> {
     let mut drawings = Vec::new();
     for (title, done) in std::iter::once(("main run".to_owned(), &campaign.main)).chain(variants) {
         let Some(controller) = &done.controller else { continue };
-        let drawing = crate::commands::draw::drawing(controller, "", &campaign.report.scene, true);
+        let drawing = diagram(controller, "", &campaign.report.scene, true);
         // what is told on hovering alone is no other picture
         let picture: String =
             drawing.split("<title>").map(|part| part.split_once("</title>").map_or(part, |p| p.1)).collect();
@@ -258,7 +188,7 @@ fn check_row(check: &CheckReport, run: &str) -> CheckRow {
 fn settings(campaign: &Campaign) -> Vec<(String, String)> {
     let (report, effort) = (&campaign.report, campaign.main.simulated.effort);
     let s = &report.settings;
-    let number = crate::commands::console::short;
+    let number = |x: f64| number::short(x, 6);
     let mut rows = vec![
         ("scene".to_owned(), report.scene.clone()),
         ("degrees of freedom".to_owned(), report.n_dof.to_string()),
@@ -298,18 +228,4 @@ fn settings(campaign: &Campaign) -> Vec<(String, String)> {
         ("sincro".to_owned(), report.sincro_version.clone()),
     ]);
     rows
-}
-
-/// A title as part of a file's name.
-fn file_name(title: &str) -> String {
-    let mut name = String::new();
-    for c in title.to_lowercase().chars() {
-        if c.is_ascii_alphanumeric() {
-            name.push(c);
-        } else if !name.ends_with('-') {
-            name.push('-');
-        }
-    }
-    let name = name.trim_matches('-');
-    name.get(..48).unwrap_or(name).trim_matches('-').to_owned()
 }

@@ -31,19 +31,19 @@ use self::route::Layout;
 use crate::plot::{escape, with_light_colors};
 
 /// Rules for diagrams within a page; they use the variables of `plot::PAGE_CSS`, which the page must have too.
-pub(crate) const DRAW_CSS: &str = include_str!("draw.css");
+pub const DRAW_CSS: &str = include_str!("draw.css");
 
 /// What a drawing shows besides the diagram.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Options {
+pub struct Options {
     /// Stands above the picture, and is read out for it; may be empty.
-    pub(crate) title: String,
+    pub title: String,
     /// What stands in the world's box, such as the scene's name; `World` if empty.
-    pub(crate) world: String,
+    pub world: String,
     /// For a page that carries [`DRAW_CSS`], not a file of its own.
-    pub(crate) is_inline: bool,
+    pub is_inline: bool,
     /// Widths of outputs by `block.port`, in figures within by `path/block.port`; wires of more than one number are drawn thicker.
-    pub(crate) widths: BTreeMap<String, usize>,
+    pub widths: BTreeMap<String, usize>,
 }
 
 /// Font size of titles and the height of a row with one.
@@ -59,7 +59,8 @@ struct Figure<'a> {
 }
 
 /// Draws a diagram, and below it each diagram that stands inside, once for each definition.
-pub(crate) fn draw(diagram: &Diagram, options: &Options) -> String {
+#[must_use]
+pub fn draw(diagram: &Diagram, options: &Options) -> String {
     let mut canvas = Canvas::default();
     let (mut width, mut height) = (0, 0);
     for figure in figures(diagram, options) {

@@ -13,13 +13,13 @@ const MAP_ASPECT: f64 = 1.95;
 /// The map is higher than other panels.
 const MAP_SHARE: f64 = 1.5;
 /// If the map is so much wider than high, or the other way round, its axes have scales of their own.
-const MOST_ASPECT: f64 = 6.0;
+const MAX_ASPECT: f64 = 6.0;
 
 /// Rays whose ends are nearer than this share of the map are left out.
 const CROWDED: f64 = 0.07;
 
 /// File name and figure, channel by channel.
-pub(super) fn all(analysis: &Analysis) -> Vec<(String, Figure)> {
+pub fn all(analysis: &Analysis) -> Vec<(String, Figure)> {
     let mut figures = Vec::new();
     for (k, channel) in analysis.shown().iter().enumerate() {
         let number = k + 1;
@@ -122,9 +122,9 @@ fn map_range(points: impl Iterator<Item = Complex<f64>>) -> ((f64, f64), (f64, f
     let up = high.max(0.02 * size);
     let (mut across, mut up) = (1.25 * across, 1.15 * up);
     let aspect = across / (2.0 * up);
-    if aspect > MAP_ASPECT && aspect < MAP_ASPECT * MOST_ASPECT {
+    if aspect > MAP_ASPECT && aspect < MAP_ASPECT * MAX_ASPECT {
         up = across / (2.0 * MAP_ASPECT);
-    } else if aspect < MAP_ASPECT && aspect > MAP_ASPECT / MOST_ASPECT {
+    } else if aspect < MAP_ASPECT && aspect > MAP_ASPECT / MAX_ASPECT {
         across = 2.0 * up * MAP_ASPECT;
     } else if high == 0.0 {
         up = across / (2.0 * MAP_ASPECT);

@@ -1,57 +1,60 @@
-//! What is shown of a linearised scene: text for the terminal, files, figures, a page.
+//! A linear system in text, figures and a page.
 //!
 //! [`Analysis::of`] computes once what all of them show. A system of many inputs and outputs has a figure for each of its first
-//! [`MOST_CHANNELS`] channels; the files hold all of them.
+//! [`MAX_CHANNELS`] channels; the files hold all of them.
 
 mod figures;
-pub(crate) mod files;
 mod page;
-pub(crate) mod text;
+mod text;
 
 use sincro_sim::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
 
+pub use figures::all as figures;
+pub use page::html;
+pub use text::text;
+
 /// Channels that are shown in full.
-pub(crate) const MOST_CHANNELS: usize = 6;
+pub const MAX_CHANNELS: usize = 6;
 
 /// A linear system and what is derived from it.
 #[derive(Clone, Debug)]
-pub(crate) struct Analysis<'a> {
+pub struct Analysis<'a> {
     /// Title of the scene.
-    pub(crate) title: String,
+    pub title: String,
     /// The matrices.
-    pub(crate) system: &'a StateSpace,
+    pub system: &'a StateSpace,
     /// Slowest first.
-    pub(crate) poles: Vec<Mode>,
+    pub poles: Vec<Mode>,
     /// What the inputs reach.
-    pub(crate) controllability: Reach,
+    pub controllability: Reach,
     /// What the outputs see.
-    pub(crate) observability: Reach,
+    pub observability: Reach,
     /// Every input with every output, input by input.
-    pub(crate) channels: Vec<Channel>,
+    pub channels: Vec<Channel>,
     /// Channels without a path, by name, in words.
-    pub(crate) silent: Vec<String>,
+    pub silent: Vec<String>,
 }
 
 /// One input, one output that depends on it.
 #[derive(Clone, Debug)]
-pub(crate) struct Channel {
+pub struct Channel {
     /// Index of the input.
-    pub(crate) input: usize,
+    pub input: usize,
     /// Index of the output.
-    pub(crate) output: usize,
+    pub output: usize,
     /// By modulus.
-    pub(crate) zeros: Vec<Complex<f64>>,
+    pub zeros: Vec<Complex<f64>>,
     /// Static gain; `None`: the system integrates.
-    pub(crate) gain: Option<f64>,
+    pub gain: Option<f64>,
     /// Over the frequencies that all channels share.
-    pub(crate) bode: Bode,
+    pub bode: Bode,
     /// Over the times that all channels share.
-    pub(crate) step: StepResponse,
+    pub step: StepResponse,
 }
 
 impl<'a> Analysis<'a> {
     /// Derives everything that is shown.
-    pub(crate) fn of(title: impl Into<String>, system: &'a StateSpace) -> Self {
+    pub fn of(title: impl Into<String>, system: &'a StateSpace) -> Self {
         let omega = system.frequencies();
         let pairs = (0..system.n_inputs()).flat_map(|i| (0..system.n_outputs()).map(move |o| (i, o)));
         let (mut channels, mut silent) = (Vec::new(), Vec::new());
@@ -73,23 +76,23 @@ impl<'a> Analysis<'a> {
     }
 
     /// Channels shown in full.
-    pub(crate) fn shown(&self) -> &[Channel] {
-        &self.channels[..self.channels.len().min(MOST_CHANNELS)]
+    pub fn shown(&self) -> &[Channel] {
+        &self.channels[..self.channels.len().min(MAX_CHANNELS)]
     }
 
     /// Names of the channels that are only in the files.
-    pub(crate) fn unshown(&self) -> Vec<String> {
-        self.channels.iter().skip(MOST_CHANNELS).map(|channel| self.name(channel)).collect()
+    pub fn unshown(&self) -> Vec<String> {
+        self.channels.iter().skip(MAX_CHANNELS).map(|channel| self.name(channel)).collect()
     }
 
     /// `from /motor.command to /arm/hinge.position`.
-    pub(crate) fn name(&self, channel: &Channel) -> String {
+    pub fn name(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input], &self.system.outputs[channel.output]);
         format!("from {} to {}", input.name, output.name)
     }
 
     /// Unit of the gain of a channel: `rad/(N·m)`, `rad/(s·V)`.
-    pub(crate) fn gain_unit(&self, channel: &Channel) -> String {
+    pub fn gain_unit(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input].unit, &self.system.outputs[channel.output].unit);
         match (output.as_str(), input.as_str()) {
             (output, "") => output.to_owned(),

@@ -1,14 +1,14 @@
 //! `report.html` of a linearised scene: what it is, how it behaves, channel by channel, then the matrices.
 
 use super::text::{self, StateTable};
-use super::{Analysis, Channel, MOST_CHANNELS, figures};
+use super::{Analysis, Channel, MAX_CHANNELS, figures};
 use crate::plot::number::significant;
 use crate::plot::{Figure, escape, escape_raised};
 use crate::report::page::figure;
 use crate::report::shell::{document, list, paragraph, section};
 
 /// The page as HTML.
-pub(super) fn html(analysis: &Analysis) -> String {
+pub fn html(analysis: &Analysis) -> String {
     let banner = format!(
         "<header>\n<h1>{}</h1>\n{}<div class=\"banner plain\" role=\"status\"><p class=\"verdict\">{}</p></div>\n</header>\n",
         escape(&analysis.title),
@@ -67,7 +67,7 @@ fn overview(analysis: &Analysis) -> String {
         0 => String::new(),
         n => paragraph(
             "key",
-            &format!("The first {MOST_CHANNELS} channels are drawn; the other {n} are in `bode.csv` and `step.csv`."),
+            &format!("The first {MAX_CHANNELS} channels are drawn; the other {n} are in `bode.csv` and `step.csv`."),
         ),
     };
     let content = table(&StateTable::channels(analysis)) + &list(&analysis.silent) + &rest;

@@ -2,7 +2,6 @@
 
 use sincro_sim::linear::{Axis, DMatrix, StateSpace};
 
-use super::files::write;
 use super::text::text;
 use super::*;
 use crate::plot::{Size, svg};
@@ -27,22 +26,6 @@ fn servo() -> StateSpace {
         t: 0.5,
         sample_time: None,
     }
-}
-
-/// A flexible joint with three swings, hardly damped.
-fn flexible() -> StateSpace {
-    let mut a = DMatrix::zeros(6, 6);
-    for (k, (w, zeta)) in [(3.0, 0.3), (8.0, 0.05), (20.0, 0.12)].into_iter().enumerate() {
-        a[(2 * k, 2 * k + 1)] = 1.0;
-        a[(2 * k + 1, 2 * k)] = -w * w;
-        a[(2 * k + 1, 2 * k + 1)] = -2.0 * zeta * w;
-    }
-    let b = DMatrix::from_row_slice(6, 1, &[0.0, 9.0, 0.0, 12.0, 0.0, 40.0]);
-    let c = DMatrix::from_row_slice(1, 6, &[1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
-    let mut system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
-    system.outputs[0] = Axis::new("/tip.position", "mm");
-    system.inputs[0] = Axis::new("/shaker.force", "N");
-    system
 }
 
 /// A lag behind two ticks of delay, sampled at 20 Hz.
@@ -94,17 +77,6 @@ fn wide_matrices_are_continued_below() {
 }
 
 #[test]
-fn the_json_reads_back() {
-    let system = servo();
-    let json: serde_json::Value = serde_json::from_str(&files::json(&Analysis::of("Servo", &system))).unwrap();
-    assert_eq!(json["a"][1][2], 2.0);
-    assert_eq!(json["poles"][2]["pole"], serde_json::json!([-5.0, 0.0]));
-    assert_eq!(json["poles"][0]["time_constant"], serde_json::Value::Null);
-    assert_eq!(json["states"][2]["unit"], "A");
-    assert_eq!(json["channels"][1]["zeros"], serde_json::json!([[0.0, 0.0]]));
-}
-
-#[test]
 fn many_channels_are_listed_not_drawn() {
     let system = StateSpace::from_matrices(
         -DMatrix::identity(3, 3),
@@ -115,7 +87,7 @@ fn many_channels_are_listed_not_drawn() {
     let system = system.unwrap();
     let analysis = Analysis::of("Many", &system);
     assert_eq!((analysis.channels.len(), analysis.shown().len(), analysis.unshown().len()), (9, 6, 3));
-    assert_eq!(figures::all(&analysis).len(), 18);
+    assert_eq!(super::figures(&analysis).len(), 18);
     assert!(page::html(&analysis).contains("the other 3 are in <code>bode.csv</code>"));
 }
 
@@ -138,23 +110,4 @@ fn a_system_without_inputs_has_its_poles() {
     let system = StateSpace::from_matrices(a, none.clone(), none.transpose(), DMatrix::zeros(0, 0)).unwrap();
     let analysis = Analysis::of("Free", &system);
     assert!(text(&analysis).contains("± 2j") && page::html(&analysis).contains("<svg"));
-}
-
-#[test]
-fn the_folder_holds_every_file() {
-    let out = std::env::temp_dir().join(format!("sincro-linear-{}", std::process::id()));
-    // a folder to look at, if one is named
-    let out = std::env::var_os("SINCRO_LOOK").map_or(out, std::path::PathBuf::from);
-    for (name, system) in [("servo", servo()), ("flexible", flexible()), ("sampled", sampled())] {
-        let folder = out.join(name);
-        std::fs::create_dir_all(&folder).unwrap();
-        let analysis = Analysis::of(name, &system);
-        std::fs::write(folder.join("terminal.txt"), text(&analysis)).unwrap();
-        write(&analysis, &folder).unwrap();
-        for file in ["linearization.json", "bode.csv", "step.csv", "report.html", "figures/01-bode.svg"] {
-            assert!(folder.join(file).is_file(), "{file}");
-        }
-        let bode = std::fs::read_to_string(folder.join("bode.csv")).unwrap();
-        assert!(bode.starts_with("omega,") && bode.lines().count() > 100);
-    }
 }

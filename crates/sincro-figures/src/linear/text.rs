@@ -8,20 +8,20 @@ use crate::plot::number::{short, significant};
 /// Digits of a matrix entry.
 const DIGITS: usize = 5;
 /// Columns of a matrix side by side; wider ones are continued below.
-const MOST_COLUMNS: usize = 8;
+const MAX_COLUMNS: usize = 8;
 
 /// A table: headings, and rows of cells. The first column reads from the left, the others are numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct StateTable {
+pub(super) struct StateTable {
     /// What stands above each column.
-    pub(crate) head: Vec<String>,
+    pub(super) head: Vec<String>,
     /// Rows of as many cells.
-    pub(crate) rows: Vec<Vec<String>>,
+    pub(super) rows: Vec<Vec<String>>,
 }
 
 impl StateTable {
     /// A matrix with its rows named in full and its columns by symbol: `x1`, `u1`.
-    pub(crate) fn matrix(matrix: &DMatrix<f64>, rows: (&str, &[Axis]), column_symbol: &str, corner: &str) -> Self {
+    pub(super) fn matrix(matrix: &DMatrix<f64>, rows: (&str, &[Axis]), column_symbol: &str, corner: &str) -> Self {
         let symbols = (1..=matrix.ncols()).map(|k| format!("{column_symbol}{k}"));
         let row = |(i, axis): (usize, &Axis)| {
             let name = format!("{}{} {}", rows.0, i + 1, named(axis));
@@ -34,7 +34,7 @@ impl StateTable {
     }
 
     /// The four matrices with their titles: the dynamics, the outputs.
-    pub(crate) fn matrices(analysis: &Analysis) -> Vec<(&'static str, Self)> {
+    pub(super) fn matrices(analysis: &Analysis) -> Vec<(&'static str, Self)> {
         let s = analysis.system;
         let (states, outputs) = ("x", "y");
         let dynamics = if s.sample_time.is_some() { "next x" } else { "d/dt x" };
@@ -50,7 +50,7 @@ impl StateTable {
     }
 
     /// The poles, a pair a row.
-    pub(crate) fn poles(analysis: &Analysis) -> Self {
+    pub(super) fn poles(analysis: &Analysis) -> Self {
         let pole = format!("pole{}", rate_unit(analysis));
         let head = [pole.as_str(), "damping ζ", "ω_n [rad/s]", "time constant [s]"].map(str::to_owned).to_vec();
         let is_first = |mode: &&Mode| mode.pole.im >= 0.0;
@@ -67,7 +67,7 @@ impl StateTable {
     }
 
     /// The channels: gain, zeros, margins.
-    pub(crate) fn channels(analysis: &Analysis) -> Self {
+    pub(super) fn channels(analysis: &Analysis) -> Self {
         let zero = format!("zeros{}", rate_unit(analysis));
         let head = ["channel", "static gain", "gain margin", "phase margin", &zero].map(str::to_owned).to_vec();
         let row = |channel: &Channel| {
@@ -86,7 +86,7 @@ impl StateTable {
         let mut out = String::new();
         let columns: Vec<usize> = (1..self.head.len()).collect();
         let first = self.all_cells(0).map(length).max().unwrap_or(0);
-        for chunk in columns.chunks(MOST_COLUMNS) {
+        for chunk in columns.chunks(MAX_COLUMNS) {
             let widths: Vec<usize> = chunk.iter().map(|&k| self.all_cells(k).map(length).max().unwrap_or(0)).collect();
             for row in std::iter::once(&self.head).chain(&self.rows) {
                 let mut line = format!("{indent}{:<first$}", row[0]);
@@ -106,7 +106,7 @@ impl StateTable {
 }
 
 /// The whole text.
-pub(crate) fn text(analysis: &Analysis) -> String {
+pub fn text(analysis: &Analysis) -> String {
     let mut out = format!("{}\n", analysis.title);
     out += &format!("  {}\n", summary(analysis));
     for (k, input) in analysis.system.inputs.iter().enumerate() {

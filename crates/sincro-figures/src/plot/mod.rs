@@ -13,84 +13,86 @@ mod axis;
 mod decimate;
 mod draw;
 mod layout;
-pub(crate) mod number;
+pub mod number;
 mod panel;
 mod space;
 mod style;
 mod text;
 
-pub(crate) use space::{Space, Track};
-pub(crate) use style::{PAGE_CSS, with_light_colors};
-pub(crate) use text::{escape, escape_raised, rich, width as text_width};
+pub use space::{Space, Track};
+pub use style::PAGE_CSS;
+pub(crate) use style::with_light_colors;
+pub use text::escape;
+pub(crate) use text::{escape_raised, rich, width as text_width};
 
 /// A picture: a title and panels over one shared x axis.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Figure {
+pub struct Figure {
     /// Stands above the picture; wraps, and is cut with an ellipsis after three lines.
-    pub(crate) title: String,
+    pub title: String,
     /// The x axis that all panels share; labelled under the last one.
-    pub(crate) x: Axis,
+    pub x: Axis,
     /// From top to bottom; usually one, or two where the second shows the error.
-    pub(crate) panels: Vec<Panel>,
+    pub panels: Vec<Panel>,
     /// Curves in space instead of panels.
-    pub(crate) space: Option<Space>,
+    pub space: Option<Space>,
 }
 
 /// What an axis is called, its unit, and how it is divided.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Axis {
+pub struct Axis {
     /// The quantity: `time`, `angle`.
-    pub(crate) label: String,
+    pub label: String,
     /// Shown in brackets behind the label, with a power of ten where the numbers need one: `[10⁻⁹ rad]`. May be empty.
-    pub(crate) unit: String,
+    pub unit: String,
     /// True: logarithmic. Values that are not positive cannot be drawn there; they are counted under the figure.
-    pub(crate) log: bool,
+    pub log: bool,
     /// True: an angle in degrees, divided at 15°, 45°, 90° and so on rather than at tens.
-    pub(crate) degrees: bool,
+    pub degrees: bool,
     /// What the axis shows at least; `None`: the data alone decide.
-    pub(crate) range: Option<(f64, f64)>,
+    pub range: Option<(f64, f64)>,
 }
 
 /// One plot area with its y axis.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Panel {
+pub struct Panel {
     /// Stands in front of the legend; empty for the first panel, whose title is the figure's.
-    pub(crate) title: String,
+    pub title: String,
     /// The y axis.
-    pub(crate) y: Axis,
+    pub y: Axis,
     /// Share of the height: a panel of 1.0 is twice as high as one of 0.5.
-    pub(crate) share: f64,
+    pub share: f64,
     /// The curves. References are drawn over simulated ones, whatever the order here; the legend keeps the order.
-    pub(crate) series: Vec<Series>,
+    pub series: Vec<Series>,
     /// Shaded regions, behind the curves.
-    pub(crate) bands: Vec<Band>,
+    pub bands: Vec<Band>,
     /// Horizontal lines, such as tolerances.
-    pub(crate) limits: Vec<Limit>,
+    pub limits: Vec<Limit>,
     /// Auxiliary lines, behind the curves.
-    pub(crate) guides: Vec<Guide>,
+    pub guides: Vec<Guide>,
 }
 
 /// A curve or a cloud of points.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Series {
+pub struct Series {
     /// Its name in the legend; an empty name has no entry there.
-    pub(crate) name: String,
+    pub name: String,
     /// What it stands for; decides dash and weight.
-    pub(crate) role: Role,
+    pub role: Role,
     /// Which of the figure's signals it shows, counted from 0; decides colour and marker. A signal, its variants and its
     /// reference carry the same number, in every panel.
-    pub(crate) signal: usize,
+    pub signal: usize,
     /// How the points are joined.
-    pub(crate) stroke: Stroke,
+    pub stroke: Stroke,
     /// Abscissae. If `x` and `y` differ in length, what is beyond the shorter one is not drawn.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// Ordinates. A value that is not finite leaves a gap in the curve and is counted under the figure.
-    pub(crate) y: Vec<f64>,
+    pub y: Vec<f64>,
 }
 
 /// What a series stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
+pub enum Role {
     /// The main run: solid and strong.
     Simulated,
     /// What the run is compared with: thin, dashed, hollow markers, in the colour of the text.
@@ -101,7 +103,7 @@ pub(crate) enum Role {
 
 /// How the points of a series are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stroke {
+pub enum Stroke {
     /// By straight lines.
     Line,
     /// By steps: a value holds until the next one (zero-order hold).
@@ -116,46 +118,46 @@ pub(crate) enum Stroke {
 
 /// A shaded region between two curves, such as an error bar around a signal.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Band {
+pub struct Band {
     /// Its name in the legend; may be empty.
-    pub(crate) name: String,
+    pub name: String,
     /// The signal whose colour it takes.
-    pub(crate) signal: usize,
+    pub signal: usize,
     /// Abscissae.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// Lower edge.
-    pub(crate) lower: Vec<f64>,
+    pub lower: Vec<f64>,
     /// Upper edge.
-    pub(crate) upper: Vec<f64>,
+    pub upper: Vec<f64>,
 }
 
 /// A horizontal line, such as a tolerance. One that lies far outside the data is not drawn, since it would flatten
 /// them: the panel then says so in words.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Limit {
+pub struct Limit {
     /// Its name in the legend: `tolerance`.
-    pub(crate) name: String,
+    pub name: String,
     /// Where it stands, in the unit of the y axis.
-    pub(crate) value: f64,
+    pub value: f64,
 }
 
 /// An auxiliary line: a margin of a Bode diagram, a line of equal damping. It does not widen the axes; an infinite coordinate
 /// stands for the edge of the plot.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Guide {
+pub struct Guide {
     /// Its corners.
-    pub(crate) points: Vec<(f64, f64)>,
+    pub points: Vec<(f64, f64)>,
     /// Its name in the legend; may be empty.
-    pub(crate) name: String,
+    pub name: String,
     /// Stands at its last corner; may be empty.
-    pub(crate) label: String,
+    pub label: String,
     /// How much it strikes the eye.
-    pub(crate) weight: Weight,
+    pub weight: Weight,
 }
 
 /// How much a line strikes the eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Weight {
+pub enum Weight {
     /// As the grid.
     Faint,
     /// As the axes.
@@ -168,28 +170,28 @@ pub(crate) enum Weight {
 
 /// Width and height of a picture in CSS pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Size {
+pub struct Size {
     /// Width `[px]`.
-    pub(crate) width: f64,
+    pub width: f64,
     /// Height `[px]`.
-    pub(crate) height: f64,
+    pub height: f64,
 }
 
 impl Axis {
     /// A linear axis.
-    pub(crate) fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { label: label.into(), unit: unit.into(), ..Self::default() }
     }
 
     /// The axis of time in seconds.
-    pub(crate) fn time() -> Self {
+    pub fn time() -> Self {
         Self::new("time", "s")
     }
 }
 
 impl Panel {
     /// An empty panel of share 1 without a title.
-    pub(crate) fn new(y: Axis) -> Self {
+    pub fn new(y: Axis) -> Self {
         Self {
             title: String::new(),
             y,
@@ -202,7 +204,7 @@ impl Panel {
     }
 
     /// The low panel beneath a signal, for `simulated − reference` in that signal's unit.
-    pub(crate) fn error(unit: impl Into<String>) -> Self {
+    pub fn error(unit: impl Into<String>) -> Self {
         Self { title: "simulated − reference".into(), share: 0.42, ..Self::new(Axis::new("error", unit)) }
     }
 }
@@ -216,7 +218,7 @@ impl Stroke {
 
 impl Series {
     /// A curve of straight lines for signal 0.
-    pub(crate) fn new(name: impl Into<String>, role: Role, x: Vec<f64>, y: Vec<f64>) -> Self {
+    pub fn new(name: impl Into<String>, role: Role, x: Vec<f64>, y: Vec<f64>) -> Self {
         Self { name: name.into(), role, signal: 0, stroke: Stroke::Line, x, y }
     }
 
@@ -228,30 +230,30 @@ impl Series {
 
 impl Size {
     /// The size at which a figure reads well on a screen: 880 px wide, higher if it has more than one panel.
-    pub(crate) fn wide(figure: &Figure) -> Self {
+    pub fn wide(figure: &Figure) -> Self {
         let height = if figure.space.is_some() { 560.0 } else { 130.0 + 280.0 * total_share(figure) };
         Self { width: 880.0, height }
     }
 
     /// The size for a phone.
-    pub(crate) fn narrow(figure: &Figure) -> Self {
+    pub fn narrow(figure: &Figure) -> Self {
         let height = if figure.space.is_some() { 400.0 } else { 150.0 + 210.0 * total_share(figure) };
         Self { width: 400.0, height }
     }
 }
 
 /// The figure as a standalone SVG file: valid XML with its own styles, light background.
-pub(crate) fn svg(figure: &Figure, size: Size) -> String {
+pub fn svg(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Standalone)
 }
 
 /// The figure as an `<svg>` element for an HTML page that carries [`PAGE_CSS`] and the colour variables it names.
-pub(crate) fn inline_svg(figure: &Figure, size: Size) -> String {
+pub fn inline_svg(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Inline)
 }
 
 /// The first panel alone, small, without title and legend, for a page that carries [`PAGE_CSS`].
-pub(crate) fn thumbnail(figure: &Figure, size: Size) -> String {
+pub fn thumbnail(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Thumbnail)
 }
 

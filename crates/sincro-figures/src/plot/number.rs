@@ -36,14 +36,14 @@ pub(crate) fn coordinate(x: f64) -> String {
 }
 
 /// A number for readers with a fixed count of decimals: `−0.50`.
-pub(crate) fn fixed(x: f64, decimals: usize) -> String {
+pub fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", x.abs());
     let is_zero = text.bytes().all(|b| matches!(b, b'0' | b'.'));
     if x < 0.0 && !is_zero { format!("−{text}") } else { text }
 }
 
 /// A number for readers with that many significant digits: `0.0123`, `4.56×10⁻⁹`, `∞`, `not a number`.
-pub(crate) fn significant(x: f64, digits: usize) -> String {
+pub fn significant(x: f64, digits: usize) -> String {
     if let Some(text) = special(x) {
         return text;
     }
@@ -59,7 +59,7 @@ pub(crate) fn significant(x: f64, digits: usize) -> String {
 }
 
 /// As [`significant`], without trailing zeros: for limits and settings somebody typed.
-pub(crate) fn short(x: f64, digits: usize) -> String {
+pub fn short(x: f64, digits: usize) -> String {
     let text = significant(x, digits);
     let (number, rest) = text.split_once('×').map_or((text.as_str(), None), |(n, r)| (n, Some(r)));
     let number = match number.contains('.') {

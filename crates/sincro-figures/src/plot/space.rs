@@ -12,24 +12,24 @@ use super::{Figure, Role, Series, Size};
 
 /// Curves in space.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Space {
+pub struct Space {
     /// The curves; references are drawn over the others.
-    pub(crate) tracks: Vec<Track>,
+    pub tracks: Vec<Track>,
     /// Unit of all axes.
-    pub(crate) unit: String,
+    pub unit: String,
 }
 
 /// A curve in space.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Track {
+pub struct Track {
     /// Its name in the legend.
-    pub(crate) name: String,
+    pub name: String,
     /// What it stands for.
-    pub(crate) role: Role,
+    pub role: Role,
     /// Which of the figure's signals it shows.
-    pub(crate) signal: usize,
+    pub signal: usize,
     /// Its points; those that are not finite leave a gap.
-    pub(crate) points: Vec<[f64; 3]>,
+    pub points: Vec<[f64; 3]>,
 }
 
 /// Cosine and sine of the direction that is looked from, about z: from the right and the front, 60°.

@@ -16,7 +16,7 @@ const VARIANT_DASHES: [&str; 5] = ["9 3", "2.5 2.5", "9 3 2 3", "15 4", "5 2 1.5
 const REFERENCE_DASH: &str = "5 5";
 
 /// Colour variables for light, dark and print, and the classes that use them: goes once into a page with inline figures.
-pub(crate) const PAGE_CSS: &str = include_str!("page.css");
+pub const PAGE_CSS: &str = include_str!("page.css");
 
 /// The styles of a standalone file: the same classes, with the light colours written in place of their variables.
 pub(super) fn standalone_css() -> String {

@@ -3,7 +3,7 @@
 //! [`escape`] is the one place where text of scenes and scripts is made harmless, for pictures and pages alike.
 
 /// Escapes text for element content and for quoted attributes, in XML and HTML. Characters that XML forbids become `�`.
-pub(crate) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 8);
     for c in text.chars() {
         match c {

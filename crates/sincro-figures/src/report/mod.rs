@@ -1,4 +1,4 @@
-//! The pages of sincro: `report.html` of one run, and the index of `sincro reproduce`.
+//! Pages of one run (`report.html`), of two runs (`diff.html`) and of many (the index of `sincro reproduce`).
 //!
 //! Each is one self-contained file: styles, figures and the replay inline, nothing fetched; only the replay is a script. It follows the reader's light or
 //! dark preference, prints in black and white on A4, and fits a phone. [`Page`] and [`IndexPage`] are plain data; whoever
@@ -7,6 +7,7 @@
 //! Verdicts are derived from the checks, so a banner cannot contradict its table.
 
 mod checks;
+mod comparison;
 mod index;
 pub(crate) mod page;
 pub(crate) mod shell;
@@ -17,80 +18,80 @@ use crate::plot::Figure;
 
 /// The report of one run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Page {
+pub struct Page {
     /// Title of the experiment.
-    pub(crate) title: String,
+    pub title: String,
     /// One or two sentences under the title.
-    pub(crate) description: String,
+    pub description: String,
     /// Link back to the index (label, address), if there is one.
-    pub(crate) up: Option<(String, String)>,
+    pub up: Option<(String, String)>,
     /// Why the run ended early, if it did.
-    pub(crate) stop: Option<Stop>,
+    pub stop: Option<Stop>,
     /// What the reader should know before trusting the numbers; shown right under the verdict.
-    pub(crate) warnings: Vec<String>,
+    pub warnings: Vec<String>,
     /// The replay as HTML with its program; may be empty.
-    pub(crate) replay: String,
+    pub replay: String,
     /// Drawn in order, each over the full width.
-    pub(crate) figures: Vec<Figure>,
+    pub figures: Vec<Figure>,
     /// Block diagrams as SVG for a page, each with its title.
-    pub(crate) diagrams: Vec<(String, String)>,
+    pub diagrams: Vec<(String, String)>,
     /// The table of checks.
-    pub(crate) checks: Vec<CheckRow>,
+    pub checks: Vec<CheckRow>,
     /// The recorded signals with their error bars.
-    pub(crate) signals: Vec<SignalRow>,
+    pub signals: Vec<SignalRow>,
     /// The balance of energy over the run.
-    pub(crate) energy: Option<Energy>,
+    pub energy: Option<Energy>,
     /// Name and value: scene, integrator, step, accuracy, duration, seed, overrides, hashes, versions.
-    pub(crate) settings: Vec<(String, String)>,
+    pub settings: Vec<(String, String)>,
     /// What scripts and clients said: when, who, what.
-    pub(crate) messages: Vec<(String, String, String)>,
+    pub messages: Vec<(String, String, String)>,
     /// Remarks at the end.
-    pub(crate) notes: Vec<String>,
+    pub notes: Vec<String>,
 }
 
 /// A run that ended before its time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Stop {
+pub struct Stop {
     /// When `[s]`.
-    pub(crate) time: f64,
+    pub time: f64,
     /// What happened, and to whom.
-    pub(crate) reason: String,
+    pub reason: String,
     /// The setting that mends it; may be empty.
-    pub(crate) help: String,
+    pub help: String,
     /// Whether it was to end there.
-    pub(crate) is_good: bool,
+    pub is_good: bool,
 }
 
 /// One check, judged. The deviation is given, not derived: for a check over a window it is the worst one.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct CheckRow {
+pub struct CheckRow {
     /// The check's name.
-    pub(crate) name: String,
+    pub name: String,
     /// What it looks at: a signal, a formula, the run it belongs to; may be empty.
-    pub(crate) about: String,
+    pub about: String,
     /// The value measured; at the worst time, if the check covers a window. `None`: there is none to show.
-    pub(crate) measured: Option<f64>,
+    pub measured: Option<f64>,
     /// The value expected at the same place. `None`: the measured value itself is what must be small.
-    pub(crate) expected: Option<f64>,
+    pub expected: Option<f64>,
     /// Whether the expected value is a bound.
-    pub(crate) sense: Sense,
+    pub sense: Sense,
     /// |measured − expected|, divided by the expected value if `is_relative`; how far beyond a bound.
-    pub(crate) deviation: f64,
+    pub deviation: f64,
     /// Largest deviation allowed.
-    pub(crate) limit: f64,
+    pub limit: f64,
     /// The deviation and its limit are relative, hence without unit.
-    pub(crate) is_relative: bool,
+    pub is_relative: bool,
     /// Unit of measured and expected.
-    pub(crate) unit: String,
+    pub unit: String,
     /// Time of the measured value `[s]`, if it belongs to one.
-    pub(crate) at: Option<f64>,
+    pub at: Option<f64>,
     /// The judgement.
-    pub(crate) verdict: CheckVerdict,
+    pub verdict: CheckVerdict,
 }
 
 /// The judgement of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CheckVerdict {
+pub enum CheckVerdict {
     /// The deviation is within its limit.
     Holds,
     /// It is not.
@@ -101,82 +102,120 @@ pub(crate) enum CheckVerdict {
 
 /// A recorded signal and how well it is known.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SignalRow {
+pub struct SignalRow {
     /// Its path: `/shoulder.position`.
-    pub(crate) path: String,
+    pub path: String,
     /// Its unit.
-    pub(crate) unit: String,
+    pub unit: String,
     /// Greatest magnitude in the run, for scale.
-    pub(crate) largest: Option<f64>,
+    pub largest: Option<f64>,
     /// Estimated integration error, in the same unit; `None` if it was not estimated.
-    pub(crate) error_bar: Option<f64>,
+    pub error_bar: Option<f64>,
     /// How it was estimated.
-    pub(crate) method: String,
+    pub method: String,
 }
 
 /// The balance of energy over a run `[J]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Energy {
+pub struct Energy {
     /// Total at the start.
-    pub(crate) start: f64,
+    pub start: f64,
     /// Total at the end.
-    pub(crate) end: f64,
+    pub end: f64,
     /// Work done by motors and applied forces.
-    pub(crate) work: f64,
+    pub work: f64,
     /// Energy taken by dampers and friction.
-    pub(crate) dissipated: f64,
+    pub dissipated: f64,
     /// Greatest |total − total(0) − work + dissipated| during the run.
-    pub(crate) residual: f64,
+    pub residual: f64,
 }
 
 /// The gallery of many runs.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct IndexPage {
+pub struct IndexPage {
     /// Title of the whole.
-    pub(crate) title: String,
+    pub title: String,
     /// What was reproduced and from where.
-    pub(crate) description: String,
+    pub description: String,
     /// One for each experiment, in order.
-    pub(crate) cards: Vec<Card>,
+    pub cards: Vec<Card>,
     /// Versions, machine, total time.
-    pub(crate) settings: Vec<(String, String)>,
+    pub settings: Vec<(String, String)>,
     /// Remarks at the end.
-    pub(crate) notes: Vec<String>,
+    pub notes: Vec<String>,
 }
 
 /// One experiment in the gallery.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Card {
+pub struct Card {
     /// Title of the experiment.
-    pub(crate) title: String,
+    pub title: String,
     /// Where the original stands: `§4.2, figure 4.5`.
-    pub(crate) source: String,
+    pub source: String,
     /// One sentence.
-    pub(crate) summary: String,
+    pub summary: String,
     /// Address of its report, relative to the index.
-    pub(crate) href: String,
+    pub href: String,
     /// Address of its replay, relative to the index; may be empty.
-    pub(crate) replay: String,
+    pub replay: String,
     /// A picture of the scene as SVG; may be empty.
-    pub(crate) picture: String,
+    pub picture: String,
     /// Its first panel becomes the thumbnail.
-    pub(crate) figure: Option<Figure>,
+    pub figure: Option<Figure>,
     /// All its checks. The card shows four: those that fail first, then in this order.
-    pub(crate) checks: Vec<CheckRow>,
+    pub checks: Vec<CheckRow>,
     /// Why the run ended early, if it did.
-    pub(crate) stop: Option<Stop>,
+    pub stop: Option<Stop>,
     /// How long it took, in words: `0.02 s`.
-    pub(crate) run_time: String,
+    pub run_time: String,
+}
+
+/// The comparison of two runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ComparisonPage {
+    /// Titles of both runs.
+    pub title: String,
+    /// Result of the comparison in one sentence.
+    pub verdict: String,
+    /// Both replays over each other as HTML with their program; may be empty.
+    pub replay: String,
+    /// One for each signal that both runs have.
+    pub signals: Vec<DifferenceRow>,
+    /// Settings and versions in which the runs differ: name, both values.
+    pub settings: Vec<(String, String)>,
+}
+
+/// A signal of two runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DifferenceRow {
+    /// Its path: `/shoulder.position`.
+    pub path: String,
+    /// Its unit.
+    pub unit: String,
+    /// First time at which the bits differ `[s]`; `None`: they are the same everywhere.
+    pub first: Option<f64>,
+    /// Greatest difference, in the unit of the signal.
+    pub greatest: f64,
+    /// Time of the greatest difference `[s]`.
+    pub greatest_at: f64,
 }
 
 /// The page of one run as HTML.
-pub(crate) fn html(page: &Page) -> String {
+#[must_use]
+pub fn html(page: &Page) -> String {
     page::html(page)
 }
 
 /// The gallery of many runs as HTML.
-pub(crate) fn index_html(page: &IndexPage) -> String {
+#[must_use]
+pub fn index_html(page: &IndexPage) -> String {
     index::html(page)
+}
+
+/// The comparison of two runs as HTML.
+#[must_use]
+pub fn comparison_html(page: &ComparisonPage) -> String {
+    comparison::html(page)
 }
 
 #[cfg(test)]

@@ -4,18 +4,18 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sincro_sim::Loaded;
+use sincro::Loaded;
+use sincro_figures::plot::number::{self, significant};
 use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
 use sincro_sim::run::Campaign;
 use sincro_sim::script::Message;
 
 use crate::diagnostics::count;
-use crate::plot::number::significant;
 
 /// A number as it is typed: six digits are more than a setting has.
 pub(crate) fn short(x: f64) -> String {
-    crate::plot::number::short(x, 6)
+    number::short(x, 6)
 }
 
 /// Progress on a terminal, nothing in a pipe.

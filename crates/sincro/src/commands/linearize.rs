@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use sincro::{Loaded, linearization, load};
+use sincro_figures::linear::{Analysis, text};
 use sincro_sim::linear::{DMatrix, lqr};
 use sincro_sim::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
 use sincro_sim::problem::{Located, Location, Problem, Problems, SourceText};
-use sincro_sim::{Loaded, load};
 
 use super::run::parse_settings;
-use crate::linear::{Analysis, files, text};
 use crate::{Exit, diagnostics};
 
 /// What `linearize` takes.
@@ -61,12 +61,12 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
     if let Some(out) = &arguments.out
-        && let Err(error) = files::write(&analysis, out)
+        && let Err(error) = linearization::write(&analysis, out)
     {
         return diagnostics::refuse_file(&error);
     }
     if arguments.json {
-        say!("{}", files::json(&analysis));
+        say!("{}", linearization::json(&analysis));
     } else {
         print(&analysis, &found, arguments.out.as_deref());
     }
@@ -101,7 +101,7 @@ pub(super) fn located(flag: &str, text: &str) -> Located<String> {
 }
 
 fn print(analysis: &Analysis, found: &Linearization, out: Option<&Path>) {
-    say!("{}", text::text(analysis).trim_end());
+    say!("{}", text(analysis).trim_end());
     say!("\noperating point at {} s", found.system.t);
     let all = [("x", &found.system.states, &found.state), ("u", &found.system.inputs, &found.input)];
     for (letter, axes, values) in all {

@@ -8,15 +8,14 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use sincro_remote::hub::Event;
-use sincro_remote::{Options, Server};
-use sincro_sim::results::{self, FileError, Status};
-use sincro_sim::run::judge;
+use sincro::scene_name;
+use sincro::serve::{Event, Options, Server, open, write_run};
+use sincro_sim::results::Status;
 use sincro_sim::session::{Files, Finished, Grants, Session};
 
 use super::console;
-use super::run::{interrupt, parse_settings, scene_name};
-use crate::{Exit, diagnostics, present};
+use super::run::{interrupt, parse_settings};
+use crate::{Exit, diagnostics};
 
 /// How often it is looked whether to end, and what is attached.
 const GLANCE: Duration = Duration::from_millis(250);
@@ -107,7 +106,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
     let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_problems(&p))?;
-    let session = Session::open(&arguments.scene, &overrides, arguments.simulation_step);
+    let session = open(&arguments.scene, &overrides, arguments.simulation_step);
     let session = session.map_err(|problems| diagnostics::refuse_problems(&problems))?;
     let patience = Duration::try_from_secs_f64(arguments.client_timeout).ok().filter(|d| !d.is_zero());
     let Some(patience) = patience else {
@@ -186,7 +185,7 @@ impl Watch {
             Status::Ended { reason, .. } => format!("ended: {reason}"),
             Status::Completed | Status::Interrupted { .. } => "ended".to_owned(),
         };
-        match write(&finished, &out) {
+        match write_run(&finished, &out) {
             Ok(()) => say!(
                 "  run {} {how} after {} of clients, {} s recorded, trace {hash}: {}",
                 self.n_runs,
@@ -197,15 +196,4 @@ impl Watch {
             Err(error) => eprintln!("error: {error}"),
         }
     }
-}
-
-/// The run as any other: signals, `run.json`, figures, report.
-fn write(finished: &Finished, out: &Path) -> Result<(), FileError> {
-    results::prepare(out)?;
-    let loaded = &finished.loaded;
-    let folder = loaded.experiment.scene_path.parent().unwrap_or(Path::new("."));
-    finished.simulated.table.write_csv(&out.join("signals.csv"))?;
-    let campaign = judge(folder, loaded, finished.simulated.clone());
-    campaign.report.write(out)?;
-    present::write(loaded, &campaign, out, None)
 }

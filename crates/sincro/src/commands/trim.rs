@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Map, Value, json};
+use sincro::load;
+use sincro::results::write_text;
 use sincro_sim::linear::Axis;
 use sincro_sim::linearize::{Trim, TrimRequest, operating_point, trim};
-use sincro_sim::load;
 use sincro_sim::problem::{Located, Problem, Problems};
 
 use super::linearize::located;
 use super::run::parse_settings;
-use crate::present::write_text;
 use crate::{Exit, diagnostics};
 
 /// What `trim` takes.

@@ -1,4 +1,4 @@
-//! What the doors cost: a message of a legacy client, a call of a ZeroMQ client, a script's actuation.
+//! Cost of the adapters: a message of a legacy client, a call of a ZeroMQ client, a call of a script's actuation function.
 //!
 //! Clients are timed over loopback beside a server that only sends as many bytes back: the difference is the handling.
 
@@ -31,7 +31,7 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
 "#;
 
 const EXPERIMENT: &str = r#"
-title = "doors"
+title = "adapters"
 duration = 1.0
 step = 0.005
 integrator = "semi-implicit-euler"

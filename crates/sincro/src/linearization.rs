@@ -1,34 +1,34 @@
-//! The files: `linearization.json`, `bode.csv`, `step.csv`, the figures as SVG, `report.html`.
+//! Files of a linearised scene: `linearization.json`, `bode.csv`, `step.csv`, the figures as SVG, `report.html`.
 //!
 //! JSON has no infinity; a number that is not finite is null (the time constant of an integrator, say).
 
 use std::path::Path;
 
 use serde::Serialize;
+use sincro_figures::linear::{self, Analysis, Channel};
+use sincro_figures::plot::{self, Size};
 use sincro_sim::linear::{Axis, Complex, DMatrix, Margin, Stability};
 use sincro_sim::results::{FileError, prepare};
 use sincro_sim::table::CsvWriter;
 
-use super::{Analysis, Channel, figures, page};
-use crate::plot::{self, Size};
-use crate::present::write_text;
+use crate::results::write_text;
 
-/// Writes everything into a folder.
+/// Writes all files of a linear system into a folder, which is created if it is absent.
 ///
 /// # Errors
 ///
 /// A file cannot be written.
-pub(crate) fn write(analysis: &Analysis, out: &Path) -> Result<(), FileError> {
+pub fn write(analysis: &Analysis, out: &Path) -> Result<(), FileError> {
     let folder = out.join("figures");
     prepare(out)?;
     prepare(&folder)?;
     write_text(&out.join("linearization.json"), &json(analysis))?;
     write_bode(analysis, &out.join("bode.csv"))?;
     write_step(analysis, &out.join("step.csv"))?;
-    for (name, figure) in figures::all(analysis) {
+    for (name, figure) in linear::figures(analysis) {
         write_text(&folder.join(format!("{name}.svg")), &plot::svg(&figure, Size::wide(&figure)))?;
     }
-    write_text(&out.join("report.html"), &page::html(analysis))
+    write_text(&out.join("report.html"), &linear::html(analysis))
 }
 
 #[derive(Serialize)]
@@ -83,8 +83,9 @@ struct At {
     value: f64,
 }
 
-/// The text of `linearization.json`.
-pub(crate) fn json(analysis: &Analysis) -> String {
+/// Text of `linearization.json`: matrices by rows, names and units of states, inputs and outputs, poles, margins.
+#[must_use]
+pub fn json(analysis: &Analysis) -> String {
     let s = analysis.system;
     let poles = analysis.poles.iter().map(|mode| Pole {
         pole: pair(&mode.pole),
@@ -182,4 +183,89 @@ fn write_rows(path: &Path, head: &[String], n_rows: usize, row: impl Fn(usize) -
 fn channel_name(analysis: &Analysis, channel: &Channel) -> String {
     let s = analysis.system;
     format!("{} -> {}", s.inputs[channel.input].name, s.outputs[channel.output].name)
+}
+
+#[cfg(test)]
+mod tests {
+    use sincro_figures::linear::text;
+    use sincro_sim::linear::StateSpace;
+
+    use super::*;
+
+    /// `k / (s (s + 1) (s + 5))` as motor and load.
+    fn servo() -> StateSpace {
+        let a = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, 0.0, -1.0, 2.0, 0.0, 0.0, -5.0]);
+        let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 5.0]);
+        let c = DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+        StateSpace {
+            a,
+            b,
+            c,
+            d: DMatrix::zeros(2, 1),
+            states: vec![
+                Axis::new("/arm/hinge.position", "rad"),
+                Axis::new("/arm/hinge.velocity", "rad/s"),
+                Axis::new("/motor.current", "A"),
+            ],
+            inputs: vec![Axis::new("/motor.voltage", "V")],
+            outputs: vec![Axis::new("/arm/hinge.position", "rad"), Axis::new("/arm/hinge.velocity", "rad/s")],
+            t: 0.5,
+            sample_time: None,
+        }
+    }
+
+    /// A flexible joint with three swings, hardly damped.
+    fn flexible() -> StateSpace {
+        let mut a = DMatrix::zeros(6, 6);
+        for (k, (w, zeta)) in [(3.0, 0.3), (8.0, 0.05), (20.0, 0.12)].into_iter().enumerate() {
+            a[(2 * k, 2 * k + 1)] = 1.0;
+            a[(2 * k + 1, 2 * k)] = -w * w;
+            a[(2 * k + 1, 2 * k + 1)] = -2.0 * zeta * w;
+        }
+        let b = DMatrix::from_row_slice(6, 1, &[0.0, 9.0, 0.0, 12.0, 0.0, 40.0]);
+        let c = DMatrix::from_row_slice(1, 6, &[1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
+        let mut system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
+        system.outputs[0] = Axis::new("/tip.position", "mm");
+        system.inputs[0] = Axis::new("/shaker.force", "N");
+        system
+    }
+
+    /// A lag behind two ticks of delay, sampled at 20 Hz.
+    fn sampled() -> StateSpace {
+        let a = DMatrix::from_row_slice(3, 3, &[0.9, 0.1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+        let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 1.0]);
+        let c = DMatrix::from_row_slice(1, 3, &[1.0, 0.0, 0.0]);
+        let system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
+        StateSpace { sample_time: Some(0.05), ..system }
+    }
+
+    #[test]
+    fn the_json_reads_back() {
+        let system = servo();
+        let json: serde_json::Value = serde_json::from_str(&json(&Analysis::of("Servo", &system))).unwrap();
+        assert_eq!(json["a"][1][2], 2.0);
+        assert_eq!(json["poles"][2]["pole"], serde_json::json!([-5.0, 0.0]));
+        assert_eq!(json["poles"][0]["time_constant"], serde_json::Value::Null);
+        assert_eq!(json["states"][2]["unit"], "A");
+        assert_eq!(json["channels"][1]["zeros"], serde_json::json!([[0.0, 0.0]]));
+    }
+
+    #[test]
+    fn the_folder_holds_every_file() {
+        let out = std::env::temp_dir().join(format!("sincro-linear-{}", std::process::id()));
+        // a folder to look at, if one is named
+        let out = std::env::var_os("SINCRO_LOOK").map_or(out, std::path::PathBuf::from);
+        for (name, system) in [("servo", servo()), ("flexible", flexible()), ("sampled", sampled())] {
+            let folder = out.join(name);
+            std::fs::create_dir_all(&folder).unwrap();
+            let analysis = Analysis::of(name, &system);
+            std::fs::write(folder.join("terminal.txt"), text(&analysis)).unwrap();
+            write(&analysis, &folder).unwrap();
+            for file in ["linearization.json", "bode.csv", "step.csv", "report.html", "figures/01-bode.svg"] {
+                assert!(folder.join(file).is_file(), "{file}");
+            }
+            let bode = std::fs::read_to_string(folder.join("bode.csv")).unwrap();
+            assert!(bode.starts_with("omega,") && bode.lines().count() > 100);
+        }
+    }
 }
