@@ -1,11 +1,11 @@
-//! What no compiler checks: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking crates stay pure,
-//! that keys of references resolve.
+//! What no compiler checks: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking
+//! crates stay pure, that keys of references resolve.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Lines above which a source file must be split.
-const MOST_LINES: usize = 1000;
+const MAX_LINES: usize = 1000;
 
 /// Which crates of ours each crate may use.
 const ARROWS: &[(&str, &[&str])] = &[
@@ -17,10 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-remote", &["sincro-sim"]),
     ("sincro-viewer", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
     ("sincro-figures", &["sincro-math", "sincro-blocks", "sincro-sim"]),
-    (
-        "sincro-bench",
-        &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim", "sincro-lua", "sincro-remote"],
-    ),
+    ("sincro-bench", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim", "sincro-lua", "sincro-remote"]),
     (
         "sincro",
         &[
@@ -83,7 +80,7 @@ fn children(folder: &Path) -> Vec<PathBuf> {
 fn source(root: &Path, path: &Path, text: &str, found: &mut Vec<String>) {
     let name = path.strip_prefix(root).unwrap_or(path).display().to_string();
     let lines = text.lines().count();
-    if lines > MOST_LINES {
+    if lines > MAX_LINES {
         found.push(format!("{name} has {lines} lines: split it"));
     }
     let is_rust = name.ends_with(".rs");

@@ -1,4 +1,4 @@
-//! How right the default settings are: against a run with a far smaller tolerance, and by conserved energy.
+//! Accuracy of the default settings: against a run with a far smaller tolerance, and by conserved energy.
 
 use sincro_dynamics::world::{MethodKind, World};
 use sincro_sim::run::{choose_method, world_of};
@@ -9,8 +9,8 @@ use super::subjects::{STEP, default_experiment, world};
 /// Tolerance of the reference.
 const REFERENCE_ACCURACY: f64 = 1e-13;
 
-/// Largest difference of any joint `[rad]` between the default settings and the reference at the ticks of the first `duration`
-/// seconds; infinite if a run stops.
+/// Largest difference of any joint `[rad]` between the default settings and the reference at the ticks of the first
+/// `duration` seconds; infinite if a run stops.
 pub(super) fn joint_error(scene: &Scene, duration: f64) -> f64 {
     let experiment = default_experiment(STEP, duration);
     let mut ours = world_of(scene, &experiment, choose_method(scene, &experiment).0, false);
@@ -26,8 +26,8 @@ pub(super) fn joint_error(scene: &Scene, duration: f64) -> f64 {
     worst
 }
 
-/// Largest error of the total energy over `duration` seconds at default settings, as a share of the energy released: the largest
-/// kinetic energy that the scene, let go at rest, reaches. Infinite if the run stops.
+/// Largest error of the total energy over `duration` seconds at default settings, as a share of the energy released:
+/// the largest kinetic energy that the scene, let go at rest, reaches. Infinite if the run stops.
 pub(super) fn energy_error(scene: &Scene, duration: f64) -> f64 {
     let experiment = default_experiment(STEP, duration);
     let mut world = world_of(scene, &experiment, choose_method(scene, &experiment).0, false);

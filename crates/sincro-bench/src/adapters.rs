@@ -1,4 +1,5 @@
-//! Cost of the adapters: a message of a legacy client, a call of a ZeroMQ client, a call of a script's actuation function.
+//! Cost of the adapters: a message of a legacy client, a call of a ZeroMQ client, a call of a script's actuation
+//! function.
 //!
 //! Clients are timed over loopback beside a server that only sends as many bytes back: the difference is the handling.
 

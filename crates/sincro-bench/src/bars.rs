@@ -12,7 +12,7 @@ pub(super) enum Limit {
 }
 
 impl Limit {
-    /// Whether a value keeps it; a NaN does not.
+    /// Returns true if a value keeps the limit; a NaN does not.
     fn holds(self, value: f64) -> bool {
         match self {
             Self::AtLeast(limit) => value >= limit,
@@ -20,7 +20,7 @@ impl Limit {
         }
     }
 
-    /// How far a value is from it, as a factor above 1.
+    /// Distance of a value from the limit, as a factor above 1.
     fn missed_by(self, value: f64) -> f64 {
         match self {
             Self::AtLeast(limit) => limit / value,
@@ -107,7 +107,7 @@ impl Bar {
         BARS.iter().find(|bar| bar.figure == figure && bar.model == model && bar.peer == peer)
     }
 
-    /// What a value means for it.
+    /// Verdict on a value, in words.
     pub fn verdict(&self, value: f64) -> String {
         if self.goal.holds(value) {
             "goal met".into()
@@ -120,7 +120,7 @@ impl Bar {
         }
     }
 
-    /// Whether a value keeps the first bar.
+    /// Returns true if a value keeps the first bar.
     pub fn is_met(&self, value: f64) -> bool {
         self.first.holds(value)
     }

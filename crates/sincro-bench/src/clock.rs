@@ -1,6 +1,7 @@
-//! How long something takes: processor time of the thread and time on the wall, in repetitions long enough for the clock.
+//! Timing: processor time of the thread and time on the wall, in repetitions long enough for the clock.
 //!
-//! Processor time is what figures and ratios are made of: on a machine that does other things too, the wall says more about those.
+//! Processor time is what figures and ratios are made of: on a machine that does other things too, the wall says more
+//! about those.
 
 use std::time::{Duration, Instant};
 
@@ -15,7 +16,7 @@ const SLOW_S: f64 = 0.050;
 pub(super) struct Subject {
     run: Box<dyn FnMut(u64)>,
     units: f64,
-    /// What to know of the figure, such as that a smaller step was timed; empty if nothing.
+    /// Remark on the figure, such as that a smaller step was timed; empty if there is none.
     pub note: String,
 }
 
@@ -41,7 +42,7 @@ impl Subject {
 pub(super) struct Sample {
     /// On the wall.
     pub wall: f64,
-    /// Of the processor, this thread only.
+    /// Processor time of this thread only.
     pub cpu: f64,
 }
 
@@ -153,7 +154,7 @@ fn processor_time(clock: rustix::time::ClockId) -> Duration {
     Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
 }
 
-/// Where a thread's processor time cannot be had, the wall has to do.
+/// Time on the wall in place of processor time, where a thread's processor time cannot be had.
 #[cfg(not(unix))]
 fn thread_time() -> Duration {
     use std::sync::LazyLock;

@@ -1,4 +1,5 @@
-//! What a block diagram adds to a step: a controller of a hundred blocks on a two-link arm, against the same arm without it.
+//! Cost of a block diagram in a step: a controller of a hundred blocks on a two-link arm, against the same arm without
+//! it.
 
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::continuous::{Integrator, LowPass};

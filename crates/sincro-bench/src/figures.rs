@@ -31,7 +31,7 @@ pub(crate) enum FigureKind {
     Batch,
     /// Time of 200 links over that of 100
     Growth,
-    /// What a block diagram adds to a step
+    /// Time that a block diagram adds to a step
     Diagram,
     /// Cost of a message of a client and of a call of a script
     #[value(alias = "adapters")]
@@ -50,7 +50,7 @@ pub(crate) enum FigureKind {
 struct Timed {
     figure: &'static str,
     requests: Vec<(&'static str, String)>,
-    /// Whether the wall counts: several threads.
+    /// True: time on the wall counts, because several threads work.
     on_wall: bool,
     subject: fn(&Scene, usize) -> Subject,
 }
@@ -64,7 +64,8 @@ impl Timed {
 /// Robots that touch something: a world's step, all that is in it.
 const TOUCHING: [&str; 2] = ["humanoid", "humanoid_lying"];
 
-/// The timed figures of a robot. MuJoCo has no call for a recursion alone: `mj_forward` stands beside a world's rates, and
+/// The timed figures of a robot. MuJoCo has no call for a recursion alone: `mj_forward` stands beside a world's rates,
+/// and
 /// `mj_inverse`, which does more than our inverse dynamics, beside that; no bar is on either.
 fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
     let step = |word: &str| ("mujoco", format!("step {model} {word} 0.005"));
@@ -128,7 +129,7 @@ pub(super) struct Session<'a> {
     /// Peers that answer.
     pub peers: Vec<Peer>,
     robots: Vec<Robot>,
-    /// What was measured so far.
+    /// Rows measured so far.
     pub rows: Vec<Row>,
 }
 
@@ -154,7 +155,7 @@ impl<'a> Session<'a> {
         all.into_iter().filter(|kind| self.wants(*kind)).collect()
     }
 
-    /// How long it will take, roughly `[s]`.
+    /// Estimated duration `[s]`.
     pub fn estimate(&self) -> f64 {
         let seconds = self.options.seconds_per_figure;
         let mut sum = 2.0;
@@ -351,7 +352,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// What something adds: the median of the differences of neighbours, measured in turn; and how long it takes with it `[ns]`.
+/// Added time: the median of the differences of neighbours, measured in turn; and the time of the whole `[ns]`.
 fn added(with: Subject, without: Subject, seconds: f64, of: fn(Sample) -> f64) -> (f64, f64) {
     let (mut with, mut without) = (Meter::new(with), Meter::new(without));
     let share = seconds / ROUNDS as f64;
@@ -364,8 +365,8 @@ fn added(with: Subject, without: Subject, seconds: f64, of: fn(Sample) -> f64) -
     (median(differences), median(whole))
 }
 
-/// What something adds on the wall, and how long it takes with it `[ns]`: between the shortest of each, since another thread answers and a busy machine
-/// only ever adds.
+/// Added time on the wall, and the time of the whole `[ns]`: between the shortest of each, since another thread answers
+/// and a busy machine only ever adds.
 fn least(with: Subject, without: Subject, seconds: f64) -> (f64, f64) {
     let (mut with, mut without) = (Meter::new(with), Meter::new(without));
     for _ in 0..2 * ROUNDS {
@@ -400,8 +401,9 @@ fn in_turn(meter: &mut Meter, peer: &mut Peer, request: &str, share: f64, on_wal
     Ok(Rival { peer: peer.name, request: request.to_owned(), time, ratio: median(ratios), note, answer: last })
 }
 
-/// How much faster two threads are than one, and a remark; the shortest times, because whatever else runs on the machine only
-/// takes away. The remark says how many processors two threads were given: with one of them busy elsewhere no gain can be seen.
+/// Gain of two threads over one, and a remark; the shortest times, because whatever else runs on the machine only
+/// takes away. The remark says how many processors two threads were given: with one of them busy elsewhere no gain can
+/// be seen.
 fn thread_gain(scene: &Scene, seconds: f64) -> (f64, String) {
     let [mut one, mut two] = [1, 2].map(|threads| Meter::new(subjects::batch(scene, threads)));
     let (share, mut most) = (seconds / ROUNDS as f64, 0.0_f64);

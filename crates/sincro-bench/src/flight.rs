@@ -1,5 +1,5 @@
-//! The flight test: 60 s of `scenes/quadrotor-flight-1` with its controller and all that is recorded, as `sincro run` makes it, but for
-//! error bars, variants and checks.
+//! The flight test: 60 s of `scenes/quadrotor-flight-1` with its controller and all that is recorded, as `sincro run`
+//! makes it, but for error bars, variants and checks.
 
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
@@ -13,7 +13,8 @@ use super::clock::Subject;
 /// Length of the flight `[s]`.
 pub(super) const SECONDS: f64 = 60.0;
 
-/// Files of the scene, carried in the program so that it measures anywhere; a test keeps them equal to those of the scene.
+/// Files of the scene, carried in the program so that it measures anywhere; a test keeps them equal to those of the
+/// scene.
 const FILES: [(&str, &str); 3] = [
     ("experiment.toml", include_str!("../flight/experiment.toml")),
     ("scene.toml", include_str!("../flight/scene.toml")),

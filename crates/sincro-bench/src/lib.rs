@@ -1,8 +1,8 @@
 //! `sincro bench`: speed, memory and accuracy on this machine, beside peers if asked.
 //!
-//! Ours and the peer's are measured in turn, figure by figure (ours, peer, ours, peer …), after both have computed the same
-//! accelerations; a ratio is the median of the ratios of neighbours. Times are processor time of the thread. What is measured and
-//! why it is fair: `crates/sincro-bench/README.md`.
+//! Ours and the peer's are measured in turn, figure by figure (ours, peer, ours, peer …), after both have computed the
+//! same accelerations; a ratio is the median of the ratios of neighbours. Times are processor time of the thread. What
+//! is measured and why it is fair: `crates/sincro-bench/README.md`.
 
 mod accuracy;
 mod adapters;
@@ -25,7 +25,7 @@ use figures::{FigureKind, Session};
 use peer::{Against, Peer};
 use table::say;
 
-/// What to measure, and beside whom.
+/// Options of a measurement.
 #[derive(Debug, clap::Args)]
 pub struct Options {
     /// Measure a peer in turn with us; may be given twice. Needs Python with the peer's package
@@ -49,7 +49,7 @@ pub struct Options {
     /// Threads of the second batch figure
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: u16,
-    /// Where the compiled Pinocchio is kept; a folder for temporary files unless given
+    /// Folder of the compiled Pinocchio; a folder for temporary files unless given
     #[arg(long, value_name = "DIR")]
     build_dir: Option<PathBuf>,
 }

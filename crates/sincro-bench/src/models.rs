@@ -14,7 +14,7 @@ pub(super) struct Robot {
 }
 
 impl Robot {
-    /// Whether it touches something: only steps are compared then, and only with peers that know contact.
+    /// Returns true if it has contact: only steps are compared then, and only with peers that know contact.
     pub fn touches(&self) -> bool {
         !self.scene.model.constraints().pairs.is_empty()
     }
@@ -53,7 +53,8 @@ fn text(name: &str) -> String {
     }
 }
 
-/// A chain of `n` links of 0.1 m and 0.1 kg, held level: the same text as in `crates/sincro-bench/models`, where it takes half a megabyte.
+/// A chain of `n` links of 0.1 m and 0.1 kg, held level: the same text as in `crates/sincro-bench/models`, where it
+/// takes half a megabyte.
 fn chain_text(n: usize) -> String {
     let (mut joints, mut bodies, mut path) = (String::new(), String::new(), String::new());
     for k in 0..n {

@@ -34,7 +34,7 @@ pub(crate) enum Against {
 pub(super) struct Peer {
     /// `mujoco` or `pinocchio`.
     pub name: &'static str,
-    /// What it said of itself.
+    /// Its first answer: name and version.
     pub hello: Value,
     child: Child,
     input: Option<ChildStdin>,
@@ -90,7 +90,8 @@ impl Peer {
         }
     }
 
-    /// A timing in ns, with the answer it stood in. Batches on several threads have no processor time: that of the wall stands there.
+    /// A timing in ns, with the answer it stood in. Batches on several threads have no processor time: that of the wall
+    /// stands there.
     pub fn time(&mut self, request: &str) -> Result<(Sample, Value), String> {
         let answer = self.ask(request)?;
         let wall = answer["median_ns"].as_f64();
@@ -109,7 +110,7 @@ impl Peer {
         }
     }
 
-    /// What it said on its error output before it ended.
+    /// Last lines of its error output before it ended.
     fn last_words(&mut self) -> String {
         self.end(END_TIMEOUT);
         let status = self.child.wait().map_or_else(|e| e.to_string(), |status| status.to_string());
@@ -161,7 +162,8 @@ fn listen(errors: impl std::io::Read + Send + 'static, kept: &Arc<Mutex<String>>
     });
 }
 
-/// Whether the peer's accelerations are ours: names and lists as [`super::subjects::accelerations`] gives them; to 1e-6 of the largest.
+/// Compares the peer's accelerations with ours: names and lists as [`super::subjects::accelerations`] gives them; to
+/// 1e-6 of the largest.
 pub(super) fn agreement(ours: &[(String, Vec<f64>)], answer: &Value) -> Result<f64, String> {
     let theirs = &answer["acceleration"];
     let (mut largest, mut worst) = (0.0_f64, 0.0_f64);

@@ -1,7 +1,8 @@
-//! What of ours is timed: each figure as something that can be called again and again.
+//! Subjects of the timing: each figure as something that can be called again and again.
 //!
-//! States go back to their start every simulated second, so that they stay finite. A method that diverges even so is timed at a tenth
-//! of the step, or a hundredth …, and says so: the work is the same, and huge angles would make sine and cosine slow.
+//! States go back to their start every simulated second, so that they stay finite. A method that diverges even so is
+//! timed at a tenth of the step, or a hundredth …, and says so: the work is the same, and huge angles would make sine
+//! and cosine slow.
 
 use std::hint::black_box;
 
@@ -61,7 +62,7 @@ pub(super) fn default_method(scene: &Scene) -> MethodKind {
     choose_method(scene, &default_experiment(STEP, 1.0)).0
 }
 
-/// What a camera beside the robot sees of it at its start: colours, depths and which body.
+/// Picture of the robot at its start by a camera beside it: colours, depths and bodies.
 pub(super) fn picture(scene: &Scene) -> Subject {
     let lens = Lens::Perspective(38_f64.to_radians());
     let optics = Optics { resolution: [256, 256], near: 0.01, far: 100.0, lens };
@@ -104,7 +105,7 @@ impl Stepper {
         stepper
     }
 
-    /// Whether a round of steps stays within anything physical.
+    /// Returns true if a round of steps stays within anything physical.
     fn survives(&mut self) -> bool {
         self.restart();
         (0..STEPS_A_SECOND).all(|_| self.advance()) && self.world.state.v.iter().all(|v| v.abs() < 1e6)
@@ -144,7 +145,8 @@ impl Stepper {
         }
     }
 
-    /// How much there is to solve: points of contact and stops that press, on average over the steps of the second that is timed.
+    /// Size of the contact problem: points of contact and active joint limits, on average over the steps of the second
+    /// that is timed.
     fn pressing(&mut self) -> String {
         self.restart();
         let unsolved = |world: &World| world.solver_report().map_or(0, |r| r.not_converged);
@@ -278,9 +280,9 @@ pub(super) fn memory(scene: &Scene, method: MethodKind) -> usize {
     world(scene, method, 1.0, true).heap_bytes() + size_of::<World>()
 }
 
-/// Joint accelerations at the start with every hinge at 0.3 rad/s and free bodies at rest: name of the body, then one a degree of
-/// freedom of the joints that carry it, angular first. Peers give the same, and so prove that they compute the same robot. Nothing is touched: what
-/// stands on a floor does so 100 m above it.
+/// Joint accelerations at the start with every hinge at 0.3 rad/s and free bodies at rest: name of the body, then one a
+/// degree of freedom of the joints that carry it, angular first. Peers give the same, and so prove that they compute
+/// the same robot. Nothing is touched: what stands on a floor does so 100 m above it.
 pub(super) fn accelerations(scene: &Scene) -> Vec<(String, Vec<f64>)> {
     let mut world = world(scene, MethodKind::SemiImplicitEuler, 1.0, false);
     for k in 0..scene.model.n_v() {

@@ -1,4 +1,4 @@
-//! What was measured: rows for the terminal and for JSON.
+//! Measured rows, for the terminal and for JSON.
 
 use std::io::Write;
 
@@ -17,9 +17,9 @@ pub(super) struct Row {
     pub value: f64,
     /// Its unit.
     pub unit: &'static str,
-    /// How it was timed, if it is a time.
+    /// Its timing, if it is a time.
     pub timing: Option<Timing>,
-    /// What to know of it.
+    /// Remark on it; may be empty.
     pub note: String,
     /// The same of peers.
     pub rivals: Vec<Rival>,
@@ -29,13 +29,13 @@ pub(super) struct Row {
 pub(super) struct Rival {
     /// Its name.
     pub peer: &'static str,
-    /// What it was asked for.
+    /// The request that it was sent.
     pub request: String,
     /// Its median `[ns]`.
     pub time: Sample,
     /// Its time over ours: how many times faster sincro is.
     pub ratio: f64,
-    /// What to know of its number.
+    /// Remark on its number; may be empty.
     pub note: String,
     /// Its last answer.
     pub answer: Value,

@@ -6,8 +6,8 @@
 //! - [`report`]: the pages of one run, of two runs and of many, from plain data;
 //! - [`campaign`]: from the results of a run to its figures and its page.
 //!
-//! The same data always give the same bytes. Nothing here writes a file, reads a clock or knows an adapter: the 3-D replay of a
-//! page is HTML text that the caller puts in ([`report::Page::replay`]).
+//! The same data always give the same bytes. Nothing here writes a file, reads a clock or knows an adapter: the 3-D
+//! replay of a page is HTML text that the caller puts in ([`report::Page::replay`]).
 //!
 //! ```
 //! use sincro_figures::plot::{Axis, Figure, Panel, Role, Series, Size, svg};

@@ -1,9 +1,9 @@
 //! Deterministic simulation of robots and their controllers in lock-step: the library that puts the parts together.
 //!
-//! The parts are crates of their own: `sincro-dynamics` (multibody dynamics), `sincro-blocks` (block diagrams), `sincro-sim`
-//! (scenes, experiments, the run), the adapters `sincro-lua`, `sincro-remote` and `sincro-viewer`, and `sincro-figures`. None of
-//! the adapters knows another. This crate joins them once, for the command line and for every other front end; it prints
-//! nothing and never ends the process.
+//! The parts are crates of their own: `sincro-dynamics` (multibody dynamics), `sincro-blocks` (block diagrams),
+//! `sincro-sim` (scenes, experiments, the run), the adapters `sincro-lua`, `sincro-remote` and `sincro-viewer`, and
+//! `sincro-figures`. None of the adapters knows another. This crate joins them once, for the command line and for every
+//! other front end; it prints nothing and never ends the process.
 //!
 //! | to do | use |
 //! |---|---|

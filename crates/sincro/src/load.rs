@@ -9,8 +9,8 @@ use sincro_sim::scene::{ObjectKind, Scene};
 
 /// Opens a scene folder, or the `experiment.toml` in it, with Lua as the language of its scripts.
 ///
-/// `overrides` win over the files; see [`Override::parse`] for their paths. Variants and sweep of the experiment are opened on
-/// trial, so that nothing is run before everything is known to be sound.
+/// `overrides` win over the files; see [`Override::parse`] for their paths. Variants and sweep of the experiment are
+/// opened on trial, so that nothing is run before everything is known to be sound.
 ///
 /// # Errors
 ///

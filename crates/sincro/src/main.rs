@@ -1,7 +1,7 @@
 //! The command line of sincro.
 //!
-//! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run stopped
-//! (what was recorded is kept).
+//! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run
+//! stopped (what was recorded is kept).
 
 mod commands;
 mod diagnostics;

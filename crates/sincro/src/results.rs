@@ -29,8 +29,8 @@ pub struct Link<'a> {
     pub href: &'a str,
 }
 
-/// Writes `report.html`, `replay.json` and the figures as SVG files into a folder of results; `index` is the page that the
-/// report links back to.
+/// Writes `report.html`, `replay.json` and the figures as SVG files into a folder of results; `index` is the page that
+/// the report links back to.
 ///
 /// # Errors
 ///
@@ -71,7 +71,8 @@ fn half_way(campaign: &Campaign) -> String {
     main.simulated.tape.as_ref().filter(|tape| tape.n_frames() > 0).map(still).unwrap_or_default()
 }
 
-/// Writes pictures of a run as SVG files `frames/0001.svg` … into a folder of results: 30 per simulated second, 1800 at most.
+/// Writes pictures of a run as SVG files `frames/0001.svg` … into a folder of results: 30 per simulated second, 1800 at
+/// most.
 ///
 /// # Errors
 ///
@@ -86,8 +87,8 @@ pub fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Writes pictures of a run, taken by a camera of the scene, as PNG files `frames/0001.png` …; `camera` is its index among the
-/// objects (see [`camera`](crate::camera)).
+/// Writes pictures of a run, taken by a camera of the scene, as PNG files `frames/0001.png` …; `camera` is its index
+/// among the objects (see [`camera`](crate::camera)).
 ///
 /// # Errors
 ///

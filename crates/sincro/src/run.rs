@@ -27,7 +27,8 @@ pub struct RunRequest<'a> {
     pub index: Option<Link<'a>>,
 }
 
-/// Reason why a run was not made, or its results are not complete. A run that stops is not a failure: see [`Verdict::Stopped`].
+/// Reason why a run was not made, or its results are not complete. A run that stops is not a failure: see
+/// [`Verdict::Stopped`].
 #[derive(Debug)]
 pub enum RunFailure {
     /// A recorded signal does not exist, or a variant cannot be opened. Nothing was written but an empty folder.
@@ -60,10 +61,11 @@ impl From<RunError> for RunFailure {
 }
 
 impl RunRequest<'_> {
-    /// Runs the experiment and writes `signals.csv`, `run.json`, `replay.json`, `report.html` and the figures, and those of
-    /// its variants and its sweep.
+    /// Runs the experiment and writes `signals.csv`, `run.json`, `replay.json`, `report.html` and the figures, and
+    /// those of its variants and its sweep.
     ///
-    /// `interrupt` set to true by another thread ends the run after the present step; its results are written all the same.
+    /// `interrupt` set to true by another thread ends the run after the present step; its results are written all the
+    /// same.
     /// `progress` is called with a word for the work in hand and the share of it that is done, 0 to 1.
     ///
     /// # Errors

@@ -17,7 +17,8 @@ pub use sincro_remote::{Options, Server};
 use crate::load::install_languages;
 use crate::results;
 
-/// Opens a scene for clients, stopped. A step of a client lasts `sample_time` `[s]`, or `simulation_step` of the experiment.
+/// Opens a scene for clients, stopped. A step of a client lasts `sample_time` `[s]`, or `simulation_step` of the
+/// experiment.
 ///
 /// # Errors
 ///

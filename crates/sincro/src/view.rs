@@ -16,7 +16,7 @@ use crate::load::{install_languages, scene_name};
 /// Reason why a folder cannot be shown as a finished run.
 #[derive(Debug)]
 pub struct ReplayError {
-    /// What is wrong, the file named.
+    /// Description of the failure, the file named.
     pub message: String,
     /// A way to mend it.
     pub help: &'static str,

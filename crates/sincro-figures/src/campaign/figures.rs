@@ -1,7 +1,7 @@
 //! Which figures a run has, and what is drawn in them.
 //!
-//! A figure shows recorded signals of one unit, what the checks expect of them, the variants over them, and under them the
-//! difference from what is expected, with the error bar of the run as a band and the tolerance as lines.
+//! A figure shows recorded signals of one unit, what the checks expect of them, the variants over them, and under them
+//! the difference from what is expected, with the error bar of the run as a band and the tolerance as lines.
 
 use sincro_sim::Loaded;
 use sincro_sim::check::{Outcome, Series as Expected};
@@ -91,7 +91,8 @@ fn graphs(streams: &[Column]) -> Vec<(String, Vec<&str>)> {
     figures.into_iter().map(|(graph, _, names)| (title(graph), names)).collect()
 }
 
-/// Recorded signals by what they are (`position`, `velocity`), at most [`MAX_SIGNALS`] together; time is the first column.
+/// Recorded signals by what they are (`position`, `velocity`), at most [`MAX_SIGNALS`] together; time is the first
+/// column.
 fn groups(columns: &[Column]) -> Vec<Vec<&str>> {
     let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
     for column in columns.iter().skip(1) {
@@ -127,7 +128,7 @@ fn group_title(names: &[&str]) -> String {
     }
 }
 
-/// What a plot asks for beside its signals.
+/// Options of a plot beside its signals.
 #[derive(Clone, Copy, Default)]
 struct Below<'a> {
     compares_variants: Option<bool>,
@@ -144,7 +145,8 @@ impl<'a> Below<'a> {
     }
 }
 
-/// A figure of recorded signals, a panel for each unit; `reference` is drawn with the first one instead of what the checks say.
+/// A figure of recorded signals, a panel for each unit; `reference` is drawn with the first one instead of what the
+/// checks say.
 fn figure(title: &str, names: &[&str], reference: Option<Expected>, wanted: Below<'_>, campaign: &Campaign) -> Figure {
     let mut by_unit: Vec<(&str, Vec<Drawn<'_>>)> = Vec::new();
     for drawn in names.iter().filter_map(|name| Drawn::find(name, campaign)) {
@@ -163,7 +165,7 @@ fn figure(title: &str, names: &[&str], reference: Option<Expected>, wanted: Belo
     Figure { title: title.to_owned(), x: Axis::time(), panels, space: None }
 }
 
-/// What signals are, each once: `position, offset`.
+/// Quantities of the signals, each once: `position, offset`.
 fn quantities(drawn: &[Drawn<'_>]) -> String {
     let mut all: Vec<String> = Vec::new();
     for quantity in drawn.iter().map(|d| quantity(&d.column.name).replace('_', " ")) {
@@ -212,7 +214,7 @@ fn panels(
     if below.series.is_empty() { vec![panel] } else { vec![panel, below] }
 }
 
-/// How the variants differ from the main run, where they have rows at the same times.
+/// Differences of the variants from the main run, where they have rows at the same times.
 fn comparison(drawn: &[Drawn<'_>], unit: &str, wanted: Below<'_>, campaign: &Campaign) -> Panel {
     let mut panel = Panel { title: "variant − main run".into(), ..Panel::error(unit) };
     panel.y.label = "difference".into();
@@ -264,8 +266,8 @@ fn curve(column: &Column, name: &str, role: Role, signal: usize, times: &[f64]) 
     Series { signal, stroke, ..series }
 }
 
-/// What the checks expect of a signal, and the tolerance if it is absolute: the check that looks at most rows, of those the
-/// strictest.
+/// Expectation of a signal by the checks, and the tolerance if it is absolute: the check that looks at most rows, of
+/// those the strictest.
 fn expected_of(outcomes: &[Outcome], name: &str) -> Option<(Expected, Option<f64>)> {
     let of_signal = outcomes.iter().filter(|o| o.signal.as_deref() == Some(name) && o.series.is_some());
     let widest = of_signal.max_by(|a, b| a.n_rows.cmp(&b.n_rows).then(b.limit.total_cmp(&a.limit)))?;

@@ -33,8 +33,8 @@ pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
     }
 }
 
-/// Block diagram as SVG: a file of its own, or for a page (`is_inline`). `world` labels the box of the world, usually with the
-/// name of the scene.
+/// Block diagram as SVG: a file of its own, or for a page (`is_inline`). `world` labels the box of the world, usually
+/// with the name of the scene.
 #[must_use]
 pub fn diagram(controller: &Controller, title: &str, world: &str, is_inline: bool) -> String {
     let outputs = controller.wiring.program().steps.iter().flat_map(|step| {

@@ -1,7 +1,8 @@
-//! What is to be drawn of one diagram: nodes with ports, and nets from one output to all inputs that it feeds.
+//! Graph of one diagram: nodes with ports, and nets from one output to all inputs that it feeds.
 //!
-//! Wires from several sources become a small bar in front of their target. Components of an output, such as `q[1]`, leave through
-//! an exit of their own. Ends that name nothing get a dashed box, so that an unfinished diagram can be looked at too.
+//! Wires from several sources become a small bar in front of their target. Components of an output, such as `q[1]`,
+//! leave through an exit of their own. Ends that name nothing get a dashed box, so that an unfinished diagram can be
+//! looked at too.
 
 use std::ops::Range;
 
@@ -72,7 +73,7 @@ pub(super) struct Net {
 }
 
 impl Graph {
-    /// Of a diagram; `world` is what stands in the box of the world.
+    /// Graph of a diagram; `world` labels the box of the world.
     pub fn new(diagram: &Diagram, world: &str) -> Self {
         let mut graph = Self::default();
         let terminal = |name: &String, has_input: bool| Node {

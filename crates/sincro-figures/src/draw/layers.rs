@@ -1,7 +1,8 @@
 //! Columns: which wires are feedback, and how far right each node stands.
 //!
-//! Wires that leave the world for what leads back to it are feedback; of the cycles that remain, the wires that close them in a depth-first
-//! search from the sources. All others go right, by at least one column, and are together as short as possible.
+//! Wires that leave the world for what leads back to it are feedback; of the cycles that remain, the wires that close
+//! them in a depth-first search from the sources. All others go right, by at least one column, and are together as
+//! short as possible.
 
 use super::graph::{Graph, Shape};
 use super::settle::{Gap, Pull, settle};

@@ -1,9 +1,10 @@
 //! Block diagrams as SVG text: laid out like a figure in a control textbook, from the diagram alone.
 //!
-//! Layered after Sugiyama, Tagawa and Toda (*Methods for Visual Understanding of Hierarchical System Structures*, 1981), pass by pass:
-//! [`graph`] (nodes and nets), [`layers`] (feedback and columns), [`order`] (few crossings), [`place`] (heights), [`route`] with
-//! [`track`] (wires), then [`shape`] and [`wire`] write. [`settle`] solves columns and heights exactly.
-//! Own code, not a crate: those there are draw curves between boxes, where ports, trunks, lanes and upright tracks are the point here.
+//! Layered after Sugiyama, Tagawa and Toda (*Methods for Visual Understanding of Hierarchical System Structures*,
+//! 1981), pass by pass: [`graph`] (nodes and nets), [`layers`] (feedback and columns), [`order`] (few crossings),
+//! [`place`] (heights), [`route`] with [`track`] (wires), then [`shape`] and [`wire`] write. [`settle`] solves columns
+//! and heights exactly. Own code, not a crate: those there are draw curves between boxes, where ports, trunks, lanes
+//! and upright tracks are the point here.
 //!
 //! The same diagram gives the same bytes: whole pixels, no maps in hash order.
 
@@ -33,16 +34,17 @@ use crate::plot::{escape, with_light_colors};
 /// Rules for diagrams within a page; they use the variables of `plot::PAGE_CSS`, which the page must have too.
 pub const DRAW_CSS: &str = include_str!("draw.css");
 
-/// What a drawing shows besides the diagram.
+/// Options of a drawing.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Stands above the picture, and is read out for it; may be empty.
     pub title: String,
-    /// What stands in the world's box, such as the scene's name; `World` if empty.
+    /// Label of the world's box, such as the scene's name; `World` if empty.
     pub world: String,
     /// For a page that carries [`DRAW_CSS`], not a file of its own.
     pub is_inline: bool,
-    /// Widths of outputs by `block.port`, in figures within by `path/block.port`; wires of more than one number are drawn thicker.
+    /// Widths of outputs by `block.port`, in figures within by `path/block.port`; wires of more than one number are
+    /// drawn thicker.
     pub widths: BTreeMap<String, usize>,
 }
 
@@ -114,7 +116,8 @@ fn figures<'a>(diagram: &'a Diagram, options: &Options) -> Vec<Figure<'a>> {
     all
 }
 
-/// Opens the group of a wire within a page: which signal it carries (`block.port`, or `block` where it has one output), and where it starts.
+/// Opens the group of a wire within a page: which signal it carries (`block.port`, or `block` where it has one output),
+/// and where it starts.
 fn carrier(graph: &Graph, net: &graph::Net, path: &str, (x, y): route::Point) -> String {
     let node = &graph.nodes[net.from.node];
     let port = &node.outputs[net.from.port].name;

@@ -122,7 +122,7 @@ impl Heights {
         }
     }
 
-    /// How much a link should be straight: those that pass columns most, those that bend anyway least.
+    /// Weight of a link's straightness: greatest for those that pass columns, least for those that bend anyway.
     fn weight(&self, sketch: &Sketch, link: &Link) -> i64 {
         let passes = [link.from, link.to].iter().filter(|&&cell| sketch.cells[cell].node.is_none()).count();
         let entry = sketch.cells[link.to].node.map(|node| (self.extents[node].inputs[link.in_port].0, node));

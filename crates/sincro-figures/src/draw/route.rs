@@ -1,7 +1,8 @@
-//! Where everything is: outlines, and wires as upright and level pieces.
+//! Routing: outlines, and wires as vertical and horizontal pieces.
 //!
-//! Wires turn in the channels between columns only. Feedback leaves to the right, runs back in a lane below all that it passes
-//! (or above), and rises in the channel in front of its target, or straight under a circle if nothing stands there.
+//! Wires turn in the channels between columns only. Feedback leaves to the right, runs back in a lane below all that it
+//! passes (or above), and rises in the channel in front of its target, or straight under a circle if nothing stands
+//! there.
 
 use super::graph::{Graph, Shape};
 use super::layers::Layers;
@@ -109,7 +110,7 @@ impl<'a> Router<'a> {
         targets.filter(|(_, back)| **back).map(|(to, _)| (to.node, to.port))
     }
 
-    /// Whether feedback comes straight from its lane to a circle.
+    /// Returns true if feedback comes straight from its lane to a circle.
     fn is_direct(&self, net: usize, node: usize, port: usize) -> bool {
         let mut column: Vec<usize> = self.sketch.columns[self.layers.layer[node]].clone();
         column.retain(|&cell| self.sketch.cells[cell].node.is_some());
@@ -217,7 +218,7 @@ impl<'a> Router<'a> {
         self.channel_x[channel] + BEFORE + PITCH * strand.track as i64
     }
 
-    /// Where a wire enters a node: the place on the outline, and the one where it arrives in the column.
+    /// Entry of a wire into a node: the place on the outline, and the one where it arrives in the column.
     fn entry(&self, node: usize, port: usize) -> (Point, Side) {
         let (extent, top) = (&self.heights.extents[node], self.heights.top[node]);
         let middle = self.x[node] + extent.width / 2;

@@ -1,9 +1,10 @@
 //! Places things on a line, as short and as straight as can be: exact, for both columns and heights.
 //!
-//! Minimises Σ weight·|p_b − p_a − rest| subject to p_b − p_a ≥ least, over whole numbers, from a start that keeps all distances.
-//! The sum is L♮-convex, so that where no set of things can be shifted together by one to a better sum, the sum is the least there
-//! is; the best set to shift is a minimum cut. Shifts begin large and are halved, which takes few steps (Murota, *Discrete
-//! Convex Analysis*, 2003, chapter 10). Layered drawings usually take the network simplex for it; this is as exact and shorter.
+//! Minimises Σ weight·|p_b − p_a − rest| subject to p_b − p_a ≥ least, over whole numbers, from a start that keeps all
+//! distances. The sum is L♮-convex, so that where no set of things can be shifted together by one to a better sum, the
+//! sum is the least there is; the best set to shift is a minimum cut. Shifts begin large and are halved, which takes
+//! few steps (Murota, *Discrete Convex Analysis*, 2003, chapter 10). Layered drawings usually take the network simplex
+//! for it; this is as exact and shorter.
 
 /// Costs `weight · |p_b − p_a − rest|`.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! What nodes look like: the shapes of control textbooks.
+//! Shapes of nodes, as in control textbooks.
 
 use super::canvas::Canvas;
 use super::graph::{Node, Shape};

@@ -1,4 +1,4 @@
-//! How large each node is, and where its ports are. Pixels, from the upper left corner of the outline.
+//! Size of each node and places of its ports. Pixels, from the upper left corner of the outline.
 
 use super::graph::{Graph, Node, Shape};
 use crate::plot::text_width;
@@ -13,7 +13,7 @@ pub(super) const ROUND: i64 = 36;
 /// Height of the world's heading, and distance of its ports.
 pub(super) const HEADING: i64 = 30;
 pub(super) const ROW: i64 = 24;
-/// How far from a circle a wire turns towards its top or bottom.
+/// Distance from a circle at which a wire turns towards its top or bottom.
 const APPROACH: i64 = 14;
 /// Longer texts are cut in the middle.
 const LONGEST: usize = 28;
@@ -36,7 +36,7 @@ pub(super) struct Extent {
     pub is_name_above: bool,
 }
 
-/// Where a wire enters.
+/// Side at which a wire enters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Left,
@@ -60,7 +60,7 @@ pub(super) fn short(text: &str) -> String {
     format!("{head}…{tail}")
 }
 
-/// What stands beside the beginning of a wire of which only components leave.
+/// Label beside the beginning of a wire of which only components leave.
 pub(super) fn note(node: &Node, port: usize) -> String {
     match &node.outputs[port].range {
         None => String::new(),
@@ -80,7 +80,7 @@ pub(super) fn shows_ports(node: &Node, of_outputs: bool) -> bool {
 }
 
 impl Extent {
-    /// Of a node whose inputs enter at these sides.
+    /// Extent of a node whose inputs enter at these sides.
     pub fn new(graph: &Graph, node: usize, sides: &[Side]) -> Self {
         let node = &graph.nodes[node];
         let (width, height) = outline(node);

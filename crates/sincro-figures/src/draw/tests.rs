@@ -228,7 +228,7 @@ fn laid_out(diagram: &Diagram) -> (Graph, Layout) {
     (graph, layout)
 }
 
-/// Whether two pieces have more than a place in common.
+/// Returns true if two pieces have more than a place in common.
 fn shares(a: &(Point, Point), b: &(Point, Point)) -> bool {
     let range = |p: i64, q: i64| (p.min(q), p.max(q));
     let meets = |(a, b): (i64, i64), (c, d): (i64, i64)| a < d && c < b;

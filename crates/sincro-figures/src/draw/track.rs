@@ -1,7 +1,8 @@
 //! Who runs where between two columns: the upright pieces of wires, each on a track of its own.
 //!
-//! A strand is what one net has in one channel: heights where it comes from the left and where it goes to the right. Their order from left to
-//! right is chosen for few crossings; where no order keeps two strands off each other, one of them is split in two.
+//! A strand is what one net has in one channel: heights where it comes from the left and where it goes to the right.
+//! Their order from left to right is chosen for few crossings; where no order keeps two strands off each other, one of
+//! them is split in two.
 
 /// A net in a channel.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! What wires look like: round corners, arrow heads at inputs, dots where they branch.
+//! Wires: round corners, arrow heads at inputs, dots where they branch.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -48,7 +48,8 @@ pub(super) fn bode(analysis: &Analysis, channel: &Channel) -> Figure {
     Figure { title: format!("Bode diagram {}", analysis.name(channel)), x, panels: vec![magnitude, phase], space: None }
 }
 
-/// The gain margin from the curve up to 0 dB, the phase margin from −180° up to the curve, dotted lines at the crossovers.
+/// The gain margin from the curve up to 0 dB, the phase margin from −180° up to the curve, dotted lines at the
+/// crossovers.
 fn add_margins(magnitude: &mut Panel, phase: &mut Panel, channel: &Channel) {
     let bode = &channel.bode;
     let (gain_words, phase_words) = margins(channel);
@@ -110,7 +111,8 @@ pub(super) fn map(analysis: &Analysis, channel: Option<&Channel>) -> Figure {
     Figure { title, x: Axis { range: Some(width), ..Axis::new("real part", unit) }, panels: vec![panel], space: None }
 }
 
-/// What the map shows across and up: all points with air, the axes through zero, the same scale on both where that wastes little.
+/// Ranges of the map across and up: all points with air, the axes through zero, the same scale on both where that
+/// wastes little.
 fn map_range(points: impl Iterator<Item = Complex<f64>>) -> ((f64, f64), (f64, f64)) {
     let (mut left, mut right, mut high) = (0.0_f64, 0.0_f64, 0.0_f64);
     for z in points.filter(|z| z.re.is_finite() && z.im.is_finite()) {

@@ -1,7 +1,7 @@
 //! A linear system in text, figures and a page.
 //!
-//! [`Analysis::of`] computes once what all of them show. A system of many inputs and outputs has a figure for each of its first
-//! [`MAX_CHANNELS`] channels; the files hold all of them.
+//! [`Analysis::of`] computes once what all of them show. A system of many inputs and outputs has a figure for each of
+//! its first [`MAX_CHANNELS`] channels; the files hold all of them.
 
 mod figures;
 mod page;
@@ -25,9 +25,9 @@ pub struct Analysis<'a> {
     pub system: &'a StateSpace,
     /// Slowest first.
     pub poles: Vec<Mode>,
-    /// What the inputs reach.
+    /// Controllability: the dimensions that the inputs reach.
     pub controllability: Reach,
-    /// What the outputs see.
+    /// Observability: the dimensions that the outputs see.
     pub observability: Reach,
     /// Every input with every output, input by input.
     pub channels: Vec<Channel>,

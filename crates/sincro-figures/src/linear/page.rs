@@ -41,7 +41,7 @@ fn channel_section(analysis: &Analysis, channel: &Channel) -> String {
     section(&escape(&name), &(figures_of(&shown) + &paragraph("", &step_words(channel))))
 }
 
-/// What one reads off the step response.
+/// Rise time, overshoot and settling time of the step response, in one sentence.
 fn step_words(channel: &Channel) -> String {
     let Some(facts) = channel.step.facts else { return String::new() };
     let value = |x: f64| significant(x, 3);

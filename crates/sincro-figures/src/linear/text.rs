@@ -13,7 +13,7 @@ const MAX_COLUMNS: usize = 8;
 /// A table: headings, and rows of cells. The first column reads from the left, the others are numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct StateTable {
-    /// What stands above each column.
+    /// Heading of each column.
     pub(super) head: Vec<String>,
     /// Rows of as many cells.
     pub(super) rows: Vec<Vec<String>>,
@@ -150,7 +150,7 @@ pub(super) fn summary(analysis: &Analysis) -> String {
     )
 }
 
-/// What becomes of a small disturbance, in words.
+/// Stability, in words.
 pub(super) fn stability(analysis: &Analysis) -> &'static str {
     match analysis.system.stability() {
         Stability::Stable => "stable, every small disturbance decays",

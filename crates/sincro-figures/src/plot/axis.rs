@@ -28,7 +28,7 @@ pub(super) struct Scale {
     pub(super) minor: Vec<f64>,
     /// The labels are multiples of ten to this power.
     power: i32,
-    /// What is subtracted in the labels, as text with sign; empty if nothing.
+    /// Offset that is subtracted in the labels, as text with sign; empty if there is none.
     offset: String,
 }
 
@@ -111,7 +111,8 @@ impl Scale {
         }
     }
 
-    /// Labels at 15°, 30°, 45°, 90° or multiples of 180°; the axis ends at fine grid lines, of which each step has three.
+    /// Labels at 15°, 30°, 45°, 90° or multiples of 180°; the axis ends at fine grid lines, of which each step has
+    /// three.
     fn in_degrees((low, high): (f64, f64), max_ticks: usize) -> Self {
         let whole_turns = (1..).map(|k| 180.0 * f64::from(k));
         let mut steps = [15.0, 30.0, 45.0, 90.0].into_iter().chain(whole_turns);
@@ -158,7 +159,7 @@ impl Scale {
     }
 }
 
-/// Whether a value has a place on an axis at all.
+/// Returns true if a value has a place on an axis at all.
 pub(super) fn is_drawable(value: f64, log: bool) -> bool {
     value.is_finite() && value.abs() < LARGEST && (!log || value > 1.0 / LARGEST)
 }
@@ -202,7 +203,7 @@ impl Grid {
         Self { unit, step, minor, first, last: last.max(first + minor) }
     }
 
-    /// What labels are counted from: zero, or the roundest tick if labels counted from zero would be too long.
+    /// Offset of the labels: zero, or the roundest tick if labels counted from zero would be too long.
     fn label_origin(&self, majors: &[f64]) -> f64 {
         let digits = exponent(largest(majors, 0.0) / 10.0) + 1;
         let roundest = majors.iter().copied().max_by_key(|&units| trailing_zeros(units));
@@ -231,7 +232,7 @@ fn scaled(x: f64, n: i32) -> f64 {
     if n < 0 { x / pow10(-n) } else { x * pow10(n) }
 }
 
-/// How often ten divides a whole number.
+/// Number of times that ten divides a whole number.
 fn trailing_zeros(units: f64) -> usize {
     (1..18).take_while(|&n| (units / pow10(n)).fract() == 0.0).count()
 }

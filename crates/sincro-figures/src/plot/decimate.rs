@@ -1,7 +1,7 @@
 //! Thinning of a curve to what a screen can show, without losing a peak. Cost: linear in the points.
 //!
-//! The screen is cut into columns; of the points of a column only those that reach lowest and highest are kept, in their
-//! order. A curve that runs back and forth in x (a path, a phase portrait) is cut by index instead, and
+//! The screen is cut into columns; of the points of a column only those that reach lowest and highest are kept, in
+//! their order. A curve that runs back and forth in x (a path, a phase portrait) is cut by index instead, and
 //! the leftmost and rightmost point of each piece are kept as well.
 
 /// A position on the canvas `[px]`.

@@ -7,7 +7,7 @@ use super::style::standalone_css;
 use super::text::{escape, fit, rich, width};
 use super::{Figure, Role, Size};
 
-/// What the SVG text is for.
+/// Use of the SVG text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A file.
@@ -18,7 +18,7 @@ pub(super) enum Kind {
     Thumbnail,
 }
 
-/// What every panel must know about the whole figure, so that a signal looks the same in all of them.
+/// Facts about the whole figure that every panel must know, so that a signal looks the same in all of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Context {
     /// Count of signals, of which each has a colour.

@@ -1,4 +1,4 @@
-//! Where everything of a figure stands: measured from the text and the data before anything is drawn.
+//! Layout of a figure, measured from the text and the data before anything is drawn.
 //!
 //! From top to bottom: title, then for each panel a header (its title and legend) and the plot area, then tick labels
 //! and label of the shared x axis, then notes. The left margin fits the widest tick label of all panels.
@@ -77,7 +77,7 @@ pub(super) struct Entry {
     pub(super) row: usize,
 }
 
-/// What stands in front of a legend entry.
+/// Sample in front of a legend entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sample {
     /// Nothing: it is the panel's title.
@@ -197,7 +197,7 @@ fn has_mirror_image(limit: &Limit, panel: &Panel) -> bool {
     limit.value != 0.0 && panel.limits.iter().any(|other| other.name == limit.name && other.value == -limit.value)
 }
 
-/// Whether a limit can be shown without flattening the data: within one height of them.
+/// Returns true if a limit can be shown without flattening the data: within one height of them.
 pub(super) fn is_near(limit: f64, data: Option<(f64, f64)>) -> bool {
     let Some((low, high)) = data else { return limit.is_finite() };
     let room = high - low;
@@ -253,7 +253,7 @@ fn x_scale(figure: &Figure, length: f64, fonts: Fonts) -> Scale {
     }
 }
 
-/// What cannot be drawn, in words.
+/// Count of the values that cannot be drawn, in words.
 fn notes(figure: &Figure) -> Vec<String> {
     let mut notes = Vec::new();
     for panel in &figure.panels {

@@ -1,11 +1,11 @@
 //! Line charts as SVG text: the figures of `report.html` and the `.svg` files beside it.
 //!
 //! A [`Figure`] is plain data: one x axis shared by one or more [`Panel`]s stacked above one another (a signal and
-//! its error; magnitude and phase of a Bode plot). [`svg`] gives a standalone file, [`inline_svg`] the same picture for a
-//! page that carries [`PAGE_CSS`], [`thumbnail`] a small one without title and legend.
+//! its error; magnitude and phase of a Bode plot). [`svg`] gives a standalone file, [`inline_svg`] the same picture for
+//! a page that carries [`PAGE_CSS`], [`thumbnail`] a small one without title and legend.
 //!
-//! The same figure always gives the same bytes: numbers are formatted by [`number`], no map is iterated, no clock is read
-//! and no transcendental function of the platform is called. A series may hold millions of points; what is
+//! The same figure always gives the same bytes: numbers are formatted by [`number`], no map is iterated, no clock is
+//! read and no transcendental function of the platform is called. A series may hold millions of points; what is
 //! written is bounded by [`decimate`]. Series differ in colour (Okabe–Ito), dash and marker, so that a figure
 //! reads on a black and white print and for colour-blind eyes.
 
@@ -38,7 +38,7 @@ pub struct Figure {
     pub space: Option<Space>,
 }
 
-/// What an axis is called, its unit, and how it is divided.
+/// Label, unit and division of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// The quantity: `time`, `angle`.
@@ -49,7 +49,7 @@ pub struct Axis {
     pub log: bool,
     /// True: an angle in degrees, divided at 15°, 45°, 90° and so on rather than at tens.
     pub degrees: bool,
-    /// What the axis shows at least; `None`: the data alone decide.
+    /// Range that the axis shows at least; `None`: the data alone decide.
     pub range: Option<(f64, f64)>,
 }
 
@@ -77,12 +77,12 @@ pub struct Panel {
 pub struct Series {
     /// Its name in the legend; an empty name has no entry there.
     pub name: String,
-    /// What it stands for; decides dash and weight.
+    /// Its part in the figure; decides dash and weight.
     pub role: Role,
-    /// Which of the figure's signals it shows, counted from 0; decides colour and marker. A signal, its variants and its
-    /// reference carry the same number, in every panel.
+    /// Which of the figure's signals it shows, counted from 0; decides colour and marker. A signal, its variants and
+    /// its reference carry the same number, in every panel.
     pub signal: usize,
-    /// How the points are joined.
+    /// Line or markers that join the points.
     pub stroke: Stroke,
     /// Abscissae. If `x` and `y` differ in length, what is beyond the shorter one is not drawn.
     pub x: Vec<f64>,
@@ -90,18 +90,18 @@ pub struct Series {
     pub y: Vec<f64>,
 }
 
-/// What a series stands for.
+/// Part of a series in a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// The main run: solid and strong.
     Simulated,
-    /// What the run is compared with: thin, dashed, hollow markers, in the colour of the text.
+    /// Reference that the run is compared with: thin, dashed, hollow markers, in the colour of the text.
     Reference,
     /// The same run with other settings; the number is that of the variant, from 0.
     Variant(usize),
 }
 
-/// How the points of a series are joined.
+/// Line or markers that join the points of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
     /// By straight lines.
@@ -137,12 +137,12 @@ pub struct Band {
 pub struct Limit {
     /// Its name in the legend: `tolerance`.
     pub name: String,
-    /// Where it stands, in the unit of the y axis.
+    /// Its place, in the unit of the y axis.
     pub value: f64,
 }
 
-/// An auxiliary line: a margin of a Bode diagram, a line of equal damping. It does not widen the axes; an infinite coordinate
-/// stands for the edge of the plot.
+/// An auxiliary line: a margin of a Bode diagram, a line of equal damping. It does not widen the axes; an infinite
+/// coordinate stands for the edge of the plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
     /// Its corners.
@@ -151,11 +151,11 @@ pub struct Guide {
     pub name: String,
     /// Stands at its last corner; may be empty.
     pub label: String,
-    /// How much it strikes the eye.
+    /// Visual weight.
     pub weight: Weight,
 }
 
-/// How much a line strikes the eye.
+/// Visual weight of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weight {
     /// As the grid.
@@ -210,7 +210,7 @@ impl Panel {
 }
 
 impl Stroke {
-    /// Whether the points stand alone.
+    /// Returns true if the points stand alone.
     fn is_loose(self) -> bool {
         !matches!(self, Self::Line | Self::Steps)
     }

@@ -9,7 +9,7 @@ use super::style::{self, Look};
 use super::text::{fit, width};
 use super::{Band, Guide, Role, Series, Stroke, Weight};
 
-/// How far curves may reach over the plot area, so that lines and markers on the edge are whole `[px]`.
+/// Overlap of curves over the plot area, so that lines and markers on the edge are whole `[px]`.
 const SPILL: f64 = 5.0;
 /// Distance of markers along the x axis `[px]`.
 const MARKER_SPACING: f64 = 88.0;
@@ -195,7 +195,8 @@ impl Frame<'_> {
         }
     }
 
-    /// A few points of a curve at which its markers stand; series are staggered so that markers do not hide one another.
+    /// A few points of a curve at which its markers stand; series are staggered so that markers do not hide one
+    /// another.
     fn sparse(&self, points: &[Point], series: &Series) -> Vec<Point> {
         let turn = match series.role {
             Role::Simulated => 0.15 + 0.13 * series.signal as f64,

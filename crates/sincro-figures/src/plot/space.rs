@@ -1,7 +1,8 @@
 //! Paths in space: an axonometric picture of curves in a box, with their shadows on its floor.
 //!
-//! Parallel projection, z upwards: parallel lines stay parallel, and equal lengths along one axis stay equal, so that the grid can be read.
-//! One scale serves all axes (a metre is a metre), and one distance of grid lines. The three faces that are drawn are the far ones.
+//! Parallel projection, z upwards: parallel lines stay parallel, and equal lengths along one axis stay equal, so that
+//! the grid can be read. One scale serves all axes (a metre is a metre), and one distance of grid lines. The three
+//! faces that are drawn are the far ones.
 
 use super::draw::{Canvas, Kind};
 use super::layout::Fonts;
@@ -24,7 +25,7 @@ pub struct Space {
 pub struct Track {
     /// Its name in the legend.
     pub name: String,
-    /// What it stands for.
+    /// Its part in the figure.
     pub role: Role,
     /// Which of the figure's signals it shows.
     pub signal: usize,
@@ -37,7 +38,7 @@ const LOOK: (f64, f64) = (0.5, -0.866_025_403_784_438_6);
 /// Sine and cosine of the height that is looked from.
 const RISE: (f64, f64) = (0.4, 0.916_515_138_991_168);
 /// Least extent of the box along an axis, as a share of the largest.
-const LEAST_EXTENT: f64 = 0.4;
+const MIN_EXTENT: f64 = 0.4;
 /// Divisions of the longest axis, about.
 const DIVISIONS: f64 = 5.0;
 /// Points closer than this on the paper are one `[px]`.
@@ -50,7 +51,7 @@ fn project(p: [f64; 3]) -> (f64, f64) {
     (right, RISE.0 * back + RISE.1 * p[2])
 }
 
-/// What is drawn, in numbers of grid lines: every face ends at one.
+/// Limits of the drawing in numbers of grid lines: every face ends at one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
     step: f64,
@@ -72,7 +73,7 @@ impl Frame {
         }
         let largest = (0..3).map(|i| high[i] - low[i]).fold(0.0_f64, f64::max);
         let largest = if largest > 0.0 { largest } else { 1.0 };
-        let least = LEAST_EXTENT * largest;
+        let least = MIN_EXTENT * largest;
         for i in 0..3 {
             let lack = 0.5 * (least - (high[i] - low[i])).max(0.0);
             (low[i], high[i]) = (low[i] - lack, high[i] + lack);

@@ -1,4 +1,4 @@
-//! What tells series apart: colour, dash, marker. Three cues, any one of which is enough for a few curves.
+//! Styles of series: colour, dash, marker. Three cues, any one of which is enough for a few curves.
 //!
 //! Colours are those of Okabe and Ito (*Color Universal Design*, 2008), chosen to be told apart by colour-blind eyes.
 //! Elements carry classes; the colours behind the classes are fixed in a standalone file and CSS variables in a page,
@@ -15,7 +15,8 @@ const VARIANT_DASHES: [&str; 5] = ["9 3", "2.5 2.5", "9 3 2 3", "15 4", "5 2 1.5
 /// Dash of a reference `[px]`.
 const REFERENCE_DASH: &str = "5 5";
 
-/// Colour variables for light, dark and print, and the classes that use them: goes once into a page with inline figures.
+/// Colour variables for light, dark and print, and the classes that use them: goes once into a page with inline
+/// figures.
 pub const PAGE_CSS: &str = include_str!("page.css");
 
 /// The styles of a standalone file: the same classes, with the light colours written in place of their variables.
@@ -30,7 +31,7 @@ pub(crate) fn with_light_colors(rules: &str) -> String {
     colors.fold(rules.trim().to_owned(), |css, (name, color)| css.replace(&format!("var({name})"), color.trim()))
 }
 
-/// How one series is drawn.
+/// Style of one series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
     /// Class that gives the colour to stroke.

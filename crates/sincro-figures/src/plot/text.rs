@@ -49,7 +49,8 @@ fn raised(text: &str, raise: impl Fn(&str) -> String) -> String {
     out
 }
 
-/// Estimated width of text in a common sans-serif font `[px]`; errs on the wide side, since the reader's font is unknown.
+/// Estimated width of text in a common sans-serif font `[px]`; errs on the wide side, since the reader's font is
+/// unknown.
 pub(crate) fn width(text: &str, font_size: f64) -> f64 {
     let ems: f64 = text.chars().map(char_width).sum();
     ems * font_size

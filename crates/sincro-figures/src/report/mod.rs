@@ -1,8 +1,9 @@
 //! Pages of one run (`report.html`), of two runs (`diff.html`) and of many (the index of `sincro reproduce`).
 //!
-//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched; only the replay is a script. It follows the reader's light or
-//! dark preference, prints in black and white on A4, and fits a phone. [`Page`] and [`IndexPage`] are plain data; whoever
-//! fills them need not know any HTML. All text in them may come from a scene: it is escaped by [`crate::plot::escape`].
+//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched; only the replay is a
+//! script. It follows the reader's light or dark preference, prints in black and white on A4, and fits a phone.
+//! [`Page`] and [`IndexPage`] are plain data; whoever fills them need not know any HTML. All text in them may come from
+//! a scene: it is escaped by [`crate::plot::escape`].
 //!
 //! Verdicts are derived from the checks, so a banner cannot contradict its table.
 
@@ -25,9 +26,9 @@ pub struct Page {
     pub description: String,
     /// Link back to the index (label, address), if there is one.
     pub up: Option<(String, String)>,
-    /// Why the run ended early, if it did.
+    /// Reason for an early end; `None`: it came to its end.
     pub stop: Option<Stop>,
-    /// What the reader should know before trusting the numbers; shown right under the verdict.
+    /// Warnings that the reader should know before trusting the numbers; shown right under the verdict.
     pub warnings: Vec<String>,
     /// The replay as HTML with its program; may be empty.
     pub replay: String,
@@ -43,7 +44,7 @@ pub struct Page {
     pub energy: Option<Energy>,
     /// Name and value: scene, integrator, step, accuracy, duration, seed, overrides, hashes, versions.
     pub settings: Vec<(String, String)>,
-    /// What scripts and clients said: when, who, what.
+    /// Messages of scripts and clients: time, sender, text.
     pub messages: Vec<(String, String, String)>,
     /// Remarks at the end.
     pub notes: Vec<String>,
@@ -54,11 +55,11 @@ pub struct Page {
 pub struct Stop {
     /// When `[s]`.
     pub time: f64,
-    /// What happened, and to whom.
+    /// Event and culprit, in words.
     pub reason: String,
     /// The setting that mends it; may be empty.
     pub help: String,
-    /// Whether it was to end there.
+    /// True: the experiment asked for this end.
     pub is_good: bool,
 }
 
@@ -67,13 +68,13 @@ pub struct Stop {
 pub struct CheckRow {
     /// The check's name.
     pub name: String,
-    /// What it looks at: a signal, a formula, the run it belongs to; may be empty.
+    /// Subject of the check: a signal, a formula, the run it belongs to; may be empty.
     pub about: String,
     /// The value measured; at the worst time, if the check covers a window. `None`: there is none to show.
     pub measured: Option<f64>,
     /// The value expected at the same place. `None`: the measured value itself is what must be small.
     pub expected: Option<f64>,
-    /// Whether the expected value is a bound.
+    /// Kind of the expected value: a value to be met, or a bound.
     pub sense: Sense,
     /// |measured − expected|, divided by the expected value if `is_relative`; how far beyond a bound.
     pub deviation: f64,
@@ -111,7 +112,7 @@ pub struct SignalRow {
     pub largest: Option<f64>,
     /// Estimated integration error, in the same unit; `None` if it was not estimated.
     pub error_bar: Option<f64>,
-    /// How it was estimated.
+    /// Method of the estimate.
     pub method: String,
 }
 
@@ -135,7 +136,7 @@ pub struct Energy {
 pub struct IndexPage {
     /// Title of the whole.
     pub title: String,
-    /// What was reproduced and from where.
+    /// One or two sentences under the title.
     pub description: String,
     /// One for each experiment, in order.
     pub cards: Vec<Card>,
@@ -150,7 +151,7 @@ pub struct IndexPage {
 pub struct Card {
     /// Title of the experiment.
     pub title: String,
-    /// Where the original stands: `§4.2, figure 4.5`.
+    /// Place of the original: `§4.2, figure 4.5`.
     pub source: String,
     /// One sentence.
     pub summary: String,
@@ -164,9 +165,9 @@ pub struct Card {
     pub figure: Option<Figure>,
     /// All its checks. The card shows four: those that fail first, then in this order.
     pub checks: Vec<CheckRow>,
-    /// Why the run ended early, if it did.
+    /// Reason for an early end; `None`: it came to its end.
     pub stop: Option<Stop>,
-    /// How long it took, in words: `0.02 s`.
+    /// Wall time in words: `0.02 s`.
     pub run_time: String,
 }
 

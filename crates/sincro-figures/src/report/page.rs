@@ -57,14 +57,14 @@ fn header(page: &Page) -> String {
 }
 
 /// Least share of its size that a wide drawing is shrunk to; beyond, it is scrolled.
-const LEAST_SCALE: f64 = 0.7;
+const MIN_SCALE: f64 = 0.7;
 
 /// Drawings of the controllers.
 fn diagrams(list: &[(String, String)]) -> String {
     let one = |(title, svg): &(String, String)| {
         let caption = if list.len() > 1 { paragraph("key", title) } else { String::new() };
         let width = svg.split_once("width=\"").and_then(|(_, rest)| rest.split('"').next()?.parse::<f64>().ok());
-        let least = width.map_or(String::new(), |w| format!(" style=\"--least: {:.0}px\"", LEAST_SCALE * w));
+        let least = width.map_or(String::new(), |w| format!(" style=\"--least: {:.0}px\"", MIN_SCALE * w));
         format!("{caption}<div class=\"diagram\"{least}>{svg}</div>\n")
     };
     list.iter().map(one).collect()
@@ -84,7 +84,7 @@ pub(crate) fn figure(figure: &Figure) -> String {
     )
 }
 
-/// What scripts and clients said, in the order of time.
+/// Messages of scripts and clients, in the order of time.
 fn messages(messages: &[(String, String, String)]) -> String {
     let columns = [("num", "Time"), ("", "From"), ("", "Message")];
     let row = |(t, from, text): &(String, String, String)| {

@@ -1,4 +1,4 @@
-//! What both pages share: the document around them, the verdict, small building blocks.
+//! Parts that all pages share: the document around them, the verdict, small building blocks.
 
 use super::{CheckRow, CheckVerdict, Stop};
 use crate::draw::DRAW_CSS;
@@ -20,7 +20,7 @@ pub(crate) fn document(title: &str, class: &str, body: &str) -> String {
     )
 }
 
-/// How a run came out.
+/// Outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outcome {
     /// It stopped at that time `[s]`.

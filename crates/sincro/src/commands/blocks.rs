@@ -7,7 +7,7 @@ use sincro_sim::diagram::reference::{kinds, page};
 
 use crate::{Exit, diagnostics};
 
-/// What `blocks` takes.
+/// Arguments of `blocks`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Type of a block, such as `pid`: everything about it, with an example

@@ -15,7 +15,7 @@ use super::console::{degrees, short};
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `check` takes.
+/// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -181,7 +181,7 @@ fn print_children(scene: &Scene, parent: Option<usize>, depth: usize) {
     }
 }
 
-/// What an object is, in one line.
+/// Kind and properties of an object, in one line.
 fn words(object: &Object) -> String {
     match &object.kind {
         ObjectKind::Body { mass } => {

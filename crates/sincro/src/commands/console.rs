@@ -1,4 +1,4 @@
-//! What a run says on the terminal.
+//! Summary of a run on the terminal.
 
 use std::io::IsTerminal;
 use std::path::Path;
@@ -35,7 +35,7 @@ impl Bar {
         Self(Some(bar))
     }
 
-    /// What is being done, and the share of it.
+    /// Shows the work in hand and the share of it that is done.
     pub(crate) fn show(&self, words: &str, share: f64) {
         if let Some(bar) = &self.0 {
             bar.set_message(words.to_owned());
@@ -213,7 +213,7 @@ pub(crate) fn verdict_line(report: &RunReport) -> String {
     }
 }
 
-/// What scripts said, the first of it.
+/// First messages of scripts.
 fn print_messages(messages: &[Message]) {
     const MOST: usize = 20;
     if messages.is_empty() {

@@ -9,7 +9,7 @@ use sincro_figures::plot::number::{short, significant};
 
 use crate::{Exit, diagnostics};
 
-/// What `diff` takes.
+/// Arguments of `diff`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of a finished run

@@ -10,7 +10,7 @@ use sincro_figures::campaign::diagram;
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `draw` takes.
+/// Arguments of `draw`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml

@@ -12,7 +12,7 @@ use sincro_sim::problem::{Located, Location, Problem, Problems, SourceText};
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `linearize` takes.
+/// Arguments of `linearize`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -26,7 +26,8 @@ pub(crate) struct Arguments {
     /// Find an equilibrium near that point first, commands as they are (`sincro trim` can do more)
     #[arg(long)]
     equilibrium: bool,
-    /// An input: a motor (`/joint`), a force's component, or with --closed-loop a signal of the diagram; all free commands unless given
+    /// An input: a motor (`/joint`), a force's component, or with --closed-loop a signal of the diagram; all free
+    /// commands unless given
     #[arg(long = "input", value_name = "NAME")]
     inputs: Vec<String>,
     /// An output: any recorded signal that depends on the state; all coordinates unless given

@@ -13,10 +13,10 @@ use super::console::verdict_line;
 use super::run::run_with_progress;
 use crate::{Exit, diagnostics};
 
-/// What `reproduce` takes.
+/// Arguments of `reproduce`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Where the results go
+    /// Folder of the results
     #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
     out: PathBuf,
     /// Folder of the scenes [default: scenes, here or in the source tree this program was built from]

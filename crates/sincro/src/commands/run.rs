@@ -11,7 +11,7 @@ use sincro::{Campaign, Loaded, Override, Problems, RunRequest, Verdict, load, sc
 use super::console::{self, Bar};
 use crate::{Exit, diagnostics};
 
-/// What `run` takes.
+/// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// Local tolerance of the variable-step integrators
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Where the results go [default: results/SCENE]
+    /// Folder of the results [default: results/SCENE]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of everything random
@@ -100,7 +100,7 @@ fn camera_of(loaded: &Loaded, name: &str) -> Result<usize, Exit> {
     sincro::camera(&loaded.scene, name).map_err(|cameras| diagnostics::refuse_camera(name, &cameras))
 }
 
-/// What stands after every `--set`.
+/// Parses the texts that stand after `--set`.
 pub(crate) fn parse_settings(texts: &[String]) -> Result<Vec<Override>, Problems> {
     let (mut problems, mut overrides) = (Problems::new(), Vec::new());
     for text in texts {

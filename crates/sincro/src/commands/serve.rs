@@ -17,12 +17,12 @@ use super::console;
 use super::run::{interrupt, parse_settings};
 use crate::{Exit, diagnostics};
 
-/// How often it is looked whether to end, and what is attached.
+/// Interval at which the server looks for an interrupt and for new clients.
 const GLANCE: Duration = Duration::from_millis(250);
-/// How often speed is told on a terminal.
+/// Interval at which the speed is printed on a terminal.
 const TELL: Duration = Duration::from_secs(5);
 
-/// What `serve` takes.
+/// Arguments of `serve`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -45,7 +45,8 @@ pub(crate) struct Arguments {
     /// Step of the clients `[s]`, V-REP's simulation time step [default: simulation_step of the experiment]
     #[arg(long, value_name = "S", alias = "client-step")]
     simulation_step: Option<f64>,
-    /// Let clients do what they may not by themselves: send files and load scenes from them, run texts in the scene's scripts; may be repeated
+    /// Let clients do what they may not by themselves: send files and load scenes from them, run texts in the scene's
+    /// scripts; may be repeated
     #[arg(long, value_enum, value_name = "WHAT")]
     grant: Vec<Grant>,
     /// Run no faster than the clock when no client steps
@@ -54,12 +55,12 @@ pub(crate) struct Arguments {
     /// A client that steps and stays silent for so long is let go `[s]`
     #[arg(long, value_name = "S", default_value_t = 600.0)]
     client_timeout: f64,
-    /// Where the runs go, each in a folder run-1, run-2 … [default: results/SCENE-served]
+    /// Folder of the runs, each in a folder run-1, run-2 … of its own [default: results/SCENE-served]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
-/// What clients may be let do.
+/// Permissions that clients can be given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Grant {
     /// Send files to a folder beside the runs, and load scenes from it.
@@ -136,7 +137,7 @@ fn print_ports(title: &str, server: &Server) {
     say!("  one step of a client is {} s; Ctrl-C ends", console::short(dt));
 }
 
-/// What is told, and the runs that are kept.
+/// State of the terminal output, and count of the runs that were written.
 struct Watch {
     out: PathBuf,
     n_runs: usize,

@@ -14,7 +14,7 @@ use super::linearize::located;
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `trim` takes.
+/// Arguments of `trim`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Where the search begins: the state of the run at this time in seconds, brought to rest
+    /// Start of the search: the state of the run at this time in seconds, brought to rest
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     from: f64,
     /// A command that may be changed: a motor (`/joint`) or a force's component; the others are as the scene gives them

@@ -10,7 +10,7 @@ use sincro::view::{self, Server, Show};
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `view` takes.
+/// Arguments of `view`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of a scene, to run it live, or of a finished run, to look at it again
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     no_browser: bool,
 }
 
-/// What `replay` takes.
+/// Arguments of `replay`.
 #[derive(Debug, Args)]
 pub(crate) struct ReplayArguments {
     /// Folder of a finished run
