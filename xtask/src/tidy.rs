@@ -1,4 +1,4 @@
-//! What no compiler checks: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking
+//! Checks that no compiler makes: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking
 //! crates stay pure, that keys of references resolve.
 
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Lines above which a source file must be split.
 const MAX_LINES: usize = 1000;
 
-/// Which crates of ours each crate may use.
+/// Crates of ours that each crate may use.
 const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
     ("sincro-dynamics", &["sincro-math"]),
@@ -36,19 +36,22 @@ const ARROWS: &[(&str, &[&str])] = &[
 /// The crates that compute.
 const THINKING: [&str; 3] = ["sincro-math", "sincro-dynamics", "sincro-blocks"];
 
-/// What must not stand in them: no files, clock, threads, unordered maps.
+/// Names that must not stand in them: no files, clock, threads, unordered maps.
 const IMPURE: [&str; 6] = ["std::fs", "std::time", "std::thread", "std::net", "HashMap", "HashSet"];
 
-/// Checks everything and prints what is wrong; whether nothing is.
+/// Checks everything and prints what is wrong; true if nothing is.
 pub fn check(root: &Path) -> bool {
     let mut found = Vec::new();
-    let sources = files(root, &["crates", "tests", "xtask"], &["rs", "py", "cpp"]);
+    let sources = files(root, &["crates", "tests", "xtask", "examples"], &["rs", "py", "cpp"]);
     let texts: Vec<(PathBuf, String)> =
         sources.into_iter().filter_map(|path| fs::read_to_string(&path).ok().map(|text| (path, text))).collect();
     for (path, text) in &texts {
         source(root, path, text, &mut found);
     }
     references(root, &texts, &mut found);
+    crate::words::check(root, &texts, &mut found);
+    crate::package::inclusions(root, &texts, &mut found);
+    crate::package::manifests(root, &mut found);
     tree(root, &mut found);
     arrows(root, &mut found);
     scenes(root, &mut found);
