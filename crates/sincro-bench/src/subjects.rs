@@ -150,20 +150,20 @@ impl Stepper {
     fn pressing(&mut self) -> String {
         self.restart();
         let unsolved = |world: &World| world.solver_report().map_or(0, |r| r.not_converged);
-        let (mut points, mut stops, before) = (0, 0, unsolved(&self.world));
+        let (mut points, mut active_limits, before) = (0, 0, unsolved(&self.world));
         for _ in 0..STEPS_A_SECOND {
             self.advance();
             // the normal force that the step found for each slot, limits first
             let limits = self.world.model().constraints().limits.len();
             let forces = self.world.state.contacts.iter().step_by(SLOT).enumerate();
             for (slot, _) in forces.filter(|(_, force)| **force > 0.0) {
-                *(if slot < limits { &mut stops } else { &mut points }) += 1;
+                *(if slot < limits { &mut active_limits } else { &mut points }) += 1;
             }
         }
         let unsolved = unsolved(&self.world) - before;
         self.restart();
         let mean = |n: u32| f64::from(n) / f64::from(STEPS_A_SECOND);
-        let text = format!("{:.1} contacts and {:.1} stops press", mean(points), mean(stops));
+        let text = format!("{:.1} contacts and {:.1} joint limits active", mean(points), mean(active_limits));
         if unsolved > 0 { format!("{text}, {unsolved} problems not solved") } else { text }
     }
 }

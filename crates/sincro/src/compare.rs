@@ -1,4 +1,4 @@
-//! Comparison of two finished runs: where they part, and how far apart they come.
+//! Comparison of two finished runs: the first and the greatest difference of each signal.
 
 use std::path::{Path, PathBuf};
 

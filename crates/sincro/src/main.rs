@@ -23,27 +23,27 @@ struct Cli {
 enum Command {
     /// Run a scene folder, judge its checks, write signals, figures and a report
     Run(commands::run::Arguments),
-    /// Look a scene over without running it: objects, degrees of freedom, warnings, signals on offer
+    /// Check a scene without running it: objects, degrees of freedom, warnings, available signals
     Check(commands::check::Arguments),
     /// Draw the block diagram of a scene as SVG
     Draw(commands::draw::Arguments),
     /// Linearise a scene: matrices, poles, zeros, Bode and step plots
     Linearize(commands::linearize::Arguments),
-    /// Find where a scene stays as it is
+    /// Find an equilibrium of a scene
     Trim(commands::trim::Arguments),
-    /// Show a scene live, or a finished run again, in the browser: 3-D, plots, transport, numbers to change
+    /// Show a scene live, or replay a finished run, in the browser: 3-D, plots, transport controls, parameters
     View(commands::view::Arguments),
     /// Show a finished run in the browser
     Replay(commands::view::ReplayArguments),
-    /// Compare two finished runs: where they part, and how far apart they come
+    /// Compare two finished runs: the first and the greatest difference of each signal
     Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
     /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
     Serve(commands::serve::Arguments),
-    /// Run every experiment of the thesis and put measured beside expected on one page
+    /// Run every experiment of the thesis and show measured and expected values on one page
     Reproduce(commands::reproduce::Arguments),
-    /// Measure speed, memory and accuracy on this machine, beside peers if asked
+    /// Measure speed, memory and accuracy on this machine, next to MuJoCo and Pinocchio on request
     Bench(sincro_bench::Options),
 }
 

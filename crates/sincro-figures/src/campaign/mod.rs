@@ -140,7 +140,7 @@ fn stop(status: &Status) -> Option<Stop> {
         Status::Completed => None,
         Status::Ended { time, reason, .. } => {
             let at = plot::number::short(*time, 9);
-            let reason = format!("The run ended at t = {at} s as it was to: {reason}.");
+            let reason = format!("The run ended at t = {at} s as intended: {reason}.");
             Some(Stop { time: *time, reason, help: String::new(), is_good: true })
         }
         Status::Stopped { time, reason, help, .. } => {

@@ -1,8 +1,8 @@
 //! Block diagrams as SVG text: laid out like a figure in a control textbook, from the diagram alone.
 //!
 //! Layered after Sugiyama, Tagawa and Toda (*Methods for Visual Understanding of Hierarchical System Structures*,
-//! 1981), pass by pass: [`graph`] (nodes and nets), [`layers`] (feedback and columns), [`order`] (few crossings),
-//! [`place`] (heights), [`route`] with [`track`] (wires), then [`shape`] and [`wire`] write. [`settle`] solves columns
+//! 1981), pass by pass: `graph` (nodes and nets), `layers` (feedback and columns), `order` (few crossings),
+//! `place` (heights), `route` with `track` (wires), then `shape` and `wire` write. `settle` solves columns
 //! and heights exactly. Own code, not a crate: those there are draw curves between boxes, where ports, trunks, lanes
 //! and upright tracks are the point here.
 //!

@@ -6,7 +6,7 @@
 //!
 //! The same figure always gives the same bytes: numbers are formatted by [`number`], no map is iterated, no clock is
 //! read and no transcendental function of the platform is called. A series may hold millions of points; what is
-//! written is bounded by [`decimate`]. Series differ in colour (Okabe–Ito), dash and marker, so that a figure
+//! written is bounded by `decimate`. Series differ in colour (Okabe–Ito), dash and marker, so that a figure
 //! reads on a black and white print and for colour-blind eyes.
 
 mod axis;

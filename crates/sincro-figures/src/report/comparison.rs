@@ -18,7 +18,7 @@ pub(super) fn html(page: &ComparisonPage) -> String {
         head,
         section("Both runs", &page.replay),
         section("Signals", &table("fold", &columns, &rows)),
-        section("What else is not the same", &settings(&page.settings)),
+        section("Other differences", &settings(&page.settings)),
     ];
     document("Two runs", "report", &body.concat())
 }

@@ -17,7 +17,7 @@ pub(super) fn html(page: &Page) -> String {
         figures,
         section(if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, &diagrams(&page.diagrams)),
         section("Checks", &checks),
-        section("How well the signals are known", &signal_table(&page.signals)),
+        section("Accuracy of the signals", &signal_table(&page.signals)),
         section("Energy", &page.energy.map(|energy| energy_line(&energy)).unwrap_or_default()),
         section("Messages", &messages(&page.messages)),
         section("Settings", &settings(&page.settings)),
@@ -100,13 +100,8 @@ fn messages(messages: &[(String, String, String)]) -> String {
 }
 
 fn signal_table(signals: &[SignalRow]) -> String {
-    let columns = [
-        ("", "Signal"),
-        ("num", "Greatest magnitude"),
-        ("num", "Error bar"),
-        ("", "Unit"),
-        ("", "How the error was estimated"),
-    ];
+    let columns =
+        [("", "Signal"), ("num", "Greatest magnitude"), ("num", "Error bar"), ("", "Unit"), ("", "Error estimate")];
     let rows: Vec<String> = signals.iter().map(signal_row).collect();
     table("fold", &columns, &rows)
 }
@@ -124,7 +119,7 @@ fn signal_row(signal: &SignalRow) -> String {
             &or_dash(signal.error_bar.map(|error| plot::escape_raised(&format!("± {}", significant(error, 2))))),
         ),
         cell("Unit", "unit", &plot::escape_raised(&signal.unit)),
-        cell("Estimated by", "method", &escape(&signal.method)),
+        cell("Error estimate", "method", &escape(&signal.method)),
     ]
     .concat()
 }
@@ -142,7 +137,7 @@ fn energy_line(energy: &Energy) -> String {
     format!(
         concat!(
             "<p>{} at the start, {} at the end; motors and applied forces did {}, dampers and friction took {}. ",
-            "What is left over is at most <b>{} J</b>{}: zero but for integration error.</p>\n"
+            "The residual of the balance is at most <b>{} J</b>{}: zero up to integration error.</p>\n"
         ),
         joule(energy.start),
         joule(energy.end),

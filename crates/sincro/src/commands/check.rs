@@ -124,7 +124,7 @@ fn print_constraints(model: &Model<f64>, freedom: &Freedom) {
         );
     }
     if !set.limits.is_empty() {
-        say!("  {}", diagnostics::count(set.limits.len(), "stop"));
+        say!("  {}", diagnostics::count(set.limits.len(), "joint limit"));
     }
     if !set.pairs.is_empty() {
         say!(

@@ -215,15 +215,15 @@ pub(crate) fn verdict_line(report: &RunReport) -> String {
 
 /// First messages of scripts.
 fn print_messages(messages: &[Message]) {
-    const MOST: usize = 20;
+    const MAX: usize = 20;
     if messages.is_empty() {
         return;
     }
     say!("scripts said");
-    for Message { t, object, text } in messages.iter().take(MOST) {
+    for Message { t, object, text } in messages.iter().take(MAX) {
         say!("  t = {} s, {object}: {text}", short(*t));
     }
-    if messages.len() > MOST {
-        say!("  and {} more; all of it is in run.json", messages.len() - MOST);
+    if messages.len() > MAX {
+        say!("  and {} more; all of it is in run.json", messages.len() - MAX);
     }
 }

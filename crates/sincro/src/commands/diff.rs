@@ -1,4 +1,4 @@
-//! `sincro diff`: where two finished runs part, and how far apart they come.
+//! `sincro diff`: the first and the greatest difference of each signal of two finished runs.
 
 use std::path::PathBuf;
 

@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     /// Folder of the results [default: results/SCENE]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of everything random
+    /// Seed of all random generators
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Write run.mcap too, for Foxglove, Lichtblick or Rerun

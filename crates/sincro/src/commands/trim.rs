@@ -1,4 +1,4 @@
-//! `sincro trim`: where a scene stays as it is.
+//! `sincro trim`: equilibria of a scene.
 
 use std::path::PathBuf;
 

@@ -13,7 +13,7 @@ use crate::{Exit, diagnostics};
 /// Arguments of `view`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of a scene, to run it live, or of a finished run, to look at it again
+    /// Folder of a scene, to run it live, or of a finished run, to replay it
     what: PathBuf,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     /// Port to listen at [default: any free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
-    /// Camera of the scene to begin with [default: its first one]
+    /// Initial camera [default: its first one]
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
     /// Address to listen at; beyond this machine the page's address has a token
@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
 pub(crate) struct ReplayArguments {
     /// Folder of a finished run
     run: PathBuf,
-    /// Camera of the scene to begin with [default: its first one]
+    /// Initial camera [default: its first one]
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
     /// Port to listen at [default: any free one]
