@@ -7,7 +7,7 @@ use sincro_sim::scene::from_text;
 
 /// Joint accelerations at the initial position with every hinge at 0.3 rad/s, a free body at rest.
 fn accelerations(model: &str) -> Vec<f64> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../benches/models").join(model).join("scene.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sincro-bench/models").join(model).join("scene.toml");
     let scene = from_text(&std::fs::read_to_string(file).unwrap()).unwrap();
     let mut state = scene.initial.clone();
     for joint in scene.model.names().joints.iter().filter(|j| j.n_v == 1) {

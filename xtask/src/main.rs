@@ -1,9 +1,16 @@
 //! `cargo xtask`: the project's own chores, in Rust alone.
 //!
-//! - `check`: formatting, lints, tidiness, tests, documentation; stops at the end with a summary.
+//! - `check`: formatting, lints, tidiness, tests, packages, documentation; ends with a summary.
+//! - `tidy`: the checks of `check` that need no compiler: tree, arrows, words, manifests.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
+//! - `dist`: builds the program as it is given away (profile `dist`); fails if it is too large.
+//! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
+mod dist;
+mod package;
+mod sample;
 mod tidy;
+mod words;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -12,8 +19,13 @@ fn main() -> ExitCode {
     match std::env::args().nth(1).as_deref() {
         Some("check") => check(),
         Some("bless") => bless(),
+        Some("tidy") => exit(tidy::check(&root())),
+        Some("dist") => {
+            exit(runs(&mut cargo(&["build", "--profile", "dist", "--package", "sincro"])) && dist::size_holds(&root()))
+        }
+        Some("api-sample") => exit(sample::print(&root())),
         _ => {
-            eprintln!("usage: cargo xtask check | bless");
+            eprintln!("usage: cargo xtask check | tidy | bless | dist | api-sample");
             ExitCode::from(2)
         }
     }
@@ -30,13 +42,18 @@ fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs a command; whether it succeeded.
+fn exit(holds: bool) -> ExitCode {
+    if holds { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// Runs a command; true if it succeeded.
 fn runs(command: &mut Command) -> bool {
     println!("$ {command:?}");
     command.status().is_ok_and(|status| status.success())
 }
 
 fn check() -> ExitCode {
+    let package = ["package", "--workspace", "--no-verify", "--allow-dirty", "--offline", "--quiet"];
     let debug_regressions = ["test", "--package", "sincro-sim", "--test", "regressions"];
     let steps = [
         ("formatting", runs(&mut cargo(&["fmt", "--all", "--check"]))),
@@ -45,6 +62,7 @@ fn check() -> ExitCode {
         ("tests", runs(&mut cargo(&["test", "--workspace", "--release"]))),
         // the committed hashes were made by a release build
         ("the same bits in a debug build", runs(&mut cargo(&debug_regressions))),
+        ("packages", runs(&mut cargo(&package))),
         (
             "documentation",
             runs(cargo(&["doc", "--workspace", "--no-deps", "--release"]).env("RUSTDOCFLAGS", "-D warnings")),
@@ -54,10 +72,9 @@ fn check() -> ExitCode {
     for (name, holds) in &steps {
         println!("{}  {name}", if *holds { "ok  " } else { "FAIL" });
     }
-    if steps.iter().all(|(_, holds)| *holds) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    exit(steps.iter().all(|(_, holds)| *holds))
 }
 
 fn bless() -> ExitCode {
-    let done = runs(cargo(&["test", "--package", "sincro-sim", "--release"]).env("SINCRO_BLESS", "1"));
-    if done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    exit(runs(cargo(&["test", "--package", "sincro-sim", "--release"]).env("SINCRO_BLESS", "1")))
 }

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use sincro_access::{ConnectionLimits, Connections};
@@ -115,6 +115,22 @@ impl Hub {
         self.waiting.fetch_add(1, Ordering::SeqCst);
         // a panic of another thread is a bug of ours that has been printed; the session is still the best there is
         let floor = self.floor.lock().unwrap_or_else(PoisonError::into_inner);
+        self.waiting.fetch_sub(1, Ordering::SeqCst);
+        floor
+    }
+
+    /// Takes the floor if it is free within a time: a script that does not return may hold it.
+    pub fn try_enter(&self, patience: Duration) -> Option<MutexGuard<'_, Floor>> {
+        let begin = Instant::now();
+        self.waiting.fetch_add(1, Ordering::SeqCst);
+        let floor = loop {
+            match self.floor.try_lock() {
+                Ok(floor) => break Some(floor),
+                Err(TryLockError::Poisoned(floor)) => break Some(floor.into_inner()),
+                Err(TryLockError::WouldBlock) if begin.elapsed() >= patience => break None,
+                Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(1)),
+            }
+        };
         self.waiting.fetch_sub(1, Ordering::SeqCst);
         floor
     }

@@ -5,19 +5,41 @@ pub const SCRIPT: &str = include_str!("../page/dist/viewer.js");
 /// The page's style.
 pub const STYLE: &str = include_str!("../page/dist/viewer.css");
 
-/// A film as a piece of HTML with all that it takes to show it.
+/// HTML of a replay with all that it takes to show it.
 #[must_use]
 pub fn replay(film_json: &str) -> String {
+    let script = SCRIPT.replace("</script", "<\\/script");
+    section(film_json, "", &format!("<style>{STYLE}</style>"), &format!("<script>{script}</script>"))
+}
+
+/// HTML of a replay whose program and style stand in files ([`assets`]) in `folder`, relative to the page: for many pages that
+/// stand together.
+#[must_use]
+pub fn linked_replay(film_json: &str, folder: &str) -> String {
+    let lacks = format!(
+        "<p>The replay needs <code>{SCRIPT_FILE}</code> and <code>{STYLE_FILE}</code>, which stand in <code>{folder}</code>; \
+         <code>sincro view</code> shows the folder of this page without them.</p>"
+    );
+    let style = format!("<link rel=\"stylesheet\" href=\"{folder}/{STYLE_FILE}\">");
+    section(film_json, &lacks, &style, &format!("<script src=\"{folder}/{SCRIPT_FILE}\"></script>"))
+}
+
+fn section(film_json: &str, before: &str, style: &str, script: &str) -> String {
     format!(
-        concat!(
-            "<div id=\"sincro-viewer\" class=\"sv-embedded\"><noscript>The replay needs JavaScript; everything else on this page \
-             does not.</noscript></div>\n<style>{}</style>\n<script type=\"application/json\" id=\"sincro-film\">{}</script>\n",
-            "<script>{}</script>\n"
-        ),
-        STYLE,
-        inert(film_json),
-        SCRIPT.replace("</script", "<\\/script")
+        "<div id=\"sincro-viewer\" class=\"sv-embedded\">{before}<noscript>The replay needs JavaScript; everything else on this page \
+         does not.</noscript></div>\n{style}\n<script type=\"application/json\" id=\"sincro-film\">{}</script>\n{script}\n",
+        inert(film_json)
     )
+}
+
+/// Names of the files of [`linked_replay`].
+const SCRIPT_FILE: &str = "viewer.js";
+const STYLE_FILE: &str = "viewer.css";
+
+/// Files that pages with a linked replay need, as names and contents.
+#[must_use]
+pub fn assets() -> [(&'static str, &'static str); 2] {
+    [(SCRIPT_FILE, SCRIPT), (STYLE_FILE, STYLE)]
 }
 
 /// JSON that no HTML parser finds a tag in.

@@ -5,9 +5,9 @@ use std::io::IsTerminal;
 use std::sync::Arc;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use sincro::RunFailure;
 use sincro_sim::problem::{Problem, Problems, SourceText};
 use sincro_sim::results::FileError;
-use sincro_sim::run::RunError;
 
 use crate::Exit;
 
@@ -50,21 +50,31 @@ pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
     Exit::Refused
 }
 
-/// Why a run could not be made, or not be written to its end.
-pub(crate) fn refuse_run(error: &RunError) -> Exit {
-    match error {
-        RunError::Problems(problems) => refuse_problems(problems),
-        RunError::File(error) => {
+/// Prints why a run was not made, or not written to its end.
+pub(crate) fn refuse_run(failure: &RunFailure) -> Exit {
+    match failure {
+        RunFailure::Problems(problems) => refuse_problems(problems),
+        RunFailure::Recording(error) => {
             refuse_file(error);
             eprintln!("the run stopped; rows written so far are in files that end in `.partial`");
             Exit::Stopped
         }
+        RunFailure::Results(error) => refuse_file(error),
     }
 }
 
-/// A file or folder that cannot be written.
+/// Prints which file or folder cannot be written.
 pub(crate) fn refuse_file(error: &FileError) -> Exit {
     refuse(&error.to_string(), Some("choose another place with --out DIR, or make room there"))
+}
+
+/// Refuses a camera that the scene does not have.
+pub(crate) fn refuse_camera(name: &str, cameras: &[String]) -> Exit {
+    let help = match cameras {
+        [] => "the scene has none: add a [[camera]] to it".to_owned(),
+        _ => format!("cameras here: {}", cameras.join(", ")),
+    };
+    refuse(&format!("there is no camera `{name}`"), Some(&help))
 }
 
 /// `1 error`, `2 errors`.

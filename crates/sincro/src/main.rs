@@ -1,20 +1,15 @@
 //! The command line of sincro.
 //!
-//! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run stopped
-//! (what was recorded is kept).
+//! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run
+//! stopped (what was recorded is kept).
 
-mod bench;
 mod commands;
 mod diagnostics;
-mod draw;
-mod linear;
-mod plot;
-mod present;
-mod report;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use sincro::Verdict;
 
 /// Simulates robots and their controllers in lock-step: exact, deterministic, with an error bar on every run.
 #[derive(Debug, Parser)]
@@ -28,31 +23,31 @@ struct Cli {
 enum Command {
     /// Run a scene folder, judge its checks, write signals, figures and a report
     Run(commands::run::Arguments),
-    /// Look a scene over without running it: objects, degrees of freedom, warnings, signals on offer
+    /// Check a scene without running it: objects, degrees of freedom, warnings, available signals
     Check(commands::check::Arguments),
     /// Draw the block diagram of a scene as SVG
     Draw(commands::draw::Arguments),
     /// Linearise a scene: matrices, poles, zeros, Bode and step plots
     Linearize(commands::linearize::Arguments),
-    /// Find where a scene stays as it is
+    /// Find an equilibrium of a scene
     Trim(commands::trim::Arguments),
-    /// Show a scene live, or a finished run again, in the browser: 3-D, plots, transport, numbers to change
+    /// Show a scene live, or replay a finished run, in the browser: 3-D, plots, transport controls, parameters
     View(commands::view::Arguments),
     /// Show a finished run in the browser
     Replay(commands::view::ReplayArguments),
-    /// Compare two finished runs: where they part, and how far apart they come
+    /// Compare two finished runs: the first and the greatest difference of each signal
     Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
     /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
     Serve(commands::serve::Arguments),
-    /// Run every experiment of the thesis and put measured beside expected on one page
+    /// Run every experiment of the thesis and show measured and expected values on one page
     Reproduce(commands::reproduce::Arguments),
-    /// Measure speed, memory and accuracy on this machine, beside peers if asked
-    Bench(bench::Options),
+    /// Measure speed, memory and accuracy on this machine, next to MuJoCo and Pinocchio on request
+    Bench(sincro_bench::Options),
 }
 
-/// What a command ends with.
+/// Exit of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     /// All checks hold.
@@ -63,6 +58,16 @@ pub(crate) enum Exit {
     Refused,
     /// The run stopped.
     Stopped,
+}
+
+impl From<Verdict> for Exit {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Holds => Self::Holds,
+            Verdict::Fails => Self::Fails,
+            Verdict::Stopped => Self::Stopped,
+        }
+    }
 }
 
 impl From<Exit> for ExitCode {
@@ -77,7 +82,6 @@ impl From<Exit> for ExitCode {
 }
 
 fn main() -> ExitCode {
-    sincro_lua::install();
     let exit = match Cli::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
@@ -90,7 +94,7 @@ fn main() -> ExitCode {
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
-        Command::Bench(options) => match bench::run(&options) {
+        Command::Bench(options) => match sincro_bench::run(&options) {
             Ok(()) => Exit::Holds,
             Err(message) => diagnostics::refuse(&message, None),
         },

@@ -1,7 +1,5 @@
 //! Motions on command (`sim.moveToConfig` …) from clients of every kind: in steps of the simulation, with callbacks, alone and together, and cut short.
 
-use std::io::{Read, Write};
-use std::net::TcpStream;
 use std::time::Duration;
 
 use sincro_remote::Server;
@@ -269,33 +267,10 @@ fn what_cannot_be_done_is_refused() {
 #[test]
 fn a_browser_moves_things_without_callbacks() {
     let server = serve("moving-ws");
-    let mut stream = TcpStream::connect(server.ports().ws.unwrap()).unwrap();
-    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
-    stream.write_all(b"GET / HTTP/1.1\r\nHost: x\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n").unwrap();
-    let mut head = Vec::new();
-    while !head.ends_with(b"\r\n\r\n") {
-        let mut byte = [0];
-        stream.read_exact(&mut byte).unwrap();
-        head.push(byte[0]);
-    }
+    let mut client = super::ws_client::Client::connect(server.ports().ws.unwrap());
     let mut call = |text: String| {
-        let mut out = vec![0x81, 0x80 | 126];
-        out.extend((text.len() as u16).to_be_bytes());
-        out.extend([0; 4]);
-        out.extend(text.as_bytes());
-        stream.write_all(&out).unwrap();
-        let mut head = [0; 2];
-        stream.read_exact(&mut head).unwrap();
-        let mut long = [0; 2];
-        let n = if head[1] == 126 {
-            stream.read_exact(&mut long).unwrap();
-            usize::from(u16::from_be_bytes(long))
-        } else {
-            usize::from(head[1])
-        };
-        let mut body = vec![0; n];
-        stream.read_exact(&mut body).unwrap();
-        String::from_utf8(body).unwrap()
+        client.send_text(&text);
+        client.text()
     };
     let joints = [Handle(1), Handle(3)].map(|h| h.0);
     let given = |more: &str| {

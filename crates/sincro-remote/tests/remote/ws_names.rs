@@ -132,6 +132,7 @@ fn lengths_that_are_made_up_end_the_connection() {
     let mut pieces = [&[0x02, 0xff][..], &(15_u64 << 20).to_be_bytes(), &[0; 4]].concat();
     pieces.extend(vec![0; 15 << 20]);
     pieces.extend([&[0x80, 0xff][..], &(2_u64 << 20).to_be_bytes(), &[0; 4]].concat());
+    pieces.extend(vec![0; 2 << 20]);
     for thrown in [long(u64::MAX), long((16 << 20) + 1), pieces, vec![0x81, 1, b'x']] {
         let mut client = Client::connect(address);
         client.throw(&thrown);

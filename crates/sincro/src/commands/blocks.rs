@@ -7,7 +7,7 @@ use sincro_sim::diagram::reference::{kinds, page};
 
 use crate::{Exit, diagnostics};
 
-/// What `blocks` takes.
+/// Arguments of `blocks`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Type of a block, such as `pid`: everything about it, with an example
@@ -19,11 +19,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let kinds = kinds();
     let Some(name) = &arguments.name else {
         let width = kinds.iter().map(|kind| kind.name.len()).max().unwrap_or(0);
-        let mut shelf: Option<Group> = None;
+        let mut category: Option<Group> = None;
         for kind in kinds {
-            if shelf != Some(kind.group) {
+            if category != Some(kind.group) {
                 say!("{}", kind.group.title());
-                shelf = Some(kind.group);
+                category = Some(kind.group);
             }
             say!("  {:<width$}  {}", kind.name, kind.summary);
         }

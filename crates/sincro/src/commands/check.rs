@@ -3,19 +3,19 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use sincro::{Loaded, load};
 use sincro_blocks::program::Rate;
 use sincro_sim::diagram::Controller;
 use sincro_sim::record::catalogue;
 use sincro_sim::run::{method_for, method_word, model_hash};
 use sincro_sim::scene::{Freedom, Model, Object, ObjectKind, Scene};
 use sincro_sim::script::Kind;
-use sincro_sim::{Loaded, load};
 
 use super::console::{degrees, short};
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `check` takes.
+/// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -124,7 +124,7 @@ fn print_constraints(model: &Model<f64>, freedom: &Freedom) {
         );
     }
     if !set.limits.is_empty() {
-        say!("  {}", diagnostics::count(set.limits.len(), "stop"));
+        say!("  {}", diagnostics::count(set.limits.len(), "joint limit"));
     }
     if !set.pairs.is_empty() {
         say!(
@@ -181,7 +181,7 @@ fn print_children(scene: &Scene, parent: Option<usize>, depth: usize) {
     }
 }
 
-/// What an object is, in one line.
+/// Kind and properties of an object, in one line.
 fn words(object: &Object) -> String {
     match &object.kind {
         ObjectKind::Body { mass } => {

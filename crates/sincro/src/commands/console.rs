@@ -1,21 +1,21 @@
-//! What a run says on the terminal.
+//! Summary of a run on the terminal.
 
 use std::io::IsTerminal;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sincro_sim::Loaded;
+use sincro::Loaded;
+use sincro_figures::plot::number::{self, significant};
 use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
 use sincro_sim::run::Campaign;
 use sincro_sim::script::Message;
 
 use crate::diagnostics::count;
-use crate::plot::number::significant;
 
 /// A number as it is typed: six digits are more than a setting has.
 pub(crate) fn short(x: f64) -> String {
-    crate::plot::number::short(x, 6)
+    number::short(x, 6)
 }
 
 /// Progress on a terminal, nothing in a pipe.
@@ -35,7 +35,7 @@ impl Bar {
         Self(Some(bar))
     }
 
-    /// What is being done, and the share of it.
+    /// Shows the work in hand and the share of it that is done.
     pub(crate) fn show(&self, words: &str, share: f64) {
         if let Some(bar) = &self.0 {
             bar.set_message(words.to_owned());
@@ -213,17 +213,17 @@ pub(crate) fn verdict_line(report: &RunReport) -> String {
     }
 }
 
-/// What scripts said, the first of it.
+/// First messages of scripts.
 fn print_messages(messages: &[Message]) {
-    const MOST: usize = 20;
+    const MAX: usize = 20;
     if messages.is_empty() {
         return;
     }
     say!("scripts said");
-    for Message { t, object, text } in messages.iter().take(MOST) {
+    for Message { t, object, text } in messages.iter().take(MAX) {
         say!("  t = {} s, {object}: {text}", short(*t));
     }
-    if messages.len() > MOST {
-        say!("  and {} more; all of it is in run.json", messages.len() - MOST);
+    if messages.len() > MAX {
+        say!("  and {} more; all of it is in run.json", messages.len() - MAX);
     }
 }

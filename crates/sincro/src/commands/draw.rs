@@ -3,15 +3,14 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use sincro_sim::diagram::Controller;
-use sincro_sim::load;
+use sincro::results::write_text;
+use sincro::{load, scene_name};
+use sincro_figures::campaign::diagram;
 
-use super::run::{parse_settings, scene_name};
-use crate::draw::{self, Options};
-use crate::present::write_text;
+use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `draw` takes.
+/// Arguments of `draw`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -34,7 +33,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         let help = "name a diagram in `experiment.toml`: diagram = \"diagram.toml\"";
         return diagnostics::refuse("the scene has no diagram", Some(help));
     };
-    let svg = drawing(controller, &loaded.experiment.title, &scene_name(&arguments.scene), false);
+    let svg = diagram(controller, &loaded.experiment.title, &scene_name(&arguments.scene), false);
     if arguments.out.as_os_str() == "-" {
         say!("{svg}");
         return Exit::Holds;
@@ -44,14 +43,4 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     }
     say!("{}", arguments.out.display());
     Exit::Holds
-}
-
-/// A diagram as SVG: a file of its own, or for a page.
-pub(crate) fn drawing(controller: &Controller, title: &str, world: &str, is_inline: bool) -> String {
-    let outputs = controller.wiring.program().steps.iter().flat_map(|step| {
-        let ports = step.output_names.iter().zip(&step.node.outputs);
-        ports.map(|(port, width)| (format!("{}.{port}", step.path), *width))
-    });
-    let options = Options { title: title.to_owned(), world: world.to_owned(), is_inline, widths: outputs.collect() };
-    draw::draw(&controller.diagram, &options)
 }

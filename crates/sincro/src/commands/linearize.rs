@@ -3,16 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use sincro::{Loaded, linearization, load};
+use sincro_figures::linear::{Analysis, text};
 use sincro_sim::linear::{DMatrix, lqr};
 use sincro_sim::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
 use sincro_sim::problem::{Located, Location, Problem, Problems, SourceText};
-use sincro_sim::{Loaded, load};
 
 use super::run::parse_settings;
-use crate::linear::{Analysis, files, text};
 use crate::{Exit, diagnostics};
 
-/// What `linearize` takes.
+/// Arguments of `linearize`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -26,7 +26,8 @@ pub(crate) struct Arguments {
     /// Find an equilibrium near that point first, commands as they are (`sincro trim` can do more)
     #[arg(long)]
     equilibrium: bool,
-    /// An input: a motor (`/joint`), a force's component, or with --closed-loop a signal of the diagram; all free commands unless given
+    /// An input: a motor (`/joint`), a force's component, or with --closed-loop a signal of the diagram; all free
+    /// commands unless given
     #[arg(long = "input", value_name = "NAME")]
     inputs: Vec<String>,
     /// An output: any recorded signal that depends on the state; all coordinates unless given
@@ -61,12 +62,12 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
     if let Some(out) = &arguments.out
-        && let Err(error) = files::write(&analysis, out)
+        && let Err(error) = linearization::write(&analysis, out)
     {
         return diagnostics::refuse_file(&error);
     }
     if arguments.json {
-        say!("{}", files::json(&analysis));
+        say!("{}", linearization::json(&analysis));
     } else {
         print(&analysis, &found, arguments.out.as_deref());
     }
@@ -101,7 +102,7 @@ pub(super) fn located(flag: &str, text: &str) -> Located<String> {
 }
 
 fn print(analysis: &Analysis, found: &Linearization, out: Option<&Path>) {
-    say!("{}", text::text(analysis).trim_end());
+    say!("{}", text(analysis).trim_end());
     say!("\noperating point at {} s", found.system.t);
     let all = [("x", &found.system.states, &found.state), ("u", &found.system.inputs, &found.input)];
     for (letter, axes, values) in all {

@@ -4,19 +4,19 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use sincro_sim::load;
-use sincro_sim::run::Campaign;
+use sincro::results::{Link, card, write_text};
+use sincro::{RunRequest, Verdict, load, scene_name};
+use sincro_figures::plot::number::significant;
+use sincro_figures::report::{Card, IndexPage, index_html};
 
 use super::console::verdict_line;
-use super::run::{Job, verdict};
-use crate::plot::number::significant;
-use crate::report::{IndexPage, index_html};
-use crate::{Exit, diagnostics, present};
+use super::run::run_with_progress;
+use crate::{Exit, diagnostics};
 
-/// What `reproduce` takes.
+/// Arguments of `reproduce`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Where the results go
+    /// Folder of the results
     #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
     out: PathBuf,
     /// Folder of the scenes [default: scenes, here or in the source tree this program was built from]
@@ -83,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
                      report says so."
             .into()],
     };
-    if let Err(error) = present::write_text(&arguments.out.join("index.html"), &index_html(&page)) {
+    if let Err(error) = write_text(&arguments.out.join("index.html"), &index_html(&page)) {
         return diagnostics::refuse_file(&error);
     }
     say!("{} experiments in {} s", scenes.len(), significant(clock.elapsed().as_secs_f64(), 2));
@@ -92,15 +92,15 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 }
 
 /// Runs one scene into its folder below `out`; its card for the index.
-fn one(scene: &Path, out: &Path) -> Result<(crate::report::Card, Exit), Exit> {
+fn one(scene: &Path, out: &Path) -> Result<(Card, Exit), Exit> {
     let loaded = load(scene, &[]).map_err(|problems| diagnostics::refuse_problems(&problems))?;
-    let name = super::run::scene_name(scene);
+    let name = scene_name(scene);
     let folder = out.join(&name);
-    let up = Some(("all experiments".to_owned(), "../index.html".to_owned()));
-    let campaign: Campaign = Job { scene, overrides: &[], loaded: &loaded, out: &folder, up }.run()?;
-    let exit = verdict(&campaign);
+    let index = Some(Link { label: "all experiments", href: "../index.html" });
+    let campaign = run_with_progress(&RunRequest { scene, overrides: &[], loaded: &loaded, out: &folder, index })?;
+    let exit = Verdict::of(&campaign).into();
     say!("{:<25} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
-    Ok((present::card(&loaded, &campaign, &format!("{name}/report.html")), exit))
+    Ok((card(&loaded, &campaign, &format!("{name}/report.html")), exit))
 }
 
 /// The scene folders in the order of the thesis.

@@ -5,17 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use clap::Args;
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
-use sincro_sim::results::{self, Override as Setting, VerdictReport};
-use sincro_sim::run::{Campaign, run_campaign};
-use sincro_sim::scene::ObjectKind;
-use sincro_sim::{Loaded, load};
+use sincro::results::{write_camera_frames, write_frames, write_mcap};
+use sincro::{Campaign, Loaded, Override, Problems, RunRequest, Verdict, load, scene_name};
 
 use super::console::{self, Bar};
-use crate::{Exit, diagnostics, present};
+use crate::{Exit, diagnostics};
 
-/// What `run` takes.
+/// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -35,10 +31,10 @@ pub(crate) struct Arguments {
     /// Local tolerance of the variable-step integrators
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Where the results go [default: results/SCENE]
+    /// Folder of the results [default: results/SCENE]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of everything random
+    /// Seed of all random generators
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Write run.mcap too, for Foxglove, Lichtblick or Rerun
@@ -71,20 +67,21 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     let name = scene_name(&arguments.scene);
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
-    let job = Job { scene: &arguments.scene, overrides: &overrides, loaded: &loaded, out: &out, up: None };
-    let campaign = match job.run() {
+    let request =
+        RunRequest { scene: &arguments.scene, overrides: &overrides, loaded: &loaded, out: &out, index: None };
+    let campaign = match run_with_progress(&request) {
         Ok(campaign) => campaign,
         Err(exit) => return exit,
     };
     if arguments.mcap
-        && let Err(error) = sincro_viewer::mcap::write(&campaign.main, &out.join("run.mcap"))
+        && let Err(error) = write_mcap(&campaign.main, &out.join("run.mcap"))
     {
         return diagnostics::refuse_file(&error);
     }
     if arguments.frames
         && let Err(error) = match camera {
-            Some(k) => present::write_photographs(&loaded, &campaign.main, k, &out),
-            None => present::write_frames(&campaign.main, &out),
+            Some(k) => write_camera_frames(&loaded, &campaign.main, k, &out),
+            None => write_frames(&campaign.main, &out),
         }
     {
         return diagnostics::refuse_file(&error);
@@ -95,26 +92,15 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         diagnostics::print_problems(&loaded.warnings);
         console::print_summary(&loaded, &campaign, &out);
     }
-    verdict(&campaign)
+    Verdict::of(&campaign).into()
 }
 
-/// The place among the objects of a camera that is named by its path or by the last part of that.
+/// Index among the objects of a camera that is named by its path or by the last part of that.
 fn camera_of(loaded: &Loaded, name: &str) -> Result<usize, Exit> {
-    let objects = &loaded.scene.objects;
-    let is_camera = |k: &usize| matches!(objects[*k].kind, ObjectKind::Camera { .. });
-    let cameras: Vec<usize> = (0..objects.len()).filter(is_camera).collect();
-    let found = cameras.iter().find(|k| objects[**k].path == name || objects[**k].name == name);
-    found.copied().ok_or_else(|| {
-        let paths: Vec<&str> = cameras.iter().map(|k| objects[*k].path.as_str()).collect();
-        let help = match paths.as_slice() {
-            [] => "the scene has none: add a [[camera]] to it".to_owned(),
-            _ => format!("cameras here: {}", paths.join(", ")),
-        };
-        diagnostics::refuse(&format!("there is no camera `{name}`"), Some(&help))
-    })
+    sincro::camera(&loaded.scene, name).map_err(|cameras| diagnostics::refuse_camera(name, &cameras))
 }
 
-/// What stands after every `--set`.
+/// Parses the texts that stand after `--set`.
 pub(crate) fn parse_settings(texts: &[String]) -> Result<Vec<Override>, Problems> {
     let (mut problems, mut overrides) = (Problems::new(), Vec::new());
     for text in texts {
@@ -143,39 +129,12 @@ fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Problems> {
     Ok(overrides)
 }
 
-/// Name of a scene: that of its folder.
-pub(crate) fn scene_name(path: &Path) -> String {
-    let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
-    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-    whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
-}
-
-/// A run with everything it writes.
-pub(crate) struct Job<'a> {
-    pub(crate) scene: &'a Path,
-    pub(crate) overrides: &'a [Override],
-    pub(crate) loaded: &'a Loaded,
-    pub(crate) out: &'a Path,
-    /// Label and address of the page above, if there is one.
-    pub(crate) up: Option<(String, String)>,
-}
-
-impl Job<'_> {
-    /// Runs it and writes signals, `run.json`, figures and the report.
-    pub(crate) fn run(&self) -> Result<Campaign, Exit> {
-        results::prepare(self.out).map_err(|e| diagnostics::refuse_file(&e))?;
-        let bar = Bar::new(&scene_name(self.scene));
-        let mut tell = |words: &str, share: f64| bar.show(words, share);
-        let interrupt = interrupt();
-        let done = run_campaign(self.scene, self.overrides, self.loaded, Some(self.out), &interrupt, &mut tell);
-        let mut campaign = done.map_err(|e| diagnostics::refuse_run(&e))?;
-        bar.finish();
-        let set = self.overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
-        campaign.report.settings.overrides = set.collect();
-        campaign.report.write(self.out).map_err(|e| diagnostics::refuse_file(&e))?;
-        present::write(self.loaded, &campaign, self.out, self.up.clone()).map_err(|e| diagnostics::refuse_file(&e))?;
-        Ok(campaign)
-    }
+/// Runs an experiment with a progress bar on a terminal, until its end or Ctrl-C.
+pub(crate) fn run_with_progress(request: &RunRequest<'_>) -> Result<Campaign, Exit> {
+    let bar = Bar::new(&scene_name(request.scene));
+    let done = request.run(&interrupt(), &mut |words, share| bar.show(words, share));
+    bar.finish();
+    done.map_err(|failure| diagnostics::refuse_run(&failure))
 }
 
 /// Set by Ctrl-C; a second one ends the program at once.
@@ -194,20 +153,4 @@ pub(crate) fn interrupt() -> Arc<AtomicBool> {
         flag
     });
     flag.clone()
-}
-
-/// The exit status of a campaign.
-pub(crate) fn verdict(campaign: &Campaign) -> Exit {
-    let report = &campaign.report;
-    let statuses = [&report.status].into_iter().chain(report.variants.iter().map(|v| &v.status));
-    let sweep_stopped = report.sweep.as_ref().is_some_and(|s| !s.stops.is_empty());
-    if statuses.into_iter().any(|s| !s.is_good()) || sweep_stopped {
-        return Exit::Stopped;
-    }
-    let mut checks = report
-        .checks
-        .iter()
-        .chain(report.variants.iter().flat_map(|v| &v.checks))
-        .chain(report.sweep.iter().flat_map(|s| &s.checks));
-    if checks.all(|c| c.verdict == VerdictReport::Holds) { Exit::Holds } else { Exit::Fails }
 }

@@ -2,28 +2,30 @@
 
 use std::io::IsTerminal;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use sincro_remote::hub::Event;
-use sincro_remote::{Options, Server};
-use sincro_sim::results::{self, FileError, Status};
-use sincro_sim::run::judge;
+use sincro::scene_name;
+use sincro::serve::{Deadlines, Event, Options, Record, Recorder, Server, Stored, open};
+use sincro_sim::results::Status;
 use sincro_sim::session::{Files, Finished, Grants, Session};
 
 use super::console;
-use super::run::{interrupt, parse_settings, scene_name};
-use crate::{Exit, diagnostics, present};
+use super::run::{interrupt, parse_settings};
+use crate::{Exit, diagnostics};
 
-/// How often it is looked whether to end, and what is attached.
+/// Interval at which the server looks for an interrupt and for new clients.
 const GLANCE: Duration = Duration::from_millis(250);
-/// How often speed is told on a terminal.
+/// Time that a script has to return when the server is ended.
+const LAST_CALL: Duration = Duration::from_secs(5);
+/// Interval at which the speed is printed on a terminal.
 const TELL: Duration = Duration::from_secs(5);
 
-/// What `serve` takes.
+/// Arguments of `serve`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -34,19 +36,33 @@ pub(crate) struct Arguments {
     /// Port of the legacy remote API; may be repeated, 0 takes any free one [default: 19997 and 19999]
     #[arg(long, value_name = "PORT")]
     legacy_port: Vec<u16>,
+    /// Do not serve the legacy remote API
+    #[arg(long, conflicts_with = "legacy_port")]
+    no_legacy: bool,
     /// Port of the ZeroMQ remote API; the one after it is for clients of version 1
     #[arg(long, value_name = "PORT", default_value_t = 23000)]
     zmq_port: u16,
+    /// Do not serve the ZeroMQ remote API
+    #[arg(long, conflicts_with = "zmq_port")]
+    no_zmq: bool,
     /// Port of the WebSocket remote API
     #[arg(long, value_name = "PORT", default_value_t = 23050)]
     ws_port: u16,
-    /// Address to listen on; 0.0.0.0 lets other machines in
+    /// Do not serve the WebSocket remote API
+    #[arg(long, conflicts_with = "ws_port")]
+    no_ws: bool,
+    /// Address to listen on; 0.0.0.0 lets other machines in, WebSocket with its token, the others with --unauthenticated
     #[arg(long, value_name = "ADDR", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
+    /// Beyond loopback let everybody who reaches the legacy and ZeroMQ ports drive the simulation: their clients have no
+    /// password
+    #[arg(long)]
+    unauthenticated: bool,
     /// Step of the clients `[s]`, V-REP's simulation time step [default: simulation_step of the experiment]
     #[arg(long, value_name = "S", alias = "client-step")]
     simulation_step: Option<f64>,
-    /// Let clients do what they may not by themselves: send files and load scenes from them, run texts in the scene's scripts; may be repeated
+    /// Let clients do what they may not by themselves: send files and load scenes from them, run texts in the scene's
+    /// scripts; may be repeated
     #[arg(long, value_enum, value_name = "WHAT")]
     grant: Vec<Grant>,
     /// Run no faster than the clock when no client steps
@@ -55,12 +71,42 @@ pub(crate) struct Arguments {
     /// A client that steps and stays silent for so long is let go `[s]`
     #[arg(long, value_name = "S", default_value_t = 600.0)]
     client_timeout: f64,
-    /// Where the runs go, each in a folder run-1, run-2 … [default: results/SCENE-served]
+    /// A connection that says nothing for so long is closed `[s]`
+    #[arg(long, value_name = "S", default_value_t = 3600.0)]
+    idle_timeout: f64,
+    /// Extent of what is written of each run
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "full")]
+    record: RecordFlag,
+    /// Number of runs that are kept; then the oldest one is deleted
+    #[arg(long, value_name = "N", default_value_t = const { NonZeroUsize::new(100).unwrap() })]
+    keep: NonZeroUsize,
+    /// Folder of the runs, each in a folder run-1, run-2 … of its own [default: results/SCENE-served]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
-/// What clients may be let do.
+/// Values of `--record`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum RecordFlag {
+    /// Nothing.
+    None,
+    /// signals.csv and run.json.
+    Signals,
+    /// As `sincro run`: figures, replay and report too.
+    Full,
+}
+
+impl From<RecordFlag> for Record {
+    fn from(flag: RecordFlag) -> Self {
+        match flag {
+            RecordFlag::None => Self::None,
+            RecordFlag::Signals => Self::Signals,
+            RecordFlag::Full => Self::Full,
+        }
+    }
+}
+
+/// Permissions that clients can be given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Grant {
     /// Send files to a folder beside the runs, and load scenes from it.
@@ -89,7 +135,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     print_ports(&title, &server);
     let interrupt = interrupt();
-    let mut watch = Watch { out, n_runs: 0, clients: 0, told: Instant::now(), step: 0 };
+    let recorder = Recorder::new(out, arguments.record.into(), arguments.keep);
+    let mut watch = Watch { recorder, clients: 0, told: Instant::now(), step: 0 };
     while !interrupt.load(Ordering::Relaxed) {
         match server.events().recv_timeout(GLANCE) {
             Ok(event) => watch.event(event),
@@ -97,8 +144,15 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
             Err(RecvTimeoutError::Disconnected) => break,
         }
     }
-    // a run that is on is ended and kept
-    let _ = server.hub().enter().act(Session::stop);
+    // a run that is on is ended and kept, unless a script that does not return holds it
+    //ABORT
+    match server.hub().try_enter(LAST_CALL) {
+        Some(mut floor) => drop(floor.act(Session::stop)),
+        None => {
+            eprintln!("error: the simulation does not answer; the run that is on is lost");
+            std::process::exit(3);
+        }
+    }
     while let Ok(event) = server.events().try_recv() {
         watch.event(event);
     }
@@ -107,23 +161,34 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
     let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_problems(&p))?;
-    let session = Session::open(&arguments.scene, &overrides, arguments.simulation_step);
+    let session = open(&arguments.scene, &overrides, arguments.simulation_step);
     let session = session.map_err(|problems| diagnostics::refuse_problems(&problems))?;
-    let patience = Duration::try_from_secs_f64(arguments.client_timeout).ok().filter(|d| !d.is_zero());
-    let Some(patience) = patience else {
-        let message = format!("--client-timeout {} is no time", arguments.client_timeout);
-        return Err(diagnostics::refuse(&message, Some("give seconds above 0")));
+    let patience = seconds("--client-timeout", arguments.client_timeout)?;
+    let idle = seconds("--idle-timeout", arguments.idle_timeout)?;
+    let legacy = match arguments.legacy_port.as_slice() {
+        _ if arguments.no_legacy => Vec::new(),
+        [] => vec![19997, 19999],
+        ports => ports.to_vec(),
     };
-    let legacy = if arguments.legacy_port.is_empty() { vec![19997, 19999] } else { arguments.legacy_port.clone() };
     let options = Options {
         bind: arguments.bind,
         legacy,
-        zmq: Some(arguments.zmq_port),
-        ws: Some(arguments.ws_port),
+        zmq: (!arguments.no_zmq).then_some(arguments.zmq_port),
+        ws: (!arguments.no_ws).then_some(arguments.ws_port),
         real_time: arguments.real_time,
         patience,
+        deadlines: Deadlines { idle, ..Deadlines::default() },
+        unauthenticated: arguments.unauthenticated,
     };
     Ok((session, options))
+}
+
+/// The value of a flag as a time above zero.
+fn seconds(flag: &str, value: f64) -> Result<Duration, Exit> {
+    Duration::try_from_secs_f64(value)
+        .ok()
+        .filter(|time| !time.is_zero())
+        .ok_or_else(|| diagnostics::refuse(&format!("{flag} {value} is no time"), Some("give seconds above 0")))
 }
 
 fn print_ports(title: &str, server: &Server) {
@@ -131,16 +196,22 @@ fn print_ports(title: &str, server: &Server) {
     let ports = server.ports();
     let dt = server.hub().enter().session.table().sample_time();
     say!("{title}");
-    say!("  legacy remote API   {}", list(&ports.legacy));
-    say!("  ZeroMQ remote API   {} (step counter {})", list(ports.zmq.as_slice()), list(ports.zmq_steps.as_slice()));
-    say!("  WebSocket           {}", list(ports.ws.as_slice()));
+    if !ports.legacy.is_empty() {
+        say!("  legacy remote API   {}", list(&ports.legacy));
+    }
+    if let (Some(zmq), Some(steps)) = (ports.zmq, ports.zmq_steps) {
+        say!("  ZeroMQ remote API   {zmq} (step counter {steps})");
+    }
+    if let (Some(ws), Some(link)) = (ports.ws, server.ws_link()) {
+        say!("  WebSocket           {ws}");
+        say!("    from a web page   {link}");
+    }
     say!("  one step of a client is {} s; Ctrl-C ends", console::short(dt));
 }
 
-/// What is told, and the runs that are kept.
+/// State of the terminal output, and count of the runs that were written.
 struct Watch {
-    out: PathBuf,
-    n_runs: usize,
+    recorder: Recorder,
     clients: usize,
     told: Instant,
     step: u64,
@@ -157,7 +228,8 @@ impl Watch {
 
     /// Who is attached, and how fast it goes.
     fn glance(&mut self, server: &Server) {
-        let mut floor = server.hub().enter();
+        // a script may hold it: then there is nothing new to tell
+        let Some(mut floor) = server.hub().try_enter(GLANCE) else { return };
         let (clients, step, t) = (floor.n_clients(), floor.steps(), floor.session.t());
         let runs = floor.session.phase() != sincro_sim::session::Phase::Stopped;
         drop(floor);
@@ -177,8 +249,6 @@ impl Watch {
     }
 
     fn keep(&mut self, finished: Finished) {
-        self.n_runs += 1;
-        let out = self.out.join(format!("run-{}", self.n_runs));
         let (n, t) = (finished.steps, finished.simulated.table.times().last().copied().unwrap_or(0.0));
         let hash = finished.simulated.trace;
         let how = match &finished.simulated.status {
@@ -186,26 +256,14 @@ impl Watch {
             Status::Ended { reason, .. } => format!("ended: {reason}"),
             Status::Completed | Status::Interrupted { .. } => "ended".to_owned(),
         };
-        match write(&finished, &out) {
-            Ok(()) => say!(
-                "  run {} {how} after {} of clients, {} s recorded, trace {hash}: {}",
-                self.n_runs,
+        match self.recorder.store(&finished) {
+            Ok(Stored { number, path }) => say!(
+                "  run {number} {how} after {} of clients, {} s recorded, trace {hash}{}",
                 diagnostics::count(n as usize, "step"),
                 console::short(t),
-                out.join("report.html").display()
+                path.map_or_else(String::new, |path| format!(": {}", path.display()))
             ),
             Err(error) => eprintln!("error: {error}"),
         }
     }
-}
-
-/// The run as any other: signals, `run.json`, figures, report.
-fn write(finished: &Finished, out: &Path) -> Result<(), FileError> {
-    results::prepare(out)?;
-    let loaded = &finished.loaded;
-    let folder = loaded.experiment.scene_path.parent().unwrap_or(Path::new("."));
-    finished.simulated.table.write_csv(&out.join("signals.csv"))?;
-    let campaign = judge(folder, loaded, finished.simulated.clone());
-    campaign.report.write(out)?;
-    present::write(loaded, &campaign, out, None)
 }

@@ -1,20 +1,20 @@
-//! `sincro trim`: where a scene stays as it is.
+//! `sincro trim`: equilibria of a scene.
 
 use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Map, Value, json};
+use sincro::load;
+use sincro::results::write_text;
 use sincro_sim::linear::Axis;
 use sincro_sim::linearize::{Trim, TrimRequest, operating_point, trim};
-use sincro_sim::load;
 use sincro_sim::problem::{Located, Problem, Problems};
 
 use super::linearize::located;
 use super::run::parse_settings;
-use crate::present::write_text;
 use crate::{Exit, diagnostics};
 
-/// What `trim` takes.
+/// Arguments of `trim`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Where the search begins: the state of the run at this time in seconds, brought to rest
+    /// Start of the search: the state of the run at this time in seconds, brought to rest
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     from: f64,
     /// A command that may be changed: a motor (`/joint`) or a force's component; the others are as the scene gives them

@@ -5,17 +5,15 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use sincro_viewer::film::FORMAT;
-use sincro_viewer::live::{Engine, Source};
-use sincro_viewer::server::{Server, Show};
+use sincro::view::{self, Server, Show};
 
-use super::run::{parse_settings, scene_name};
+use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
-/// What `view` takes.
+/// Arguments of `view`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of a scene, to run it live, or of a finished run, to look at it again
+    /// Folder of a scene, to run it live, or of a finished run, to replay it
     what: PathBuf,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -23,10 +21,10 @@ pub(crate) struct Arguments {
     /// Port to listen at [default: any free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
-    /// Camera of the scene to begin with [default: its first one]
+    /// Initial camera [default: its first one]
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
-    /// Address to listen at; beyond this machine the page's address has a token
+    /// Address to listen at; 0.0.0.0 lets other machines in that have the link with its token
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
     /// Print the address and open no browser
@@ -34,12 +32,12 @@ pub(crate) struct Arguments {
     no_browser: bool,
 }
 
-/// What `replay` takes.
+/// Arguments of `replay`.
 #[derive(Debug, Args)]
 pub(crate) struct ReplayArguments {
     /// Folder of a finished run
     run: PathBuf,
-    /// Camera of the scene to begin with [default: its first one]
+    /// Initial camera [default: its first one]
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
     /// Port to listen at [default: any free one]
@@ -52,8 +50,7 @@ pub(crate) struct ReplayArguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let is_run = arguments.what.join("replay.json").is_file() && !arguments.what.join("experiment.toml").is_file();
-    let show = if is_run { replay_of(&arguments.what) } else { live(arguments) };
+    let show = if view::is_finished_run(&arguments.what) { replay_of(&arguments.what) } else { live(arguments) };
     let address = SocketAddr::new(arguments.bind, arguments.port);
     show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
@@ -65,46 +62,19 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> Exit {
     show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
 
-/// The path of a camera of what is shown, named by it or by its last part.
-fn camera_of(show: &Show, name: &str) -> Result<String, Exit> {
-    let cameras = show.cameras();
-    let found = cameras.iter().find(|path| *path == name || path.rsplit('/').next() == Some(name));
-    found.cloned().ok_or_else(|| {
-        let help = match cameras.as_slice() {
-            [] => "the scene has none: add a [[camera]] to it".to_owned(),
-            _ => format!("cameras here: {}", cameras.join(", ")),
-        };
-        diagnostics::refuse(&format!("there is no camera `{name}`"), Some(&help))
-    })
-}
-
 fn replay_of(run: &Path) -> Result<Show, Exit> {
-    let file = run.join("replay.json");
-    let text = std::fs::read_to_string(&file).map_err(|e| {
-        let message = format!("`{}` cannot be read: {e}", file.display());
-        diagnostics::refuse(&message, Some("name the folder that `sincro run` wrote, such as results/SCENE"))
-    })?;
-    if !text.starts_with(&format!("{{\"format\":\"{FORMAT}\"")) {
-        let message = format!("`{}` is no replay that this version of sincro shows", file.display());
-        return Err(diagnostics::refuse(&message, Some("run the scene again with this version")));
-    }
-    Ok(Show::Film(text.into()))
+    view::replay(run).map_err(|error| diagnostics::refuse(&error.message, Some(error.help)))
 }
 
 fn live(arguments: &Arguments) -> Result<Show, Exit> {
-    let settings = parse_settings(&arguments.set).map_err(|problems| diagnostics::refuse_problems(&problems))?;
-    let world = scene_name(&arguments.what);
-    let draw = Box::new(move |controller: &_| super::draw::drawing(controller, "", &world, true));
-    let engine = Engine::open(Source { folder: arguments.what.clone(), settings, draw })
-        .map_err(|problems| diagnostics::refuse_problems(&problems))?;
-    let board = engine.board();
-    Ok(Show::Live(board, engine.start()))
+    let overrides = parse_settings(&arguments.set).map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    view::live(&arguments.what, overrides).map_err(|problems| diagnostics::refuse_problems(&problems))
 }
 
 fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {
-    let camera = match camera.map(|name| camera_of(&show, name)).transpose() {
+    let camera = match camera.map(|name| view::camera(&show, name).map_err(|all| (name, all))).transpose() {
         Ok(camera) => camera,
-        Err(exit) => return exit,
+        Err((name, all)) => return diagnostics::refuse_camera(name, &all),
     };
     let server = match Server::bind(address, show) {
         Ok(server) => server,
@@ -113,12 +83,13 @@ fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool
             return diagnostics::refuse(&message, Some("take another --port, or leave it out for any free one"));
         }
     };
-    let url = camera.map_or_else(|| server.url(), |path| format!("{}#camera={path}", server.url()));
-    say!("{url}");
+    let fragment = camera.map_or_else(String::new, |path| format!("#camera={path}"));
+    say!("{}{fragment}", server.url());
     if std::io::stdout().is_terminal() {
         eprintln!("Ctrl-C ends it");
         if !no_browser {
-            open_browser(&url);
+            // other users of the machine can read a command line: what stands in it works once
+            open_browser(&format!("{}{fragment}", server.single_use_url()));
         }
     }
     match server.run() {

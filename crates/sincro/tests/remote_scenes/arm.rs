@@ -1,4 +1,5 @@
-//! `alexandros-remote`: adaptive compliant inverse kinematics, from the angles of motors and springs in single precision.
+//! `alexandros-remote`: adaptive compliant inverse kinematics, from the angles of motors and springs in single
+//! precision.
 
 use sincro_math::elementary::sin_cos;
 
@@ -54,7 +55,7 @@ impl Arm {
         arm
     }
 
-    /// How a point beyond joint i moves with it.
+    /// Velocity of a point beyond joint i for a unit rate of that joint.
     fn column(&self, i: usize, point: V3) -> V3 {
         cross(self.axes[i], std::array::from_fn(|k| point[k] - self.origins[i][k]))
     }

@@ -1,6 +1,8 @@
-//! The thesis's client loops against a server on loopback: the runs of clients have the bits of the same laws in process.
+//! The thesis's client loops against a server on loopback: the runs of clients have the bits of the same laws in
+//! process.
 //!
-//! The laws are written here once more, apart from the diagrams of the scenes, and computed from what each protocol gives.
+//! The laws are written here once more, apart from the diagrams of the scenes, and computed from what each protocol
+//! gives.
 
 mod arm;
 #[path = "../../../sincro-remote/tests/remote/legacy_client.rs"]
@@ -26,7 +28,7 @@ use sincro_sim::session::{Session, Value};
 use legacy_client::{Client as Legacy, Command, ONCE, STREAM, floats, ints};
 use zmq_client::Client as Zmq;
 
-/// What is left of a number on the legacy wire.
+/// A number in the precision of the legacy wire.
 fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }

@@ -1,4 +1,5 @@
-//! `movement`: three clients move three arms at once, as CoppeliaSim's example `simpleMovement.py` does; the bits are those of the scripts of `movement-lua`.
+//! `movement`: three clients move three arms at once, as CoppeliaSim's example `simpleMovement.py` does; the bits are
+//! those of the scripts of `movement-lua`.
 
 use sincro_sim::session::Value;
 

@@ -1,4 +1,5 @@
-//! `quadrotor-remote`: command-filtered integral backstepping, from positions, Euler angles and velocities in single precision.
+//! `quadrotor-remote`: command-filtered integral backstepping, from positions, Euler angles and velocities in single
+//! precision.
 
 use sincro_math::elementary::{asin, atan2, exp, sin_cos, tan};
 use sincro_sim::session::Value;
@@ -23,7 +24,7 @@ fn each(f: impl FnMut(usize) -> f64) -> V3 {
     std::array::from_fn(f)
 }
 
-/// What the controller remembers.
+/// Memory of the controller.
 #[derive(Default)]
 struct Law {
     reference: [[f64; 2]; 3],

@@ -1,4 +1,5 @@
-//! Clients and the scripts of a scene: functions that are called, texts that are run where that is granted, inverse kinematics.
+//! Clients and the scripts of a scene: functions that are called, texts that are run where that is granted, inverse
+//! kinematics.
 
 use std::path::PathBuf;
 use std::time::Duration;

@@ -1,0 +1,223 @@
+//! Pages of one run (`report.html`), of two runs (`diff.html`) and of many (the index of `sincro reproduce`).
+//!
+//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched; only the replay is a
+//! script. It follows the reader's light or dark preference, prints in black and white on A4, and fits a phone.
+//! [`Page`] and [`IndexPage`] are plain data; whoever fills them need not know any HTML. All text in them may come from
+//! a scene: it is escaped by [`crate::plot::escape`].
+//!
+//! Verdicts are derived from the checks, so a banner cannot contradict its table.
+
+mod checks;
+mod comparison;
+mod index;
+pub(crate) mod page;
+pub(crate) mod shell;
+
+use sincro_sim::experiment::check::Sense;
+
+use crate::plot::Figure;
+
+/// The report of one run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Page {
+    /// Title of the experiment.
+    pub title: String,
+    /// One or two sentences under the title.
+    pub description: String,
+    /// Link back to the index (label, address), if there is one.
+    pub up: Option<(String, String)>,
+    /// Reason for an early end; `None`: it came to its end.
+    pub stop: Option<Stop>,
+    /// Warnings that the reader should know before trusting the numbers; shown right under the verdict.
+    pub warnings: Vec<String>,
+    /// The replay as HTML with its program; may be empty.
+    pub replay: String,
+    /// Drawn in order, each over the full width.
+    pub figures: Vec<Figure>,
+    /// Block diagrams as SVG for a page, each with its title.
+    pub diagrams: Vec<(String, String)>,
+    /// The table of checks.
+    pub checks: Vec<CheckRow>,
+    /// The recorded signals with their error bars.
+    pub signals: Vec<SignalRow>,
+    /// The balance of energy over the run.
+    pub energy: Option<Energy>,
+    /// Name and value: scene, integrator, step, accuracy, duration, seed, overrides, hashes, versions.
+    pub settings: Vec<(String, String)>,
+    /// Messages of scripts and clients: time, sender, text.
+    pub messages: Vec<(String, String, String)>,
+    /// Remarks at the end.
+    pub notes: Vec<String>,
+}
+
+/// A run that ended before its time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stop {
+    /// When `[s]`.
+    pub time: f64,
+    /// Event and culprit, in words.
+    pub reason: String,
+    /// The setting that mends it; may be empty.
+    pub help: String,
+    /// True: the experiment asked for this end.
+    pub is_good: bool,
+}
+
+/// One check, judged. The deviation is given, not derived: for a check over a window it is the worst one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckRow {
+    /// The check's name.
+    pub name: String,
+    /// Subject of the check: a signal, a formula, the run it belongs to; may be empty.
+    pub about: String,
+    /// The value measured; at the worst time, if the check covers a window. `None`: there is none to show.
+    pub measured: Option<f64>,
+    /// The value expected at the same place. `None`: the measured value itself is what must be small.
+    pub expected: Option<f64>,
+    /// Kind of the expected value: a value to be met, or a bound.
+    pub sense: Sense,
+    /// |measured − expected|, divided by the expected value if `is_relative`; how far beyond a bound.
+    pub deviation: f64,
+    /// Largest deviation allowed.
+    pub limit: f64,
+    /// The deviation and its limit are relative, hence without unit.
+    pub is_relative: bool,
+    /// Unit of measured and expected.
+    pub unit: String,
+    /// Time of the measured value `[s]`, if it belongs to one.
+    pub at: Option<f64>,
+    /// The judgement.
+    pub verdict: CheckVerdict,
+}
+
+/// The judgement of a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CheckVerdict {
+    /// The deviation is within its limit.
+    Holds,
+    /// It is not.
+    Fails,
+    /// The run stopped before the check could be made.
+    NotMade,
+}
+
+/// A recorded signal and how well it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalRow {
+    /// Its path: `/shoulder.position`.
+    pub path: String,
+    /// Its unit.
+    pub unit: String,
+    /// Greatest magnitude in the run, for scale.
+    pub largest: Option<f64>,
+    /// Estimated integration error, in the same unit; `None` if it was not estimated.
+    pub error_bar: Option<f64>,
+    /// Method of the estimate.
+    pub method: String,
+}
+
+/// The balance of energy over a run `[J]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energy {
+    /// Total at the start.
+    pub start: f64,
+    /// Total at the end.
+    pub end: f64,
+    /// Work done by motors and applied forces.
+    pub work: f64,
+    /// Energy taken by dampers and friction.
+    pub dissipated: f64,
+    /// Greatest |total − total(0) − work + dissipated| during the run.
+    pub residual: f64,
+}
+
+/// The gallery of many runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IndexPage {
+    /// Title of the whole.
+    pub title: String,
+    /// One or two sentences under the title.
+    pub description: String,
+    /// One for each experiment, in order.
+    pub cards: Vec<Card>,
+    /// Versions, machine, total time.
+    pub settings: Vec<(String, String)>,
+    /// Remarks at the end.
+    pub notes: Vec<String>,
+}
+
+/// One experiment in the gallery.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Card {
+    /// Title of the experiment.
+    pub title: String,
+    /// Place of the original: `§4.2, figure 4.5`.
+    pub source: String,
+    /// One sentence.
+    pub summary: String,
+    /// Address of its report, relative to the index.
+    pub href: String,
+    /// Address of its replay, relative to the index; may be empty.
+    pub replay: String,
+    /// A picture of the scene as SVG; may be empty.
+    pub picture: String,
+    /// Its first panel becomes the thumbnail.
+    pub figure: Option<Figure>,
+    /// All its checks. The card shows four: those that fail first, then in this order.
+    pub checks: Vec<CheckRow>,
+    /// Reason for an early end; `None`: it came to its end.
+    pub stop: Option<Stop>,
+    /// Wall time in words: `0.02 s`.
+    pub run_time: String,
+}
+
+/// The comparison of two runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ComparisonPage {
+    /// Titles of both runs.
+    pub title: String,
+    /// Result of the comparison in one sentence.
+    pub verdict: String,
+    /// Both replays over each other as HTML with their program; may be empty.
+    pub replay: String,
+    /// One for each signal that both runs have.
+    pub signals: Vec<DifferenceRow>,
+    /// Settings and versions in which the runs differ: name, both values.
+    pub settings: Vec<(String, String)>,
+}
+
+/// A signal of two runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DifferenceRow {
+    /// Its path: `/shoulder.position`.
+    pub path: String,
+    /// Its unit.
+    pub unit: String,
+    /// First time at which the bits differ `[s]`; `None`: they are the same everywhere.
+    pub first: Option<f64>,
+    /// Greatest difference, in the unit of the signal.
+    pub greatest: f64,
+    /// Time of the greatest difference `[s]`.
+    pub greatest_at: f64,
+}
+
+/// The page of one run as HTML.
+#[must_use]
+pub fn html(page: &Page) -> String {
+    page::html(page)
+}
+
+/// The gallery of many runs as HTML.
+#[must_use]
+pub fn index_html(page: &IndexPage) -> String {
+    index::html(page)
+}
+
+/// The comparison of two runs as HTML.
+#[must_use]
+pub fn comparison_html(page: &ComparisonPage) -> String {
+    comparison::html(page)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,54 @@
+//! Opening a scene folder with every script language that sincro has.
+
+use std::path::Path;
+
+use sincro_sim::Loaded;
+use sincro_sim::overrides::Override;
+use sincro_sim::problem::Problems;
+use sincro_sim::scene::{ObjectKind, Scene};
+
+/// Opens a scene folder, or the `experiment.toml` in it, with Lua as the language of its scripts.
+///
+/// `overrides` win over the files; see [`Override::parse`] for their paths. Variants and sweep of the experiment are
+/// opened on trial, so that nothing is run before everything is known to be sound.
+///
+/// # Errors
+///
+/// All problems of the files and the overrides at once, each with its place in the file.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// let loaded = sincro::load(&scene, &[])?;
+/// assert_eq!(loaded.scene.freedom().left(), 6);
+/// # Ok::<(), sincro::Problems>(())
+/// ```
+pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
+    install_languages();
+    sincro_sim::load(scene, overrides)
+}
+
+/// Gives this process the languages that scripts of scenes are written in. More than one call does no harm.
+pub(crate) fn install_languages() {
+    sincro_lua::install();
+}
+
+/// Name of a scene: that of its folder. `path` is the folder or a file in it.
+#[must_use]
+pub fn scene_name(path: &Path) -> String {
+    let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Index among the objects of a scene of the camera with that path, or with that last part of the path.
+///
+/// # Errors
+///
+/// The paths of all cameras of the scene, if none has that name.
+pub fn camera(scene: &Scene, name: &str) -> Result<usize, Vec<String>> {
+    let objects = &scene.objects;
+    let is_camera = |k: &usize| matches!(objects[*k].kind, ObjectKind::Camera { .. });
+    let cameras: Vec<usize> = (0..objects.len()).filter(is_camera).collect();
+    let found = cameras.iter().find(|k| objects[**k].path == name || objects[**k].name == name);
+    found.copied().ok_or_else(|| cameras.iter().map(|k| objects[*k].path.clone()).collect())
+}

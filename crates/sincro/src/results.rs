@@ -1,0 +1,168 @@
+//! Files of a run's results: report, replay, figures, frames.
+
+use std::path::Path;
+
+use sincro_figures::campaign;
+use sincro_figures::plot::{Size, svg};
+use sincro_figures::report::{self, Card, Page};
+use sincro_sim::Loaded;
+use sincro_sim::camera::{Camera, png};
+use sincro_sim::replay::Tape;
+use sincro_sim::results::{FileError, file, prepare};
+use sincro_sim::run::{Campaign, Done};
+use sincro_viewer::film::Film;
+use sincro_viewer::{embed, picture};
+
+/// Size of a picture of a run `[px]`.
+const FRAME: (f64, f64) = (960.0, 540.0);
+/// Pictures of a run per simulated second [1/s], and their greatest number.
+const FRAMES: (f64, usize) = (30.0, 1800);
+/// Size of the picture on a card `[px]`.
+const CARD: (f64, f64) = (320.0, 150.0);
+
+/// Link to another page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Link<'a> {
+    /// Text of the link.
+    pub label: &'a str,
+    /// Address, relative to the page that has the link.
+    pub href: &'a str,
+}
+
+/// Writes `report.html`, `replay.json` and the figures as SVG files into a folder of results; `index` is the page that
+/// the report links back to.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub fn write(loaded: &Loaded, campaign: &Campaign, out: &Path, index: Option<Link<'_>>) -> Result<(), FileError> {
+    write_with(loaded, campaign, out, index, embed::replay)
+}
+
+/// As [`write`], for one of many runs whose folders stand beside each other: the program that shows the replays stands once, above them, and a
+/// report is as long as what it shows.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub fn write_one_of_many(loaded: &Loaded, campaign: &Campaign, out: &Path) -> Result<(), FileError> {
+    for (name, content) in embed::assets() {
+        let path = out.with_file_name(name);
+        if std::fs::metadata(&path).is_ok_and(|file| file.len() == content.len() as u64) {
+            continue;
+        }
+        write_text(&path, content)?;
+    }
+    write_with(loaded, campaign, out, None, |film| embed::linked_replay(film, ".."))
+}
+
+fn write_with(
+    loaded: &Loaded,
+    campaign: &Campaign,
+    out: &Path,
+    index: Option<Link<'_>>,
+    embed: impl Fn(&str) -> String,
+) -> Result<(), FileError> {
+    let page = campaign::page(loaded, campaign);
+    let folder = out.join("figures");
+    prepare(&folder)?;
+    for (k, figure) in page.figures.iter().enumerate() {
+        let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
+        write_text(&folder.join(name), &svg(figure, Size::wide(figure)))?;
+    }
+    let film = replay(loaded, campaign).to_json();
+    write_text(&out.join("replay.json"), &film)?;
+    let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
+    let page = Page { replay: embed(&film), up, ..page };
+    write_text(&out.join("report.html"), &report::html(&page))
+}
+
+/// Replay of a campaign, with the drawing of its diagram.
+#[must_use]
+pub fn replay(loaded: &Loaded, campaign: &Campaign) -> Film {
+    let draw = |controller| campaign::diagram(controller, "", &campaign.report.scene, true);
+    Film::of_campaign(loaded, campaign, loaded.controller.as_ref().map(draw))
+}
+
+/// Card of a run for an index of many runs; `href` is the address of its report, relative to the index.
+#[must_use]
+pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
+    let card = campaign::card(loaded, campaign, href);
+    Card { replay: format!("{href}#sincro-viewer"), picture: half_way(campaign), ..card }
+}
+
+/// Picture of the scene half way through the run as SVG; empty if no frames were taken.
+fn half_way(campaign: &Campaign) -> String {
+    let main = &campaign.main;
+    let still = |tape: &Tape| picture::still(&main.view, tape.frame(tape.n_frames() / 2), CARD);
+    main.simulated.tape.as_ref().filter(|tape| tape.n_frames() > 0).map(still).unwrap_or_default()
+}
+
+/// Writes pictures of a run as SVG files `frames/0001.svg` … into a folder of results: 30 per simulated second, 1800 at
+/// most.
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
+    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let folder = out.join("frames");
+    prepare(&folder)?;
+    for (k, picture) in picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
+        write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
+    }
+    Ok(())
+}
+
+/// Writes pictures of a run, taken by a camera of the scene, as PNG files `frames/0001.png` …; `camera` is its index
+/// among the objects (see [`camera`](crate::camera)).
+///
+/// # Errors
+///
+/// A file cannot be written.
+pub fn write_camera_frames(loaded: &Loaded, done: &Done, camera: usize, out: &Path) -> Result<(), FileError> {
+    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let resolution = [FRAME.0 as usize, FRAME.1 as usize];
+    let Some(mut camera) = Camera::of_scene(&loaded.scene, camera, resolution) else { return Ok(()) };
+    let folder = out.join("frames");
+    prepare(&folder)?;
+    for (n, k) in tape.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
+        let q: Vec<f64> = tape.layout.coordinates(tape.frame(k)).iter().copied().map(f64::from).collect();
+        let image = camera.look(&q);
+        let bytes = png::encode(image.rgb(), image.resolution(), png::Channels::Rgb);
+        file::write_atomically(&folder.join(format!("{:04}.png", n + 1)), &bytes)?;
+    }
+    Ok(())
+}
+
+/// Writes a run as an MCAP file, for Foxglove, Lichtblick or Rerun.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub fn write_mcap(done: &Done, path: &Path) -> Result<(), FileError> {
+    sincro_viewer::mcap::write(done, path)
+}
+
+/// Writes a text file, whole or not at all.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+    file::write_atomically(path, text.as_bytes())
+}
+
+/// A title as part of a file's name.
+fn file_name(title: &str) -> String {
+    let mut name = String::new();
+    for c in title.to_lowercase().chars() {
+        if c.is_ascii_alphanumeric() {
+            name.push(c);
+        } else if !name.ends_with('-') {
+            name.push('-');
+        }
+    }
+    let name = name.trim_matches('-');
+    name.get(..48).unwrap_or(name).trim_matches('-').to_owned()
+}

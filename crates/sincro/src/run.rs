@@ -1,0 +1,137 @@
+//! An experiment with its variants, sweep and checks, run into a folder of results.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use sincro_sim::Loaded;
+use sincro_sim::overrides::Override;
+use sincro_sim::problem::Problems;
+use sincro_sim::results::{self, FileError, Override as Setting, VerdictReport};
+use sincro_sim::run::{Campaign, Manner, Progress, RunError, Simulated, Watch, run_campaign};
+
+use crate::results::{Link, write};
+
+/// An experiment to be run, and the folder that takes its results.
+#[derive(Clone, Copy, Debug)]
+pub struct RunRequest<'a> {
+    /// The scene folder that `loaded` was read from: variants and sweep points are read from it again.
+    pub scene: &'a Path,
+    /// The overrides that `loaded` was read with.
+    pub overrides: &'a [Override],
+    /// The scene, from [`load`](crate::load).
+    pub loaded: &'a Loaded,
+    /// Folder of the results; it is created, and files of the same names are replaced.
+    pub out: &'a Path,
+    /// Link from the report to a page above it, if there is one.
+    pub index: Option<Link<'a>>,
+}
+
+/// Reason why a run was not made, or its results are not complete. A run that stops is not a failure: see
+/// [`Verdict::Stopped`].
+#[derive(Debug)]
+pub enum RunFailure {
+    /// A recorded signal does not exist, or a variant cannot be opened. Nothing was written but an empty folder.
+    Problems(Problems),
+    /// Rows could not be written while the run was under way; those before are in files that end in `.partial`.
+    Recording(FileError),
+    /// The folder takes no files, or the report could not be written.
+    Results(FileError),
+}
+
+impl fmt::Display for RunFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Problems(problems) => write!(f, "{problems}"),
+            Self::Recording(error) => write!(f, "the run stopped: {error}"),
+            Self::Results(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for RunFailure {}
+
+impl From<RunError> for RunFailure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Problems(problems) => Self::Problems(problems),
+            RunError::File(error) => Self::Recording(error),
+        }
+    }
+}
+
+impl RunRequest<'_> {
+    /// Runs the experiment and writes `signals.csv`, `run.json`, `replay.json`, `report.html` and the figures, and
+    /// those of its variants and its sweep.
+    ///
+    /// `interrupt` set to true by another thread ends the run after the present step; its results are written all the
+    /// same.
+    /// `progress` is called with a word for the work in hand and the share of it that is done, 0 to 1.
+    ///
+    /// # Errors
+    ///
+    /// See [`RunFailure`].
+    ///
+    /// ```
+    /// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+    /// # let out = std::env::temp_dir().join(format!("sincro-doc-{}", std::process::id()));
+    /// use std::sync::atomic::AtomicBool;
+    /// use sincro::{RunRequest, Verdict};
+    ///
+    /// let loaded = sincro::load(&scene, &[])?;
+    /// let request = RunRequest { scene: &scene, overrides: &[], loaded: &loaded, out: &out, index: None };
+    /// let campaign = request.run(&AtomicBool::new(false), &mut |_, _| {})?;
+    /// assert_eq!(Verdict::of(&campaign), Verdict::Holds);
+    /// assert!(out.join("report.html").is_file());
+    /// # std::fs::remove_dir_all(&out)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run(&self, interrupt: &AtomicBool, progress: Progress<'_>) -> Result<Campaign, RunFailure> {
+        results::prepare(self.out).map_err(RunFailure::Results)?;
+        let Self { scene, overrides, loaded, out, .. } = *self;
+        let mut campaign = run_campaign(scene, overrides, loaded, Some(out), interrupt, progress)?;
+        let set = overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
+        campaign.report.settings.overrides = set.collect();
+        campaign.report.write(out).map_err(RunFailure::Results)?;
+        write(loaded, &campaign, out, self.index).map_err(RunFailure::Results)?;
+        Ok(campaign)
+    }
+}
+
+/// Runs the main run of an experiment in memory: no variants, no sweep, no checks, no files.
+///
+/// # Errors
+///
+/// A recorded signal does not exist. A run that stops is not an error: see [`Simulated::status`].
+pub fn simulate(loaded: &Loaded) -> Result<Simulated, RunFailure> {
+    let mut watch = Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    Ok(sincro_sim::run::simulate(loaded, Manner::default(), &mut watch)?)
+}
+
+/// Judgement of a run with its variants and its sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// All checks hold.
+    Holds,
+    /// A check fails or could not be made.
+    Fails,
+    /// A run stopped before its end: the state is not finite, a script failed, it was interrupted.
+    Stopped,
+}
+
+impl Verdict {
+    /// Judges all runs of a campaign; the worst of them counts.
+    #[must_use]
+    pub fn of(campaign: &Campaign) -> Self {
+        let report = &campaign.report;
+        let statuses = [&report.status].into_iter().chain(report.variants.iter().map(|v| &v.status));
+        let sweep_stopped = report.sweep.as_ref().is_some_and(|s| !s.stops.is_empty());
+        if statuses.into_iter().any(|s| !s.is_good()) || sweep_stopped {
+            return Self::Stopped;
+        }
+        let of_variants = report.variants.iter().flat_map(|v| &v.checks);
+        let of_sweep = report.sweep.iter().flat_map(|s| &s.checks);
+        let mut checks = report.checks.iter().chain(of_variants).chain(of_sweep);
+        if checks.all(|c| c.verdict == VerdictReport::Holds) { Self::Holds } else { Self::Fails }
+    }
+}

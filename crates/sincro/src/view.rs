@@ -1,0 +1,80 @@
+//! A scene live, or a finished run, in the browser.
+
+use std::fmt;
+use std::path::Path;
+
+use sincro_figures::campaign;
+use sincro_sim::overrides::Override;
+use sincro_sim::problem::Problems;
+use sincro_viewer::film::FORMAT;
+use sincro_viewer::live::{Engine, Source};
+
+pub use sincro_viewer::server::{Server, Show};
+
+use crate::load::{install_languages, scene_name};
+
+/// Reason why a folder cannot be shown as a finished run.
+#[derive(Debug)]
+pub struct ReplayError {
+    /// Description of the failure, the file named.
+    pub message: String,
+    /// A way to mend it.
+    pub help: &'static str,
+}
+
+impl fmt::Display for ReplayError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; {}", self.message, self.help)
+    }
+}
+
+impl std::error::Error for ReplayError {}
+
+/// Returns true if a folder holds a finished run and no scene.
+#[must_use]
+pub fn is_finished_run(folder: &Path) -> bool {
+    folder.join("replay.json").is_file() && !folder.join("experiment.toml").is_file()
+}
+
+/// Opens the replay of a finished run, to be given to [`Server::bind`].
+///
+/// # Errors
+///
+/// The folder has no `replay.json`, or one of another version.
+pub fn replay(run: &Path) -> Result<Show, ReplayError> {
+    let file = run.join("replay.json");
+    let text = std::fs::read_to_string(&file).map_err(|e| ReplayError {
+        message: format!("`{}` cannot be read: {e}", file.display()),
+        help: "name the folder that `sincro run` wrote, such as results/SCENE",
+    })?;
+    if !text.starts_with(&format!("{{\"format\":\"{FORMAT}\"")) {
+        let message = format!("`{}` is no replay that this version of sincro shows", file.display());
+        return Err(ReplayError { message, help: "run the scene again with this version" });
+    }
+    Ok(Show::Film(text.into()))
+}
+
+/// Starts a live run of a scene, stopped at its start, to be given to [`Server::bind`]. It lives as long as the result.
+///
+/// # Errors
+///
+/// All problems of the scene and the overrides.
+pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Problems> {
+    install_languages();
+    let world = scene_name(scene);
+    let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
+    let engine = Engine::open(Source { folder: scene.to_owned(), settings: overrides, draw })?;
+    let board = engine.board();
+    Ok(Show::Live(board, engine.start()))
+}
+
+/// Path of a camera of what is shown, named by its path or by the last part of that.
+///
+/// # Errors
+///
+/// The paths of all cameras, if none has that name.
+pub fn camera(show: &Show, name: &str) -> Result<String, Vec<String>> {
+    let cameras = show.cameras();
+    let found = cameras.iter().find(|path| *path == name || path.rsplit('/').next() == Some(name));
+    found.cloned().ok_or(cameras)
+}

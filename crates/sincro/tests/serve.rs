@@ -1,0 +1,209 @@
+//! `sincro serve` as a program: what its flags refuse and open, what it leaves on disk, and that it can be ended.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use tungstenite::{Message, WebSocket};
+
+const SCENE: &str = r#"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+initial = { position = 1.0 }
+
+[[body]]
+name = "rod"
+parent = "/hinge"
+position = [0.0, 0.0, -0.25]
+density = 1000.0
+shape = [{ cylinder = { radius = 0.05, length = 0.5 } }]
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "A pendulum for clients"
+scene = "scene.toml"
+duration = 0.5
+step = 0.01
+record = ["/hinge.position"]
+"#;
+
+/// A script that answers clients, and one that never returns once a client asks for it.
+const SCRIPT: &str = r#"
+[[script]]
+object = "/hinge"
+max_instructions = 1000000000000
+code = '''
+function sysCall_init() end
+function sysCall_actuation() while sim.getInt32Signal('stuck') == 1 do end end
+'''
+"#;
+
+/// A folder of its own for one test, taken away at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str, more: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("sincro-serve-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        fs::write(path.join("scene.toml"), format!("{SCENE}{more}")).unwrap();
+        fs::write(path.join("experiment.toml"), EXPERIMENT).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The program, served on free ports, with a client that has the token.
+struct Served {
+    child: Child,
+    client: WebSocket<TcpStream>,
+}
+
+impl Served {
+    fn start(folder: &Folder, more: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_sincro"))
+            .args(["serve", folder.0.to_str().unwrap(), "--no-legacy", "--no-zmq", "--ws-port", "0"])
+            .args(more)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        let link = loop {
+            let line = lines.next().expect("it prints its link").unwrap();
+            if let Some((_, link)) = line.split_once("from a web page") {
+                break link.trim().to_owned();
+            }
+        };
+        // what it prints later is read, so that it can go on
+        std::thread::spawn(move || lines.for_each(drop));
+        let host = link.strip_prefix("ws://").unwrap().split('/').next().unwrap().to_owned();
+        let (client, _) = tungstenite::client(link, TcpStream::connect(host).unwrap()).unwrap();
+        Self { child, client }
+    }
+
+    fn call(&mut self, function: &str, arguments: &str) -> String {
+        self.send(function, arguments);
+        self.client.read().unwrap().to_string()
+    }
+
+    fn send(&mut self, function: &str, arguments: &str) {
+        let text = format!(r#"{{"func":"{function}","args":[{arguments}]}}"#);
+        self.client.send(Message::text(text)).unwrap();
+    }
+
+    /// Runs of ten steps each.
+    fn runs(&mut self, n: usize) {
+        for _ in 0..n {
+            self.call("setStepping", "true");
+            self.call("sim.startSimulation", "");
+            (0..10).for_each(|_| drop(self.call("step", "")));
+            self.call("sim.stopSimulation", "");
+        }
+    }
+
+    /// Ends the program as Ctrl-C does; its exit status and how long that took.
+    fn interrupt(mut self) -> (Option<i32>, Duration) {
+        let begin = Instant::now();
+        let sent = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        let status = self.child.wait().unwrap();
+        (status.code(), begin.elapsed())
+    }
+}
+
+fn size(path: &Path) -> u64 {
+    if !path.is_dir() {
+        return fs::metadata(path).map_or(0, |file| file.len());
+    }
+    fs::read_dir(path).unwrap().flatten().map(|entry| size(&entry.path())).sum()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut names: Vec<String> = entries.flatten().map(|e| e.file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn refused(arguments: &[&str]) -> String {
+    let folder = Folder::new("flags", "");
+    let Output { status, stderr, .. } = Command::new(env!("CARGO_BIN_EXE_sincro"))
+        .args(["serve", folder.0.to_str().unwrap()])
+        .args(arguments)
+        .output()
+        .unwrap();
+    let said = String::from_utf8(stderr).unwrap();
+    assert_eq!(status.code(), Some(2), "{arguments:?}: {said}");
+    said
+}
+
+#[cfg(unix)]
+#[test]
+fn runs_take_as_much_disk_as_was_asked_for() {
+    let folder = Folder::new("disk", "");
+    for (record, n_files) in [("none", 0), ("signals", 2), ("full", 4)] {
+        let out = folder.0.join(record);
+        let mut served = Served::start(&folder, &["--record", record, "--keep", "3", "--out", out.to_str().unwrap()]);
+        served.runs(5);
+        assert_eq!(served.interrupt().0, Some(0));
+        let kept: Vec<String> = names(&out).into_iter().filter(|name| name.starts_with("run-")).collect();
+        if n_files == 0 {
+            assert!(!out.exists(), "{:?}", names(&out));
+            continue;
+        }
+        assert_eq!(kept, ["run-3", "run-4", "run-5"], "{record}");
+        let run = out.join("run-5");
+        assert!(names(&run).len() >= n_files && run.join("run.json").is_file() && run.join("signals.csv").is_file());
+        assert_eq!(run.join("report.html").is_file(), record == "full");
+        // ten rows: the program that shows replays stands once beside the runs
+        assert!(size(&run) < 100_000, "{record}: {} bytes, {:?}", size(&run), names(&run));
+    }
+    let report = fs::read_to_string(folder.0.join("full/run-5/report.html")).unwrap();
+    assert!(report.contains("src=\"../viewer.js\"") && folder.0.join("full/viewer.js").is_file());
+}
+
+#[test]
+fn ports_without_password_stay_on_loopback_unless_that_is_asked_for() {
+    let said = refused(&["--bind", "0.0.0.0", "--legacy-port", "0", "--zmq-port", "0", "--ws-port", "0"]);
+    assert!(said.contains("have no password") && said.contains("--unauthenticated"), "{said}");
+    for (flags, words) in [
+        (["--keep", "0"], "--keep"),
+        (["--record", "most"], "possible values: none, signals, full"),
+        (["--idle-timeout", "0"], "give seconds above 0"),
+        (["--idle-timeout", "nan"], "give seconds above 0"),
+        (["--client-timeout", "-1"], "-1"),
+    ] {
+        let said = refused(&flags);
+        assert!(said.contains(words), "{flags:?}: {said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_first_interrupt_ends_the_server_while_a_script_does_not_return() {
+    let folder = Folder::new("stuck", SCRIPT);
+    let out = folder.0.join("out");
+    let mut served = Served::start(&folder, &["--out", out.to_str().unwrap()]);
+    served.call("setStepping", "true");
+    served.call("sim.startSimulation", "");
+    served.call("step", "");
+    served.call("sim.setInt32Signal", "\"stuck\",1");
+    served.send("step", "");
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(served.child.try_wait().unwrap().is_none());
+    let (_, took) = served.interrupt();
+    // not a measurement: without the abort it would take the hours of 10¹² instructions
+    assert!(took < Duration::from_secs(60), "{took:?}");
+    assert!(out.join("run-1/run.json").is_file(), "what was recorded is kept");
+}
