@@ -1,8 +1,8 @@
 //! Slots for connections: a limit in total and for each address, so that one peer cannot lock out the others.
 //!
-//! When no slot is free, the connection that is least missed makes room: first those that have not sent a whole message yet, the oldest
-//! of them first, then those that have been idle for longer than [`ConnectionLimits::idle_under_pressure`], the longest idle first. If all are
-//! in use, the newcomer is refused.
+//! When no slot is free, the connection that is least missed makes room: first those that have not sent a whole message
+//! yet, the oldest of them first, then those that have been idle for longer than
+//! [`ConnectionLimits::idle_under_pressure`], the longest idle first. If all are in use, the newcomer is refused.
 
 use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr};
@@ -75,8 +75,8 @@ impl Connections {
         self.len() == 0
     }
 
-    /// Takes a slot for a connection from `peer`; `close` must end that connection and may be called at any time from any thread. Returns
-    /// none if all slots are in use.
+    /// Takes a slot for a connection from `peer`; `close` must end that connection and may be called at any time from
+    /// any thread. Returns none if all slots are in use.
     pub fn admit(self: &Arc<Self>, peer: IpAddr, close: impl Fn() + Send + Sync + 'static) -> Option<Permit> {
         let network = network_of(peer);
         let now = self.now();

@@ -1,8 +1,9 @@
 //! Admission of HTTP requests and WebSocket handshakes: `Host`, `Origin` and token.
 //!
-//! A browser sends `Origin` with every WebSocket handshake and every cross-site `fetch`, and a page cannot forge it; a DNS name that
-//! was pointed at this machine (rebinding) still stands in `Host`. Programs send what they like: against those, and against other users of the
-//! machine, only the token helps. `Origin: null` (sandboxed frames, `file:` pages) says nothing, so it counts as a foreign page.
+//! A browser sends `Origin` with every WebSocket handshake and every cross-site `fetch`, and a page cannot forge it; a
+//! DNS name that was pointed at this machine (rebinding) still stands in `Host`. Programs send what they like: against
+//! those, and against other users of the machine, only the token helps. `Origin: null` (sandboxed frames, `file:`
+//! pages) says nothing, so it counts as a foreign page.
 
 use std::net::SocketAddr;
 use std::sync::Mutex;
@@ -53,7 +54,8 @@ impl std::fmt::Display for Refused {
 impl std::error::Error for Refused {}
 
 impl Guard {
-    /// Guard of a server that shows its own page: every request needs the token, on loopback too (other users of the machine).
+    /// Guard of a server that shows its own page: every request needs the token, on loopback too (other users of the
+    /// machine).
     ///
     /// # Panics
     ///
@@ -95,8 +97,8 @@ impl Guard {
         format!("{scheme}://{}/?{}", self.address, self.token_query())
     }
 
-    /// Link that works once and leads to the one with the token: it may stand in the argument list of a process, which every user of
-    /// the machine can read. An earlier one that was not used is void.
+    /// Link that works once and leads to the one with the token: it may stand in the argument list of a process, which
+    /// every user of the machine can read. An earlier one that was not used is void.
     ///
     /// # Panics
     ///
@@ -154,7 +156,8 @@ impl Guard {
         }
     }
 
-    /// Admits a request for something that carries no secret (the page's own program and style): `Host` and `Origin` only.
+    /// Admits a request for something that carries no secret (the page's own program and style): `Host` and `Origin`
+    /// only.
     ///
     /// # Errors
     ///
@@ -173,8 +176,9 @@ impl Guard {
         }
     }
 
-    /// Checks that `Host` names this server. On loopback only names of this machine do: a name of another site that was pointed here is
-    /// refused. A server beyond loopback is reached by any name of its machine, and its token is always needed.
+    /// Checks that `Host` names this server. On loopback only names of this machine do: a name of another site that was
+    /// pointed here is refused. A server beyond loopback is reached by any name of its machine, and its token is always
+    /// needed.
     fn check_host(&self, host: Option<&str>) -> Result<(), Refused> {
         let host = host.ok_or_else(|| Refused("the request has no `Host`".into()))?;
         let ip = self.address.ip();

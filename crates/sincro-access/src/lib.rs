@@ -5,8 +5,8 @@
 //! | [`guard`] | which HTTP request or WebSocket handshake may enter: `Host`, `Origin`, token |
 //! | [`connections`] | which connection may be kept: total, per address, unused and idle ones first to go |
 //!
-//! Threat model, limits and what is not defended: `docs/security.md`. It is a crate because two adapters that do not know each other
-//! (`sincro-remote`, `sincro-viewer`) must apply the same rules.
+//! Threat model, limits and what is not defended: `docs/security.md`. It is a crate because two adapters that do not
+//! know each other (`sincro-remote`, `sincro-viewer`) must apply the same rules.
 
 pub mod connections;
 pub mod guard;

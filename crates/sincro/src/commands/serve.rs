@@ -51,11 +51,12 @@ pub(crate) struct Arguments {
     /// Do not serve the WebSocket remote API
     #[arg(long, conflicts_with = "ws_port")]
     no_ws: bool,
-    /// Address to listen on; 0.0.0.0 lets other machines in, WebSocket with its token, the others with --unauthenticated
+    /// Address to listen on; 0.0.0.0 lets other machines in, WebSocket with its token, the others with
+    /// --unauthenticated
     #[arg(long, value_name = "ADDR", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
-    /// Beyond loopback let everybody who reaches the legacy and ZeroMQ ports drive the simulation: their clients have no
-    /// password
+    /// Beyond loopback let everybody who reaches the legacy and ZeroMQ ports drive the simulation: their clients have
+    /// no password
     #[arg(long)]
     unauthenticated: bool,
     /// Step of the clients `[s]`, V-REP's simulation time step [default: simulation_step of the experiment]
