@@ -7,16 +7,19 @@ use sincro_blocks::library::discrete::UnitDelay;
 use sincro_blocks::library::maths::{Gain, Sum};
 use sincro_blocks::library::sources::Step;
 use sincro_dynamics::world::MethodKind;
+use sincro_sim::Extensions;
 use sincro_sim::diagram::Controller;
 use sincro_sim::load;
 use sincro_sim::overrides::Override;
-use sincro_sim::run::{LockStep, Trace, world_of};
+use sincro_sim::run::{LockStep, world_of};
+use sincro_sim::trace::Trace;
 
 const TICKS: u64 = 1600;
 
 fn scene(set: &[(&str, &str)]) -> sincro_sim::Loaded {
     let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position"), &set).unwrap()
+    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position"), &set, Extensions::default())
+        .unwrap()
 }
 
 /// The hash of a run of the scene with its diagram.

@@ -3,11 +3,14 @@
 //! [`load`] opens a scene folder and reports every problem in it at once; [`run::run_campaign`] runs it with its variants, sweep,
 //! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
 
+mod apply_overrides;
 pub mod camera;
+pub mod campaign;
 pub mod check;
 pub mod diagram;
 pub mod document;
 pub mod experiment;
+pub mod file;
 mod folder;
 pub mod linear;
 pub mod linearize;
@@ -25,12 +28,15 @@ pub mod scenery;
 pub mod schema;
 pub mod script;
 pub mod sensor;
+pub mod sensors;
 mod series;
 pub mod session;
 pub mod snapshot;
 mod suggest;
 pub mod sweep;
 pub mod table;
+pub mod trace;
 mod tree;
+pub mod validity;
 
-pub use load::{Loaded, load, load_alone};
+pub use load::{Extensions, Loaded, load, load_alone};

@@ -3,15 +3,19 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::diagram::{self, Controller};
+use sincro_dynamics::world::MethodKind;
+
+use crate::apply_overrides::{Target, apply_all};
+use crate::diagram::{self, Controller, diagram_schema};
 use crate::document::Document;
-use crate::experiment::{self, Experiment, Plot};
+use crate::experiment::{self, Experiment, Plot, experiment_schema};
 use crate::folder::Folder;
-use crate::overrides::{Override, Target, apply_all};
+use crate::overrides::Override;
 use crate::problem::{Located, Problem, Problems, SourceText};
 use crate::record::Recorder;
-use crate::scene::{self, Scene};
-use crate::schema::{diagram_schema, experiment_schema, scene_schema, validate};
+use crate::scene::{self, Scene, scene_schema};
+use crate::schema::validate;
+use crate::script::{ScriptEngine, ScriptParser};
 
 /// The file that makes a folder an experiment.
 const EXPERIMENT: &str = "experiment.toml";
@@ -32,6 +36,28 @@ pub struct Loaded {
     pub warnings: Vec<Problem>,
     /// Every file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
+    /// Extensions that it was loaded with: variants and sweeps are loaded with the same.
+    pub extensions: Extensions,
+}
+
+/// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and without; none if
+/// there is no operating point.
+pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
+
+/// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to [`load`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extensions {
+    /// Language of scripts; without one, a scene that has scripts is refused.
+    pub scripts: Option<&'static dyn ScriptEngine>,
+    /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed step.
+    pub fastest_poles: Option<FastestPoles>,
+}
+
+impl Extensions {
+    /// Parser of scripts.
+    fn parser(&self) -> Option<&'static dyn ScriptParser> {
+        self.scripts.map(|engine| engine as &dyn ScriptParser)
+    }
 }
 
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
@@ -42,8 +68,8 @@ pub struct Loaded {
 /// # Errors
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
-pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
-    open_all(folder, overrides, true)
+pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
+    open_all(folder, overrides, extensions, true)
 }
 
 /// As [`load`], without opening variants and sweep: for a live run, whose settings need not fit the others' scenes.
@@ -51,13 +77,18 @@ pub fn load(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
 /// # Errors
 ///
 /// As [`load`].
-pub fn load_alone(folder: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
-    open_all(folder, overrides, false)
+pub fn load_alone(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
+    open_all(folder, overrides, extensions, false)
 }
 
-fn open_all(folder: &Path, overrides: &[Override], with_others: bool) -> Result<Loaded, Problems> {
+fn open_all(
+    folder: &Path,
+    overrides: &[Override],
+    extensions: Extensions,
+    with_others: bool,
+) -> Result<Loaded, Problems> {
     let folder = Folder::new(&find_folder(folder)?);
-    let mut loaded = open(&folder, overrides)?;
+    let mut loaded = open(&folder, overrides, extensions)?;
     let mut problems = Problems(std::mem::take(&mut loaded.warnings));
     // a variant was opened with the main run: its own settings must not meet those of the others
     let file = folder.path_of(EXPERIMENT);
@@ -65,7 +96,7 @@ fn open_all(folder: &Path, overrides: &[Override], with_others: bool) -> Result<
     let further = if is_variant || !with_others { Vec::new() } else { further_settings(&loaded.experiment) };
     for setting in further {
         let settings = settings_with(overrides, &setting);
-        match open(&folder, &settings) {
+        match open(&folder, &settings, extensions) {
             Ok(variant) => problems.merge(Problems(variant.warnings)),
             Err(found) => problems.merge(found),
         }
@@ -156,7 +187,7 @@ fn too_large(experiment: &Experiment) -> Problems {
 }
 
 /// One experiment without its variants.
-fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
+fn open(folder: &Folder, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
     let mut problems = Problems::new();
     let document = Document::parse(&folder.read(EXPERIMENT)?)?;
     let document = prepared(document, Target::Experiment, overrides, &mut problems);
@@ -170,8 +201,10 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     });
     let experiment = experiment.flatten();
     let seed = experiment.as_ref().map_or(0, |e| e.seed);
-    let scene = open_scene(&document, folder, overrides, seed, &mut problems);
-    let controller = open_diagram(&document, folder, overrides, experiment.as_ref(), scene.as_ref(), &mut problems);
+    let parser = extensions.parser();
+    let scene = open_scene(&document, folder, overrides, (seed, parser), &mut problems);
+    let against = (experiment.as_ref(), scene.as_ref());
+    let controller = open_diagram(&document, folder, overrides, against, parser, &mut problems);
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
         (experiment, ..) => experiment,
@@ -185,7 +218,7 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     }
     if let Some(experiment) = &experiment {
         if let Some(scene) = &scene {
-            problems.merge(crate::sensor::check(&scene.sensors, experiment));
+            problems.merge(experiment::check_sample_times(&scene.sensors, experiment));
         }
         problems.merge(experiment::stop::check_recorded(experiment));
         problems.merge(too_large(experiment));
@@ -193,7 +226,7 @@ fn open(folder: &Folder, overrides: &[Override]) -> Result<Loaded, Problems> {
     match (experiment, scene) {
         (Some(experiment), Some(scene)) if !problems.any_error() => {
             problems.merge(Problems(scene.warnings.clone()));
-            Ok(Loaded { experiment, scene, controller, warnings: problems.0, sources: Vec::new() })
+            Ok(Loaded { experiment, scene, controller, warnings: problems.0, sources: Vec::new(), extensions })
         }
         _ => Err(problems.sorted()),
     }
@@ -204,7 +237,7 @@ fn open_scene(
     experiment: &Document,
     folder: &Folder,
     overrides: &[Override],
-    seed: u64,
+    (seed, parser): (u64, Option<&dyn ScriptParser>),
     problems: &mut Problems,
 ) -> Option<Scene> {
     let read = match (experiment.located("/scene"), experiment.get("/scene")) {
@@ -226,7 +259,7 @@ fn open_scene(
         problems.merge(found);
         return None;
     }
-    match scene::compile(&document, folder, seed) {
+    match scene::compile(&document, folder, seed, parser) {
         Ok(scene) => Some(scene),
         Err(found) => {
             problems.merge(found);
@@ -241,8 +274,8 @@ fn open_diagram(
     document: &Document,
     folder: &Folder,
     overrides: &[Override],
-    experiment: Option<&Experiment>,
-    scene: Option<&Scene>,
+    (experiment, scene): (Option<&Experiment>, Option<&Scene>),
+    parser: Option<&'static dyn ScriptParser>,
     problems: &mut Problems,
 ) -> Option<Controller> {
     let Some(name) = document.located("/diagram") else {
@@ -270,6 +303,7 @@ fn open_diagram(
         step: experiment.step,
         seed: experiment.seed,
         parameters: &experiment.parameters,
+        parser,
     };
     diagram::open(&document, folder, setting).map_err(|found| problems.merge(found)).ok()
 }

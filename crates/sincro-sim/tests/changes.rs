@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use sincro_sim::Extensions;
 use sincro_sim::overrides::Override;
 use sincro_sim::run::Simulated;
 use sincro_sim::session::{Phase, Search, Session, Value};
@@ -72,7 +73,7 @@ fn session(name: &str, set: &[(&str, &str)]) -> Session {
     std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
     std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
     let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-    Session::open(&folder, &set, None).unwrap_or_else(|problems| panic!("{problems}"))
+    Session::open(&folder, &set, Extensions::default(), None).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 fn call(session: &mut Session, name: &str, object: &str, more: &[Value]) -> Result<Vec<Value>, String> {

@@ -8,12 +8,12 @@ use sincro_sim::linearize::{Linearization, Request, TrimRequest, linearize, oper
 use sincro_sim::overrides::Override;
 use sincro_sim::problem::{Located, Location, SourceText};
 use sincro_sim::run::LockStep;
-use sincro_sim::{Loaded, load};
+use sincro_sim::{Extensions, Loaded, load};
 
 fn scene(name: &str, set: &[(&str, &str)]) -> Loaded {
     let overrides: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
-    load(&folder, &overrides).unwrap_or_else(|problems| panic!("{problems}"))
+    load(&folder, &overrides, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 fn name(text: &str) -> Located<String> {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use sincro_dynamics::force::MotorMode;
+use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
 use sincro_sim::session::{Handle, Phase, Reference, Search, Session, Value};
@@ -66,7 +67,7 @@ fn arm(name: &str) -> Session {
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("scene.toml"), ARM).unwrap();
     std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    Session::open(&folder, &[], Some(0.05)).unwrap()
+    Session::open(&folder, &[], Extensions::default(), Some(0.05)).unwrap()
 }
 
 fn find(session: &mut Session, name: &str) -> Handle {
@@ -77,10 +78,10 @@ fn find(session: &mut Session, name: &str) -> Handle {
 fn a_session_without_clients_is_the_run_of_its_scene() {
     for (scene, sample) in [("two-dof-open-loop", 0.01), ("pid-tuning", 0.01)] {
         let folder = scenes().join(scene);
-        let loaded = load(&folder, &[]).unwrap();
+        let loaded = load(&folder, &[], Extensions::default()).unwrap();
         let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
         let run = simulate(&loaded, Manner::default(), watch).unwrap();
-        let mut session = Session::open(&folder, &[], Some(sample)).unwrap();
+        let mut session = Session::open(&folder, &[], Extensions::default(), Some(sample)).unwrap();
         for _ in 0..2 {
             session.start().unwrap();
             while session.t() < loaded.experiment.duration - 1e-9 {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use sincro_sim::Extensions;
 use sincro_sim::session::{Session, Value};
 
 /// A cart with a sensor before a wall, a box that lies on the ground, a mark.
@@ -51,7 +52,7 @@ fn session(name: &str) -> Session {
     std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
     std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
     std::fs::write(folder.join("tetrahedron.obj"), TETRAHEDRON).unwrap();
-    Session::open(&folder, &[], None).unwrap_or_else(|p| panic!("{p}"))
+    Session::open(&folder, &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{p}"))
 }
 
 fn call(session: &mut Session, name: &str, arguments: &[Value]) -> Vec<Value> {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use sincro_sim::Extensions;
 use sincro_sim::session::{Handle, Search, Session, Value};
 
 /// A ball that falls past two eyes, one of them asked for its pictures, and a screen for pictures of clients.
@@ -57,7 +58,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn open(name: &str) -> Session {
-    Session::open(&folder(name), &[], Some(0.05)).unwrap()
+    Session::open(&folder(name), &[], Extensions::default(), Some(0.05)).unwrap()
 }
 
 fn find(session: &mut Session, name: &str) -> Value {
@@ -440,7 +441,7 @@ fn pictures_are_turned_scaled_and_packed() {
 #[test]
 fn the_sensor_of_the_example_scene_has_a_handle_that_is_its_own() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/camera-stream");
-    let mut session = Session::open(&folder, &[], None).unwrap();
+    let mut session = Session::open(&folder, &[], Extensions::default(), None).unwrap();
     let handles = ["/VisionSensor", "/PassiveVisionSensor"]
         .map(|name| session.desk().table.find(name, Search::default()).unwrap());
     assert_eq!(session.desk().objects_of_type(9), handles);

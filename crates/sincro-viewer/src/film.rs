@@ -6,10 +6,10 @@
 
 use serde::Serialize;
 use sincro_sim::Loaded;
+use sincro_sim::campaign::{Campaign, Done};
 use sincro_sim::check::Outcome;
 use sincro_sim::replay::{CONTACT, Property, SceneView, Tape, properties};
 use sincro_sim::results::Status;
-use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::Table;
 
 use crate::base64;

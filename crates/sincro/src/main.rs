@@ -7,6 +7,7 @@ mod bench;
 mod commands;
 mod diagnostics;
 mod draw;
+mod extensions;
 mod linear;
 mod plot;
 mod present;
@@ -77,7 +78,6 @@ impl From<Exit> for ExitCode {
 }
 
 fn main() -> ExitCode {
-    sincro_lua::install();
     let exit = match Cli::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),

@@ -2,8 +2,9 @@
 
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
-use sincro_sim::run::{LockStep, Trace};
+use sincro_sim::run::LockStep;
 use sincro_sim::session::Table;
+use sincro_sim::trace::Trace;
 
 use super::world::{EXPERIMENT, PENDULUM, open};
 

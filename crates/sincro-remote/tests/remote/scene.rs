@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
+use sincro_sim::Extensions;
 use sincro_sim::session::{Finished, Session};
 
 pub const SCENE: &str = r#"
@@ -78,7 +79,7 @@ pub fn serve(name: &str) -> Server {
 }
 
 pub fn serve_with(name: &str, options: &Options) -> Server {
-    Server::start(Session::open(&folder(name, ""), &[], None).unwrap(), options).unwrap()
+    Server::start(Session::open(&folder(name, ""), &[], Extensions::default(), None).unwrap(), options).unwrap()
 }
 
 /// The next run that ends.

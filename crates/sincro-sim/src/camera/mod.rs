@@ -3,7 +3,6 @@
 //! | file | has |
 //! |---|---|
 //! | `mod.rs` | [`Optics`]: how many pixels, which lens, from where to where |
-//! | `filming.rs` | [`Camera`]: a camera of a scene that takes one picture after the other |
 //! | `image.rs` | [`Image`]: colours, depths, and what is seen, pixel by pixel; parts of it as bytes |
 //! | `render.rs` | [`Renderer`]: one piece after the other, nearest first, each in the rectangle that holds it |
 //! | `bounds.rs` | the rectangle of a piece |
@@ -14,7 +13,6 @@
 //! from the bottom, from left to right. A pixel is the ray through its middle. The same scene gives the same bytes on every machine.
 
 mod bounds;
-mod filming;
 mod image;
 mod light;
 pub mod png;
@@ -22,7 +20,6 @@ mod render;
 #[cfg(test)]
 mod tests;
 
-pub use filming::Camera;
 pub use image::{Image, Layer, Part};
 pub use render::{NOTHING, Renderer};
 

@@ -11,7 +11,7 @@ use sincro_blocks::reader::Reader;
 use sincro_math::Real;
 
 use super::robot::Item;
-use crate::script::{Law, LawSpec, engine};
+use crate::script::{Law, LawSpec, ScriptParser};
 
 /// See the head of this file.
 #[derive(Clone, Debug)]
@@ -23,7 +23,8 @@ pub struct LuaBlock {
     fault: Arc<Mutex<Option<String>>>,
 }
 
-pub(super) const ITEM: Item = Item { kind: LuaBlock::KIND, read: |reader, _| Box::new(LuaBlock::read(reader)) };
+pub(super) const ITEM: Item =
+    Item { kind: LuaBlock::KIND, read: |reader, context| Box::new(LuaBlock::with_parser(reader, context.parser)) };
 
 impl Described for LuaBlock {
     const KIND: &'static Kind = &Kind {
@@ -62,6 +63,13 @@ impl Described for LuaBlock {
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
+        Self::with_parser(p, None)
+    }
+}
+
+impl LuaBlock {
+    /// Reads its parameters; `parser` reads its text.
+    fn with_parser(p: &mut Reader<'_>, parser: Option<&dyn ScriptParser>) -> Self {
         let code = match (p.has("code"), p.has("file")) {
             (true, false) => p.text("code"),
             (false, true) => p.text_file("file"),
@@ -80,19 +88,19 @@ impl Described for LuaBlock {
         }
         let (names, initial) = memory.into_iter().unzip();
         let spec = LawSpec { code, inputs, outputs, memory: names, parameters };
-        let law = if spec.code.is_empty() { None } else { law(p, &spec) };
+        let law = if spec.code.is_empty() { None } else { law(p, parser, &spec) };
         Self { spec, initial, law, fault: Arc::default() }
     }
 }
 
 /// The law of a text; what is wrong with it is noted.
-fn law(p: &mut Reader<'_>, spec: &LawSpec) -> Option<Box<dyn Law>> {
+fn law(p: &mut Reader<'_>, parser: Option<&dyn ScriptParser>, spec: &LawSpec) -> Option<Box<dyn Law>> {
     let key = if p.has("file") { "file" } else { "code" };
-    let Some(engine) = engine() else {
+    let Some(parser) = parser else {
         p.fault(key, "this program cannot run Lua", "it was built without `sincro-lua`; use the `sincro` command");
         return None;
     };
-    match engine.law(spec) {
+    match parser.law(spec) {
         Ok(law) => Some(law),
         Err(message) => {
             p.fault(

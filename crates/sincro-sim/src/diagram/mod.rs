@@ -10,7 +10,7 @@ mod ports;
 mod read;
 pub mod reference;
 pub mod robot;
-pub(crate) mod schema;
+mod schema;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -26,11 +26,13 @@ pub(crate) use file::DiagramFile;
 pub use lua::LuaBlock;
 use read::{DiagramReader, Origin};
 pub use reference::reference;
+pub use schema::diagram_schema;
 
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Location, Problem, Problems};
 use crate::record::{Entry, Probe, catalogue};
+use crate::script::ScriptParser;
 
 /// A diagram of a scene, ready to run.
 #[derive(Clone, Debug)]
@@ -50,13 +52,15 @@ pub(crate) struct Setting<'a> {
     pub seed: u64,
     /// The experiment's parameters: formulas know them.
     pub parameters: &'a BTreeMap<String, f64>,
+    /// Parser of laws that are written in a script's language.
+    pub parser: Option<&'static dyn ScriptParser>,
 }
 
 /// Reads and compiles a document that fits the schema.
 pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<Controller, Problems> {
     let file: DiagramFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
-    let robot = robot::Context { model: setting.model.clone() };
+    let robot = robot::Context { parser: setting.parser, model: setting.model.clone() };
     let mut reader = DiagramReader::new(document, folder, &file, &robot);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
     if reader.problems.any_error() {

@@ -1,13 +1,22 @@
 //! The schema of diagram files: that of the structure from its types, that of every block's parameters from the library.
 
+use std::sync::LazyLock;
+
 use serde_json::{Map, Value, json};
 use sincro_blocks::kind::{Kind, Parameter, Takes};
 use sincro_blocks::library;
 
-use super::robot;
+use super::{DiagramFile, robot};
+use crate::schema::generate;
+
+/// JSON Schema of `diagram.toml`.
+pub fn diagram_schema() -> &'static Value {
+    static SCHEMA: LazyLock<Value> = LazyLock::new(|| with_blocks(generate::<DiagramFile>()));
+    &SCHEMA
+}
 
 /// Adds to the schema of the structure, for each type of block, the parameters that it takes.
-pub(crate) fn with_blocks(mut schema: Value) -> Value {
+fn with_blocks(mut schema: Value) -> Value {
     let kinds = library::all().map(|item| item.kind).chain(robot::all().map(|item| item.kind));
     let rules: Vec<Value> = kinds.map(rule).collect();
     if let Some(block) = schema.pointer_mut("/$defs/BlockFile").and_then(Value::as_object_mut) {

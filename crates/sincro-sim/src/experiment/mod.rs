@@ -7,6 +7,8 @@ mod checks;
 mod file;
 mod grid;
 mod resolve;
+mod sample_times;
+mod schema;
 pub mod stop;
 
 use std::collections::BTreeMap;
@@ -15,6 +17,8 @@ use std::path::PathBuf;
 pub(crate) use file::ExperimentFile;
 pub(crate) use grid::short;
 pub(crate) use resolve::resolve;
+pub(crate) use sample_times::check_sample_times;
+pub use schema::experiment_schema;
 
 use crate::overrides::Override;
 use crate::problem::{Located, Location};

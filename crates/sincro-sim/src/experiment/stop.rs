@@ -6,7 +6,6 @@
 use super::Experiment;
 use super::check::{Check, Expected, Measure, Subject};
 use crate::problem::{Located, Problem, Problems};
-use crate::table::Table;
 
 /// A bound of a recorded signal.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +40,9 @@ impl StopWhen {
         }
     }
 
-    /// Of a check that wants a divergence.
-    fn of(check: &Check) -> Option<Self> {
+    /// Bound of a check that wants a divergence; none for other checks.
+    #[must_use]
+    pub fn of(check: &Check) -> Option<Self> {
         match (check.measure, &check.what, &check.expected) {
             (Measure::Divergence, Subject::Signal(signal), Expected::Value(bound)) => {
                 Some(Self { signal: signal.clone(), side: Side::Beyond, bound: *bound })
@@ -51,8 +51,9 @@ impl StopWhen {
         }
     }
 
-    /// `/hinge.position is 1.2 rad, beyond the bound of 1 rad`.
-    fn words(&self, x: f64, unit: &str) -> String {
+    /// The bound and a value beyond it in words: `/hinge.position is 1.2 rad, beyond the bound of 1 rad`.
+    #[must_use]
+    pub fn words(&self, x: f64, unit: &str) -> String {
         let side = match self.side {
             Side::Above => "above",
             Side::Below => "below",
@@ -67,48 +68,6 @@ impl StopWhen {
 /// A number in four significant digits: where a run passes a bound is decided by its rows.
 fn four_digits(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
-}
-
-/// The bounds of one run, with the columns they look at.
-#[derive(Clone, Debug)]
-pub(crate) struct Bounds {
-    any: Vec<(StopWhen, usize)>,
-    all: Vec<(StopWhen, usize, bool)>,
-}
-
-impl Bounds {
-    /// Of an experiment's main run, or of one of its variants.
-    pub fn new(experiment: &Experiment, variant: Option<&str>, table: &Table) -> Self {
-        let column = |stop: &StopWhen| table.columns.iter().position(|c| c.name == stop.signal.value);
-        let of_variant = variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name));
-        let (own, inherits) = match of_variant {
-            Some(variant) => (&variant.checks[..], variant.inherit_checks),
-            None => (&[][..], true),
-        };
-        let inherited = experiment.checks.iter().filter(|_| inherits);
-        let checks = own.iter().chain(inherited).filter_map(StopWhen::of);
-        Self {
-            any: experiment.stops.iter().filter_map(|stop| Some((stop.clone(), column(stop)?))).collect(),
-            all: checks.filter_map(|stop| column(&stop).map(|k| (stop, k, false))).collect(),
-        }
-    }
-
-    /// Why the run ends with the last row of a table, if it does.
-    pub fn reached(&mut self, table: &Table) -> Option<String> {
-        let last = |column: usize| table.columns[column].values.last().copied().unwrap_or(f64::NAN);
-        let words = |stop: &StopWhen, k: usize| stop.words(last(k), &table.columns[k].unit);
-        if let Some((stop, k)) = self.any.iter().find(|(stop, k)| stop.is_reached(last(*k))) {
-            return Some(words(stop, *k));
-        }
-        let mut newest = None;
-        for (stop, k, is_reached) in self.all.iter_mut().filter(|(.., is_reached)| !is_reached) {
-            if stop.is_reached(last(*k)) {
-                *is_reached = true;
-                newest = Some(words(stop, *k));
-            }
-        }
-        newest.filter(|_| self.all.iter().all(|(.., is_reached)| *is_reached))
-    }
 }
 
 /// Refuses bounds of signals that are not recorded: they would never be reached.
@@ -148,18 +107,5 @@ mod tests {
         assert_eq!(reached(Side::Above), [false, false, false, true, false]);
         assert_eq!(reached(Side::Below), [true, true, false, false, false]);
         assert_eq!(reached(Side::Beyond), [true, false, false, true, false]);
-    }
-
-    #[test]
-    fn all_divergences_but_any_bound_end_a_run() {
-        let mut table = Table::new([("t", "s"), ("/j.position", "rad"), ("/k.position", "rad")], 4);
-        table.push_row(&[0.0, 2.0, 0.0]);
-        let mut bounds =
-            Bounds { any: vec![], all: vec![(stop(Side::Beyond), 1, false), (stop(Side::Beyond), 2, false)] };
-        assert_eq!(bounds.reached(&table), None);
-        table.push_row(&[0.1, 0.0, -3.0]);
-        assert_eq!(bounds.reached(&table).unwrap(), "`/j.position` is -3 rad, beyond the bound of 1 rad");
-        let mut any = Bounds { any: vec![(stop(Side::Below), 2)], all: vec![(stop(Side::Beyond), 1, false)] };
-        assert_eq!(any.reached(&table).unwrap(), "`/j.position` is -3 rad, below the bound of 1 rad");
     }
 }

@@ -101,8 +101,9 @@ fn axis(name: impl Into<String>, unit: impl Into<String>) -> Axis {
 }
 
 /// Moduli [1/s] of the fastest poles at the start, with the diagram's continuous blocks in the loop and without; none if there is no
-/// operating point.
-pub(crate) fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> {
+/// operating point. The experiment is loaded with it: [`crate::Extensions::fastest_poles`].
+#[must_use]
+pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> {
     let mut at = LockStep::new(loaded, method, false);
     at.start().ok()?;
     at.latch();

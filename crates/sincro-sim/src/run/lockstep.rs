@@ -4,15 +4,15 @@ use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
-use super::trace::Trace;
 use super::world_with_room;
 use crate::diagram::{Control, NotFinite};
 use crate::load::Loaded;
 use crate::record::float_signals;
-use crate::script::{self, Fault, Message, Phase, Scripts, Setting};
-use crate::sensor::Sensors;
+use crate::script::{self, Fault, Message, Phase, ScriptEngine, Scripts, Setting};
+use crate::sensors::Sensors;
 use crate::session::{self, Desk, Handle, Refusal, Table, Value};
 use crate::snapshot::Snapshot;
+use crate::trace::Trace;
 
 /// A world with its controller.
 #[derive(Clone, Debug)]
@@ -98,7 +98,7 @@ impl LockStep {
         let world = world_with_room(scene, experiment, method, refined, n_states);
         let ticks = experiment.simulation_ticks;
         let setting = Setting { step: experiment.step * ticks as f64, seed: experiment.seed };
-        let scripts = Scripts::of(scene, setting);
+        let scripts = Scripts::of(scene, loaded.extensions.scripts.map(|engine| engine as &dyn ScriptEngine), setting);
         let table = scripts.is_some().then(|| {
             let mut table = Table::new(loaded, ticks);
             table.phase = session::Phase::Running;

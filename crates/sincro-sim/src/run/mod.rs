@@ -10,14 +10,11 @@
 //! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
 //! why (`stop.rs`).
 
-mod campaign;
+mod bounds;
 mod lockstep;
 mod recording;
-mod refine;
 mod stop;
 mod streams;
-mod trace;
-mod validity;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,17 +24,17 @@ use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, World};
 
-pub use campaign::{Campaign, Done, Progress, judge, run_campaign};
+use crate::trace::Trace;
+use crate::validity::Outside;
 pub use lockstep::{Halt, LockStep};
 pub(crate) use recording::Recording;
-pub use trace::{Trace, model_hash, plant_hash};
-pub use validity::Outside;
 
 use crate::experiment::{Experiment, Integrator};
+use crate::file::FileError;
 use crate::load::Loaded;
 use crate::problem::Problems;
 use crate::replay::Tape;
-use crate::results::{EnergyReport, FileError, Status};
+use crate::results::{EnergyReport, Status};
 use crate::scene::Scene;
 use crate::script::Message;
 use crate::session::{Change, Request};
@@ -50,7 +47,7 @@ const SLOW_FROM: f64 = 20.0;
 /// Pole times step above which a method that takes a feedback at the old state diverges.
 const EULER_LIMIT: f64 = 1.0;
 /// How much finer the second run of an error estimate is: fixed steps halved, tolerance divided.
-const FINER: f64 = 100.0;
+pub(crate) const FINER: f64 = 100.0;
 
 /// What a single run gave.
 #[derive(Clone, Debug)]
@@ -223,7 +220,7 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         MethodKind::SemiImplicitEuler | MethodKind::Implicit => EULER_LIMIT,
         MethodKind::DormandPrince | MethodKind::Stiff => return (kind, warnings),
     };
-    if let Some((closed, open)) = crate::linearize::fastest_poles(loaded, kind)
+    if let Some((closed, open)) = loaded.extensions.fastest_poles.and_then(|fastest| fastest(loaded, kind))
         && closed > 1.2 * open
         && closed * step > limit
     {

@@ -5,15 +5,18 @@ use std::time::Instant;
 
 use sincro_dynamics::world::{MethodKind, Observation, World};
 
+use super::bounds::Bounds;
 use super::lockstep::LockStep;
-use super::{Manner, RunError, Simulated, Trace, validity};
+use super::{Manner, RunError, Simulated};
 use crate::diagram::Controller;
-use crate::experiment::stop::Bounds;
+use crate::file::FileError;
 use crate::load::Loaded;
 use crate::record::Recorder;
 use crate::replay::Tape;
-use crate::results::{EnergyReport, FileError, Status};
+use crate::results::{EnergyReport, Status};
 use crate::table::{CsvWriter, Table};
+use crate::trace::Trace;
+use crate::validity;
 
 use super::streams::Streams;
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::results::FileError;
+use crate::file::FileError;
 use crate::session::Graphs;
 use crate::table::{Column, Table};
 

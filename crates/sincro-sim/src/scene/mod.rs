@@ -13,12 +13,15 @@ mod initial;
 mod joint;
 mod mesh;
 mod object;
+mod pieces;
 mod placement;
 mod proximity;
 mod rotor;
+mod schema;
 mod script;
 mod sensor;
 mod signal_file;
+mod stills;
 mod text;
 mod tree;
 
@@ -39,13 +42,16 @@ pub use camera::VisionSensor;
 pub(crate) use camera::looking;
 pub(crate) use mesh::{Triangles, mesh_of_file};
 pub use object::{Object, ObjectKind, ShapeInstance};
+pub use pieces::frame_of;
+pub use schema::scene_schema;
+pub use stills::Camera;
 pub use text::from_text;
 
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Problem, Problems};
 use crate::scenery::Scenery;
-use crate::script::Script;
+use crate::script::{Script, ScriptParser};
 use crate::sensor::SensorSpec;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
@@ -76,7 +82,7 @@ impl Scene {
     /// What of it can be seen.
     #[must_use]
     pub fn scenery(&self) -> &Scenery {
-        self.scenery.get_or_init(|| Scenery::new(self))
+        self.scenery.get_or_init(|| pieces::scenery_of(self))
     }
 
     /// Degrees of freedom at the start, closed loops counted.
@@ -106,7 +112,12 @@ enum Spec {
 }
 
 /// Compiles a document that fits the schema; `seed` is that of the turbulence.
-pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result<Scene, Problems> {
+pub(crate) fn compile(
+    document: &Document,
+    folder: &Folder,
+    seed: u64,
+    parser: Option<&dyn ScriptParser>,
+) -> Result<Scene, Problems> {
     let file: SceneFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Problem::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
     let entries = tree::entries(&file);
@@ -134,7 +145,7 @@ pub(crate) fn compile(document: &Document, folder: &Folder, seed: u64) -> Result
         assembly.add(&entries[place.entry], place, spec, pose, document);
     }
     assembly.join(&file, document, &mut problems);
-    let scripts = script::read(&file.script, &assembly.objects, document, folder, &mut problems);
+    let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut problems);
     assembly.finish(&entries, &file, scripts, document, problems)
 }
 

@@ -7,7 +7,7 @@ use super::object::Object;
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Problem, Problems, SourceText};
-use crate::script::{Kind, Parameter, Script, Style, engine};
+use crate::script::{Kind, Parameter, Script, ScriptParser, Style};
 use crate::suggest;
 
 /// The scripts that can be, in the order of the file; notes what is wrong with the others.
@@ -16,6 +16,7 @@ pub(super) fn read(
     objects: &[Object],
     document: &Document,
     folder: &Folder,
+    parser: Option<&dyn ScriptParser>,
     problems: &mut Problems,
 ) -> Vec<Script> {
     let mut scripts: Vec<Script> = Vec::new();
@@ -31,7 +32,7 @@ pub(super) fn read(
         }
         scripts.push(script);
     }
-    check(&scripts, problems);
+    check(&scripts, parser, problems);
     scripts
 }
 
@@ -43,14 +44,14 @@ fn word(kind: Kind) -> &'static str {
 }
 
 /// What the language says of the texts.
-fn check(scripts: &[Script], problems: &mut Problems) {
+fn check(scripts: &[Script], parser: Option<&dyn ScriptParser>, problems: &mut Problems) {
     let Some(first) = scripts.first() else { return };
-    let Some(engine) = engine() else {
+    let Some(parser) = parser else {
         let problem = Problem::error(&first.at, "this program cannot run Lua scripts");
         problems.push(problem.with_help("it was built without `sincro-lua`; use the `sincro` command"));
         return;
     };
-    for fault in scripts.iter().filter_map(|script| engine.check(script).err()) {
+    for fault in scripts.iter().filter_map(|script| parser.check(script).err()) {
         problems.push(fault.problem());
     }
 }

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Scene;
+use super::{Scene, scene_schema};
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::problem::{Problems, SourceText};
-use crate::schema::{scene_schema, validate};
+use crate::schema::validate;
 
 /// Compiles the text of a scene file. Files that it names are looked for in the working directory; the seed of its
 /// turbulence is 0.
@@ -40,5 +40,5 @@ pub fn from_text(text: &str) -> Result<Scene, Problems> {
     if found.any_error() {
         return Err(found.sorted());
     }
-    super::compile(&document, &Folder::new(Path::new("")), 0)
+    super::compile(&document, &Folder::new(Path::new("")), 0, None)
 }

@@ -133,7 +133,7 @@ pub(crate) fn units(description: &str) -> Vec<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::scene_schema;
+    use crate::scene::scene_schema;
 
     #[test]
     fn expectations_carry_their_units() {

@@ -6,8 +6,6 @@
 mod describe;
 mod validate;
 
-use std::sync::LazyLock;
-
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
@@ -15,29 +13,8 @@ use serde_json::{Map, Value};
 pub(crate) use describe::{description, units};
 pub(crate) use validate::validate;
 
-use crate::diagram::DiagramFile;
-use crate::experiment::ExperimentFile;
-use crate::scene::SceneFile;
-
-/// JSON Schema of `scene.toml`.
-pub fn scene_schema() -> &'static Value {
-    static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<SceneFile>);
-    &SCHEMA
-}
-
-/// JSON Schema of `experiment.toml`.
-pub fn experiment_schema() -> &'static Value {
-    static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<ExperimentFile>);
-    &SCHEMA
-}
-
-/// JSON Schema of `diagram.toml`.
-pub fn diagram_schema() -> &'static Value {
-    static SCHEMA: LazyLock<Value> = LazyLock::new(|| crate::diagram::schema::with_blocks(generate::<DiagramFile>()));
-    &SCHEMA
-}
-
-fn generate<T: JsonSchema>() -> Value {
+/// JSON Schema of a type that reads a file, in the form that the files are checked with.
+pub(crate) fn generate<T: JsonSchema>() -> Value {
     let generator = SchemaSettings::draft2020_12().into_generator();
     let mut schema = generator.into_root_schema_for::<T>().to_value();
     simplify(&mut schema);
@@ -122,6 +99,9 @@ pub(crate) fn exclusive_keys(one_of: &Value) -> Option<Vec<&str>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagram::diagram_schema;
+    use crate::experiment::experiment_schema;
+    use crate::scene::scene_schema;
     use std::path::Path;
 
     /// The committed schema must be the one the types give; `SINCRO_BLESS=1` rewrites it.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sincro_dynamics::world::World;
 
-use super::{Call, Fault, Host, Kind, Message, Phase, Script, Setting, engine};
+use super::{Call, Fault, Host, Kind, Message, Phase, Script, ScriptEngine, Setting};
 use crate::scene::Scene;
 use crate::session::{Handle, Refusal, Table, Value};
 
@@ -26,8 +26,8 @@ pub struct Scripts {
 impl Scripts {
     /// The scripts of a scene; none if it has none. Descendants are called before their ancestors, siblings in the order of the file.
     #[must_use]
-    pub fn of(scene: &Scene, setting: Setting) -> Option<Self> {
-        let engine = engine().filter(|_| !scene.scripts.is_empty())?;
+    pub fn of(scene: &Scene, engine: Option<&dyn ScriptEngine>, setting: Setting) -> Option<Self> {
+        let engine = engine.filter(|_| !scene.scripts.is_empty())?;
         let host = engine.start(&order(scene), setting);
         Some(Self { host, messages: Vec::new(), n_dropped: 0, is_started: false })
     }

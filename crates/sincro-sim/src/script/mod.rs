@@ -1,13 +1,13 @@
 //! Scripts of a scene: who they belong to, when they are called, and the door that runs their language.
 //!
-//! This crate knows no language. A door (`sincro-lua`) is an [`Engine`]: it looks scripts over when a scene is loaded and makes a
-//! [`Host`] for each run, which is called inside the step ([`Phase`]). What scripts see of the world is the table of objects of a
+//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptEngine`], an argument of [`crate::load`]: it parses scripts when a scene is
+//! loaded and makes a [`Host`] for each run, which is called inside the step ([`Phase`]). What scripts see of the world is the table of objects of a
 //! [`crate::session`]; what they command is latched as any controller's commands are.
 
 mod calls;
 
 use std::fmt;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 pub use calls::Scripts;
 
@@ -254,17 +254,14 @@ impl Clone for Box<dyn Law> {
     }
 }
 
-/// A language for scripts.
-pub trait Engine: Send + Sync + fmt::Debug {
+/// Parser of the language of scripts: looks texts over when a scene is loaded.
+pub trait ScriptParser: Send + Sync + fmt::Debug {
     /// What is wrong with a script before anything runs: its syntax.
     ///
     /// # Errors
     ///
     /// The first fault of the text.
     fn check(&self, script: &Script) -> Result<(), Fault>;
-
-    /// The scripts of a run, none of them called yet; `scripts` are in the order of calls.
-    fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host>;
 
     /// A law for a block.
     ///
@@ -274,15 +271,8 @@ pub trait Engine: Send + Sync + fmt::Debug {
     fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String>;
 }
 
-static ENGINE: OnceLock<&'static dyn Engine> = OnceLock::new();
-
-/// Gives this program a language for scripts; the first one stays.
-pub fn install(engine: &'static dyn Engine) {
-    let _ = ENGINE.set(engine);
-}
-
-/// The language for scripts, if this program has one.
-#[must_use]
-pub fn engine() -> Option<&'static dyn Engine> {
-    ENGINE.get().copied()
+/// Language of scripts: parses them and runs them.
+pub trait ScriptEngine: ScriptParser {
+    /// The scripts of a run, none of them called yet; `scripts` are in the order of calls.
+    fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host>;
 }

@@ -67,13 +67,14 @@ pub use vision::Sensors;
 
 pub use sincro_dynamics::spatial::{Pose, Vec3};
 
-use crate::load::{Loaded, load};
+use crate::load::{Extensions, Loaded, load};
 use crate::overrides::Override;
 use crate::problem::Problems;
 use crate::results::Status;
-use crate::run::{LockStep, Manner, Recording, RunError, Simulated, Trace, method_for};
+use crate::run::{LockStep, Manner, Recording, RunError, Simulated, method_for};
 use crate::scene::ObjectKind;
 use crate::script;
+use crate::trace::Trace;
 
 /// What a simulation is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,8 +145,13 @@ impl Session {
     /// # Errors
     ///
     /// Everything that is wrong with the scene; or a sample time that is no whole multiple of its base step.
-    pub fn open(folder: &Path, overrides: &[Override], sample_time: Option<f64>) -> Result<Self, Problems> {
-        let loaded = load(folder, overrides)?;
+    pub fn open(
+        folder: &Path,
+        overrides: &[Override],
+        extensions: Extensions,
+        sample_time: Option<f64>,
+    ) -> Result<Self, Problems> {
+        let loaded = load(folder, overrides, extensions)?;
         Self::new(folder, overrides, loaded, sample_time)
     }
 
@@ -476,7 +482,7 @@ impl Session {
         let allowed = self.allowed(path);
         let sent = if allowed.is_ok() { None } else { self.sent(path) };
         let folder = sent.clone().map_or(allowed, Ok)?;
-        let loaded = load(&folder, &[]).map_err(|problems| {
+        let loaded = load(&folder, &[], self.loaded.extensions).map_err(|problems| {
             let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
             Refusal(format!("the scene `{path}` cannot be loaded: {first}"))
         })?;

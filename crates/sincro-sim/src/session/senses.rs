@@ -12,7 +12,7 @@ use super::collections::Collection;
 use super::{Entry, Handle, Kind, Refusal, Table};
 use crate::scene::Scene;
 use crate::scenery::{Piece, Scenery};
-use crate::sensor::proximity::{Detection, Eye};
+use crate::sensors::proximity::{Detection, Eye};
 
 /// Corners and heights of everything that clients and scripts make together.
 const MOST_CORNERS: usize = 2_000_000;

@@ -8,8 +8,9 @@ use sincro_sim::overrides::Override;
 use sincro_sim::problem::{Located, Problems};
 use sincro_sim::record::{Recorder, catalogue};
 use sincro_sim::replay::{Contacts, Layout, SceneView, Tape};
-use sincro_sim::run::{LockStep, Trace, method_for};
+use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
+use sincro_sim::trace::Trace;
 
 use super::thinned::Thinned;
 use crate::film::stop_words;

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
+use crate::extensions::extensions;
 use clap::Args;
 use sincro_blocks::program::Rate;
 use sincro_sim::diagram::Controller;
 use sincro_sim::record::catalogue;
-use sincro_sim::run::{method_for, method_word, model_hash};
+use sincro_sim::run::{method_for, method_word};
 use sincro_sim::scene::{Freedom, Model, Object, ObjectKind, Scene};
 use sincro_sim::script::Kind;
+use sincro_sim::trace::model_hash;
 use sincro_sim::{Loaded, load};
 
 use super::console::{degrees, short};
@@ -30,7 +32,7 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
+    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set, extensions())) {
         Ok(loaded) => loaded,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };

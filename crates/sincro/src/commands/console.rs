@@ -5,9 +5,9 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use sincro_sim::Loaded;
+use sincro_sim::campaign::Campaign;
 use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
-use sincro_sim::run::Campaign;
 use sincro_sim::script::Message;
 
 use crate::diagnostics::count;

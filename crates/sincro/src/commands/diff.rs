@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::Value;
-use sincro_sim::results::{FileError, RunReport};
+use sincro_sim::file::FileError;
+use sincro_sim::results::RunReport;
 use sincro_sim::table::Table;
 
 use crate::plot::escape;
@@ -261,6 +262,7 @@ fn page(a: &Run, b: &Run, found: &[Difference], film: Option<String>) -> String 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::extensions::extensions;
 
     fn table_of(rows: &[[f64; 3]]) -> Table {
         let mut table = Table::new([("t", "s"), ("a", ""), ("b", "")], rows.len());
@@ -291,8 +293,8 @@ mod tests {
 
     fn empty_report() -> RunReport {
         let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
-        let loaded = sincro_sim::load(&scene, &[]).unwrap();
+        let loaded = sincro_sim::load(&scene, &[], extensions()).unwrap();
         let interrupt = std::sync::atomic::AtomicBool::new(false);
-        sincro_sim::run::run_campaign(&scene, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap().report
+        sincro_sim::campaign::run_campaign(&scene, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap().report
     }
 }

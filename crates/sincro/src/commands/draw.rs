@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::extensions::extensions;
 use clap::Args;
 use sincro_sim::diagram::Controller;
 use sincro_sim::load;
@@ -26,7 +27,7 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
+    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set, extensions())) {
         Ok(loaded) => loaded,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use crate::extensions::extensions;
 use clap::Args;
+use sincro_sim::campaign::Campaign;
 use sincro_sim::load;
-use sincro_sim::run::Campaign;
 
 use super::console::verdict_line;
 use super::run::{Job, verdict};
@@ -93,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 /// Runs one scene into its folder below `out`; its card for the index.
 fn one(scene: &Path, out: &Path) -> Result<(crate::report::Card, Exit), Exit> {
-    let loaded = load(scene, &[]).map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    let loaded = load(scene, &[], extensions()).map_err(|problems| diagnostics::refuse_problems(&problems))?;
     let name = super::run::scene_name(scene);
     let folder = out.join(&name);
     let up = Some(("all experiments".to_owned(), "../index.html".to_owned()));

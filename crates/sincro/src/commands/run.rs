@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
+use crate::extensions::extensions;
 use clap::Args;
+use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::overrides::Override;
 use sincro_sim::problem::Problems;
-use sincro_sim::results::{self, Override as Setting, VerdictReport};
-use sincro_sim::run::{Campaign, run_campaign};
+use sincro_sim::results::{Override as Setting, VerdictReport};
 use sincro_sim::scene::ObjectKind;
 use sincro_sim::{Loaded, load};
 
@@ -61,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(overrides) => overrides,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };
-    let loaded = match load(&arguments.scene, &overrides) {
+    let loaded = match load(&arguments.scene, &overrides, extensions()) {
         Ok(loaded) => loaded,
         Err(problems) => return diagnostics::refuse_problems(&problems),
     };
@@ -163,7 +164,7 @@ pub(crate) struct Job<'a> {
 impl Job<'_> {
     /// Runs it and writes signals, `run.json`, figures and the report.
     pub(crate) fn run(&self) -> Result<Campaign, Exit> {
-        results::prepare(self.out).map_err(|e| diagnostics::refuse_file(&e))?;
+        sincro_sim::file::prepare(self.out).map_err(|e| diagnostics::refuse_file(&e))?;
         let bar = Bar::new(&scene_name(self.scene));
         let mut tell = |words: &str, share: f64| bar.show(words, share);
         let interrupt = interrupt();

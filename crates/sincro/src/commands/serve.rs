@@ -7,11 +7,13 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
+use crate::extensions::extensions;
 use clap::Args;
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
-use sincro_sim::results::{self, FileError, Status};
-use sincro_sim::run::judge;
+use sincro_sim::campaign::judge;
+use sincro_sim::file::FileError;
+use sincro_sim::results::Status;
 use sincro_sim::session::{Files, Finished, Grants, Session};
 
 use super::console;
@@ -107,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
     let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_problems(&p))?;
-    let session = Session::open(&arguments.scene, &overrides, arguments.simulation_step);
+    let session = Session::open(&arguments.scene, &overrides, extensions(), arguments.simulation_step);
     let session = session.map_err(|problems| diagnostics::refuse_problems(&problems))?;
     let patience = Duration::try_from_secs_f64(arguments.client_timeout).ok().filter(|d| !d.is_zero());
     let Some(patience) = patience else {
@@ -201,7 +203,7 @@ impl Watch {
 
 /// The run as any other: signals, `run.json`, figures, report.
 fn write(finished: &Finished, out: &Path) -> Result<(), FileError> {
-    results::prepare(out)?;
+    sincro_sim::file::prepare(out)?;
     let loaded = &finished.loaded;
     let folder = loaded.experiment.scene_path.parent().unwrap_or(Path::new("."));
     finished.simulated.table.write_csv(&out.join("signals.csv"))?;

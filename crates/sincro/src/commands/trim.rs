@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::extensions::extensions;
 use clap::Args;
 use serde_json::{Map, Value, json};
 use sincro_sim::linear::Axis;
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 }
 
 fn compute(arguments: &Arguments) -> Result<Trim, Problems> {
-    let loaded = load(&arguments.scene, &parse_settings(&arguments.set)?)?;
+    let loaded = load(&arguments.scene, &parse_settings(&arguments.set)?, extensions())?;
     let wanted: Result<Vec<_>, Problem> = arguments.want.iter().map(|text| wanted(text)).collect();
     let request = TrimRequest {
         free: arguments.free.iter().map(|name| located("--free", name)).collect(),

@@ -10,6 +10,7 @@ use sincro_viewer::live::{Engine, Source};
 use sincro_viewer::server::{Server, Show};
 
 use super::run::{parse_settings, scene_name};
+use crate::extensions::extensions;
 use crate::{Exit, diagnostics};
 
 /// What `view` takes.
@@ -95,7 +96,7 @@ fn live(arguments: &Arguments) -> Result<Show, Exit> {
     let settings = parse_settings(&arguments.set).map_err(|problems| diagnostics::refuse_problems(&problems))?;
     let world = scene_name(&arguments.what);
     let draw = Box::new(move |controller: &_| super::draw::drawing(controller, "", &world, true));
-    let engine = Engine::open(Source { folder: arguments.what.clone(), settings, draw })
+    let engine = Engine::open(Source { folder: arguments.what.clone(), settings, extensions: extensions(), draw })
         .map_err(|problems| diagnostics::refuse_problems(&problems))?;
     let board = engine.board();
     Ok(Show::Live(board, engine.start()))

@@ -5,9 +5,11 @@ mod figures;
 use std::path::Path;
 
 use sincro_sim::Loaded;
-use sincro_sim::camera::{Camera, png};
-use sincro_sim::results::{CheckReport, FileError, Status, VerdictReport, file};
-use sincro_sim::run::{Campaign, Done};
+use sincro_sim::camera::png;
+use sincro_sim::campaign::{Campaign, Done};
+use sincro_sim::file::{self, FileError};
+use sincro_sim::results::{CheckReport, Status, VerdictReport};
+use sincro_sim::scene::Camera;
 use sincro_viewer::film::Film;
 
 use crate::plot::{self, Figure, Size};
@@ -26,7 +28,7 @@ pub(crate) fn write(
 ) -> Result<(), FileError> {
     let figures = figures::all(loaded, campaign);
     let folder = out.join("figures");
-    sincro_sim::results::prepare(&folder)?;
+    sincro_sim::file::prepare(&folder)?;
     for (k, figure) in figures.iter().enumerate() {
         let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
         write_text(&folder.join(name), &plot::svg(figure, Size::wide(figure)))?;
@@ -50,7 +52,7 @@ const FRAMES: (f64, usize) = (30.0, 1800);
 pub(crate) fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
     let Some(tape) = &done.simulated.tape else { return Ok(()) };
     let folder = out.join("frames");
-    sincro_sim::results::prepare(&folder)?;
+    sincro_sim::file::prepare(&folder)?;
     for (k, picture) in sincro_viewer::picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
         write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
     }
@@ -67,7 +69,7 @@ pub(crate) fn write_photographs(loaded: &Loaded, done: &Done, camera: usize, out
     let resolution = [FRAME.0 as usize, FRAME.1 as usize];
     let Some(mut camera) = Camera::of_scene(&loaded.scene, camera, resolution) else { return Ok(()) };
     let folder = out.join("frames");
-    sincro_sim::results::prepare(&folder)?;
+    sincro_sim::file::prepare(&folder)?;
     for (n, k) in tape.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
         let q: Vec<f64> = tape.layout.coordinates(tape.frame(k)).iter().copied().map(f64::from).collect();
         let image = camera.look(&q);

@@ -61,7 +61,6 @@ fn poses(mut client: Zmq) {
 
 #[test]
 fn three_clients_move_three_arms_with_the_bits_of_scripts() {
-    sincro_lua::install();
     let server = serve("movement");
     let zmq = server.ports().zmq.unwrap();
     let mut first = Zmq::connect(zmq, Some("first"));

@@ -18,6 +18,8 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
 use sincro_math::Real;
 
+use crate::script::ScriptParser;
+
 pub use forward_kinematics::ForwardKinematics;
 pub use gravity_torque::GravityTorque;
 pub use inverse_dynamics::InverseDynamics;
@@ -27,6 +29,8 @@ pub use mass_matrix::MassMatrix;
 /// What robot blocks are made with.
 #[derive(Clone, Debug)]
 pub struct Context {
+    /// Parser of laws that are written in a script's language, if this program has one.
+    pub parser: Option<&'static dyn ScriptParser>,
     /// The scene's model.
     pub model: Arc<Model<f64>>,
 }

@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use sincro_dynamics::joint::JointKind;
 
-use super::{Manner, RunError, Simulated, Watch, method_word, model_hash, refine, simulate};
+mod refine;
+
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::diagram::Controller;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
@@ -16,11 +17,13 @@ use crate::results::{
     ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
     SweepReport, VariantReport,
 };
+use crate::run::{Manner, RunError, Simulated, Watch, method_word, simulate};
 use crate::scene::{ObjectKind, Scene};
 use crate::script::Message;
 use crate::session::Change;
 use crate::sweep::Sweep;
 use crate::table::Table;
+use crate::trace::model_hash;
 
 /// One run of a campaign with its judgement.
 #[derive(Clone, Debug)]
@@ -81,10 +84,10 @@ pub fn run_campaign(
             break;
         }
         let settings = settings_with(overrides, &variant.set);
-        let other = load(folder, &settings)?;
+        let other = load(folder, &settings, loaded.extensions)?;
         let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
         if let Some(dir) = &dir {
-            crate::results::prepare(dir)?;
+            crate::file::prepare(dir)?;
         }
         let csv = dir.map(|dir| dir.join("signals.csv"));
         let words = format!("variant {}", variant.name);
@@ -189,7 +192,7 @@ fn run_sweep(
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
     let point = |value: f64| -> Result<Simulated, RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
-        let at = load(folder, &settings)?;
+        let at = load(folder, &settings, loaded.extensions)?;
         simulate(&at, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
     };
     let next = std::sync::atomic::AtomicUsize::new(0);

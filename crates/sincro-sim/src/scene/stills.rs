@@ -7,9 +7,9 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
-use super::{BACKGROUND, FAR, Image, Lens, NEAR, Optics, Renderer};
-use crate::scene::{ObjectKind, Scene, VisionSensor, looking};
-use crate::scenery::{Scenery, frame_of, placed};
+use super::{ObjectKind, Scene, VisionSensor, frame_of, looking};
+use crate::camera::{BACKGROUND, FAR, Image, Lens, NEAR, Optics, Renderer};
+use crate::scenery::{Scenery, placed};
 
 /// A camera with all it needs; what it takes is used again for the next picture.
 pub struct Camera {

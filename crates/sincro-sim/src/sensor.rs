@@ -17,16 +17,10 @@
 //! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
 //! N/√(sample time).
 
-pub mod proximity;
-mod running;
-
-pub(crate) use running::Sensors;
-
 use sincro_dynamics::geometry::{Field, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};
 
-use crate::experiment::Experiment;
-use crate::problem::{Located, Problem, Problems};
+use crate::problem::Located;
 
 /// A sensor as the scene has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,32 +168,10 @@ pub(crate) fn register(model: &mut Model<f64>, specs: &[SensorSpec]) {
     model.set_sensors(specs.iter().map(info).collect());
 }
 
-/// Base steps between two samples.
-fn every(spec: &SensorSpec, step: f64) -> Option<u64> {
+/// Base steps between two samples; none if the sample time is no whole number of steps of `step` `[s]`.
+#[must_use]
+pub fn every(spec: &SensorSpec, step: f64) -> Option<u64> {
     let Some(sample_time) = &spec.sample_time else { return Some(1) };
     let n = (sample_time.value / step).round();
     (n >= 1.0 && (n * step - sample_time.value).abs() <= 1e-9 * sample_time.value).then_some(n as u64)
-}
-
-/// Refuses sample times that are no whole number of base steps.
-pub(crate) fn check(specs: &[SensorSpec], experiment: &Experiment) -> Problems {
-    let mut problems = Problems::new();
-    for spec in specs {
-        let Some(sample_time) = spec.sample_time.as_ref().filter(|_| every(spec, experiment.step).is_none()) else {
-            continue;
-        };
-        let (step, ratio) = (experiment.step, sample_time.value / experiment.step);
-        let message = format!(
-            "the sample time of sensor `{}`, {} s, is no whole number of base steps of {step} s",
-            spec.path, sample_time.value
-        );
-        let near = [ratio.floor().max(1.0), ratio.ceil().max(1.0)].map(|n| crate::experiment::short(n * step));
-        let help = if near[0] == near[1] {
-            format!("use {} or a smaller `step`", near[0])
-        } else {
-            format!("use {} or {}, or another `step`", near[0], near[1])
-        };
-        problems.push(Problem::error(&sample_time.at, message).with_help(help));
-    }
-    problems
 }

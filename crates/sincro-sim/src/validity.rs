@@ -23,7 +23,7 @@ pub struct Outside {
 }
 
 /// Counts.
-pub(super) struct Register {
+pub(crate) struct Register {
     /// For each rotor and reason: steps, first and last time.
     counts: Vec<[(u64, f64, f64); Validity::REASONS.len()]>,
     zero: Vec<f64>,
@@ -74,7 +74,7 @@ impl Register {
 }
 
 /// One sentence for each reason and time, with all rotors that it is about.
-pub(super) fn words(found: &[Outside], n_steps: u64) -> Vec<String> {
+pub(crate) fn words(found: &[Outside], n_steps: u64) -> Vec<String> {
     let mut sentences = Vec::new();
     let mut said = vec![false; found.len()];
     for k in 0..found.len() {

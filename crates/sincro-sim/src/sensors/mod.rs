@@ -1,5 +1,7 @@
 //! Sensors in a run: due samples are taken, the others held.
 
+pub mod proximity;
+
 use sincro_blocks::library::sources::random::{gaussian, splitmix};
 use sincro_blocks::program::seed_of;
 use sincro_dynamics::attachment::Seen;
@@ -8,13 +10,13 @@ use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
 
-use super::proximity::{Detection, Eye};
-use super::{Errors, SensorKind, every};
 use crate::experiment::Experiment;
 use crate::record::probe::attached;
 use crate::scene::Scene;
 use crate::scenery::Scenery;
+use crate::sensor::{Errors, SensorKind, every};
 use crate::session::{Handle, Table};
+use proximity::{Detection, Eye};
 
 /// All sensors of a scene with what they gave last.
 #[derive(Clone, Debug)]
