@@ -5,9 +5,13 @@ use std::sync::Arc;
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_sim::script::{
-    Call, Fault, Host, Kind, Law, LawSpec, Message, Phase, Script, ScriptEngine, ScriptParser, Setting,
-};
+use sincro_sim::Loaded;
+use sincro_sim::ScriptEngine;
+use sincro_sim::api_controller::ApiController;
+use sincro_sim::controller::Controller;
+use sincro_sim::controller::Message;
+use sincro_sim::host::{Call, Host, Phase};
+use sincro_sim::script::{Fault, Kind, Law, LawSpec, Script, ScriptParser};
 use sincro_sim::session::{Handle, Refusal, Value};
 
 use crate::guard::Guard;
@@ -36,9 +40,11 @@ impl ScriptParser for Lua54 {
 }
 
 impl ScriptEngine for Lua54 {
-    fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host> {
-        let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
-        Box::new(Scripts { shared, machines: Vec::new(), holder: 0 })
+    fn controller(&self, loaded: &Loaded) -> Box<dyn Controller> {
+        Box::new(ApiController::with_scripts(loaded, |scripts, setting| {
+            let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
+            Box::new(Scripts { shared, machines: Vec::new(), holder: 0 })
+        }))
     }
 }
 

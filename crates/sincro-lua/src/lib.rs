@@ -20,7 +20,7 @@ mod power;
 mod sandbox;
 mod shared;
 
-use sincro_sim::script::ScriptEngine;
+use sincro_sim::ScriptEngine;
 
 /// Lua as the language of scripts: an argument of [`sincro_sim::load`].
 ///

@@ -12,7 +12,8 @@ use std::sync::Arc;
 
 use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
-use sincro_sim::script::{Fault, Kind, Phase, Script, Style};
+use sincro_sim::host::Phase;
+use sincro_sim::script::{Fault, Kind, Script, Style};
 use sincro_sim::session::{self, Handle, Refusal};
 
 use crate::guard::{Guard, THREAD};

@@ -3,21 +3,25 @@
 //! [`load`] opens a scene folder and reports every problem in it at once; [`run::run_campaign`] runs it with its variants, sweep,
 //! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
 
+pub mod api_controller;
 mod apply_overrides;
 pub mod camera;
 pub mod campaign;
 pub mod check;
+pub mod controller;
 pub mod diagram;
 pub mod document;
 pub mod experiment;
 pub mod file;
 mod folder;
+pub mod host;
 pub mod linear;
 pub mod linearize;
 mod load;
 pub mod motion;
 pub mod overrides;
 pub mod problem;
+pub mod proximity;
 pub mod record;
 pub mod replay;
 pub mod results;
@@ -39,4 +43,4 @@ pub mod trace;
 mod tree;
 pub mod validity;
 
-pub use load::{Extensions, Loaded, load, load_alone};
+pub use load::{Extensions, Loaded, ScriptEngine, load, load_alone};

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use sincro_dynamics::world::MethodKind;
 
 use crate::apply_overrides::{Target, apply_all};
-use crate::diagram::{self, Controller, diagram_schema};
+use crate::controller::Controller;
+use crate::diagram::{self, Controller as DiagramController, diagram_schema};
 use crate::document::Document;
 use crate::experiment::{self, Experiment, Plot, experiment_schema};
 use crate::folder::Folder;
@@ -15,7 +16,7 @@ use crate::problem::{Located, Problem, Problems, SourceText};
 use crate::record::Recorder;
 use crate::scene::{self, Scene, scene_schema};
 use crate::schema::validate;
-use crate::script::{ScriptEngine, ScriptParser};
+use crate::script::ScriptParser;
 
 /// The file that makes a folder an experiment.
 const EXPERIMENT: &str = "experiment.toml";
@@ -31,7 +32,7 @@ pub struct Loaded {
     /// The compiled scene.
     pub scene: Scene,
     /// The diagram that controls it, if there is one.
-    pub controller: Option<Controller>,
+    pub controller: Option<DiagramController>,
     /// What the user should know of.
     pub warnings: Vec<Problem>,
     /// Every file that was read: what a hash of the inputs covers.
@@ -43,6 +44,12 @@ pub struct Loaded {
 /// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and without; none if
 /// there is no operating point.
 pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
+
+/// Language of scripts: parses them when a scene is loaded, and runs them as a controller.
+pub trait ScriptEngine: ScriptParser {
+    /// The controller that runs the scripts of a scene, none of them called yet.
+    fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
+}
 
 /// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to [`load`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -211,7 +218,7 @@ fn open(folder: &Folder, overrides: &[Override], extensions: Extensions) -> Resu
     };
     let is_whole = document.located("/diagram").is_some() == controller.is_some();
     if let (Some(experiment), Some(scene), true) = (&experiment, &scene, is_whole) {
-        let signals = controller.as_ref().map(Controller::entries).unwrap_or_default();
+        let signals = controller.as_ref().map(DiagramController::entries).unwrap_or_default();
         if let Err(found) = Recorder::new(&experiment.record, &scene.model, &signals) {
             problems.merge(found);
         }
@@ -277,7 +284,7 @@ fn open_diagram(
     (experiment, scene): (Option<&Experiment>, Option<&Scene>),
     parser: Option<&'static dyn ScriptParser>,
     problems: &mut Problems,
-) -> Option<Controller> {
+) -> Option<DiagramController> {
     let Some(name) = document.located("/diagram") else {
         for setting in overrides.iter().filter(|s| s.target() == Target::Diagram) {
             problems.push(setting.without_diagram());
@@ -309,7 +316,7 @@ fn open_diagram(
 }
 
 /// What the diagram's scopes look at is recorded and plotted.
-fn with_scopes(mut experiment: Experiment, controller: &Controller, scene: &Scene) -> Experiment {
+fn with_scopes(mut experiment: Experiment, controller: &DiagramController, scene: &Scene) -> Experiment {
     let at = experiment.record[0].at.clone();
     for (title, names) in controller.scopes(&scene.model).into_iter().filter(|(_, names)| !names.is_empty()) {
         let signals: Vec<Located<String>> = names.into_iter().map(|value| Located { value, at: at.clone() }).collect();

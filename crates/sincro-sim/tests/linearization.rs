@@ -150,7 +150,7 @@ fn a_pendulum_is_trimmed_by_its_torque_and_by_its_angle() {
     let found = trim(&loaded, &at, &TrimRequest::default()).unwrap_or_else(|problems| panic!("{problems}"));
     assert!(found.trim.residual < 1e-9, "{:?}", found.trim);
     // what is trimmed stays where it is
-    let mut run = found.at.clone();
+    let mut run = found.at.fork().lockstep;
     let before = run.state().q.clone();
     for _ in 0..100 {
         run.advance().unwrap();

@@ -8,6 +8,7 @@ use sincro_dynamics::joint::JointKind;
 mod refine;
 
 use crate::check::{Outcome, evaluate, evaluate_sweep};
+use crate::controller::{Change, Message};
 use crate::diagram::Controller;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use crate::load::{Loaded, load, settings_with};
@@ -19,8 +20,6 @@ use crate::results::{
 };
 use crate::run::{Manner, RunError, Simulated, Watch, method_word, simulate};
 use crate::scene::{ObjectKind, Scene};
-use crate::script::Message;
-use crate::session::Change;
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::trace::model_hash;

@@ -46,7 +46,7 @@ pub struct Trim {
 }
 
 /// An equilibrium: its numbers, and the scene in it.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Trimmed {
     /// The numbers.
     pub trim: Trim,
@@ -60,7 +60,7 @@ pub struct Trimmed {
 ///
 /// Names that mean nothing, or that there is no equilibrium nearby: what is left over, and of what.
 pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<Trimmed, Problems> {
-    let mut at = from.clone();
+    let mut at = from.fork().lockstep;
     at.stop();
     let names = resolve(loaded, &at, request)?;
     let targets: Vec<f64> = request.wanted.iter().map(|(_, x)| *x).collect();

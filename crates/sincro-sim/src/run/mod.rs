@@ -29,6 +29,7 @@ use crate::validity::Outside;
 pub use lockstep::{Halt, LockStep};
 pub(crate) use recording::Recording;
 
+use crate::controller::{Change, Message};
 use crate::experiment::{Experiment, Integrator};
 use crate::file::FileError;
 use crate::load::Loaded;
@@ -36,8 +37,6 @@ use crate::problem::Problems;
 use crate::replay::Tape;
 use crate::results::{EnergyReport, Status};
 use crate::scene::Scene;
-use crate::script::Message;
-use crate::session::{Change, Request};
 use crate::table::Table;
 
 /// Rate times base step above which `auto` takes the stiff method.
@@ -313,7 +312,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             status = Status::Ended { tick: tick + 1, time: lockstep.t(), reason };
             break;
         }
-        if lockstep.take_requests().contains(&Request::Stop) {
+        if lockstep.take_stop_request() {
             status = stopped_by_script(&lockstep);
             break;
         }

@@ -125,7 +125,7 @@ impl Recording {
         let row = self.recorder.row(&seen, signals, t, is_start);
         self.table.push_row(row);
         self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
-        self.streams.look(lockstep.graphs(), self.table.n_rows());
+        self.streams.look(lockstep.controllers_mut(), self.table.n_rows());
         Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
     }
 
@@ -143,7 +143,7 @@ impl Recording {
     ) -> Result<Simulated, FileError> {
         let Self { mut table, csv, streams, tape, validity, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
-        let n_streams = streams.finish(lockstep.graphs(), &mut table)?;
+        let n_streams = streams.finish(lockstep.controllers_mut(), &mut table)?;
         let wall_time = clock.elapsed().as_secs_f64();
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
@@ -156,7 +156,7 @@ impl Recording {
         if n_more > 0 {
             warnings.push(format!("scripts and clients said {n_more} more things than are kept"));
         }
-        let changes = lockstep.changes().to_vec();
+        let changes = lockstep.changes();
         Ok(Simulated {
             table,
             status,

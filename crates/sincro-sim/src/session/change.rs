@@ -6,6 +6,7 @@ use sincro_dynamics::spatial::Vec3;
 
 use super::table::{Handle, Kind, Table};
 use super::{Desk, Phase, Refusal};
+use crate::controller::Change;
 
 /// Changes that are kept.
 const MOST: usize = 10_000;
@@ -13,19 +14,6 @@ const MOST: usize = 10_000;
 const TRIANGLE_SLACK: f64 = 1e-9;
 /// A coupling may be that far from its new law `[rad]` or `[m]`.
 const FITS: f64 = 1e-9;
-
-/// A number of the model that is another one than in the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Change {
-    /// From when on `[s]`; 0 also for what was changed before the run.
-    pub t: f64,
-    /// Path of the object; `/` for the world.
-    pub object: String,
-    /// Which number: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling` (ratio, offset), `respondable`, `gravity`.
-    pub quantity: &'static str,
-    /// The new numbers, in the units of the scene file.
-    pub value: Vec<f64>,
-}
 
 impl Table {
     /// Keeps a change; a later one of the same number at the same time takes its place.

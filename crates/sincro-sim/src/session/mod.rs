@@ -49,7 +49,6 @@ use std::sync::Arc;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 
-pub use change::Change;
 pub use collections::{Collection, Entity, Item};
 pub use contacts::Touch;
 pub use desk::{Desk, Reference};
@@ -67,13 +66,14 @@ pub use vision::Sensors;
 
 pub use sincro_dynamics::spatial::{Pose, Vec3};
 
+use crate::api_controller::ApiController;
+use crate::host;
 use crate::load::{Extensions, Loaded, load};
 use crate::overrides::Override;
 use crate::problem::Problems;
 use crate::results::Status;
 use crate::run::{LockStep, Manner, Recording, RunError, Simulated, method_for};
 use crate::scene::ObjectKind;
-use crate::script;
 use crate::trace::Trace;
 
 /// What a simulation is doing.
@@ -213,7 +213,7 @@ impl Session {
     ///
     /// Never: a session's lock-step has a table.
     pub fn desk(&mut self) -> Desk<'_> {
-        self.lockstep.desk().expect("a session's lock-step has a table")
+        ApiController::desk(&mut self.lockstep).expect("a session's lock-step has a table")
     }
 
     /// The objects.
@@ -272,7 +272,7 @@ impl Session {
         function: &str,
         arguments: &[Value],
     ) -> Result<Vec<Value>, Refusal> {
-        let results = self.lockstep.call_script(object, kind, function, arguments)?;
+        let results = ApiController::call_script(&mut self.lockstep, (object, kind), function, arguments)?;
         self.do_requests()?;
         Ok(results)
     }
@@ -307,7 +307,7 @@ impl Session {
             let refused = "texts of clients are not run here: `sincro serve --grant scripts` lets them";
             return Err(Refusal::new(refused));
         }
-        let results = self.lockstep.evaluate(object, kind, text)?;
+        let results = ApiController::evaluate(&mut self.lockstep, (object, kind), text)?;
         self.do_requests()?;
         Ok(results)
     }
@@ -343,7 +343,7 @@ impl Session {
         match self.phase() {
             Phase::Running => return Ok(()),
             Phase::Paused => {
-                self.tell_scripts(script::Phase::Resume)?;
+                self.tell_scripts(host::Phase::Resume)?;
                 self.table().phase = Phase::Running;
                 return Ok(());
             }
@@ -384,7 +384,7 @@ impl Session {
         let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
         let scene = &mut self.loaded.scene;
         Arc::make_mut(&mut scene.model).take_numbers(self.lockstep.world().model());
-        let table = self.lockstep.take_table().expect("a session's lock-step has a table");
+        let table = ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
         for (object, entry) in scene.objects.iter_mut().zip(table.entries()) {
             if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {
                 *mass = *new;
@@ -407,7 +407,7 @@ impl Session {
     /// A script fails in `sysCall_suspend`: the run has ended.
     pub fn pause(&mut self) -> Result<(), Refusal> {
         if self.phase() == Phase::Running {
-            self.tell_scripts(script::Phase::Suspend)?;
+            self.tell_scripts(host::Phase::Suspend)?;
             self.table().phase = Phase::Paused;
         }
         Ok(())
@@ -422,13 +422,13 @@ impl Session {
         if self.phase() != Phase::Paused {
             return Ok(());
         }
-        self.tell_scripts(script::Phase::Suspended)?;
+        self.tell_scripts(host::Phase::Suspended)?;
         self.do_requests()
     }
 
     /// Tells the scripts of the run of a pause.
-    fn tell_scripts(&mut self, phase: script::Phase) -> Result<(), Refusal> {
-        self.lockstep.tell_scripts(phase).map_err(|halt| {
+    fn tell_scripts(&mut self, phase: host::Phase) -> Result<(), Refusal> {
+        ApiController::tell_scripts(&mut self.lockstep, phase).map_err(|halt| {
             let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
             self.fail(status)
         })
@@ -556,7 +556,7 @@ impl Session {
             }
             Err(error) => self.table().log(200, format!("{error}")),
         }
-        let mut table = *self.lockstep.take_table().expect("a session's lock-step has a table");
+        let mut table = *ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
         table.end_run(run.before);
         table.phase = Phase::Stopped;
         self.lockstep = fresh(&self.loaded, self.method, table);
@@ -587,7 +587,7 @@ impl Session {
 /// A lock-step that has not started, with a table.
 fn fresh(loaded: &Loaded, method: MethodKind, table: Table) -> LockStep {
     let mut lockstep = LockStep::new(loaded, method, false);
-    lockstep.set_table(Box::new(table));
+    ApiController::set_table(&mut lockstep, table);
     lockstep
 }
 

@@ -1,6 +1,6 @@
 //! What clients and scripts said of a run: kept with it, bounded.
 
-use crate::script::Message;
+use crate::controller::Message;
 
 /// Messages that are kept of a run: who says something at every tick must not fill the memory.
 const MOST: usize = 10_000;

@@ -5,7 +5,7 @@ use sincro_dynamics::geometry::Field;
 use super::senses::{Look, handle_of};
 use super::table::{Handle, Kind, WORLD};
 use super::{Desk, Entity, Refusal};
-use crate::sensors::proximity::{Detection, Eye};
+use crate::proximity::{Detection, Eye};
 
 impl Desk<'_> {
     fn look_of(&self, handle: Handle) -> Result<&Look, Refusal> {

@@ -10,9 +10,9 @@ use sincro_dynamics::spatial::Pose;
 
 use super::collections::Collection;
 use super::{Entry, Handle, Kind, Refusal, Table};
+use crate::proximity::{Detection, Eye};
 use crate::scene::Scene;
 use crate::scenery::{Piece, Scenery};
-use crate::sensors::proximity::{Detection, Eye};
 
 /// Corners and heights of everything that clients and scripts make together.
 const MOST_CORNERS: usize = 2_000_000;

@@ -10,7 +10,6 @@ use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
-use super::change::Change;
 use super::graphs::Graphs;
 use super::motions::{Course, Motions};
 use super::note::Notes;
@@ -19,6 +18,7 @@ use super::senses::Senses;
 use super::signals::Signals;
 use super::vision::Vision;
 use super::{Phase, Refusal, convention};
+use crate::controller::Change;
 use crate::load::Loaded;
 use crate::scene::{Object, ObjectKind};
 

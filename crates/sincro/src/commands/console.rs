@@ -6,9 +6,9 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressStyle};
 use sincro_sim::Loaded;
 use sincro_sim::campaign::Campaign;
+use sincro_sim::controller::Message;
 use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
-use sincro_sim::script::Message;
 
 use crate::diagnostics::count;
 use crate::plot::number::significant;

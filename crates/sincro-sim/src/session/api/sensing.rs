@@ -4,7 +4,7 @@ use sincro_dynamics::geometry::{Field, Volume};
 
 use super::distances::entity;
 use super::{Function, Outcome, done, handle, one};
-use crate::sensors::proximity::Detection;
+use crate::proximity::Detection;
 use crate::session::{Arguments, Desk, Entity, Handle, Refusal, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[

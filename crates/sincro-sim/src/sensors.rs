@@ -1,7 +1,5 @@
 //! Sensors in a run: due samples are taken, the others held.
 
-pub mod proximity;
-
 use sincro_blocks::library::sources::random::{gaussian, splitmix};
 use sincro_blocks::program::seed_of;
 use sincro_dynamics::attachment::Seen;
@@ -10,13 +8,13 @@ use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
 
+use crate::controller::Controller;
 use crate::experiment::Experiment;
+use crate::proximity::{Detection, Eye};
 use crate::record::probe::attached;
 use crate::scene::Scene;
 use crate::scenery::Scenery;
 use crate::sensor::{Errors, SensorKind, every};
-use crate::session::{Handle, Table};
-use proximity::{Detection, Eye};
 
 /// All sensors of a scene with what they gave last.
 #[derive(Clone, Debug)]
@@ -85,8 +83,8 @@ impl Sensors {
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
     }
 
-    /// Sensors that look take their samples before scripts sense, as in V-REP, and tell the table what they saw. What was made at run time is seen, too.
-    pub fn look_around(&mut self, world: &mut World, tick: u64, t: f64, mut table: Option<&mut Table>) {
+    /// Sensors that look take their samples before scripts sense, as in V-REP, and the controllers are told. What they have added to the scene is seen, too.
+    pub fn look_around(&mut self, world: &mut World, tick: u64, t: f64, controllers: &mut [Box<dyn Controller>]) {
         let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_some();
         if !self.list.iter().any(|s| due(&s)) {
             return;
@@ -95,12 +93,10 @@ impl Sensors {
         world.with_seen(t, |seen| {
             kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
             for sensor in list.iter().filter(due) {
-                let made = table.as_deref().map_or(&[][..], Table::made_pieces);
+                let made = controllers.iter().flat_map(|controller| controller.pieces());
                 let found = sensor.look(&seen, scenery.pieces.iter().chain(made), tick / sensor.every);
                 sensor.write(found.as_ref(), &mut values[sensor.first..][..sensor.n]);
-                if let Some(table) = table.as_deref_mut() {
-                    table.tell(Handle(sensor.object as i32 + 1), found);
-                }
+                controllers.iter_mut().for_each(|controller| controller.detected(sensor.object, found));
             }
         });
     }

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use sincro_dynamics::world::World;
 
-use super::{Call, Fault, Host, Kind, Message, Phase, Script, ScriptEngine, Setting};
+use super::{Call, Host, Phase, Setting};
+use crate::controller::Message;
 use crate::scene::Scene;
+use crate::script::{Fault, Kind, Script};
 use crate::session::{Handle, Refusal, Table, Value};
 
 /// Messages that are kept of a run: a script that says something at every tick must not fill the memory.
@@ -24,12 +26,10 @@ pub struct Scripts {
 }
 
 impl Scripts {
-    /// The scripts of a scene; none if it has none. Descendants are called before their ancestors, siblings in the order of the file.
-    #[must_use]
-    pub fn of(scene: &Scene, engine: Option<&dyn ScriptEngine>, setting: Setting) -> Option<Self> {
-        let engine = engine.filter(|_| !scene.scripts.is_empty())?;
-        let host = engine.start(&order(scene), setting);
-        Some(Self { host, messages: Vec::new(), n_dropped: 0, is_started: false })
+    /// The scripts of a scene. Descendants are called before their ancestors, siblings in the order of the file.
+    pub fn of(scene: &Scene, setting: Setting, start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>) -> Self {
+        let host = start(&order(scene), setting);
+        Self { host, messages: Vec::new(), n_dropped: 0, is_started: false }
     }
 
     /// Calls them.

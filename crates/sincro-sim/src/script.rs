@@ -1,19 +1,11 @@
-//! Scripts of a scene: who they belong to, when they are called, and the door that runs their language.
+//! Scripts of a scene: which object each belongs to, its text, its limits; and the parser of their language.
 //!
-//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptEngine`], an argument of [`crate::load`]: it parses scripts when a scene is
-//! loaded and makes a [`Host`] for each run, which is called inside the step ([`Phase`]). What scripts see of the world is the table of objects of a
-//! [`crate::session`]; what they command is latched as any controller's commands are.
-
-mod calls;
+//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptParser`], which looks texts over when a scene is loaded.
 
 use std::fmt;
 use std::sync::Arc;
 
-pub use calls::Scripts;
-
 use crate::problem::{Location, Problem, SourceText};
-use crate::session::{Handle, Refusal, Table, Value};
-use sincro_dynamics::world::World;
 
 /// A script as a scene has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,25 +80,6 @@ pub enum Kind {
     Customization,
 }
 
-/// When a script is called within a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// Once, before the first tick.
-    Initialization,
-    /// At each tick, before the world advances: commands and forces of the step are given here.
-    Actuation,
-    /// At each tick, after the world has advanced; the time is still that of the start of the step.
-    Sensing,
-    /// When the run is about to be paused.
-    Suspend,
-    /// Now and then while it is paused.
-    Suspended,
-    /// When it is about to go on after a pause.
-    Resume,
-    /// Once, when the run is over.
-    Cleanup,
-}
-
 /// Why a script could not go on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
@@ -145,72 +118,6 @@ impl fmt::Display for Fault {
         }
         write!(f, ": {}", self.message)
     }
-}
-
-/// Something that a script said.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Message {
-    /// When `[s]`.
-    pub t: f64,
-    /// Path of the script's object.
-    pub object: String,
-    /// What it said.
-    pub text: String,
-}
-
-/// What a script is called with, and may be called about later.
-#[derive(Debug)]
-pub struct Call<'a> {
-    /// The world, to be left in its place when the call is over.
-    pub world: &'a mut World,
-    /// The objects as scripts know them.
-    pub table: &'a mut Option<Box<Table>>,
-    /// The tick, in sensing that at which the step began.
-    pub tick: u64,
-    /// Time `[s]` that scripts are told: `tick · step`.
-    pub t: f64,
-}
-
-/// The scripts of one run, in memory.
-pub trait Host: Send + fmt::Debug {
-    /// Calls all scripts for a phase, in their order.
-    ///
-    /// # Errors
-    ///
-    /// The first script that fails; those after it are not called.
-    fn call(&mut self, call: Call<'_>, phase: Phase) -> Result<(), Fault>;
-
-    /// Calls a function of the script on an object, of any kind unless one is given.
-    ///
-    /// # Errors
-    ///
-    /// There is no script or no such function, or it failed.
-    fn call_function(
-        &mut self,
-        call: Call<'_>,
-        script: (Handle, Option<Kind>),
-        function: &str,
-        arguments: &[Value],
-    ) -> Result<Vec<Value>, Refusal>;
-
-    /// Runs a text in the script on an object, with what that script knows and within its limits; gives what the text returns.
-    ///
-    /// # Errors
-    ///
-    /// There is no such script, or the text failed.
-    fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, Refusal>;
-
-    /// What scripts have said since the last time it was asked.
-    fn take_messages(&mut self) -> Vec<Message>;
-}
-
-/// What a run of scripts is set up with.
-#[derive(Clone, Copy, Debug)]
-pub struct Setting {
-    /// Base step `[s]`.
-    pub step: f64,
-    /// Seed of everything random.
-    pub seed: u64,
 }
 
 /// A law in a script's language, for a block of a diagram.
@@ -269,10 +176,4 @@ pub trait ScriptParser: Send + Sync + fmt::Debug {
     ///
     /// What is wrong with its text.
     fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String>;
-}
-
-/// Language of scripts: parses them and runs them.
-pub trait ScriptEngine: ScriptParser {
-    /// The scripts of a run, none of them called yet; `scripts` are in the order of calls.
-    fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host>;
 }
