@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Extensions;
-use sincro_sim::diagram::Controller;
+use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::load;
 use sincro_sim::overrides::Override;
 use sincro_sim::record::Recorder;
@@ -76,7 +76,7 @@ fn a_step_and_a_row_allocate_nothing() {
                 .unwrap();
         for method in METHODS {
             let mut lockstep = LockStep::new(&loaded, method, false);
-            let signals = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+            let signals = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
             let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &signals).unwrap();
             lockstep.start().unwrap();
             let mut tick = |start: bool| {

@@ -2,7 +2,7 @@
 
 use sincro_blocks::diagram::Diagram;
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::diagram::Controller;
+use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::diagram::robot::{
     Context, ForwardKinematics, GravityTorque, InverseDynamics, Jacobian, JacobianRows, MassMatrix,
 };
@@ -33,7 +33,7 @@ fn with(scene: Scene, draw: impl FnOnce(&mut Diagram, &Context, usize)) -> LockS
     let tool = scene.model.names().frames.iter().position(|f| f.name.ends_with("tool")).unwrap();
     let (mut diagram, context) = (Diagram::new(), Context { parser: None, model: scene.model.clone() });
     draw(&mut diagram, &context, tool);
-    let controller = Controller::new(diagram, &scene.model, 0.005, 0).unwrap_or_else(|p| panic!("{p:?}"));
+    let controller = ControlDiagram::new(diagram, &scene.model, 0.005, 0).unwrap_or_else(|p| panic!("{p:?}"));
     let loaded = Loaded { scene, controller: Some(controller), ..loaded };
     let mut run = LockStep::new(&loaded, MethodKind::DormandPrince, false);
     run.start().unwrap();

@@ -9,9 +9,10 @@ mod refine;
 
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::controller::{Change, Message};
-use crate::diagram::Controller;
+use crate::diagram::ControlDiagram;
 use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
-use crate::load::{Loaded, load, settings_with};
+use crate::load::{Loaded, load};
+use crate::open::settings_with;
 use crate::overrides::Override;
 use crate::replay::SceneView;
 use crate::results::{
@@ -38,7 +39,7 @@ pub struct Done {
     /// Hash of its model.
     pub model_hash: String,
     /// Its diagram, if it has one.
-    pub controller: Option<Controller>,
+    pub controller: Option<ControlDiagram>,
     /// Its scene, to be shown.
     pub view: SceneView,
 }
@@ -270,7 +271,7 @@ fn report(
     variants: &[(Variant, Done)],
     sweep: Option<&(Sweep, Vec<Outcome>)>,
 ) -> RunReport {
-    let scene = crate::load::folder_name(folder);
+    let scene = crate::open::folder_name(folder);
     let problems = loaded.warnings.iter().map(|w| w.message.clone());
     RunReport {
         sincro_version: env!("CARGO_PKG_VERSION").into(),

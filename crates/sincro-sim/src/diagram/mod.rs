@@ -1,9 +1,8 @@
 //! Block diagrams of a scene folder: the file, its errors, and the diagram in one step with the world.
 //!
-//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `coupling.rs`
-//! runs both together; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
+//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `wiring.rs`
+//! connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
 
-mod coupling;
 mod file;
 mod lua;
 mod ports;
@@ -11,6 +10,7 @@ mod read;
 pub mod reference;
 pub mod robot;
 mod schema;
+mod wiring;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -21,12 +21,13 @@ use sincro_blocks::program::Program;
 use sincro_blocks::runner::Runner;
 use sincro_dynamics::model::Model;
 
-pub use coupling::{Control, NotFinite, Wiring};
 pub(crate) use file::DiagramFile;
 pub use lua::LuaBlock;
+pub use ports::is_known_at_ticks_only;
 use read::{DiagramReader, Origin};
 pub use reference::reference;
 pub use schema::diagram_schema;
+pub use wiring::{Reading, Wiring};
 
 use crate::document::Document;
 use crate::folder::Folder;
@@ -36,7 +37,7 @@ use crate::script::ScriptParser;
 
 /// A diagram of a scene, ready to run.
 #[derive(Clone, Debug)]
-pub struct Controller {
+pub struct ControlDiagram {
     /// As it is drawn.
     pub diagram: Diagram,
     /// Compiled and connected to the model.
@@ -57,7 +58,7 @@ pub(crate) struct Setting<'a> {
 }
 
 /// Reads and compiles a document that fits the schema.
-pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<Controller, Problems> {
+pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Problems> {
     let file: DiagramFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
     let robot = robot::Context { parser: setting.parser, model: setting.model.clone() };
@@ -71,7 +72,7 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
             entry.sample_time.get_or_insert(sample_time);
         }
     }
-    Controller::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
+    ControlDiagram::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
         let (mut problems, mut said) = (Problems::new(), BTreeSet::new());
         for problem in found {
             let at = locate(document, &origin, &diagram, &problem.place);
@@ -96,13 +97,13 @@ fn shortened(problems: Problems) -> Problems {
     problems
 }
 
-impl Controller {
+impl ControlDiagram {
     /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything random.
     ///
     /// ```
     /// use sincro_blocks::diagram::Diagram;
     /// use sincro_blocks::library::maths::Gain;
-    /// use sincro_sim::diagram::Controller;
+    /// use sincro_sim::diagram::ControlDiagram;
     ///
     /// let scene = r#"
     /// joint = [{ name = "hinge", kind = "revolute", axis = [0, 1, 0], motor = { mode = "torque" } }]
@@ -111,7 +112,7 @@ impl Controller {
     /// let scene = sincro_sim::scene::from_text(scene).unwrap();
     /// let mut diagram = Diagram::new();
     /// diagram.block("spring", Gain::new(-20.0)).wire("/hinge.position", "spring").wire("spring", "/hinge");
-    /// let controller = Controller::new(diagram, &scene.model, 0.001, 0).unwrap();
+    /// let controller = ControlDiagram::new(diagram, &scene.model, 0.001, 0).unwrap();
     /// assert_eq!(controller.entries()[0].name, "spring");
     /// ```
     ///
@@ -194,7 +195,7 @@ fn source_of(program: &Program, signal: usize) -> usize {
     signal
 }
 
-/// See [`Controller::entries`].
+/// See [`ControlDiagram::entries`].
 fn entries(wiring: &Wiring) -> Vec<Entry> {
     let mut list = Vec::new();
     for (name, range, unit) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {

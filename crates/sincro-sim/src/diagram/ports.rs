@@ -81,7 +81,8 @@ pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
 }
 
 /// Whether a measurement is known at ticks only: what is summed up over a step, what sensors sample.
-pub(crate) fn is_known_at_ticks_only(probe: Probe) -> bool {
+#[must_use]
+pub fn is_known_at_ticks_only(probe: Probe) -> bool {
     matches!(
         probe,
         Probe::Sensor(_)

@@ -11,7 +11,7 @@ use sincro_math::Dual;
 
 use super::axis;
 use super::names::{InputKind, Names, Output};
-use crate::diagram::Control;
+use crate::diagram_controller::DiagramController;
 use crate::linear::Axis;
 use crate::load::Loaded;
 use crate::record::{Probe, RotorQuantity, catalogue, probe};
@@ -39,7 +39,7 @@ pub(super) struct Lens<R: Number> {
 
 /// The diagram, if it is in the loop, and the outputs that are read along the way.
 struct Watch<R: Number> {
-    control: Option<Control<R>>,
+    control: Option<DiagramController<R>>,
     perturbed: Option<(usize, R)>,
     outputs: Vec<Output>,
     values: Vec<R>,
@@ -51,7 +51,7 @@ impl<R: Number> Lens<R> {
         let model = &loaded.scene.model;
         let cast = Model::<R>::pack(&[&**model]).expect("one model has one structure");
         let mut mechanism = Mechanism::new(cast, true);
-        let control = at.control().filter(|_| names.is_closed).map(|c| Control::<R>::like(c, model));
+        let control = at.control().filter(|_| names.is_closed).map(|c| DiagramController::<R>::like(c, model));
         let z: Vec<f64> = if names.is_closed {
             at.control().map_or(Vec::new(), |c| c.runner.state.continuous.clone())
         } else {

@@ -1,7 +1,7 @@
 //! What inputs and outputs mean.
 
 use super::{axis, point::Request};
-use crate::diagram::Controller;
+use crate::diagram::ControlDiagram;
 use crate::linear::Axis;
 use crate::load::Loaded;
 use crate::problem::{Located, Problem, Problems};
@@ -42,7 +42,7 @@ pub(super) struct Names {
 
 /// Resolves what is asked for, or chooses: all commands that are no ideal motor's, all coordinates.
 pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Names, Problems> {
-    let of_diagram = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+    let of_diagram = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
     let all: Vec<Entry> = catalogue(&loaded.scene.model).into_iter().chain(of_diagram).collect();
     let mut names = Names { is_closed: request.is_closed && loaded.controller.is_some(), ..Names::default() };
     let mut problems = Problems::new();

@@ -8,7 +8,7 @@ use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
 use super::world_with_room;
 use crate::controller::{Change, Controller, Instant, Message};
-use crate::diagram::{Control, NotFinite};
+use crate::diagram_controller::{DiagramController, NotFinite};
 use crate::load::Loaded;
 use crate::record::float_signals;
 use crate::script::Fault;
@@ -20,7 +20,7 @@ use crate::trace::Trace;
 #[derive(Debug)]
 pub struct LockStep {
     world: World,
-    control: Option<Control<f64>>,
+    control: Option<DiagramController<f64>>,
     sensors: Sensors,
     /// Signals of the diagram, then recorded float signals, then values of sensors, as they were last observed.
     signals: Vec<f64>,
@@ -94,7 +94,7 @@ impl LockStep {
     #[must_use]
     pub fn new(loaded: &Loaded, method: MethodKind, refined: bool) -> Self {
         let Loaded { scene, experiment, controller, .. } = loaded;
-        let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
+        let control = controller.as_ref().map(|c| DiagramController::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
         let world = world_with_room(scene, experiment, method, refined, n_states);
         let engine = loaded.extensions.scripts.filter(|_| !scene.scripts.is_empty());
@@ -182,7 +182,7 @@ impl LockStep {
 
     /// The diagram, if there is one.
     #[must_use]
-    pub fn control(&self) -> Option<&Control<f64>> {
+    pub fn control(&self) -> Option<&DiagramController<f64>> {
         self.control.as_ref()
     }
 
@@ -295,7 +295,7 @@ impl LockStep {
         };
         if let Err((t, cause)) = advanced {
             // between ticks a block shows in the motion first
-            let culprit = self.control.as_ref().and_then(Control::not_finite);
+            let culprit = self.control.as_ref().and_then(DiagramController::not_finite);
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
@@ -342,7 +342,7 @@ impl LockStep {
     /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of scripts and clients and the values of
     /// all sensors after them. A float signal that nobody has set is not a number.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
-        let signals = self.control.as_ref().map_or(&[][..], Control::signals);
+        let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
         if !(self.sensors.values.is_empty() && self.floats.is_empty()) {
             self.signals.clear();
             self.signals.extend_from_slice(signals);

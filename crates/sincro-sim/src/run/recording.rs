@@ -8,7 +8,7 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 use super::bounds::Bounds;
 use super::lockstep::LockStep;
 use super::{Manner, RunError, Simulated};
-use crate::diagram::Controller;
+use crate::diagram::ControlDiagram;
 use crate::file::FileError;
 use crate::load::Loaded;
 use crate::record::Recorder;
@@ -46,7 +46,7 @@ impl Recording {
     /// Recorded signals that do not exist, or a CSV file that cannot be written.
     pub fn new(loaded: &Loaded, lockstep: &mut LockStep, manner: Manner<'_>) -> Result<Self, RunError> {
         let Loaded { scene, experiment, controller, .. } = loaded;
-        let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
+        let entries = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
         let rows = experiment.n_steps / experiment.record_every + 1;
         let table = Table::new(recorder.columns(), rows as usize);

@@ -6,7 +6,7 @@ use sincro_dynamics::world::{MethodKind, Stop, World};
 
 use super::lockstep::{Halt, LockStep};
 use super::method_word;
-use crate::diagram::NotFinite;
+use crate::diagram_controller::NotFinite;
 use crate::experiment::Experiment;
 use crate::results::Status;
 

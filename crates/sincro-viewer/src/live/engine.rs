@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
-use sincro_sim::diagram::Controller;
+use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::experiment::check::{Expected, Subject};
 use sincro_sim::overrides::Override;
 use sincro_sim::problem::Problems;
@@ -36,7 +36,7 @@ pub struct Source {
     /// What the scene may need beyond its files: language of scripts.
     pub extensions: Extensions,
     /// Makes the drawing of a diagram.
-    pub draw: Box<dyn Fn(&Controller) -> String + Send>,
+    pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
 }
 
 /// A live scene with its runs.

@@ -8,7 +8,7 @@ use sincro_blocks::library::nonlinear::{RateLimiter, Saturation};
 use sincro_blocks::library::sources::Sine;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
-use sincro_sim::diagram::Controller;
+use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::run::LockStep;
 use sincro_sim::scene::from_text;
 
@@ -81,7 +81,7 @@ fn continuous() -> Diagram {
 /// A step of the arm with a diagram, or without.
 fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
     let scene = from_text(ARM).expect("the scene is right");
-    let controller = diagram.map(|d| Controller::new(d, &scene.model, STEP, 0).expect("the diagram is right"));
+    let controller = diagram.map(|d| ControlDiagram::new(d, &scene.model, STEP, 0).expect("the diagram is right"));
     let experiment = default_experiment(STEP, 1.0);
     let loaded =
         Loaded { experiment, scene, controller, warnings: Vec::new(), sources: Vec::new(), extensions: extensions() };

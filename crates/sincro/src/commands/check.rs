@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::extensions::extensions;
 use clap::Args;
 use sincro_blocks::program::Rate;
-use sincro_sim::diagram::Controller;
+use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::record::catalogue;
 use sincro_sim::run::{method_for, method_word};
 use sincro_sim::scene::{Freedom, Model, Object, ObjectKind, Scene};
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     print(&loaded);
     if arguments.signals {
         say!("signals");
-        let of_diagram = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+        let of_diagram = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         for entry in catalogue(&loaded.scene.model).into_iter().chain(of_diagram) {
             say!("  {:<48} {}", entry.name, entry.unit);
         }
@@ -139,7 +139,7 @@ fn print_constraints(model: &Model<f64>, freedom: &Freedom) {
 }
 
 /// The blocks in the order of evaluation: when each is evaluated, how many states it has.
-fn print_diagram(controller: &Controller, step: f64) {
+fn print_diagram(controller: &ControlDiagram, step: f64) {
     let program = controller.wiring.program();
     let count = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
     say!(

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::extensions::extensions;
 use clap::Args;
-use sincro_sim::diagram::Controller;
+use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::load;
 
 use super::run::{parse_settings, scene_name};
@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 }
 
 /// A diagram as SVG: a file of its own, or for a page.
-pub(crate) fn drawing(controller: &Controller, title: &str, world: &str, is_inline: bool) -> String {
+pub(crate) fn drawing(controller: &ControlDiagram, title: &str, world: &str, is_inline: bool) -> String {
     let outputs = controller.wiring.program().steps.iter().flat_map(|step| {
         let ports = step.output_names.iter().zip(&step.node.outputs);
         ports.map(|(port, width)| (format!("{}.{port}", step.path), *width))

@@ -1,13 +1,12 @@
 //! A diagram and a world in one step.
 //!
-//! At a tick ([`Control::look`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
-//! are latched from that instant on ([`Control::latch`]), and memory is updated ([`Control::update`]). Between ticks the diagram is an
+//! At a tick ([`DiagramController::look`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
+//! are latched from that instant on ([`DiagramController::latch`]), and memory is updated ([`DiagramController::update`]). Between ticks the diagram is an
 //! [`Attachment`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
 
 use std::sync::Arc;
 
 use sincro_blocks::instance::Number;
-use sincro_blocks::program::{Measured, Program};
 use sincro_blocks::runner::{Runner, State};
 use sincro_dynamics::attachment::{Attachment, Response, Seen};
 use sincro_dynamics::kinematics;
@@ -16,59 +15,13 @@ use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 use sincro_math::Real;
 
-use super::ports::{Measurement, is_known_at_ticks_only};
+use crate::diagram::{Wiring, is_known_at_ticks_only};
 use crate::record::Probe;
 use crate::record::probe::{self, View};
 
-/// A measurement in use: where its components are read and where they go.
-#[derive(Clone, Debug)]
-struct Reading {
-    probes: Vec<Probe>,
-    at: usize,
-    is_minor: bool,
-}
-
-/// What a compiled diagram is connected to.
-#[derive(Clone, Debug)]
-pub struct Wiring {
-    program: Arc<Program>,
-    early: Vec<Reading>,
-    late: Vec<Reading>,
-    /// Whether any measurement needs poses and twists: at ticks, and between them.
-    needs_poses: [bool; 2],
-}
-
-impl Wiring {
-    pub(super) fn new(program: Arc<Program>, measurements: &[Measurement]) -> Self {
-        let reading = |m: &Measured| Reading {
-            probes: measurements[m.terminal].probes.clone(),
-            at: m.out.start,
-            is_minor: m.is_minor,
-        };
-        let early: Vec<Reading> = program.early.iter().map(reading).collect();
-        let late = program.late.iter().map(reading).collect();
-        let needs = |r: &Reading| r.probes.iter().any(|p| probe::needs_kinematics(*p));
-        let needs_poses = [early.iter().any(needs), early.iter().any(|r| r.is_minor && needs(r))];
-        Self { early, late, needs_poses, program }
-    }
-
-    /// Which measurement of the world a signal is, if it is one.
-    pub(super) fn measured(&self, signal: usize) -> Option<Probe> {
-        let all = self.early.iter().chain(&self.late);
-        let reading = all.into_iter().find(|r| (r.at..r.at + r.probes.len()).contains(&signal))?;
-        Some(reading.probes[signal - reading.at])
-    }
-
-    /// The compiled diagram.
-    #[must_use]
-    pub fn program(&self) -> &Arc<Program> {
-        &self.program
-    }
-}
-
 /// A diagram that controls a world.
 #[derive(Clone, Debug)]
-pub struct Control<R: Number> {
+pub struct DiagramController<R: Number> {
     wiring: Arc<Wiring>,
     /// The diagram with its state.
     pub runner: Runner<R>,
@@ -98,13 +51,13 @@ pub struct NotFinite {
     pub fault: Option<Box<str>>,
 }
 
-impl<R: Number> Control<R> {
+impl<R: Number> DiagramController<R> {
     /// At the start of a run of `model`.
     #[must_use]
     pub fn new(wiring: &Arc<Wiring>, model: &Model<f64>) -> Self {
         let zeros = |n: usize| vec![R::zero(); n];
         Self {
-            runner: Runner::new(wiring.program.clone()),
+            runner: Runner::new(wiring.program().clone()),
             wiring: wiring.clone(),
             tick: 0,
             corner: f64::INFINITY,
@@ -126,7 +79,7 @@ impl<R: Number> Control<R> {
     /// Whether anything happens between ticks, so that the world must take it along.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
-        self.wiring.program.is_continuous()
+        self.wiring.program().is_continuous()
     }
 
     fn read_state(&mut self, seen: &mut Seen<'_, R>, is_minor: bool) {
@@ -159,7 +112,7 @@ impl<R: Number> Control<R> {
     }
 
     fn write_commands(&self, commands: &mut [R], continuous_only: bool) {
-        for command in &self.wiring.program.commands {
+        for command in &self.wiring.program().commands {
             if command.is_continuous || !continuous_only {
                 commands[command.terminal] = self.runner.signals()[command.signal.start];
             }
@@ -168,9 +121,9 @@ impl<R: Number> Control<R> {
 }
 
 /// What linearisation needs: everything continuous is evaluated, whether or not the integrator needs it.
-impl<R: Number> Control<R> {
+impl<R: Number> DiagramController<R> {
     /// The same diagram in the same state on other numbers, without derivatives.
-    pub(crate) fn like(other: &Control<f64>, model: &Model<f64>) -> Self {
+    pub(crate) fn like(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
         let mut new = Self::new(&other.wiring, model);
         let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
         let state = &other.runner.state;
@@ -211,7 +164,7 @@ impl<R: Number> Control<R> {
     }
 }
 
-impl Control<f64> {
+impl DiagramController<f64> {
     /// Measures and evaluates everything that is due at a tick.
     ///
     /// # Errors
@@ -272,7 +225,7 @@ impl Control<f64> {
     /// Means and sums over the step that ended, and forces of contact at its end.
     fn read_tick_sums(&mut self, world: &World, tick: u64) {
         let totals = &world.state.totals;
-        let step = self.wiring.program.step;
+        let step = self.wiring.program().step;
         for reading in &self.wiring.early {
             for (k, probe) in reading.probes.iter().enumerate().filter(|(_, p)| is_known_at_ticks_only(**p)) {
                 use crate::record::EnergyQuantity as E;
@@ -336,7 +289,7 @@ impl Control<f64> {
     }
 }
 
-impl<R: Number + Real> Attachment<R> for Control<R> {
+impl<R: Number + Real> Attachment<R> for DiagramController<R> {
     fn states(&mut self) -> &mut [R] {
         &mut self.runner.state.continuous
     }
@@ -346,7 +299,7 @@ impl<R: Number + Real> Attachment<R> for Control<R> {
     }
 
     fn next_corner(&self, t: f64) -> f64 {
-        self.wiring.program.next_corner(t)
+        self.wiring.program().next_corner(t)
     }
 
     fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
