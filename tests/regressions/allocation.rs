@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::overrides::Override;
+use sincro_scene::record::Recorder;
 use sincro_sim::Extensions;
-use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
-use sincro_sim::record::Recorder;
 use sincro_sim::run::LockStep;
 
 const METHODS: [MethodKind; 5] = [

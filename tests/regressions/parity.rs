@@ -7,10 +7,10 @@ use sincro_blocks::library::discrete::UnitDelay;
 use sincro_blocks::library::maths::{Gain, Sum};
 use sincro_blocks::library::sources::Step;
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
-use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::run::{LockStep, world_of};
 use sincro_sim::trace::Trace;
 
@@ -106,7 +106,7 @@ fn a_force_from_a_diagram_is_that_of_the_scene() {
              body = [{{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = {{ xx = 0.1, yy = 0.2, zz = 0.25 }} }}]\n\
              force = [{{ name = \"push\", parent = \"/free/brick\", in_frame = \"body\", {force} }}]"
         );
-        sincro_sim::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
+        sincro_scene::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
     };
     let run = |force: &str, diagram: Option<Diagram>| -> Vec<u64> {
         let mut loaded = self::scene(&[]);
@@ -133,7 +133,7 @@ fn an_acceleration_is_measured_under_a_force_from_the_diagram() {
                 body = [{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = { xx = 0.1, yy = 0.2, zz = 0.25 } }]\n\
                 force = [{ name = \"push\", parent = \"/free/brick\", input = true }]";
     let mut loaded = scene(&[]);
-    loaded.scene = sincro_sim::scene::from_text(text).unwrap();
+    loaded.scene = sincro_scene::scene::from_text(text).unwrap();
     let mut d = Diagram::new();
     d.block("f", sincro_blocks::library::sources::Constant::new(3.0)).wire("f", "/free/brick/push.force.x");
     d.block("a", Gain::new(1.0)).wire("/free/brick.acceleration.x", "a");

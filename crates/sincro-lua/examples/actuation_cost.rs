@@ -4,9 +4,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::run::LockStep;
 
 /// Formulas of a controller: thirty operations, no call of the simulation.

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
+use sincro_coppelia::api_controller::ApiController;
+use sincro_coppelia::host::{Call, Host, Phase};
+use sincro_coppelia::session::{Handle, Refusal, Value};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
+use sincro_scene::script::{Fault, Kind, Law, LawSpec, Script, ScriptParser};
 use sincro_sim::Loaded;
 use sincro_sim::ScriptEngine;
-use sincro_sim::api_controller::ApiController;
 use sincro_sim::controller::Controller;
 use sincro_sim::controller::Message;
-use sincro_sim::host::{Call, Host, Phase};
-use sincro_sim::script::{Fault, Kind, Law, LawSpec, Script, ScriptParser};
-use sincro_sim::session::{Handle, Refusal, Value};
 
 use crate::guard::Guard;
 use crate::law::LuaLaw;

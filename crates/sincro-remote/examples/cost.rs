@@ -7,10 +7,10 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
 use std::time::Instant;
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::zmq::wire;
 use sincro_remote::{Options, Server, cbor};
 use sincro_sim::Extensions;
-use sincro_sim::session::{Session, Value};
 
 const N: usize = 20_000;
 

@@ -10,7 +10,7 @@ use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use sincro_sim::session::{Finished, Phase, Refusal, Session};
+use sincro_coppelia::session::{Finished, Phase, Refusal, Session};
 
 /// Longest wait before the state of the server is looked at again.
 const GLANCE: Duration = Duration::from_millis(100);

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use sincro_sim::session::Session;
+use sincro_coppelia::session::Session;
 
 use crate::hub::{Event, Hub, Manner};
 use crate::{legacy, listen, ws, zmq};

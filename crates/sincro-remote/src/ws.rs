@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Write};
 use std::sync::Arc;
 
 use serde_json::Value as Json;
-use sincro_sim::session::{Refusal, Value};
+use sincro_coppelia::session::{Refusal, Value};
 
 use crate::cbor;
 use crate::hub::Hub;

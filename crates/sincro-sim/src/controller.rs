@@ -9,8 +9,8 @@ use std::fmt;
 use sincro_dynamics::world::World;
 
 use crate::proximity::Detection;
-use crate::scenery::Piece;
-use crate::script::Fault;
+use sincro_scene::scenery::Piece;
+use sincro_scene::script::Fault;
 
 /// Instant of a step, with the world at that instant.
 #[derive(Debug)]

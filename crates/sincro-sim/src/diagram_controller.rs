@@ -15,9 +15,9 @@ use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 use sincro_math::Real;
 
-use crate::diagram::{Wiring, is_known_at_ticks_only};
-use crate::record::Probe;
-use crate::record::probe::{self, View};
+use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
+use sincro_scene::record::Probe;
+use sincro_scene::record::probe::{self, View};
 
 /// A diagram that controls a world.
 #[derive(Clone, Debug)]
@@ -123,7 +123,7 @@ impl<R: Number> DiagramController<R> {
 /// What linearisation needs: everything continuous is evaluated, whether or not the integrator needs it.
 impl<R: Number> DiagramController<R> {
     /// The same diagram in the same state on other numbers, without derivatives.
-    pub(crate) fn like(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
+    pub fn like(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
         let mut new = Self::new(&other.wiring, model);
         let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
         let state = &other.runner.state;
@@ -135,13 +135,7 @@ impl<R: Number> DiagramController<R> {
     }
 
     /// As [`Attachment::drive`]; `perturbed` is a signal and its change.
-    pub(crate) fn drive_whole(
-        &mut self,
-        seen: &mut Seen<'_, R>,
-        z: &[R],
-        commands: &mut [R],
-        perturbed: Option<(usize, R)>,
-    ) {
+    pub fn drive_whole(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R], perturbed: Option<(usize, R)>) {
         self.runner.state.continuous.copy_from_slice(z);
         self.read_state(seen, false);
         self.runner.evaluate_continuous(self.tick, seen.t, false, perturbed);
@@ -149,7 +143,7 @@ impl<R: Number> DiagramController<R> {
     }
 
     /// As [`Attachment::slope`].
-    pub(crate) fn slope_whole(
+    pub fn slope_whole(
         &mut self,
         seen: &mut Seen<'_, R>,
         response: Response<'_, R>,
@@ -228,13 +222,13 @@ impl DiagramController<f64> {
         let step = self.wiring.program().step;
         for reading in &self.wiring.early {
             for (k, probe) in reading.probes.iter().enumerate().filter(|(_, p)| is_known_at_ticks_only(**p)) {
-                use crate::record::EnergyQuantity as E;
+                use sincro_scene::record::EnergyQuantity as E;
                 let x = match *probe {
                     Probe::Sensor(i) => self.sensed[i],
                     Probe::MotorTorqueMean(_) if tick == 0 => 0.0,
                     Probe::MotorTorqueMean(m) => (totals[2 + m] - self.impulse[m]) / step,
                     Probe::Contact(quantity, frame, k) => {
-                        crate::record::contact::read(world.model(), world.contacts(), quantity, frame, k)
+                        sincro_scene::record::contact::read(world.model(), world.contacts(), quantity, frame, k)
                     }
                     Probe::Reaction(k) => world.reaction(k),
                     Probe::Energy(E::Work) => totals[0],

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use sincro_dynamics::world::MethodKind;
 
 use crate::controller::Controller;
-use crate::diagram::ControlDiagram;
-use crate::experiment::Experiment;
-use crate::open::{Opened, open};
-use crate::overrides::Override;
-use crate::problem::{Problem, Problems, SourceText};
-use crate::scene::Scene;
-use crate::script::ScriptParser;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::Experiment;
+use sincro_scene::open::{Opened, open};
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::{Problem, Problems, SourceText};
+use sincro_scene::scene::Scene;
+use sincro_scene::script::ScriptParser;
 
 /// An experiment and its scene, ready to run.
 #[derive(Clone, Debug)]

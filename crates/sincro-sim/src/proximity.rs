@@ -5,9 +5,9 @@ use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
-use crate::scene::Scene;
-use crate::scenery::Piece;
-use crate::sensor::SensorSpec;
+use sincro_scene::scene::Scene;
+use sincro_scene::scenery::Piece;
+use sincro_scene::sensor::SensorSpec;
 
 /// What a proximity sensor looks into, and what it sees there.
 #[derive(Clone, Debug)]

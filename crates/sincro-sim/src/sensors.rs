@@ -9,12 +9,12 @@ use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
 
 use crate::controller::Controller;
-use crate::experiment::Experiment;
 use crate::proximity::{Detection, Eye};
-use crate::record::probe::attached;
-use crate::scene::Scene;
-use crate::scenery::Scenery;
-use crate::sensor::{Errors, SensorKind, every};
+use sincro_scene::experiment::Experiment;
+use sincro_scene::record::probe::attached;
+use sincro_scene::scene::Scene;
+use sincro_scene::scenery::Scenery;
+use sincro_scene::sensor::{Errors, SensorKind, every};
 
 /// All sensors of a scene with what they gave last.
 #[derive(Clone, Debug)]
@@ -169,7 +169,7 @@ impl Sensor {
     fn look<'a>(
         &self,
         seen: &Seen<'_, f64>,
-        pieces: impl Iterator<Item = &'a crate::scenery::Piece>,
+        pieces: impl Iterator<Item = &'a sincro_scene::scenery::Piece>,
         k: u64,
     ) -> Option<Detection> {
         let (eye, at) = (self.eye.as_ref()?, &self.at);

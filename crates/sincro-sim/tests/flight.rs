@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::results::Status;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
 

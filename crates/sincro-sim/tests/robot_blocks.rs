@@ -2,12 +2,12 @@
 
 use sincro_blocks::diagram::Diagram;
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::diagram::ControlDiagram;
-use sincro_sim::diagram::robot::{
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::diagram::robot::{
     Context, ForwardKinematics, GravityTorque, InverseDynamics, Jacobian, JacobianRows, MassMatrix,
 };
+use sincro_scene::scene::{Scene, from_text};
 use sincro_sim::run::LockStep;
-use sincro_sim::scene::{Scene, from_text};
 use sincro_sim::{Extensions, Loaded, load};
 
 /// A shoulder, an elbow out of plane and a tool, under gravity, with torque motors.

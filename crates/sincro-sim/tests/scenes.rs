@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::run::{Manner, Watch, simulate};
 
 fn scenes() -> Vec<PathBuf> {

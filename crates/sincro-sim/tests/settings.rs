@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use common::TestFolder;
 use sincro_dynamics::signal::Signal;
+use sincro_scene::overrides::Override;
+use sincro_scene::scene::ObjectKind;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
-use sincro_sim::scene::ObjectKind;
 
 /// Setting, and what is said.
 const REFUSED: &[(&str, &str)] = &[

@@ -131,7 +131,7 @@ impl Film {
 
 /// Titles and signals of the experiment's plots.
 pub(crate) fn plots(loaded: &Loaded) -> Vec<(String, Vec<String>)> {
-    let names = |p: &sincro_sim::experiment::Plot| p.signals.iter().map(|s| s.value.clone()).collect();
+    let names = |p: &sincro_scene::experiment::Plot| p.signals.iter().map(|s| s.value.clone()).collect();
     loaded.experiment.plots.iter().map(|p| (p.title.clone(), names(p))).collect()
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sincro_sim::overrides::Override;
+use sincro_scene::overrides::Override;
 use sincro_sim::replay::edited;
 use sincro_sim::{Extensions, load};
 

@@ -5,8 +5,8 @@ use std::io::IsTerminal;
 use std::sync::Arc;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use sincro_scene::problem::{Problem, Problems, SourceText};
 use sincro_sim::file::FileError;
-use sincro_sim::problem::{Problem, Problems, SourceText};
 use sincro_sim::run::RunError;
 
 use crate::Exit;

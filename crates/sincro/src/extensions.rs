@@ -5,5 +5,5 @@ use sincro_sim::Extensions;
 /// Lua for scripts, linearisation for warnings of loops that are too fast for their step.
 #[must_use]
 pub fn extensions() -> Extensions {
-    Extensions { scripts: Some(sincro_lua::engine()), fastest_poles: Some(sincro_sim::linearize::fastest_poles) }
+    Extensions { scripts: Some(sincro_lua::engine()), fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
 }

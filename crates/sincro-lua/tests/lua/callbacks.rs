@@ -1,9 +1,9 @@
 //! Callbacks of pauses, of the step as a whole, of contacts.
 
+use sincro_coppelia::session::{Phase, Session};
 use sincro_sim::Extensions;
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
-use sincro_sim::session::{Phase, Session};
 
 use super::world::{EXPERIMENT, PENDULUM, folder, open, run};
 

@@ -1,8 +1,8 @@
 //! What scripts tell to graphs is recorded with the run.
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_sim::Extensions;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
-use sincro_sim::session::{Session, Value};
 use sincro_sim::table::Table;
 
 use super::world::{EXPERIMENT, PENDULUM, folder, run, said, with_script};

@@ -1,10 +1,10 @@
 //! The same law through Rust, a diagram, a block in Lua and a script gives the same bits.
 
+use sincro_coppelia::api_controller::ApiController;
+use sincro_coppelia::session::Table;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
-use sincro_sim::api_controller::ApiController;
 use sincro_sim::run::LockStep;
-use sincro_sim::session::Table;
 use sincro_sim::trace::Trace;
 
 use super::world::{EXPERIMENT, PENDULUM, open};

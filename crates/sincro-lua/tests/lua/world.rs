@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use sincro_sim::problem::Problems;
+use sincro_scene::problem::Problems;
 use sincro_sim::results::Status;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
 use sincro_sim::{Extensions, Loaded, load};

@@ -7,9 +7,9 @@ use std::net::TcpListener;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use sincro_coppelia::session::Session;
 use sincro_remote::{Options, Server};
 use sincro_sim::Extensions;
-use sincro_sim::session::Session;
 
 use super::legacy_client::{Client, Command, DISCONTINUE, ONCE, SPLIT, STREAM, floats, ints, text};
 use super::scene::{finished, folder, options, serve, serve_with};

@@ -4,10 +4,10 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::Duration;
 
+use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
+use sincro_coppelia::session::{Handle, Session, Value, api};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
-use sincro_sim::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
-use sincro_sim::session::{Handle, Session, Value, api};
 use sincro_sim::trace::Trace;
 
 use super::scene::{finished, folder, options, serve};

@@ -6,11 +6,11 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use sincro_coppelia::session::{Search, Session, Value};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
-use sincro_sim::session::{Search, Session, Value};
 use sincro_sim::trace::Trace;
 
 use super::legacy_client::Client as Legacy;

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use sincro_coppelia::session::{Finished, Session};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::Extensions;
-use sincro_sim::session::{Finished, Session};
 
 pub const SCENE: &str = r#"
 [[joint]]

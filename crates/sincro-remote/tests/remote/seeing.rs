@@ -1,7 +1,7 @@
 //! Pictures over the wires: the same bytes by every protocol, whole and in pieces, in the step that they belong to.
 
+use sincro_coppelia::session::{Search, Session, Value};
 use sincro_sim::Extensions;
-use sincro_sim::session::{Search, Session, Value};
 
 use super::legacy_client::{Client, Command, ONCE, SPLIT, STREAM, ints};
 use super::scene::{folder, options, serve};

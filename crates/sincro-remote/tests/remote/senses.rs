@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
-use sincro_sim::session::{Session, Value};
 
 use super::legacy_client::{Client as Legacy, Reply, floats, ints, text};
 use super::scene::{finished, options};

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use sincro_coppelia::session::{Files, Grants, Search, Session, Value};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
-use sincro_sim::session::{Files, Grants, Search, Session, Value};
 
 use super::legacy_client::{Client, ints, text};
 use super::scene::options;

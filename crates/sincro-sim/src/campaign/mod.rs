@@ -9,21 +9,21 @@ mod refine;
 
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::controller::{Change, Message};
-use crate::diagram::ControlDiagram;
-use crate::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use crate::load::{Loaded, load};
-use crate::open::settings_with;
-use crate::overrides::Override;
 use crate::replay::SceneView;
 use crate::results::{
     ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
     SweepReport, VariantReport,
 };
 use crate::run::{Manner, RunError, Simulated, Watch, method_word, simulate};
-use crate::scene::{ObjectKind, Scene};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::trace::model_hash;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::{Experiment, Sweep as SweepPlan, Variant};
+use sincro_scene::open::settings_with;
+use sincro_scene::overrides::Override;
+use sincro_scene::scene::{ObjectKind, Scene};
 
 /// One run of a campaign with its judgement.
 #[derive(Clone, Debug)]
@@ -271,7 +271,7 @@ fn report(
     variants: &[(Variant, Done)],
     sweep: Option<&(Sweep, Vec<Outcome>)>,
 ) -> RunReport {
-    let scene = crate::open::folder_name(folder);
+    let scene = sincro_scene::open::folder_name(folder);
     let problems = loaded.warnings.iter().map(|w| w.message.clone());
     RunReport {
         sincro_version: env!("CARGO_PKG_VERSION").into(),

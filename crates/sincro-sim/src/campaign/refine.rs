@@ -5,10 +5,10 @@
 
 use sincro_dynamics::world::MethodKind;
 
-use crate::experiment::ErrorBar;
 use crate::load::Loaded;
 use crate::results::ColumnReport;
 use crate::run::{FINER, Manner, RunError, Simulated, Watch, simulate};
+use sincro_scene::experiment::ErrorBar;
 
 /// The recorded columns with their error bars.
 pub(super) fn columns(loaded: &Loaded, run: &Simulated, watch: &mut Watch<'_>) -> Result<Vec<ColumnReport>, RunError> {

@@ -9,15 +9,15 @@ use std::path::PathBuf;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::apply_overrides::{Target, apply_all};
-use crate::document::{Document, escape};
-use crate::experiment::experiment_schema;
 use crate::load::Loaded;
-use crate::overrides::Override;
-use crate::problem::Location;
-use crate::scene::scene_schema;
-use crate::schema::{alternatives, description, property, units};
-use crate::tree;
+use sincro_scene::apply_overrides::{Target, apply_all};
+use sincro_scene::document::{Document, escape};
+use sincro_scene::experiment::experiment_schema;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Location;
+use sincro_scene::scene::scene_schema;
+use sincro_scene::schema::{alternatives, description, property, units};
+use sincro_scene::tree;
 
 /// A number of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -11,11 +11,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Outcome, Verdict};
-use crate::experiment::check::Sense;
 use crate::file::{self, FileError};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::validity::Outside;
+use sincro_scene::experiment::check::Sense;
 
 /// The whole file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,8 +1,8 @@
 //! Bounds at which a run ends, looked for in each recorded row.
 
-use crate::experiment::Experiment;
-use crate::experiment::stop::StopWhen;
 use crate::table::Table;
+use sincro_scene::experiment::Experiment;
+use sincro_scene::experiment::stop::StopWhen;
 
 /// The bounds of one run, with the columns they look at.
 #[derive(Clone, Debug)]
@@ -49,8 +49,8 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::stop::Side;
-    use crate::problem::{Located, Location, SourceText};
+    use sincro_scene::experiment::stop::Side;
+    use sincro_scene::problem::{Located, Location, SourceText};
 
     fn stop(side: Side) -> StopWhen {
         let source = std::sync::Arc::new(SourceText { path: "experiment.toml".into(), text: String::new() });

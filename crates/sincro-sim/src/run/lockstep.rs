@@ -10,11 +10,11 @@ use super::world_with_room;
 use crate::controller::{Change, Controller, Instant, Message};
 use crate::diagram_controller::{DiagramController, NotFinite};
 use crate::load::Loaded;
-use crate::record::float_signals;
-use crate::script::Fault;
 use crate::sensors::Sensors;
 use crate::snapshot::Snapshot;
 use crate::trace::Trace;
+use sincro_scene::record::float_signals;
+use sincro_scene::script::Fault;
 
 /// A world with its controller.
 #[derive(Debug)]

@@ -27,17 +27,17 @@ use sincro_dynamics::world::{Effort, MethodKind, World};
 use crate::trace::Trace;
 use crate::validity::Outside;
 pub use lockstep::{Halt, LockStep};
-pub(crate) use recording::Recording;
+pub use recording::Recording;
 
 use crate::controller::{Change, Message};
-use crate::experiment::{Experiment, Integrator};
 use crate::file::FileError;
 use crate::load::Loaded;
-use crate::problem::Problems;
 use crate::replay::Tape;
 use crate::results::{EnergyReport, Status};
-use crate::scene::Scene;
 use crate::table::Table;
+use sincro_scene::experiment::{Experiment, Integrator};
+use sincro_scene::problem::Problems;
+use sincro_scene::scene::Scene;
 
 /// Rate times base step above which `auto` takes the stiff method.
 const STIFF_FROM: f64 = 1.0;

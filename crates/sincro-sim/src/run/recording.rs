@@ -8,20 +8,20 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 use super::bounds::Bounds;
 use super::lockstep::LockStep;
 use super::{Manner, RunError, Simulated};
-use crate::diagram::ControlDiagram;
 use crate::file::FileError;
 use crate::load::Loaded;
-use crate::record::Recorder;
 use crate::replay::Tape;
 use crate::results::{EnergyReport, Status};
 use crate::table::{CsvWriter, Table};
 use crate::trace::Trace;
 use crate::validity;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::record::Recorder;
 
 use super::streams::Streams;
 
 /// A run as it is recorded.
-pub(crate) struct Recording {
+pub struct Recording {
     recorder: Recorder,
     table: Table,
     /// What ends the run; none in the finer run of an error estimate, which goes as far as the first one.
@@ -76,6 +76,7 @@ impl Recording {
     }
 
     /// Hash of the states so far.
+    #[must_use]
     pub fn trace(&self) -> Trace {
         self.trace
     }

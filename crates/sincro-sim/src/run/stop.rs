@@ -7,8 +7,8 @@ use sincro_dynamics::world::{MethodKind, Stop, World};
 use super::lockstep::{Halt, LockStep};
 use super::method_word;
 use crate::diagram_controller::NotFinite;
-use crate::experiment::Experiment;
 use crate::results::Status;
+use sincro_scene::experiment::Experiment;
 
 impl Halt {
     /// The stop in words; for a world, from the last state that was still finite.

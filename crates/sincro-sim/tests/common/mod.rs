@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use sincro_sim::overrides::Override;
+use sincro_scene::overrides::Override;
 use sincro_sim::{Extensions, Loaded, load};
 
 pub const SCENE: &str = r##"gravity = [0.0, 0.0, -9.81]

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
-use sincro_sim::diagram::ControlDiagram;
-use sincro_sim::experiment::check::{Expected, Subject};
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::check::{Expected, Subject};
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
 use sincro_sim::replay::{SceneView, properties};
 use sincro_sim::{Extensions, load, load_alone};
 

@@ -2,11 +2,11 @@
 
 use sincro_dynamics::force::Push;
 use sincro_dynamics::spatial::Vec3;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::{Located, Problems};
+use sincro_scene::record::{Recorder, catalogue};
 use sincro_sim::Loaded;
-use sincro_sim::diagram::ControlDiagram;
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::{Located, Problems};
-use sincro_sim::record::{Recorder, catalogue};
 use sincro_sim::replay::{Contacts, Layout, SceneView, Tape};
 use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;

@@ -7,10 +7,10 @@ use sincro_blocks::library::maths::{Gain, Product, Sum};
 use sincro_blocks::library::nonlinear::{RateLimiter, Saturation};
 use sincro_blocks::library::sources::Sine;
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::scene::from_text;
 use sincro_sim::Loaded;
-use sincro_sim::diagram::ControlDiagram;
 use sincro_sim::run::LockStep;
-use sincro_sim::scene::from_text;
 
 use super::clock::Subject;
 use super::subjects::{STEP, STEPS_A_SECOND, default_experiment};

@@ -7,11 +7,11 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
 
 use crate::extensions::extensions;
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::zmq::wire;
 use sincro_remote::{Options, Server, cbor};
 use sincro_sim::load;
 use sincro_sim::run::{LockStep, method_for};
-use sincro_sim::session::{Session, Value};
 
 use super::clock::Subject;
 

@@ -14,12 +14,12 @@ use sincro_dynamics::rnea;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_sim::camera::{Lens, NOTHING, Optics};
-use sincro_sim::experiment::{ErrorBar, Experiment, Integrator};
+use sincro_scene::camera::{Lens, NOTHING, Optics};
+use sincro_scene::experiment::{ErrorBar, Experiment, Integrator};
+use sincro_scene::scene::Camera;
+use sincro_scene::scene::{ObjectKind, Scene};
 use sincro_sim::rollout::rollout;
 use sincro_sim::run::choose_method;
-use sincro_sim::scene::Camera;
-use sincro_sim::scene::{ObjectKind, Scene};
 
 use super::clock::Subject;
 

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use crate::extensions::extensions;
 use clap::Args;
 use sincro_blocks::program::Rate;
-use sincro_sim::diagram::ControlDiagram;
-use sincro_sim::record::catalogue;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::record::catalogue;
+use sincro_scene::scene::{Freedom, Model, Object, ObjectKind, Scene};
+use sincro_scene::script::Kind;
 use sincro_sim::run::{method_for, method_word};
-use sincro_sim::scene::{Freedom, Model, Object, ObjectKind, Scene};
-use sincro_sim::script::Kind;
 use sincro_sim::trace::model_hash;
 use sincro_sim::{Loaded, load};
 

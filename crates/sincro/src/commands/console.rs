@@ -4,10 +4,10 @@ use std::io::IsTerminal;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use sincro_scene::experiment::check::Sense;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::Campaign;
 use sincro_sim::controller::Message;
-use sincro_sim::experiment::check::Sense;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
 
 use crate::diagnostics::count;

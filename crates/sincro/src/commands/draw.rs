@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::extensions::extensions;
 use clap::Args;
-use sincro_sim::diagram::ControlDiagram;
+use sincro_scene::diagram::ControlDiagram;
 use sincro_sim::load;
 
 use super::run::{parse_settings, scene_name};

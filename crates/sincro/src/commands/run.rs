@@ -6,11 +6,11 @@ use std::sync::{Arc, OnceLock};
 
 use crate::extensions::extensions;
 use clap::Args;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
+use sincro_scene::scene::ObjectKind;
 use sincro_sim::campaign::{Campaign, run_campaign};
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
 use sincro_sim::results::{Override as Setting, VerdictReport};
-use sincro_sim::scene::ObjectKind;
 use sincro_sim::{Loaded, load};
 
 use super::console::{self, Bar};

@@ -9,12 +9,12 @@ use std::time::{Duration, Instant};
 
 use crate::extensions::extensions;
 use clap::Args;
+use sincro_coppelia::session::{Files, Finished, Grants, Session};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::campaign::judge;
 use sincro_sim::file::FileError;
 use sincro_sim::results::Status;
-use sincro_sim::session::{Files, Finished, Grants, Session};
 
 use super::console;
 use super::run::{interrupt, parse_settings, scene_name};
@@ -161,7 +161,7 @@ impl Watch {
     fn glance(&mut self, server: &Server) {
         let mut floor = server.hub().enter();
         let (clients, step, t) = (floor.n_clients(), floor.steps(), floor.session.t());
-        let runs = floor.session.phase() != sincro_sim::session::Phase::Stopped;
+        let runs = floor.session.phase() != sincro_coppelia::session::Phase::Stopped;
         drop(floor);
         if clients != self.clients {
             say!("  {} attached", diagnostics::count(clients, "client"));

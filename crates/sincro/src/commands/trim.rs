@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use crate::extensions::extensions;
 use clap::Args;
 use serde_json::{Map, Value, json};
-use sincro_sim::linear::Axis;
-use sincro_sim::linearize::{Trim, TrimRequest, operating_point, trim};
+use sincro_analysis::linear::Axis;
+use sincro_analysis::linearize::{Trim, TrimRequest, operating_point, trim};
+use sincro_scene::problem::{Located, Problem, Problems};
 use sincro_sim::load;
-use sincro_sim::problem::{Located, Problem, Problems};
 
 use super::linearize::located;
 use super::run::parse_settings;

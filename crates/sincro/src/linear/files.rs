@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use serde::Serialize;
+use sincro_analysis::linear::{Axis, Complex, DMatrix, Margin, Stability};
 use sincro_sim::file::{FileError, prepare};
-use sincro_sim::linear::{Axis, Complex, DMatrix, Margin, Stability};
 use sincro_sim::table::CsvWriter;
 
 use super::{Analysis, Channel, figures, page};

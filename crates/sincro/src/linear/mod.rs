@@ -8,7 +8,7 @@ pub(crate) mod files;
 mod page;
 pub(crate) mod text;
 
-use sincro_sim::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
+use sincro_analysis::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
 
 /// Channels that are shown in full.
 pub(crate) const MOST_CHANNELS: usize = 6;

@@ -4,12 +4,12 @@ mod figures;
 
 use std::path::Path;
 
+use sincro_scene::camera::png;
+use sincro_scene::scene::Camera;
 use sincro_sim::Loaded;
-use sincro_sim::camera::png;
 use sincro_sim::campaign::{Campaign, Done};
 use sincro_sim::file::{self, FileError};
 use sincro_sim::results::{CheckReport, Status, VerdictReport};
-use sincro_sim::scene::Camera;
 use sincro_viewer::film::Film;
 
 use crate::plot::{self, Figure, Size};

@@ -17,12 +17,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
-use sincro_sim::session::{Session, Value};
 use sincro_sim::trace::Trace;
 
 use legacy_client::{Client as Legacy, Command, ONCE, STREAM, floats, ints};

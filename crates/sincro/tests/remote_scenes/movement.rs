@@ -1,6 +1,6 @@
 //! `movement`: three clients move three arms at once, as CoppeliaSim's example `simpleMovement.py` does; the bits are those of the scripts of `movement-lua`.
 
-use sincro_sim::session::Value;
+use sincro_coppelia::session::Value;
 
 use super::zmq_client::{Client as Zmq, map};
 use super::{finished, in_process, serve};

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use sincro_coppelia::session::{Grants, Session, Value};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::Extensions;
-use sincro_sim::session::{Grants, Session, Value};
 
 use super::zmq_client::Client as Zmq;
 
