@@ -8,21 +8,30 @@ use std::path::{Path, PathBuf};
 const MOST_LINES: usize = 1000;
 
 /// Which crates of ours each crate may use.
-const ARROWS: [(&str, &[&str]); 8] = [
+const ARROWS: [(&str, &[&str]); 11] = [
     ("sincro-math", &[]),
     ("sincro-dynamics", &["sincro-math"]),
     ("sincro-blocks", &["sincro-math"]),
-    ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
-    ("sincro-lua", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-sim"]),
-    ("sincro-remote", &["sincro-sim"]),
-    ("sincro-viewer", &["sincro-math", "sincro-dynamics", "sincro-sim"]),
+    ("sincro-scene", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
+    ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
+    ("sincro-analysis", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
+    ("sincro-coppelia", &["sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
+    (
+        "sincro-lua",
+        &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-coppelia"],
+    ),
+    ("sincro-remote", &["sincro-scene", "sincro-sim", "sincro-coppelia"]),
+    ("sincro-viewer", &["sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
     (
         "sincro",
         &[
             "sincro-math",
             "sincro-dynamics",
             "sincro-blocks",
+            "sincro-scene",
             "sincro-sim",
+            "sincro-analysis",
+            "sincro-coppelia",
             "sincro-lua",
             "sincro-remote",
             "sincro-viewer",
