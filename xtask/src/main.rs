@@ -58,6 +58,8 @@ fn check() -> ExitCode {
 }
 
 fn bless() -> ExitCode {
-    let done = runs(cargo(&["test", "--package", "sincro-scene", "--package", "sincro-sim", "--release"]).env("SINCRO_BLESS", "1"));
+    let done = runs(
+        cargo(&["test", "--package", "sincro-scene", "--package", "sincro-sim", "--release"]).env("SINCRO_BLESS", "1"),
+    );
     if done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

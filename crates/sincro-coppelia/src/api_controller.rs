@@ -8,7 +8,7 @@ use crate::host::{Host, Phase, Scripts, Setting};
 use crate::session::{self, Desk, Handle, Refusal, Request, Table, Value};
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::{Fault, Kind, Script};
-use sincro_sim::controller::{Change, Controller, Instant, Message};
+use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
 use sincro_sim::run::{Halt, LockStep};
@@ -140,7 +140,7 @@ impl Controller for ApiController {
     }
 
     fn start(&mut self, at: Instant<'_>) -> Result<(), Fault> {
-        self.call_scripts(Phase::Initialization, at)
+        self.call_scripts(Phase::Initialization, Instant { tick: 0, t: 0.0, ..at })
     }
 
     fn actuate(&mut self, at: Instant<'_>) -> Result<(), Fault> {
@@ -156,7 +156,7 @@ impl Controller for ApiController {
         Ok(())
     }
 
-    fn latch(&self, commands: &mut [f64]) {
+    fn latch(&self, commands: &mut Commands<'_>) {
         if let Some(table) = &self.table {
             table.latch(commands);
         }
@@ -185,9 +185,10 @@ impl Controller for ApiController {
         if self.is_started() { self.call_scripts(Phase::Cleanup, at) } else { Ok(()) }
     }
 
-    /// The table alone: what scripts remember is theirs.
-    fn fork(&self) -> Option<Box<dyn Controller>> {
-        Some(Box::new(Self { table: self.table.clone(), scripts: None }))
+    /// The table alone: memory of scripts cannot be copied.
+    fn fork(&self) -> Forked {
+        let copy = Box::new(Self { table: self.table.clone(), scripts: None });
+        if self.scripts.is_some() { Forked::Part(copy, "scripts".to_owned()) } else { Forked::Whole(copy) }
     }
 
     fn pieces(&self) -> &[Piece] {

@@ -1,7 +1,7 @@
 //! A diagram and a world in one step.
 //!
-//! At a tick ([`DiagramController::look`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
-//! are latched from that instant on ([`DiagramController::latch`]), and memory is updated ([`DiagramController::update`]). Between ticks the diagram is an
+//! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
+//! are latched from that instant on ([`Controller::latch`]), and memory is updated ([`Controller::latched`]). Between ticks the diagram is an
 //! [`Attachment`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
 
 use std::sync::Arc;
@@ -15,6 +15,7 @@ use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 use sincro_math::Real;
 
+use crate::controller::{Commands, Controller, Forked, Instant, NotFinite};
 use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{self, View};
@@ -34,21 +35,6 @@ pub struct DiagramController<R: Number> {
     /// What sensors gave last.
     sensed: Vec<f64>,
     held: Vec<f64>,
-}
-
-/// A block whose output is not a finite number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NotFinite {
-    /// Its path.
-    pub block: String,
-    /// Its kind.
-    pub kind: &'static str,
-    /// Its outputs.
-    pub outputs: Vec<f64>,
-    /// Its inputs.
-    pub inputs: Vec<f64>,
-    /// What the block itself says of it.
-    pub fault: Option<Box<str>>,
 }
 
 impl<R: Number> DiagramController<R> {
@@ -164,7 +150,7 @@ impl DiagramController<f64> {
     /// # Errors
     ///
     /// The first block, in the order of evaluation, whose output is not finite.
-    pub fn look(&mut self, world: &mut World, tick: u64, t: f64) -> Result<(), NotFinite> {
+    pub fn evaluate(&mut self, world: &mut World, tick: u64, t: f64) -> Result<(), NotFinite> {
         self.tick = tick;
         if self.feels_contact() {
             // forces of contact under the commands that led here
@@ -241,45 +227,65 @@ impl DiagramController<f64> {
         self.impulse.copy_from_slice(&totals[2..]);
     }
 
-    /// Brings the continuous commands to the end of a step, sampled blocks still holding: what the world is seen with before the next
-    /// tick acts.
-    pub fn arrive(&mut self, world: &mut World, t: f64) {
-        world.with_seen(t, |mut seen| self.read_state(&mut seen, true));
-        self.runner.minor(self.tick, t, self.corner);
-        self.write_commands(&mut world.state.commands, true);
-    }
-
-    /// What sensors gave last, to be measured at the next tick.
-    pub fn sense(&mut self, values: &[f64]) {
-        self.sensed.copy_from_slice(values);
-    }
-
-    /// The continuous commands as they were last evaluated; sampled ones are not seen before they act.
-    pub fn show(&self, commands: &mut [f64]) {
-        self.write_commands(commands, true);
-    }
-
-    /// Latches the commands of the diagram, from this tick on.
-    pub fn latch(&self, commands: &mut [f64]) {
-        self.write_commands(commands, false);
-    }
-
-    /// Memory for the next tick.
-    pub fn update(&mut self, tick: u64, t: f64) {
-        self.runner.update(tick, t);
-    }
-
     /// The signals of the diagram as they were last evaluated at a tick.
     #[must_use]
     pub fn signals(&self) -> &[f64] {
         self.runner.signals()
     }
+}
 
-    /// Goes back to a state of the diagram that belongs to a state of the world.
-    pub(crate) fn resume(&mut self, state: State<f64>, world: &WorldState<f64>) {
-        self.runner.resume(state, world.tick);
+impl Controller for DiagramController<f64> {
+    fn name(&self) -> &str {
+        "diagram"
+    }
+
+    fn latch(&self, commands: &mut Commands<'_>) {
+        for command in &self.wiring.program().commands {
+            commands.set(command.terminal, self.runner.signals()[command.signal.start]);
+        }
+    }
+
+    fn latched(&mut self, tick: u64, t: f64) {
+        self.runner.update(tick, t);
+    }
+
+    fn continuous(&mut self) -> Option<&mut dyn Attachment<f64>> {
+        if self.is_continuous() { Some(self) } else { None }
+    }
+
+    /// Sampled blocks still hold: what the world is seen with before the next tick acts.
+    fn arrive(&mut self, at: Instant<'_>) {
+        if !self.is_continuous() {
+            return;
+        }
+        at.world.with_seen(at.t, |mut seen| self.read_state(&mut seen, true));
+        self.runner.minor(self.tick, at.t, self.corner);
+        self.write_commands(&mut at.world.state.commands, true);
+    }
+
+    fn measure(&mut self, at: Instant<'_>, sensors: &[f64]) -> Result<(), NotFinite> {
+        self.sensed.copy_from_slice(sensors);
+        self.evaluate(at.world, at.tick, at.t)
+    }
+
+    fn show(&self, commands: &mut [f64]) {
+        if self.is_continuous() {
+            self.write_commands(commands, true);
+        }
+    }
+
+    fn save(&self) -> Option<State<f64>> {
+        Some(self.runner.state.clone())
+    }
+
+    fn restore(&mut self, saved: &State<f64>, world: &WorldState<f64>) {
+        self.runner.resume(saved.clone(), world.tick);
         self.tick = world.tick;
         self.impulse.copy_from_slice(&world.totals[2..]);
+    }
+
+    fn fork(&self) -> Forked {
+        Forked::Whole(Box::new(self.clone()))
     }
 }
 

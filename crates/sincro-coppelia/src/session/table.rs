@@ -19,7 +19,7 @@ use super::signals::Signals;
 use super::vision::Vision;
 use super::{Phase, Refusal, convention};
 use sincro_scene::scene::{Object, ObjectKind};
-use sincro_sim::controller::Change;
+use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 
 /// Name of an object on every wire: small and positive. Negative numbers have meanings of their own (`sim.handle_world` …).
@@ -458,10 +458,10 @@ impl Table {
     }
 
     /// Commands that are held from outside, over those of the scene.
-    pub(crate) fn latch(&self, commands: &mut [f64]) {
-        for (command, held) in commands.iter_mut().zip(&self.held) {
+    pub(crate) fn latch(&self, commands: &mut Commands<'_>) {
+        for (command, held) in self.held.iter().enumerate() {
             if let Some(x) = held {
-                *command = *x;
+                commands.set(command, *x);
             }
         }
     }

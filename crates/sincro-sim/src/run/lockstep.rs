@@ -7,8 +7,8 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
 use super::world_with_room;
-use crate::controller::{Change, Controller, Instant, Message};
-use crate::diagram_controller::{DiagramController, NotFinite};
+use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, Source};
+use crate::diagram_controller::DiagramController;
 use crate::load::Loaded;
 use crate::sensors::Sensors;
 use crate::snapshot::Snapshot;
@@ -27,6 +27,8 @@ pub struct LockStep {
     /// Names of the float signals of scripts and clients that are recorded.
     floats: Vec<String>,
     commands: Vec<Signal>,
+    /// Source of each command, as it was last latched.
+    sources: Vec<Source>,
     step: f64,
     tick: u64,
     /// All that act besides the diagram, in their order.
@@ -39,7 +41,7 @@ pub struct LockStep {
 pub struct Fork {
     /// The copy.
     pub lockstep: LockStep,
-    /// Names of the controllers that the copy goes on without.
+    /// Controllers, or parts of them, that the copy goes on without.
     pub not_copied: Vec<String>,
 }
 
@@ -104,18 +106,34 @@ impl LockStep {
         let room = control.as_ref().map_or(0, |c| c.signals().len()) + floats.len() + sensors.values.len();
         let signals = Vec::with_capacity(room);
         let (commands, step) = (scene.commands.clone(), experiment.step);
-        let is_started = false;
-        let mut new =
-            Self { world, control, sensors, signals, floats, commands, step, tick: 0, controllers, is_started };
-        match &mut new.control {
-            Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
-            _ => new.world.settle_start(0.0),
+        let (sources, is_started) = (vec![Source::Scene; world.state.commands.len()], false);
+        let mut new = Self {
+            world,
+            control,
+            sensors,
+            signals,
+            floats,
+            commands,
+            sources,
+            step,
+            tick: 0,
+            controllers,
+            is_started,
+        };
+        match new.control.as_mut().and_then(Controller::continuous) {
+            Some(part) => new.world.settle_start_with(0.0, part),
+            None => new.world.settle_start(0.0),
         }
         new
     }
 
     /// Attaches a controller: it acts after those that are there, and its commands win over theirs.
-    pub fn attach(&mut self, controller: Box<dyn Controller>) {
+    ///
+    /// # Panics
+    ///
+    /// It has a continuous part: the world has no room for its states.
+    pub fn attach(&mut self, mut controller: Box<dyn Controller>) {
+        assert!(controller.continuous().is_none(), "the world is made with room for the diagram's states alone");
         self.controllers.push(controller);
     }
 
@@ -131,14 +149,18 @@ impl LockStep {
         &mut self.controllers
     }
 
-    /// A copy, and the names of the controllers that it goes on without because they cannot be copied.
+    /// A copy to look ahead with, and the names of what it goes on without because it cannot be copied.
     #[must_use]
     pub fn fork(&self) -> Fork {
         let (mut controllers, mut not_copied) = (Vec::new(), Vec::new());
         for controller in &self.controllers {
             match controller.fork() {
-                Some(copy) => controllers.push(copy),
-                None => not_copied.push(controller.name().to_owned()),
+                Forked::Whole(copy) => controllers.push(copy),
+                Forked::Part(copy, missing) => {
+                    controllers.push(copy);
+                    not_copied.push(missing);
+                }
+                Forked::Nothing => not_copied.push(controller.name().to_owned()),
             }
         }
         let lockstep = Self {
@@ -148,6 +170,7 @@ impl LockStep {
             signals: self.signals.clone(),
             floats: self.floats.clone(),
             commands: self.commands.clone(),
+            sources: self.sources.clone(),
             controllers,
             ..*self
         };
@@ -213,10 +236,10 @@ impl LockStep {
     pub fn start(&mut self) -> Result<(), Halt> {
         self.is_started = true;
         self.call(false, |controller, at| controller.start(at))?;
-        self.look_around();
-        self.look()?;
-        if let Some(control) = self.control.as_ref().filter(|c| c.is_continuous()) {
-            control.show(&mut self.world.state.commands);
+        self.look();
+        self.measure()?;
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller.show(&mut self.world.state.commands);
         }
         Ok(())
     }
@@ -243,8 +266,8 @@ impl LockStep {
         mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), Fault>,
     ) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
-        for controller in &mut self.controllers {
-            act(&mut **controller, Instant { world: &mut self.world, tick, t }).map_err(|fault| Halt::Controller {
+        for controller in all(&mut self.control, &mut self.controllers) {
+            act(controller, Instant { world: &mut self.world, tick, t }).map_err(|fault| Halt::Controller {
                 tick,
                 t,
                 is_after_step,
@@ -272,26 +295,39 @@ impl LockStep {
         self.controllers.iter_mut().fold(false, |stop, controller| controller.take_stop_request() || stop)
     }
 
-    /// One base step: scripts act, hold, advance, scripts sense, measure, ask.
+    /// One base step, from t_k to t_{k+1}.
+    ///
+    /// ```text
+    /// step(k):
+    ///   1 actuate   each controller, the diagram first: commands and forces of the step      t_k
+    ///   2 latch     u ← signals of the scene, then each controller; the strongest source wins
+    ///   3 remember  each controller: memory for its next tick
+    ///   4 advance   the world goes from t_k to t_{k+1} under u, in sub-steps; a continuous diagram with it
+    ///   5 look      proximity sensors that are due; each controller sees what they found      t_{k+1}
+    ///   6 sense     each controller: measurements of the step, forces of the next one
+    ///   7 arrive    continuous commands are brought to t_{k+1}
+    ///   8 sample    the other sensors that are due
+    ///   9 measure   each controller: measurements at t_{k+1}; blocks that are due are evaluated
+    /// ```
+    ///
+    /// Whoever drives the lock-step hashes and records the state after it. If 1 fails, the state is that of t_k; if 4 fails, that of the last
+    /// instant reached, and the tick is not counted; if 6 or 9 fails, the step has been made and counted.
     ///
     /// # Errors
     ///
-    /// If the world cannot go on (the state is then that of the last instant reached), if a block gives what is not a finite
-    /// number (the world has then made the step), or if a script fails.
+    /// If the world cannot go on, if a block gives what is not a finite number, or if a controller fails.
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
+        // 1 actuate
         self.call(false, |controller, at| controller.actuate(at))?;
+        // 2 latch
         self.latch();
-        let advanced = match &mut self.control {
+        // 3 remember
+        all(&mut self.control, &mut self.controllers).for_each(|controller| controller.latched(tick, t));
+        // 4 advance
+        let advanced = match self.control.as_mut().and_then(Controller::continuous) {
+            Some(part) => self.world.advance_with(t, self.step, part),
             None => self.world.advance(t, self.step),
-            Some(control) => {
-                control.update(tick, t);
-                if control.is_continuous() {
-                    self.world.advance_with(t, self.step, control)
-                } else {
-                    self.world.advance(t, self.step)
-                }
-            }
         };
         if let Err((t, cause)) = advanced {
             // between ticks a block shows in the motion first
@@ -299,44 +335,59 @@ impl LockStep {
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
-        self.look_around();
+        // 5 look
+        self.look();
+        // 6 sense
         self.call(true, |controller, at| controller.sense(at))?;
-        let arrived = self.t();
-        if let Some(control) = self.control.as_mut().filter(|c| c.is_continuous()) {
-            control.arrive(&mut self.world, arrived);
+        // 7 arrive
+        let (tick, t) = (self.tick, self.t());
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller.arrive(Instant { world: &mut self.world, tick, t });
         }
-        self.look()
+        // 8 sample, 9 measure
+        self.measure()
     }
 
     /// Latches the commands of the present tick without advancing: the world under the inputs that it will have next.
     pub fn latch(&mut self) {
         let t = self.t();
-        for (command, signal) in self.world.state.commands.iter_mut().zip(&self.commands) {
-            *command = signal.value(t);
+        let mut commands = Commands::of_scene(&mut self.world.state.commands, &mut self.sources);
+        for (command, signal) in self.commands.iter().enumerate() {
+            commands.set(command, signal.value(t));
         }
-        if let Some(control) = &self.control {
-            control.latch(&mut self.world.state.commands);
+        if let Some(diagram) = &self.control {
+            diagram.latch(&mut commands.by(Source::Diagram));
         }
-        for controller in &self.controllers {
-            controller.latch(&mut self.world.state.commands);
+        for (k, controller) in self.controllers.iter().enumerate() {
+            controller.latch(&mut commands.by(Source::Controller(k)));
         }
     }
 
+    /// Source of each command, as it was last latched.
+    #[must_use]
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
     /// Proximity sensors look at the present tick, then the controllers.
-    fn look_around(&mut self) {
+    fn look(&mut self) {
         let (tick, t) = (self.tick, self.t());
         self.sensors.look_around(&mut self.world, tick, t, &mut self.controllers);
-        for controller in &mut self.controllers {
+        for controller in all(&mut self.control, &mut self.controllers) {
             controller.look(Instant { world: &mut self.world, tick, t });
         }
     }
 
-    fn look(&mut self) -> Result<(), Halt> {
+    /// Sensors take the samples that are due, then the controllers measure.
+    fn measure(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         self.sensors.sample(&mut self.world, tick, t);
-        let Some(control) = &mut self.control else { return Ok(()) };
-        control.sense(&self.sensors.values);
-        control.look(&mut self.world, tick, t).map_err(|culprit| Halt::Block { tick, t, culprit })
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller
+                .measure(Instant { world: &mut self.world, tick, t }, &self.sensors.values)
+                .map_err(|culprit| Halt::Block { tick, t, culprit })?;
+        }
+        Ok(())
     }
 
     /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of scripts and clients and the values of
@@ -372,7 +423,7 @@ impl LockStep {
     /// Everything needed to go on from here bit for bit, with the hash of the run so far.
     #[must_use]
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
-        let diagram = self.control.as_ref().map(|c| c.runner.state.clone());
+        let diagram = self.control.as_ref().and_then(Controller::save);
         Snapshot {
             state: self.world.state.clone(),
             trace,
@@ -391,7 +442,7 @@ impl LockStep {
         self.tick = snapshot.state.tick;
         self.sensors.values.copy_from_slice(&snapshot.sensors);
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
-            control.resume(state.clone(), &snapshot.state);
+            control.restore(state, &snapshot.state);
         }
     }
 
@@ -406,4 +457,13 @@ impl LockStep {
     fn continuous(&self) -> &[f64] {
         self.control.as_ref().map_or(&[], |c| &c.runner.state.continuous)
     }
+}
+
+/// The diagram, then the other controllers in their order.
+fn all<'a>(
+    diagram: &'a mut Option<DiagramController<f64>>,
+    others: &'a mut [Box<dyn Controller>],
+) -> impl Iterator<Item = &'a mut dyn Controller> {
+    let diagram = diagram.iter_mut().map(|diagram| diagram as &mut dyn Controller);
+    diagram.chain(others.iter_mut().map(|controller| &mut **controller))
 }

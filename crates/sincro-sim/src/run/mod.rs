@@ -1,11 +1,6 @@
-//! The run: who acts when.
+//! A run, from its start to its end.
 //!
-//! One tick k, from t_k to t_{k+1} (DESIGN: measure, ask, hold, advance, publish):
-//!
-//! 1. commands are latched: those of signals sampled at t_k, those of the diagram as it was evaluated at t_k; its memory is updated;
-//! 2. the world advances under them, continuous blocks with it;
-//! 3. the diagram measures the new state and every block that is due is evaluated;
-//! 4. the new state is hashed, and recorded if a row is due.
+//! [`LockStep::advance`] is one base step, with its stages in order; [`simulate`] makes them all, hashes and records the state after each.
 //!
 //! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
 //! why (`stop.rs`).

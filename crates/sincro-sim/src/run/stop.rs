@@ -6,7 +6,7 @@ use sincro_dynamics::world::{MethodKind, Stop, World};
 
 use super::lockstep::{Halt, LockStep};
 use super::method_word;
-use crate::diagram_controller::NotFinite;
+use crate::controller::NotFinite;
 use crate::results::Status;
 use sincro_scene::experiment::Experiment;
 
