@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use sincro::serve;
-use sincro_sim::session::Search;
+use sincro_coppelia::session::Search;
 
 /// Angle to be reached `[rad]`.
 const SETPOINT: f64 = 0.5;

@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use sincro_sim::linear::{DMatrix, DVector, lqr};
-use sincro_sim::linearize::{Request, linearize, operating_point};
+use sincro_analysis::linear::{DMatrix, DVector, lqr};
+use sincro_analysis::linearize::{Request, linearize, operating_point};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("motor");

@@ -7,7 +7,7 @@ use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::discrete::DiscretePid;
 use sincro_blocks::library::maths::Sum;
 use sincro_blocks::library::sources::Constant;
-use sincro_sim::diagram::Controller;
+use sincro_scene::diagram::Controller;
 
 /// Angle to be reached `[rad]`.
 const SETPOINT: f64 = 0.5;

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::diagram::Controller;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::overrides::Override;
+use sincro_scene::record::Recorder;
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
-use sincro_sim::record::Recorder;
 use sincro_sim::run::LockStep;
 
 const METHODS: [MethodKind; 5] = [
@@ -70,10 +71,12 @@ fn a_step_and_a_row_allocate_nothing() {
         ("four-bar", &[]),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-        let loaded = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set).unwrap();
+        let loaded =
+            load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set, Extensions::default())
+                .unwrap();
         for method in METHODS {
             let mut lockstep = LockStep::new(&loaded, method, false);
-            let signals = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+            let signals = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
             let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &signals).unwrap();
             lockstep.start().unwrap();
             let mut tick = |start: bool| {

@@ -4,13 +4,15 @@ use std::path::Path;
 
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
 use sincro_dynamics::world::MethodKind;
+use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::rollout::rollout;
-use sincro_sim::run::{LockStep, Trace, choose_method};
+use sincro_sim::run::{LockStep, choose_method};
 use sincro_sim::snapshot::{Snapshot, SnapshotError};
+use sincro_sim::trace::Trace;
 
 fn scene(name: &str) -> sincro_sim::Loaded {
-    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &[]).unwrap()
+    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &[], Extensions::default()).unwrap()
 }
 
 /// Advances by `n` ticks.

@@ -7,16 +7,19 @@ use sincro_blocks::library::discrete::UnitDelay;
 use sincro_blocks::library::maths::{Gain, Sum};
 use sincro_blocks::library::sources::Step;
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::diagram::Controller;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::overrides::Override;
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
-use sincro_sim::run::{LockStep, Trace, world_of};
+use sincro_sim::run::{LockStep, world_of};
+use sincro_sim::trace::Trace;
 
 const TICKS: u64 = 1600;
 
 fn scene(set: &[(&str, &str)]) -> sincro_sim::Loaded {
     let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position"), &set).unwrap()
+    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position"), &set, Extensions::default())
+        .unwrap()
 }
 
 /// The hash of a run of the scene with its diagram.
@@ -64,7 +67,7 @@ fn a_diagram_in_rust_and_in_toml_are_the_same() {
     d.wire("reference", "error.u1").wire("[/shoulder.position, /shoulder/elbow.position]", "delay");
     d.wire("delay", "error.u2").wire("error", "speed");
     d.wire("speed[0]", "/shoulder").wire("speed[1]", "/shoulder/elbow");
-    loaded.controller = Some(Controller::new(d, &loaded.scene.model, loaded.experiment.step, 0).unwrap());
+    loaded.controller = Some(ControlDiagram::new(d, &loaded.scene.model, loaded.experiment.step, 0).unwrap());
     assert_eq!(hash_of(&loaded, MethodKind::DormandPrince), in_toml);
 }
 
@@ -79,7 +82,7 @@ fn a_continuous_block_is_integrated_with_the_world() {
         if damped {
             d.block("damper", Gain::new(-0.7)).wire("/shoulder.velocity", "damper").wire("damper", "/shoulder");
         }
-        loaded.controller = Some(Controller::new(d, &loaded.scene.model, loaded.experiment.step, 0).unwrap());
+        loaded.controller = Some(ControlDiagram::new(d, &loaded.scene.model, loaded.experiment.step, 0).unwrap());
         let mut run = LockStep::new(&loaded, MethodKind::DormandPrince, false);
         run.start().unwrap();
         (0..400).for_each(|_| run.advance().unwrap());
@@ -103,12 +106,12 @@ fn a_force_from_a_diagram_is_that_of_the_scene() {
              body = [{{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = {{ xx = 0.1, yy = 0.2, zz = 0.25 }} }}]\n\
              force = [{{ name = \"push\", parent = \"/free/brick\", in_frame = \"body\", {force} }}]"
         );
-        sincro_sim::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
+        sincro_scene::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
     };
     let run = |force: &str, diagram: Option<Diagram>| -> Vec<u64> {
         let mut loaded = self::scene(&[]);
         loaded.scene = scene(force);
-        loaded.controller = diagram.map(|d| Controller::new(d, &loaded.scene.model, 0.005, 0).unwrap());
+        loaded.controller = diagram.map(|d| ControlDiagram::new(d, &loaded.scene.model, 0.005, 0).unwrap());
         let mut run = LockStep::new(&loaded, MethodKind::Rk4, false);
         run.start().unwrap();
         (0..200).for_each(|_| run.advance().unwrap());
@@ -130,11 +133,11 @@ fn an_acceleration_is_measured_under_a_force_from_the_diagram() {
                 body = [{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = { xx = 0.1, yy = 0.2, zz = 0.25 } }]\n\
                 force = [{ name = \"push\", parent = \"/free/brick\", input = true }]";
     let mut loaded = scene(&[]);
-    loaded.scene = sincro_sim::scene::from_text(text).unwrap();
+    loaded.scene = sincro_scene::scene::from_text(text).unwrap();
     let mut d = Diagram::new();
     d.block("f", sincro_blocks::library::sources::Constant::new(3.0)).wire("f", "/free/brick/push.force.x");
     d.block("a", Gain::new(1.0)).wire("/free/brick.acceleration.x", "a");
-    loaded.controller = Some(Controller::new(d, &loaded.scene.model, 0.005, 0).unwrap());
+    loaded.controller = Some(ControlDiagram::new(d, &loaded.scene.model, 0.005, 0).unwrap());
     let mut run = LockStep::new(&loaded, MethodKind::Rk4, false);
     run.start().unwrap();
     let control = run.control().unwrap();

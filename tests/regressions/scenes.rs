@@ -7,9 +7,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use sincro_sim::Extensions;
+use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
 use sincro_sim::results::{CheckReport, RunReport, VerdictReport};
-use sincro_sim::run::run_campaign;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -24,7 +25,8 @@ fn folders() -> Vec<PathBuf> {
 }
 
 fn run(folder: &Path) -> RunReport {
-    let loaded = load(folder, &[]).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+        .unwrap_or_else(|problems| panic!("{problems}"));
     run_campaign(folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap().report
 }
 
@@ -36,7 +38,6 @@ fn all_checks(report: &RunReport) -> impl Iterator<Item = &CheckReport> {
 
 #[test]
 fn every_scene_holds_its_checks_and_its_bits() {
-    sincro_lua::install();
     let mut traces = String::new();
     for folder in folders() {
         let report = run(&folder);

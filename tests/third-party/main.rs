@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_sim::scene::from_text;
+use sincro_scene::scene::from_text;
 
 /// Joint accelerations at the initial position with every hinge at 0.3 rad/s, a free body at rest.
 fn accelerations(model: &str) -> Vec<f64> {

@@ -76,5 +76,6 @@ fn check() -> ExitCode {
 }
 
 fn bless() -> ExitCode {
-    exit(runs(cargo(&["test", "--package", "sincro-sim", "--release"]).env("SINCRO_BLESS", "1")))
+    let packages = ["--package", "sincro-scene", "--package", "sincro-sim"];
+    exit(runs(cargo(&["test", "--release"]).args(packages).env("SINCRO_BLESS", "1")))
 }

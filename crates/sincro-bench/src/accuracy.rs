@@ -1,8 +1,8 @@
 //! Accuracy of the default settings: against a run with a far smaller tolerance, and by conserved energy.
 
 use sincro_dynamics::world::{MethodKind, World};
+use sincro_scene::scene::Scene;
 use sincro_sim::run::{choose_method, world_of};
-use sincro_sim::scene::Scene;
 
 use super::subjects::{STEP, default_experiment, world};
 

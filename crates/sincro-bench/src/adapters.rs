@@ -7,11 +7,12 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
 
+use crate::extensions;
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::zmq::wire;
 use sincro_remote::{Options, Server, cbor};
 use sincro_sim::load;
 use sincro_sim::run::{LockStep, method_for};
-use sincro_sim::session::{Session, Value};
 
 use super::clock::Subject;
 
@@ -71,7 +72,8 @@ pub(super) fn script() -> Result<(Subject, Subject), String> {
 }
 
 fn stepper(name: &str, scene: &str) -> Result<Subject, String> {
-    let loaded = with_folder(name, scene, |folder| load(folder, &[]).map_err(|problems| problems.to_string()))?;
+    let loaded =
+        with_folder(name, scene, |folder| load(folder, &[], extensions()).map_err(|problems| problems.to_string()))?;
     let mut lockstep = LockStep::new(&loaded, method_for(&loaded).0, false);
     lockstep.start().map_err(|halt| format!("{halt:?}"))?;
     Ok(Subject::new(move || lockstep.advance().expect("a pendulum swings on")))
@@ -87,7 +89,7 @@ pub(super) type Pair = (Subject, Subject);
 /// If there are no ports or no folder for temporary files.
 pub(super) fn clients() -> Result<[Pair; 2], String> {
     let session = with_folder("clients", SCENE, |folder| {
-        Session::open(folder, &[], None).map_err(|problems| problems.to_string())
+        Session::open(folder, &[], extensions(), None).map_err(|problems| problems.to_string())
     })?;
     let options = Options { legacy: vec![0], zmq: Some(0), ws: None, ..Options::default() };
     let server = Server::start(session, &options).map_err(|error| error.to_string())?;

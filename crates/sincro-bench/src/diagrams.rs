@@ -8,13 +8,15 @@ use sincro_blocks::library::maths::{Gain, Product, Sum};
 use sincro_blocks::library::nonlinear::{RateLimiter, Saturation};
 use sincro_blocks::library::sources::Sine;
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::scene::from_text;
 use sincro_sim::Loaded;
-use sincro_sim::diagram::Controller;
 use sincro_sim::run::LockStep;
-use sincro_sim::scene::from_text;
 
 use super::clock::Subject;
 use super::subjects::{STEP, STEPS_A_SECOND, default_experiment};
+
+use crate::extensions;
 
 /// Two links with torque motors.
 const ARM: &str = r#"
@@ -80,12 +82,13 @@ fn continuous() -> Diagram {
 /// A step of the arm with a diagram, or without.
 fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
     let scene = from_text(ARM).expect("the scene is right");
-    let controller = diagram.map(|d| Controller::new(d, &scene.model, STEP, 0).expect("the diagram is right"));
+    let controller = diagram.map(|d| ControlDiagram::new(d, &scene.model, STEP, 0).expect("the diagram is right"));
     let experiment = default_experiment(STEP, 1.0);
-    let loaded = Loaded { experiment, scene, controller, warnings: Vec::new(), sources: Vec::new() };
+    let loaded =
+        Loaded { experiment, scene, controller, warnings: Vec::new(), sources: Vec::new(), extensions: extensions() };
     let mut run = LockStep::new(&loaded, method, false);
     run.start().expect("finite");
-    let start = run.snapshot(sincro_sim::run::Trace(0));
+    let start = run.snapshot(sincro_sim::trace::Trace(0));
     let second = move || {
         run.restore(&start);
         for _ in 0..STEPS_A_SECOND {

@@ -1,8 +1,8 @@
 //! The figures: which there are, and how each is measured, alone or in turn with peers.
 
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::scene::Scene;
 use sincro_sim::run::method_word;
-use sincro_sim::scene::Scene;
 
 use super::clock::{Meter, Sample, Subject, median, processors_had};
 use super::models::{Robot, robot};

@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
-use sincro_sim::Loaded;
-use sincro_sim::load;
+use crate::extensions;
 use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::{Loaded, load};
 
 use super::clock::Subject;
 
@@ -24,7 +24,8 @@ const FILES: [(&str, &str); 3] = [
 /// The experiment without what it is compared with: a folder for temporary files holds it while it is read.
 fn loaded() -> Result<Loaded, String> {
     let folder = std::env::temp_dir().join(format!("sincro-bench-flight-{}", std::process::id()));
-    let result = write(&folder).and_then(|()| load(&folder, &[]).map_err(|problems| problems.to_string()));
+    let result =
+        write(&folder).and_then(|()| load(&folder, &[], extensions()).map_err(|problems| problems.to_string()));
     // nothing is lost if it stays
     let _ = std::fs::remove_dir_all(&folder);
     result

@@ -16,6 +16,7 @@ mod peer;
 mod subjects;
 mod table;
 
+use sincro_sim::Extensions;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -61,13 +62,17 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Parts above the lock-step that measured scenes need: scripts in Lua.
+fn extensions() -> Extensions {
+    Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }
+}
+
 /// Measures and prints. A peer that cannot be had is said so, and the rest goes on.
 ///
 /// # Errors
 ///
 /// If a robot is unknown or the JSON file cannot be written, in words.
 pub fn run(options: &Options) -> Result<(), String> {
-    sincro_lua::install();
     let clock = Instant::now();
     let robots = models::robots(&options.only)?;
     if let Some(path) = &options.json {

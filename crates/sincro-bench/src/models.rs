@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use sincro_sim::scene::{self, Scene};
+use sincro_scene::scene::{self, Scene};
 
 /// A robot and the name of its folder.
 pub(super) struct Robot {

@@ -6,20 +6,19 @@
 
 use std::hint::black_box;
 
-use sincro_dynamics::aba;
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
 use sincro_dynamics::constraint::SLOT;
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::model::Model;
-use sincro_dynamics::rnea;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_sim::camera::{Camera, Lens, NOTHING, Optics};
-use sincro_sim::experiment::{ErrorBar, Experiment, Integrator};
+use sincro_dynamics::{aba, rnea};
+use sincro_scene::camera::{Lens, NOTHING, Optics};
+use sincro_scene::experiment::{ErrorBar, Experiment, Integrator};
+use sincro_scene::scene::{Camera, ObjectKind, Scene};
 use sincro_sim::rollout::rollout;
 use sincro_sim::run::choose_method;
-use sincro_sim::scene::{ObjectKind, Scene};
 
 use super::clock::Subject;
 

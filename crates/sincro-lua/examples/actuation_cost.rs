@@ -4,8 +4,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::overrides::Override;
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::run::LockStep;
 
 /// Formulas of a controller: thirty operations, no call of the simulation.
@@ -25,7 +26,8 @@ fn cost(code: Option<&str>) -> Result<f64, String> {
         Some(code) => vec![Override::new("script.0", &format!("{{ object = \"/rail\", code = '''{code}''' }}"))],
         None => Vec::new(),
     };
-    let loaded = load(&folder, &set).map_err(|problems| problems.to_string())?;
+    let loaded = load(&folder, &set, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+        .map_err(|problems| problems.to_string())?;
     let mut best = f64::INFINITY;
     for _ in 0..5 {
         let mut run = LockStep::new(&loaded, MethodKind::SemiImplicitEuler, false);
@@ -41,7 +43,6 @@ fn cost(code: Option<&str>) -> Result<f64, String> {
 }
 
 fn main() -> Result<(), String> {
-    sincro_lua::install();
     let nothing = cost(Some("function sysCall_init() end"))?;
     let rows = [
         ("empty actuation", cost(Some("function sysCall_actuation() end"))?),

@@ -1,8 +1,8 @@
 //! `sysCall_joint`: a script on a joint says at each step how fast its motor is to be, and with what force.
 
 use mlua::{Error, Function, Lua, MultiValue, Table, Value};
+use sincro_coppelia::session::{Desk, Refusal};
 use sincro_dynamics::joint::JointKind;
-use sincro_sim::session::{Desk, Refusal};
 
 use crate::shared::{Shared, handle_of};
 

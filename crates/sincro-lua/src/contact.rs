@@ -1,7 +1,7 @@
 //! `sysCall_contact`: a script says of two bodies that may come to touch whether they collide in the coming step, and with what friction.
 
 use mlua::{Error, Function, Lua, Table, Value};
-use sincro_sim::session::{Answer, Handle};
+use sincro_coppelia::session::{Answer, Handle};
 
 use crate::shared::{Shared, handle_of};
 

@@ -1,7 +1,7 @@
 //! Values between Lua and the session: lists are tables 1 … n, maps are tables with names, bytes and text are both strings.
 
 use mlua::{Error, Lua, MultiValue, Table, Value as LuaValue};
-use sincro_sim::session::Value;
+use sincro_coppelia::session::Value;
 
 /// Tables inside each other beyond which a value is refused: a table may hold itself.
 const MAX_DEPTH: usize = 64;

@@ -1,8 +1,8 @@
 //! Errors of Lua as faults of a script: the line, its text, what is wrong, how to mend it.
 
 use mlua::Error;
-use sincro_sim::problem::Location;
-use sincro_sim::script::{Fault, Script};
+use sincro_scene::problem::Location;
+use sincro_scene::script::{Fault, Script};
 
 use crate::guard::Guard;
 use crate::sandbox::CHUNK;

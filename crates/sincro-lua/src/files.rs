@@ -2,7 +2,7 @@
 //! stand in the scene. Without any, `io` is shut off whole.
 
 use mlua::{Function, Lua, Table};
-use sincro_sim::script::Script;
+use sincro_scene::script::Script;
 
 /// Lets a script read its files.
 pub(crate) fn offer(lua: &Lua, script: &Script) -> mlua::Result<()> {

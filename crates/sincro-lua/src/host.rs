@@ -2,11 +2,17 @@
 
 use std::sync::Arc;
 
+use sincro_coppelia::api_controller::ApiController;
+use sincro_coppelia::host::{Call, Host, Phase};
+use sincro_coppelia::session::{Handle, Refusal, Value};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_sim::script::{Call, Engine, Fault, Host, Kind, Law, LawSpec, Message, Phase, Script, Setting};
-use sincro_sim::session::{Handle, Refusal, Value};
+use sincro_scene::script::{Fault, Kind, Law, LawSpec, Script, ScriptParser};
+use sincro_sim::Loaded;
+use sincro_sim::ScriptEngine;
+use sincro_sim::controller::Controller;
+use sincro_sim::controller::Message;
 
 use crate::guard::Guard;
 use crate::law::LuaLaw;
@@ -21,20 +27,24 @@ const MOST_HELD: u32 = 1_000;
 #[derive(Debug)]
 pub(crate) struct Lua54;
 
-impl Engine for Lua54 {
+impl ScriptParser for Lua54 {
     fn check(&self, script: &Script) -> Result<(), Fault> {
         let guard = Guard::new(script.max_instructions);
         let compiled = sandbox::new(&guard, script.max_memory).and_then(|lua| machine::compile(&lua, script).map(drop));
         compiled.map_err(|error| fault::of(script, &guard, &error))
     }
 
-    fn start(&self, scripts: &Arc<[Script]>, setting: Setting) -> Box<dyn Host> {
-        let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
-        Box::new(Scripts { shared, machines: Vec::new(), holder: 0 })
-    }
-
     fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String> {
         Ok(Box::new(LuaLaw::new(spec)?))
+    }
+}
+
+impl ScriptEngine for Lua54 {
+    fn controller(&self, loaded: &Loaded) -> Box<dyn Controller> {
+        Box::new(ApiController::with_scripts(loaded, |scripts, setting| {
+            let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
+            Box::new(Scripts { shared, machines: Vec::new(), holder: 0 })
+        }))
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use mlua::chunk::ChunkMode;
 use mlua::{Error, Function, Lua, MultiValue, Table, Value};
-use sincro_sim::script::{Law, LawSpec};
+use sincro_scene::script::{Law, LawSpec};
 
 use crate::guard::Guard;
 use crate::sandbox::{self, CHUNK, Services};

@@ -1,7 +1,7 @@
 //! A door: scripts in Lua are controllers.
 //!
 //! Child scripts of V-REP and CoppeliaSim run inside the step, in both styles, shut off from everything but the simulation, with limits
-//! on memory and instructions. [`install`] gives a program the language; everything else is in the scene (`[[script]]`, docs/lua.md).
+//! on memory and instructions. [`engine`] is given to whoever loads a scene; everything else is in the scene (`[[script]]`, docs/lua.md).
 //!
 //! `sandbox.rs` is what a script finds, `api/` the functions of `sim`, `machine.rs` how one script is called, `host.rs` all of them.
 
@@ -20,12 +20,17 @@ mod power;
 mod sandbox;
 mod shared;
 
-/// Gives this program Lua as the language of its scripts.
+use sincro_sim::ScriptEngine;
+
+/// Lua as the language of scripts: an argument of [`sincro_sim::load`].
 ///
 /// ```
-/// sincro_lua::install();
-/// assert!(sincro_sim::script::engine().is_some());
+/// use sincro_sim::Extensions;
+///
+/// let extensions = Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() };
+/// assert!(extensions.scripts.is_some());
 /// ```
-pub fn install() {
-    sincro_sim::script::install(&host::Lua54);
+#[must_use]
+pub fn engine() -> &'static dyn ScriptEngine {
+    &host::Lua54
 }

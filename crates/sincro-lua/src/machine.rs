@@ -12,8 +12,9 @@ use std::sync::Arc;
 
 use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
-use sincro_sim::script::{Fault, Kind, Phase, Script, Style};
-use sincro_sim::session::{self, Handle, Refusal};
+use sincro_coppelia::host::Phase;
+use sincro_coppelia::session::{self, Handle, Refusal};
+use sincro_scene::script::{Fault, Kind, Script, Style};
 
 use crate::guard::{Guard, THREAD};
 use crate::sandbox::{self, CHUNK};

@@ -4,9 +4,11 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use mlua::WeakLua;
+use sincro_coppelia::host::Setting;
+use sincro_coppelia::session::{Desk, Handle, Refusal, Table};
 use sincro_dynamics::world::World;
-use sincro_sim::script::{Message, Script, Setting};
-use sincro_sim::session::{Desk, Handle, Refusal, Table};
+use sincro_scene::script::Script;
+use sincro_sim::controller::Message;
 
 /// Messages of one phase that are kept: one more than a run keeps, so that the run tells of those that are not.
 const MOST_AT_ONCE: usize = 10_001;

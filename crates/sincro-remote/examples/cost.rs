@@ -7,9 +7,10 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
 use std::time::Instant;
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::zmq::wire;
 use sincro_remote::{Options, Server, cbor};
-use sincro_sim::session::{Session, Value};
+use sincro_sim::Extensions;
 
 const N: usize = 20_000;
 
@@ -95,7 +96,7 @@ fn main() {
     let scene = std::env::args()
         .nth(1)
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-remote"), PathBuf::from);
-    let session = Session::open(&scene, &[], None).expect("the scene is sound");
+    let session = Session::open(&scene, &[], Extensions::default(), None).expect("the scene is sound");
     let options = Options { legacy: vec![0], zmq: Some(0), ws: None, ..Options::default() };
     let server = Server::start(session, &options).expect("there are free ports");
     let ports = server.ports().clone();

@@ -5,8 +5,8 @@
 
 use std::fmt;
 
-use sincro_sim::session::Value;
-pub use sincro_sim::session::cbor::encode;
+use sincro_coppelia::session::Value;
+pub use sincro_coppelia::session::cbor::encode;
 
 use crate::limits::DEPTH;
 

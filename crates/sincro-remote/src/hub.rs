@@ -11,7 +11,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use sincro_access::{ConnectionLimits, Connections};
-use sincro_sim::session::{Finished, Phase, Refusal, Session};
+use sincro_coppelia::session::{Finished, Phase, Refusal, Session};
 
 use crate::limits::{self, Deadlines};
 

@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use sincro_access::Guard;
-use sincro_sim::session::Session;
+use sincro_coppelia::session::Session;
 
 use crate::hub::{Event, Hub, Manner};
 use crate::limits::Deadlines;

@@ -1,36 +1,34 @@
-//! Who acts when: scenes, experiments, the run and what comes out of it.
+//! Lock-step simulation: scenes, their controllers, the step that all of them make together, and its results.
 //!
-//! [`load`] opens a scene folder and reports every problem in it at once; [`run::run_campaign`] runs it with its variants, sweep,
+//! [`load`] opens a scene folder and reports every problem in it at once; [`campaign::run_campaign`] runs it with its variants, sweep,
 //! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
+//!
+//! | modules | hold |
+//! |---|---|
+//! | [`load`](mod@load) | an opened folder with the parts of the program that it needs: language of scripts, linearisation |
+//! | [`controller`], [`diagram_controller`] | controllers in lock-step; block diagrams as one |
+//! | [`sensors`], [`proximity`] | sensors of a scene in a run |
+//! | [`run`] | the step, and a run from its start to its end |
+//! | [`trace`], [`snapshot`], [`validity`], [`replay`] | hash of a run, state as bytes, validity of rotor theory, keyframes |
+//! | [`table`], [`sweep`], [`check`], [`results`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, result files |
+//! | [`campaign`] | an experiment with its variants, sweep and error bars |
 
-pub mod camera;
+pub mod campaign;
 pub mod check;
-pub mod diagram;
-pub mod document;
-pub mod experiment;
-mod folder;
-pub mod linear;
-pub mod linearize;
-mod load;
-pub mod motion;
-pub mod overrides;
-pub mod problem;
-pub mod record;
+pub mod controller;
+pub mod diagram_controller;
+pub mod file;
+pub mod load;
+pub mod proximity;
 pub mod replay;
 pub mod results;
 pub mod rollout;
 pub mod run;
-pub mod scene;
-pub mod scenery;
-pub mod schema;
-pub mod script;
-pub mod sensor;
-mod series;
-pub mod session;
+pub mod sensors;
 pub mod snapshot;
-mod suggest;
 pub mod sweep;
 pub mod table;
-mod tree;
+pub mod trace;
+pub mod validity;
 
-pub use load::{Loaded, load, load_alone};
+pub use load::{Extensions, Loaded, ScriptEngine, load, load_alone};

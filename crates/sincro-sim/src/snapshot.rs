@@ -12,7 +12,7 @@ use sincro_dynamics::state::State;
 use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
-use crate::run::{Trace, plant_hash};
+use crate::trace::{Trace, plant_hash};
 
 const MAGIC: &[u8; 8] = b"sincro04";
 

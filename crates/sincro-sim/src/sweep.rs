@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::results::file::FileError;
+use crate::file::FileError;
 use crate::table::{Column, Table};
 
 /// Final values of the recorded signals over the values of a parameter.
@@ -110,7 +110,7 @@ impl Sweep {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::file::test_folder;
+    use crate::file::test_folder;
 
     #[test]
     fn a_stopped_run_has_no_final_values() {

@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::results::file::{FileError, partial, put_in_place};
+use crate::file::{FileError, partial, put_in_place};
 
 /// One recorded signal.
 #[derive(Clone, Debug, PartialEq)]
@@ -240,7 +240,7 @@ pub(crate) fn number_text(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::file::test_folder;
+    use crate::file::test_folder;
 
     #[test]
     fn bits_survive_the_file() {

@@ -118,7 +118,7 @@ gain = 1.0
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
     let mut lockstep = ran(&loaded, 20);
     let t = lockstep.t();
-    let mut recorder = sincro_sim::record::Recorder::new(
+    let mut recorder = sincro_scene::record::Recorder::new(
         &loaded.experiment.record,
         &loaded.scene.model,
         &loaded.controller.as_ref().unwrap().entries(),

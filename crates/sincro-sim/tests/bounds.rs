@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
+use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::check::Verdict;
 use sincro_sim::results::{Status, VerdictReport};
-use sincro_sim::run::{Campaign, run_campaign};
 
 /// A mass on a spring with a negative damper: it swings ever wider.
 const SCENE: &str = r#"

@@ -61,7 +61,7 @@ fn a_camera_changes_no_run_and_no_model() {
     let interrupt = AtomicBool::new(false);
     let hash = |scene: &str| {
         let loaded = folder(scene).load(&[]).unwrap();
-        let signals = sincro_sim::record::catalogue(&loaded.scene.model).len();
+        let signals = sincro_scene::record::catalogue(&loaded.scene.model).len();
         let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
         (simulate(&loaded, Manner::default(), &mut watch).unwrap().trace.to_string(), signals)
     };

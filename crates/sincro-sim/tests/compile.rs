@@ -5,8 +5,8 @@ mod common;
 use common::TestFolder;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::signal::Signal;
+use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
-use sincro_sim::scene::ObjectKind;
 
 fn with_scene(scene: &str) -> Loaded {
     let folder = TestFolder::new();
@@ -22,7 +22,7 @@ fn the_order_in_the_file_does_not_matter() {
     let turned: Vec<&str> = blocks[1..].iter().rev().copied().collect();
     folder.write("scene.toml", &format!("{}\n\n{}\n", blocks[0], turned.join("\n\n")));
     let (turned, straight) = (folder.load(&[]).unwrap().scene, TestFolder::new().load(&[]).unwrap().scene);
-    let paths = |scene: &sincro_sim::scene::Scene| scene.objects.iter().map(|o| o.path.clone()).collect::<Vec<_>>();
+    let paths = |scene: &sincro_scene::scene::Scene| scene.objects.iter().map(|o| o.path.clone()).collect::<Vec<_>>();
     assert_eq!(paths(&turned), paths(&straight));
     assert_eq!(turned.initial, straight.initial);
     assert_eq!(paths(&straight)[..3], ["/shoulder", "/shoulder/rod", "/shoulder/rod/tip"]);

@@ -43,7 +43,7 @@ proptest! {
         kinds in proptest::collection::vec(0..90_usize, 3),
         values in proptest::collection::vec((0..16_usize, VALUE), 8),
     ) {
-        let kinds_of = sincro_sim::diagram::reference::kinds();
+        let kinds_of = sincro_scene::diagram::reference::kinds();
         let wires: Vec<String> = wires.iter().map(|w| format!("{:?}", w.replace('\u{2003}', "  "))).collect();
         let mut text = format!("wires = [{}, \"a -> b\", \"b -> a\", \"/shoulder.position -> ü\"]\n", wires.join(", ")).replace("[, ", "[");
         for (name, kind) in names.iter().zip(&kinds) {

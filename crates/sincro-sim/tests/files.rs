@@ -5,10 +5,11 @@ mod common;
 use std::path::Path;
 
 use common::TestFolder;
+use sincro_sim::Extensions;
 use sincro_sim::load;
 
 fn refused(folder: &TestFolder, path: &Path) -> String {
-    folder.short(&load(path, &[]).expect_err("it cannot be read").to_string())
+    folder.short(&load(path, &[], Extensions::default()).expect_err("it cannot be read").to_string())
 }
 
 #[test]
@@ -41,7 +42,7 @@ fn a_folder_without_an_experiment() {
 #[test]
 fn the_experiment_file_names_its_folder() {
     let folder = TestFolder::new();
-    assert!(load(&folder.path.join("experiment.toml"), &[]).is_ok());
+    assert!(load(&folder.path.join("experiment.toml"), &[], Extensions::default()).is_ok());
     assert_eq!(
         refused(&folder, &folder.path.join("scene.toml")),
         "error: `scene.toml` is not a folder and not an `experiment.toml`\n  help: name a folder with an `experiment.toml`"
@@ -52,7 +53,7 @@ fn the_experiment_file_names_its_folder() {
 fn a_scene_file_that_is_not_there_and_not_named() {
     let folder = TestFolder::new();
     folder.change("experiment.toml", "scene = \"scene.toml\"\n", "");
-    assert!(load(&folder.path, &[]).is_ok());
+    assert!(load(&folder.path, &[], Extensions::default()).is_ok());
     std::fs::remove_file(folder.path.join("scene.toml")).unwrap();
     assert_eq!(
         refused(&folder, &folder.path),
@@ -103,7 +104,7 @@ fn problems_of_both_files_are_told_at_once() {
 fn a_byte_order_mark_is_no_part_of_the_text() {
     let folder = TestFolder::new();
     folder.write("scene.toml", &format!("\u{feff}{}", common::SCENE));
-    assert!(load(&folder.path, &[]).is_ok());
+    assert!(load(&folder.path, &[], Extensions::default()).is_ok());
 }
 
 #[test]

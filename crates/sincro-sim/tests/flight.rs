@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use sincro_scene::overrides::Override;
+use sincro_sim::Extensions;
+use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Manner, Simulated, Watch, run_campaign, simulate};
+use sincro_sim::run::{Manner, Simulated, Watch, simulate};
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
@@ -18,7 +20,8 @@ fn settings(set: &[(&str, &str)]) -> Vec<Override> {
 
 /// The main run of a scene.
 fn flown(name: &str, set: &[(&str, &str)]) -> Simulated {
-    let loaded = load(&scene(name), &settings(set)).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded =
+        load(&scene(name), &settings(set), Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
     let interrupt = AtomicBool::new(false);
     simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
@@ -109,7 +112,8 @@ fn one_sample_late_the_roll_grows_as_its_linearisation_says() {
 #[test]
 fn a_bound_of_the_experiment_ends_the_run() {
     let set = settings(&[("stop_when", "[{ signal = \"/air/quadrotor.position.z\", above = 0.5 }]")]);
-    let loaded = load(&scene("quadrotor-flight-1"), &set).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded =
+        load(&scene("quadrotor-flight-1"), &set, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
     let interrupt = AtomicBool::new(false);
     let campaign = run_campaign(&scene("quadrotor-flight-1"), &set, &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
     let report = &campaign.report;
@@ -140,9 +144,11 @@ fn what_the_mixer_cannot_give_is_told() {
 fn gains_of_one_controller_do_not_reach_the_other() {
     let set = settings(&[("attitude_loop.gamma1_xy", "8.0"), ("parameters.y1", "0.2"), ("duration", "0.1")]);
     let folder = scene("quadrotor-flight-1");
-    let loaded = load(&folder, &set).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(&folder, &set, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
     let campaign = run_campaign(&folder, &set, &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
     assert!(campaign.report.variants.iter().any(|v| v.name == "pid" && v.status.is_good()));
     let wrong = settings(&[("attitude_loop.gamma9", "8.0")]);
-    assert!(load(&folder, &wrong).unwrap_err().to_string().contains("has no parameter `gamma9`"));
+    assert!(
+        load(&folder, &wrong, Extensions::default()).unwrap_err().to_string().contains("has no parameter `gamma9`")
+    );
 }

@@ -7,9 +7,9 @@ use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
 use sincro_math::elementary::sin_cos;
+use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
-use sincro_sim::scene::ObjectKind;
 
 const G: f64 = 9.81;
 

@@ -2,13 +2,13 @@
 
 use sincro_blocks::diagram::Diagram;
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::diagram::Controller;
-use sincro_sim::diagram::robot::{
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::diagram::robot::{
     Context, ForwardKinematics, GravityTorque, InverseDynamics, Jacobian, JacobianRows, MassMatrix,
 };
+use sincro_scene::scene::{Scene, from_text};
 use sincro_sim::run::LockStep;
-use sincro_sim::scene::{Scene, from_text};
-use sincro_sim::{Loaded, load};
+use sincro_sim::{Extensions, Loaded, load};
 
 /// A shoulder, an elbow out of plane and a tool, under gravity, with torque motors.
 const ARM: &str = r#"
@@ -29,11 +29,11 @@ fn arm() -> Scene {
 
 fn with(scene: Scene, draw: impl FnOnce(&mut Diagram, &Context, usize)) -> LockStep {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position");
-    let loaded = load(&folder, &[]).unwrap();
+    let loaded = load(&folder, &[], Extensions::default()).unwrap();
     let tool = scene.model.names().frames.iter().position(|f| f.name.ends_with("tool")).unwrap();
-    let (mut diagram, context) = (Diagram::new(), Context { model: scene.model.clone() });
+    let (mut diagram, context) = (Diagram::new(), Context { parser: None, model: scene.model.clone() });
     draw(&mut diagram, &context, tool);
-    let controller = Controller::new(diagram, &scene.model, 0.005, 0).unwrap_or_else(|p| panic!("{p:?}"));
+    let controller = ControlDiagram::new(diagram, &scene.model, 0.005, 0).unwrap_or_else(|p| panic!("{p:?}"));
     let loaded = Loaded { scene, controller: Some(controller), ..loaded };
     let mut run = LockStep::new(&loaded, MethodKind::DormandPrince, false);
     run.start().unwrap();

@@ -5,8 +5,8 @@ mod common;
 use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
+use sincro_analysis::linearize::{Request, linearize};
 use sincro_sim::Loaded;
-use sincro_sim::linearize::{Request, linearize};
 use sincro_sim::results::Status;
 use sincro_sim::run::{LockStep, Manner, Simulated, Watch, method_for, simulate};
 use sincro_sim::snapshot::Snapshot;

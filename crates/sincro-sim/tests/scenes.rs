@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
+use sincro_scene::overrides::Override;
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
 use sincro_sim::run::{Manner, Watch, simulate};
 
 fn scenes() -> Vec<PathBuf> {
@@ -20,11 +21,11 @@ fn scenes() -> Vec<PathBuf> {
 
 #[test]
 fn every_scene_loads_without_warnings() {
-    sincro_lua::install();
     let scenes = scenes();
     assert!(scenes.len() >= 10);
     for scene in scenes {
-        let loaded = load(&scene, &[]).unwrap_or_else(|problems| panic!("{problems}"));
+        let loaded = load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+            .unwrap_or_else(|problems| panic!("{problems}"));
         // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has three
         let name = scene.file_name().unwrap().to_string_lossy().into_owned();
         let expected = match name.as_str() {
@@ -46,7 +47,9 @@ fn every_scene_loads_without_warnings() {
         );
         assert_eq!(loaded.scene.commands.len(), loaded.scene.model.n_commands());
         for variant in &loaded.experiment.variants {
-            let of_variant = load(&scene, &variant.set).unwrap_or_else(|problems| panic!("{problems}"));
+            let of_variant =
+                load(&scene, &variant.set, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+                    .unwrap_or_else(|problems| panic!("{problems}"));
             assert_eq!(of_variant.experiment.variants.len(), loaded.experiment.variants.len());
         }
     }
@@ -62,7 +65,8 @@ fn continuous_commands_are_seen_as_of_now() {
         ("record", "[\"/motor.motor_torque_now\", \"pi\"]"),
     ];
     let settings = settings.map(|(path, value)| Override::new(path, value));
-    let loaded = load(&folder, &settings).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(&folder, &settings, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+        .unwrap_or_else(|problems| panic!("{problems}"));
     let interrupt = AtomicBool::new(false);
     let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
     let table = simulate(&loaded, Manner::default(), &mut watch).unwrap().table;

@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use common::TestFolder;
 use sincro_dynamics::signal::Signal;
+use sincro_scene::overrides::Override;
+use sincro_scene::scene::ObjectKind;
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::overrides::Override;
-use sincro_sim::scene::ObjectKind;
 
 /// Setting, and what is said.
 const REFUSED: &[(&str, &str)] = &[
@@ -195,7 +196,7 @@ fn the_last_setting_wins() {
 fn a_variant_is_the_experiment_with_its_settings() {
     let folder = TestFolder::new();
     let variant = folder.load(&[]).unwrap().experiment.variants[0].clone();
-    let loaded = load(&folder.path, &variant.set).unwrap();
+    let loaded = load(&folder.path, &variant.set, Extensions::default()).unwrap();
     assert_eq!(loaded.scene.model.dofs()[0].stiffness, 10.0);
     assert_eq!(loaded.experiment.integrator.word(), "rk4");
 }
@@ -205,7 +206,7 @@ fn a_sweep_sets_its_parameter() {
     let folder = TestFolder::new();
     let sweep = folder.load(&[]).unwrap().experiment.sweep.unwrap();
     assert_eq!(sweep.values, [10.0, 20.0, 30.0]);
-    let loaded = load(&folder.path, &sweep.settings(1e-7).collect::<Vec<_>>()).unwrap();
+    let loaded = load(&folder.path, &sweep.settings(1e-7).collect::<Vec<_>>(), Extensions::default()).unwrap();
     assert_eq!(loaded.scene.model.dofs()[0].stiffness, 1e-7);
 }
 
@@ -231,7 +232,7 @@ fn nothing_pasted_makes_it_fall_over() {
     let deep = "{ a = ".repeat(500) + "1" + &" }".repeat(500);
     for path in paths.into_iter().chain(["/shoulder.axis", "parameters", "check", "joint", "joint.0", "body.0.shape"]) {
         for value in ["1", "[]", "{}", "inf", "\"", "é", "[[1]]", "{ a = 1 }", &deep] {
-            let _ = load(&folder.path, &[Override::new(path, value)]);
+            let _ = load(&folder.path, &[Override::new(path, value)], Extensions::default());
         }
     }
 }

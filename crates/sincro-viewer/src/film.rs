@@ -6,10 +6,10 @@
 
 use serde::Serialize;
 use sincro_sim::Loaded;
+use sincro_sim::campaign::{Campaign, Done};
 use sincro_sim::check::Outcome;
 use sincro_sim::replay::{CONTACT, Property, SceneView, Tape, properties};
 use sincro_sim::results::Status;
-use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::Table;
 
 use crate::encoding;
@@ -131,7 +131,7 @@ impl Film {
 
 /// Titles and signals of the experiment's plots.
 pub(crate) fn plots(loaded: &Loaded) -> Vec<(String, Vec<String>)> {
-    let names = |p: &sincro_sim::experiment::Plot| p.signals.iter().map(|s| s.value.clone()).collect();
+    let names = |p: &sincro_scene::experiment::Plot| p.signals.iter().map(|s| s.value.clone()).collect();
     loaded.experiment.plots.iter().map(|p| (p.title.clone(), names(p))).collect()
 }
 

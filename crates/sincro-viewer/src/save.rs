@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sincro_sim::load;
-use sincro_sim::overrides::Override;
+use sincro_scene::overrides::Override;
 use sincro_sim::replay::edited;
+use sincro_sim::{Extensions, load};
 
 /// Files of a folder that are copied; more are no scene.
 const MOST_FILES: usize = 500;
@@ -15,9 +15,9 @@ const MOST_FILES: usize = 500;
 /// # Errors
 ///
 /// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then lack.
-pub(crate) fn save_scene(folder: &Path, settings: &[Override]) -> Result<PathBuf, String> {
+pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Extensions) -> Result<PathBuf, String> {
     let folder = if folder.is_file() { folder.parent().unwrap_or(folder) } else { folder };
-    let loaded = load(folder, &[]).map_err(|problems| problems.to_string())?;
+    let loaded = load(folder, &[], extensions).map_err(|problems| problems.to_string())?;
     let texts = edited(&loaded, settings).map_err(|refused| refused.join("\n"))?;
     let files = files(folder)?;
     let target = free_name(folder);
@@ -31,7 +31,7 @@ pub(crate) fn save_scene(folder: &Path, settings: &[Override]) -> Result<PathBuf
         });
         written.map_err(|e| format!("`{}` cannot be written: {e}", to.display()))?;
     }
-    load(&target, &[])
+    load(&target, &[], extensions)
         .map_err(|problems| format!("saved as `{}`, which does not load: {problems}", target.display()))?;
     Ok(target)
 }

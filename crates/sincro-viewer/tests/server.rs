@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
+use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
 use sincro_viewer::live::{Board, Command, Engine, Source};
@@ -19,7 +20,12 @@ fn scene(name: &str) -> PathBuf {
 }
 
 fn engine(name: &str) -> (Arc<Board>, SyncSender<Command>) {
-    let source = Source { folder: scene(name), settings: Vec::new(), draw: Box::new(|_| String::new()) };
+    let source = Source {
+        folder: scene(name),
+        settings: Vec::new(),
+        extensions: Extensions::default(),
+        draw: Box::new(|_| String::new()),
+    };
     let engine = Engine::open(source).unwrap();
     (engine.board(), engine.start())
 }
@@ -100,7 +106,7 @@ fn send(commands: &SyncSender<Command>, text: &str) {
 }
 
 fn hash_of(name: &str) -> String {
-    let loaded = load(&scene(name), &[]).unwrap();
+    let loaded = load(&scene(name), &[], Extensions::default()).unwrap();
     let interrupt = std::sync::atomic::AtomicBool::new(false);
     let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
     simulate(&loaded, Manner::default(), &mut watch).unwrap().trace.to_string()
@@ -294,8 +300,13 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
     for file in std::fs::read_dir(scene("quadrotor-open-loop")).unwrap().flatten() {
         std::fs::copy(file.path(), copy.join(file.file_name())).unwrap();
     }
-    let engine =
-        Engine::open(Source { folder: copy, settings: Vec::new(), draw: Box::new(|_| String::new()) }).unwrap();
+    let engine = Engine::open(Source {
+        folder: copy,
+        settings: Vec::new(),
+        extensions: Extensions::default(),
+        draw: Box::new(|_| String::new()),
+    })
+    .unwrap();
     let (board, commands) = (engine.board(), engine.start());
     let mut changes = board.watch();
     changes.mark_unchanged();

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use sincro_figures::plot::number::short;
 use sincro_figures::report::{ComparisonPage, DifferenceRow, comparison_html};
-use sincro_sim::results::{FileError, RunReport};
+use sincro_sim::file::FileError;
+use sincro_sim::results::RunReport;
 use sincro_sim::table::Table;
 
 /// Times closer than this are the same instant `[s]`.
@@ -260,8 +261,8 @@ mod tests {
 
     fn empty_report() -> RunReport {
         let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
-        let loaded = sincro_sim::load(&scene, &[]).unwrap();
+        let loaded = crate::load(&scene, &[]).unwrap();
         let interrupt = std::sync::atomic::AtomicBool::new(false);
-        sincro_sim::run::run_campaign(&scene, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap().report
+        sincro_sim::campaign::run_campaign(&scene, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap().report
     }
 }

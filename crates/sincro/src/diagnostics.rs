@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 use sincro::RunFailure;
-use sincro_sim::problem::{Problem, Problems, SourceText};
-use sincro_sim::results::FileError;
+use sincro_scene::problem::{Problem, Problems, SourceText};
+use sincro_sim::file::FileError;
 
 use crate::Exit;
 

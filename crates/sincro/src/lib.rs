@@ -40,10 +40,10 @@ mod run;
 pub mod serve;
 pub mod view;
 
-pub use load::{camera, load, scene_name};
+pub use load::{camera, extensions, load, scene_name};
 pub use run::{RunFailure, RunRequest, Verdict, simulate};
 
+pub use sincro_scene::overrides::Override;
+pub use sincro_scene::problem::Problems;
 pub use sincro_sim::Loaded;
-pub use sincro_sim::overrides::Override;
-pub use sincro_sim::problem::Problems;
-pub use sincro_sim::run::Campaign;
+pub use sincro_sim::campaign::Campaign;

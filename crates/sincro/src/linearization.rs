@@ -5,10 +5,10 @@
 use std::path::Path;
 
 use serde::Serialize;
+use sincro_analysis::linear::{Axis, Complex, DMatrix, Margin, Stability};
 use sincro_figures::linear::{self, Analysis, Channel};
 use sincro_figures::plot::{self, Size};
-use sincro_sim::linear::{Axis, Complex, DMatrix, Margin, Stability};
-use sincro_sim::results::{FileError, prepare};
+use sincro_sim::file::{FileError, prepare};
 use sincro_sim::table::CsvWriter;
 
 use crate::results::write_text;
@@ -187,8 +187,8 @@ fn channel_name(analysis: &Analysis, channel: &Channel) -> String {
 
 #[cfg(test)]
 mod tests {
+    use sincro_analysis::linear::StateSpace;
     use sincro_figures::linear::text;
-    use sincro_sim::linear::StateSpace;
 
     use super::*;
 

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use sincro_sim::Loaded;
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
-use sincro_sim::scene::{ObjectKind, Scene};
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
+use sincro_scene::scene::{ObjectKind, Scene};
+use sincro_sim::{Extensions, Loaded};
 
 /// Opens a scene folder, or the `experiment.toml` in it, with Lua as the language of its scripts.
 ///
@@ -23,13 +23,14 @@ use sincro_sim::scene::{ObjectKind, Scene};
 /// # Ok::<(), sincro::Problems>(())
 /// ```
 pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
-    install_languages();
-    sincro_sim::load(scene, overrides)
+    sincro_sim::load(scene, overrides, extensions())
 }
 
-/// Gives this process the languages that scripts of scenes are written in. More than one call does no harm.
-pub(crate) fn install_languages() {
-    sincro_lua::install();
+/// Parts above the lock-step that a scene may need: Lua for its scripts, and the linearisation that warns of loops that
+/// are too fast for their step.
+#[must_use]
+pub fn extensions() -> Extensions {
+    Extensions { scripts: Some(sincro_lua::engine()), fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
 }
 
 /// Name of a scene: that of its folder. `path` is the folder or a file in it.

@@ -5,11 +5,12 @@ use std::path::Path;
 use sincro_figures::campaign;
 use sincro_figures::plot::{Size, svg};
 use sincro_figures::report::{self, Card, Page};
-use sincro_sim::Loaded;
-use sincro_sim::camera::{Camera, png};
+use sincro_scene::camera::png;
+use sincro_scene::scene::Camera;
+use sincro_sim::campaign::{Campaign, Done};
+use sincro_sim::file::{FileError, prepare};
 use sincro_sim::replay::Tape;
-use sincro_sim::results::{FileError, file, prepare};
-use sincro_sim::run::{Campaign, Done};
+use sincro_sim::{Loaded, file};
 use sincro_viewer::film::Film;
 use sincro_viewer::{embed, picture};
 

@@ -4,11 +4,15 @@ use std::fmt;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
 use sincro_sim::Loaded;
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
-use sincro_sim::results::{self, FileError, Override as Setting, VerdictReport};
-use sincro_sim::run::{Campaign, Manner, Progress, RunError, Simulated, Watch, run_campaign};
+use sincro_sim::campaign::Progress;
+use sincro_sim::campaign::{Campaign, run_campaign};
+use sincro_sim::file;
+use sincro_sim::file::FileError;
+use sincro_sim::results::{Override as Setting, VerdictReport};
+use sincro_sim::run::{Manner, RunError, Simulated, Watch};
 
 use crate::results::{Link, write};
 
@@ -87,7 +91,7 @@ impl RunRequest<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn run(&self, interrupt: &AtomicBool, progress: Progress<'_>) -> Result<Campaign, RunFailure> {
-        results::prepare(self.out).map_err(RunFailure::Results)?;
+        file::prepare(self.out).map_err(RunFailure::Results)?;
         let Self { scene, overrides, loaded, out, .. } = *self;
         let mut campaign = run_campaign(scene, overrides, loaded, Some(out), interrupt, progress)?;
         let set = overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });

@@ -6,17 +6,17 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
-use sincro_sim::results::{FileError, prepare};
-use sincro_sim::run::judge;
-use sincro_sim::session::{Finished, Session};
+use sincro_coppelia::session::{Finished, Session};
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
+use sincro_sim::campaign::judge;
+use sincro_sim::file::{FileError, prepare};
 
 pub use sincro_remote::hub::Event;
 pub use sincro_remote::limits::Deadlines;
 pub use sincro_remote::{Options, Server};
 
-use crate::load::install_languages;
+use crate::load::extensions;
 use crate::results;
 
 /// Opens a scene for clients, stopped. A step of a client lasts `sample_time` `[s]`, or `simulation_step` of the
@@ -26,8 +26,7 @@ use crate::results;
 ///
 /// All problems of the scene and the overrides, or a sample time that is no whole multiple of the base step.
 pub fn open(scene: &Path, overrides: &[Override], sample_time: Option<f64>) -> Result<Session, Problems> {
-    install_languages();
-    Session::open(scene, overrides, sample_time)
+    Session::open(scene, overrides, extensions(), sample_time)
 }
 
 /// Extent of what is kept of a run that clients made.

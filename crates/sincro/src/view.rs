@@ -4,14 +4,14 @@ use std::fmt;
 use std::path::Path;
 
 use sincro_figures::campaign;
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
 use sincro_viewer::film::FORMAT;
 use sincro_viewer::live::{Engine, Source};
 
 pub use sincro_viewer::server::{Server, Show};
 
-use crate::load::{install_languages, scene_name};
+use crate::load::{extensions, scene_name};
 
 /// Reason why a folder cannot be shown as a finished run.
 #[derive(Debug)]
@@ -60,10 +60,10 @@ pub fn replay(run: &Path) -> Result<Show, ReplayError> {
 ///
 /// All problems of the scene and the overrides.
 pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Problems> {
-    install_languages();
     let world = scene_name(scene);
     let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
-    let engine = Engine::open(Source { folder: scene.to_owned(), settings: overrides, draw })?;
+    let engine =
+        Engine::open(Source { folder: scene.to_owned(), settings: overrides, extensions: extensions(), draw })?;
     let board = engine.board();
     Ok(Show::Live(board, engine.start()))
 }

@@ -3,10 +3,10 @@
 //! A figure shows recorded signals of one unit, what the checks expect of them, the variants over them, and under them
 //! the difference from what is expected, with the error bar of the run as a band and the tolerance as lines.
 
+use sincro_scene::experiment::{Plot, Variant, path_components};
 use sincro_sim::Loaded;
+use sincro_sim::campaign::{Campaign, Done};
 use sincro_sim::check::{Outcome, Series as Expected};
-use sincro_sim::experiment::{Plot, Variant, path_components};
-use sincro_sim::run::{Campaign, Done};
 use sincro_sim::table::{Column, Table};
 
 use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Space, Stroke, Track};

@@ -2,10 +2,10 @@
 
 mod figures;
 
+use sincro_scene::diagram::ControlDiagram;
 use sincro_sim::Loaded;
-use sincro_sim::diagram::Controller;
+use sincro_sim::campaign::Campaign;
 use sincro_sim::results::{CheckReport, Status, VerdictReport};
-use sincro_sim::run::Campaign;
 
 use crate::draw::{self, Options};
 use crate::plot::{self, number};
@@ -36,7 +36,7 @@ pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
 /// Block diagram as SVG: a file of its own, or for a page (`is_inline`). `world` labels the box of the world, usually
 /// with the name of the scene.
 #[must_use]
-pub fn diagram(controller: &Controller, title: &str, world: &str, is_inline: bool) -> String {
+pub fn diagram(controller: &ControlDiagram, title: &str, world: &str, is_inline: bool) -> String {
     let outputs = controller.wiring.program().steps.iter().flat_map(|step| {
         let ports = step.output_names.iter().zip(&step.node.outputs);
         ports.map(|(port, width)| (format!("{}.{port}", step.path), *width))

@@ -1,6 +1,6 @@
 //! The figures of a linearised scene: poles and zeros, Bode diagrams, step responses.
 
-use sincro_sim::linear::{Bode, Complex};
+use sincro_analysis::linear::{Bode, Complex};
 
 use super::text::margins;
 use super::{Analysis, Channel};

@@ -7,7 +7,7 @@ mod figures;
 mod page;
 mod text;
 
-use sincro_sim::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
+use sincro_analysis::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
 
 pub use figures::all as figures;
 pub use page::html;

@@ -1,6 +1,6 @@
 //! Claims about what is shown of a linear system.
 
-use sincro_sim::linear::{Axis, DMatrix, StateSpace};
+use sincro_analysis::linear::{Axis, DMatrix, StateSpace};
 
 use super::text::text;
 use super::*;

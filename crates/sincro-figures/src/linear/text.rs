@@ -1,6 +1,6 @@
 //! A linearised scene in words and tables, for the terminal. The page takes its cells from here.
 
-use sincro_sim::linear::{Axis, Complex, DMatrix, Mode, Reach, Stability};
+use sincro_analysis::linear::{Axis, Complex, DMatrix, Mode, Reach, Stability};
 
 use super::{Analysis, Channel};
 use crate::plot::number::{short, significant};

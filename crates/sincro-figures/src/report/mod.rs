@@ -13,7 +13,7 @@ mod index;
 pub(crate) mod page;
 pub(crate) mod shell;
 
-use sincro_sim::experiment::check::Sense;
+use sincro_scene::experiment::check::Sense;
 
 use crate::plot::Figure;
 

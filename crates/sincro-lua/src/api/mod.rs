@@ -1,6 +1,6 @@
 //! The functions of `sim`, for one script.
 //!
-//! What the simulation can be asked is [`sincro_sim::session::api`]: the same for scripts and clients. Here it becomes Lua, as
+//! What the simulation can be asked is [`sincro_coppelia::session::api`]: the same for scripts and clients. Here it becomes Lua, as
 //! `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their parameters, each other, threads.
 
 mod callbacks;
@@ -14,7 +14,7 @@ pub(crate) use callbacks::find as function_of;
 pub(crate) use scripts::script_on;
 
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
-use sincro_sim::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
+use sincro_coppelia::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
 
 use crate::convert;
 use crate::guard::Guard;
@@ -144,7 +144,7 @@ impl Shelf<'_> {
 
 /// The object of a name, by V-REP's rule for scripts: a name without `#` means the one that has the suffix of the script's own object, if
 /// there is one.
-fn object_of_name(desk: &mut sincro_sim::session::Desk<'_>, own: Handle, name: &str) -> Result<Handle, Refusal> {
+fn object_of_name(desk: &mut sincro_coppelia::session::Desk<'_>, own: Handle, name: &str) -> Result<Handle, Refusal> {
     let search = Search { from: Some(own), ..Search::default() };
     let is_plain = !name.contains('#') && !name.starts_with(['/', '.', ':']);
     let table = &desk.table;

@@ -1,7 +1,7 @@
 //! Functions that move something and wait until it is there, and their single steps with functions to call back: `moves.lua`, over the session's own.
 
 use mlua::{Error, Function, MultiValue, Table};
-use sincro_sim::session::{Refusal, api};
+use sincro_coppelia::session::{Refusal, api};
 
 use super::Shelf;
 use crate::convert;

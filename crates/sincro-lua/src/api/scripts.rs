@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
-use sincro_sim::script::{Kind, Script};
-use sincro_sim::session::{Handle, Refusal};
+use sincro_coppelia::session::{Handle, Refusal};
+use sincro_scene::script::{Kind, Script};
 
 use super::Shelf;
 use crate::shared::{Shared, handle_of};

@@ -1,8 +1,8 @@
 //! Laws in Lua as blocks of a diagram.
 
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::problem::Problems;
 use sincro_sim::Loaded;
-use sincro_sim::problem::Problems;
 use sincro_sim::results::Status;
 use sincro_sim::run::LockStep;
 

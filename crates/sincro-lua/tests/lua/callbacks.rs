@@ -1,17 +1,18 @@
 //! Callbacks of pauses, of the step as a whole, of contacts.
 
+use sincro_coppelia::session::{Phase, Session};
+use sincro_sim::Extensions;
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
-use sincro_sim::session::{Phase, Session};
 
 use super::world::{EXPERIMENT, PENDULUM, folder, open, run};
 
 /// A session of the pendulum with a script on its arm.
 fn session(code: &str) -> Session {
-    sincro_lua::install();
     let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\n");
     let folder = folder(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]);
-    Session::open(&folder, &[], None).unwrap()
+    Session::open(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }, None)
+        .unwrap()
 }
 
 fn told(session: &mut Session) -> Vec<String> {

@@ -1,7 +1,8 @@
 //! What scripts tell to graphs is recorded with the run.
 
+use sincro_coppelia::session::{Session, Value};
+use sincro_sim::Extensions;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
-use sincro_sim::session::{Session, Value};
 use sincro_sim::table::Table;
 
 use super::world::{EXPERIMENT, PENDULUM, folder, run, said, with_script};
@@ -88,10 +89,11 @@ fn what_is_wrong_with_a_stream_is_told() {
 
 #[test]
 fn a_client_makes_streams_that_stay_and_scripts_make_theirs_anew() {
-    sincro_lua::install();
     let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\n");
     let folder = folder(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", CODE)]);
-    let mut session = Session::open(&folder, &[], None).unwrap();
+    let mut session =
+        Session::open(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }, None)
+            .unwrap();
     let graph = session.call("sim.getObject", &[Value::from("/hinge")]).unwrap().remove(0);
     let stream = session.call("sim.addGraphStream", &[graph.clone(), Value::from("u"), Value::from("N·m")]).unwrap();
     for _ in 0..2 {

@@ -1,9 +1,11 @@
 //! The same law through Rust, a diagram, a block in Lua and a script gives the same bits.
 
+use sincro_coppelia::api_controller::ApiController;
+use sincro_coppelia::session::Table;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
-use sincro_sim::run::{LockStep, Trace};
-use sincro_sim::session::Table;
+use sincro_sim::run::LockStep;
+use sincro_sim::trace::Trace;
 
 use super::world::{EXPERIMENT, PENDULUM, open};
 
@@ -35,10 +37,10 @@ fn one_law_through_every_door_gives_one_hash() {
     let mut table = Some(Box::new(Table::new(&plain, 1)));
     let rust = trace(&plain, |run| {
         if let Some(table) = table.take() {
-            run.set_table(table);
+            ApiController::set_table(run, *table);
         }
         let (q, v) = (run.state().q[0], run.state().v[0]);
-        run.desk().unwrap().table.hold(0, Some(-20.0 * q - 4.0 * v));
+        ApiController::desk(run).unwrap().table.hold(0, Some(-20.0 * q - 4.0 * v));
     });
 
     let diagram = with_diagram(

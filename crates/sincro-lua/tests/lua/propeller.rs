@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use sincro_coppelia::api_controller::ApiController;
+use sincro_coppelia::session::{Reference, Search};
 use sincro_dynamics::force::rotor::{Drag, RotorSpec, Spin, printed};
 use sincro_dynamics::spatial::{Mat3, Quat, Vec3};
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::run::{Halt, LockStep};
-use sincro_sim::session::{Reference, Search};
 
 use super::world::{EXPERIMENT, open};
 
@@ -97,7 +98,7 @@ fn the_printed_script_gives_what_its_formulas_give() {
             *v = if k % 50 == 0 { 0.0 } else { random.between(-15.0, 15.0) };
         }
         run.place(state, &[]);
-        let mut desk = run.desk().unwrap();
+        let mut desk = ApiController::desk(&mut run).unwrap();
         let propeller = desk.table.find("/air/propeller", Search::default()).unwrap();
         let joint = desk.table.find("propeller_joint", Search::default()).unwrap();
         desk.set_target_velocity(joint, speed).unwrap();
@@ -105,7 +106,7 @@ fn the_printed_script_gives_what_its_formulas_give() {
         let rotation = desk.pose(propeller, Reference::World).unwrap().rot.0;
         let expected = printed::evaluate(&rotor, 1.225, speed + 1e-5, Vec3(velocity), &Mat3(rotation));
         let advanced = run.advance();
-        let table = &run.desk().unwrap().table;
+        let table = &ApiController::desk(&mut run).unwrap().table;
         let signal = |name: &str| *table.floats.get(name).unwrap();
         let given = [signal("thrust"), signal("torque"), signal("inflow")];
         let wanted = [expected.thrust, expected.torque, expected.inflow_ratio];
@@ -115,7 +116,7 @@ fn the_printed_script_gives_what_its_formulas_give() {
         // a force that is no number stops the run there, told at its line
         match advanced {
             Ok(()) => assert!(expected.thrust.is_finite()),
-            Err(Halt::Script { fault, .. }) => {
+            Err(Halt::Controller { fault, .. }) => {
                 n_nan += 1;
                 assert!(!expected.thrust.is_finite() && fault.message.contains("not finite"), "{fault}");
             }

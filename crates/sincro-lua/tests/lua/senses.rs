@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::results::Status;
 
@@ -37,9 +38,11 @@ end
 
 #[test]
 fn the_cart_stops_before_the_wall_by_a_script_with_the_same_bits() {
-    sincro_lua::install();
     let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/stop-at-wall");
-    let by_diagram = run(&load(&scene, &[]).unwrap_or_else(|p| panic!("{p}"))).trace;
+    let by_diagram =
+        run(&load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+            .unwrap_or_else(|p| panic!("{p}")))
+        .trace;
     let read = |name: &str| std::fs::read_to_string(scene.join(name)).unwrap();
     let with_script = format!("{}\n[[script]]\nobject = \"/rail/cart\"\ncode = '''{LAW}'''\n", read("scene.toml"));
     // a script wins over the diagram: one that drives backwards
@@ -52,7 +55,9 @@ fn the_cart_stops_before_the_wall_by_a_script_with_the_same_bits() {
         ("reference.csv", reference.as_str()),
     ];
     let folder = folder(&files);
-    let scripted = run(&load(&folder, &[]).unwrap_or_else(|p| panic!("{p}")));
+    let scripted =
+        run(&load(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+            .unwrap_or_else(|p| panic!("{p}")));
     std::fs::remove_dir_all(&folder).unwrap();
     assert_eq!(scripted.status, Status::Completed, "{:?}", scripted.messages);
     assert_eq!(scripted.trace, by_diagram);

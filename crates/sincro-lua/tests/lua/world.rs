@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use sincro_sim::problem::Problems;
+use sincro_scene::problem::Problems;
 use sincro_sim::results::Status;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
-use sincro_sim::{Loaded, load};
+use sincro_sim::{Extensions, Loaded, load};
 
 /// A pendulum on a motor that takes torques, with a tip.
 pub const PENDULUM: &str = r#"
@@ -53,9 +53,8 @@ pub fn folder(files: &[(&str, &str)]) -> PathBuf {
 
 /// Loads a folder made of these files.
 pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Problems> {
-    sincro_lua::install();
     let folder = folder(files);
-    let loaded = load(&folder, &[]);
+    let loaded = load(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() });
     std::fs::remove_dir_all(&folder).unwrap();
     loaded
 }

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use sincro_sim::session::{Phase, Refusal};
+use sincro_coppelia::session::{Phase, Refusal};
 
 use super::functions::{self, Call};
 use super::message::{self, Command, Head, Mode, ReplyHead};

@@ -2,7 +2,7 @@
 
 use super::functions::{Call, Reply, done, ints};
 use crate::hub::Floor;
-use sincro_sim::session::{Refusal, Value, api};
+use sincro_coppelia::session::{Refusal, Value, api};
 
 /// Commands of this file.
 pub(super) const COMMANDS: [u16; 4] = [0x3002, 0x3003, 0x3004, 0x3006];

@@ -1,6 +1,6 @@
 //! What the commands of the legacy API do: simulation, joints, signals, parameters.
 
-use sincro_sim::session::{Desk, Handle, Refusal, Search};
+use sincro_coppelia::session::{Desk, Handle, Refusal, Search};
 
 use super::message::{float, int, text};
 use super::{files, group, objects, seeing, sensing};
@@ -75,7 +75,7 @@ pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
         function if files::COMMANDS.contains(&function) => files::run(floor, call),
         0x3401 => super::script::run(floor, call),
         0x0005 => {
-            floor.act(sincro_sim::session::Session::stop)?;
+            floor.act(sincro_coppelia::session::Session::stop)?;
             done()
         }
         _ => on_desk(&mut floor.session.desk(), call),
@@ -152,7 +152,7 @@ fn joint(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
         0x100e => desk.set_target_force(joint, call.float(0)?, false).and_then(|()| done()),
         0x100a => {
             let pose = desk.joint_pose(joint)?;
-            reals(sincro_sim::session::convention::matrix_of(&pose))
+            reals(sincro_coppelia::session::convention::matrix_of(&pose))
         }
         other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
     }

@@ -1,7 +1,7 @@
 //! `simxGetObjectGroupData`: one kind of data of all objects of a type.
 
-use sincro_sim::session::convention::{euler_of, quaternion_of};
-use sincro_sim::session::{Desk, Entry, Handle, Kind, Reference, Refusal};
+use sincro_coppelia::session::convention::{euler_of, quaternion_of};
+use sincro_coppelia::session::{Desk, Entry, Handle, Kind, Reference, Refusal};
 
 use super::functions::{Call, Reply};
 

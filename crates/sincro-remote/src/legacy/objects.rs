@@ -1,8 +1,8 @@
 //! What the commands of the legacy API do: objects, their poses and their tree.
 
-use sincro_sim::session::convention::{euler_of, quaternion_of, rotation_of_euler, rotation_of_quaternion};
-use sincro_sim::session::{Desk, Handle, Reference, Refusal};
-use sincro_sim::session::{Pose, Vec3};
+use sincro_coppelia::session::convention::{euler_of, quaternion_of, rotation_of_euler, rotation_of_quaternion};
+use sincro_coppelia::session::{Desk, Handle, Reference, Refusal};
+use sincro_coppelia::session::{Pose, Vec3};
 
 use super::functions::{Call, GET_HANDLE, Reply, counted, done, find, ints, reals};
 

@@ -1,7 +1,7 @@
 //! What the commands of the legacy API do: vision sensors.
 
-use sincro_sim::camera::{Layer, Part};
-use sincro_sim::session::{Desk, Refusal};
+use sincro_coppelia::session::{Desk, Refusal};
+use sincro_scene::camera::{Layer, Part};
 
 use super::functions::{Call, Reply, done, ints, reals};
 

@@ -1,6 +1,6 @@
 //! What the commands of the legacy API do: sensors, collisions, distances; and why those that are not here are not.
 
-use sincro_sim::session::{Desk, Entity, Handle, Refusal};
+use sincro_coppelia::session::{Desk, Entity, Handle, Refusal};
 
 use super::functions::{Call, Reply, counted, ints, reals};
 
@@ -71,7 +71,7 @@ pub(super) fn seen(desk: &Desk<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 6
     Ok(match desk.proximity(sensor)?.flatten() {
         Some(saw) => {
             let ([x, y, z], [u, v, w]) = (saw.point.0, saw.normal.0);
-            (1, saw.handle().0, [x, y, z, u, v, w])
+            (1, Handle::from(&saw).0, [x, y, z, u, v, w])
         }
         None => (0, -1, [0.0; 6]),
     })

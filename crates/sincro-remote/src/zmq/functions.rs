@@ -4,9 +4,9 @@
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
-use sincro_sim::script::Kind;
-use sincro_sim::session::api::Move;
-use sincro_sim::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
+use sincro_coppelia::session::api::Move;
+use sincro_coppelia::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
+use sincro_scene::script::Kind;
 
 use super::moves::Moving;
 use crate::hub::{ClientId, Hub};
@@ -241,7 +241,7 @@ impl Door {
         }
         let now = || {
             let mut floor = self.hub.enter();
-            (floor.session.t(), floor.session.phase() == sincro_sim::session::Phase::Running)
+            (floor.session.t(), floor.session.phase() == sincro_coppelia::session::Phase::Running)
         };
         let end = now().0 + dt;
         loop {

@@ -6,7 +6,8 @@
 
 use std::time::{Duration, Instant};
 
-use sincro_sim::session::{Phase, Refusal, Value, api::Move};
+use sincro_coppelia::session::api::Move;
+use sincro_coppelia::session::{Phase, Refusal, Value};
 
 use super::functions::{After, Door, Said};
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sincro_sim::session::{Refusal, Value};
+use sincro_coppelia::session::{Refusal, Value};
 
 use super::functions::{self, After, Door, Said};
 use crate::cbor;

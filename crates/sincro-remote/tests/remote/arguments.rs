@@ -1,6 +1,6 @@
 //! Arguments right and wrong for every name that a client may call, whatever the door.
 
-use sincro_sim::session::Value;
+use sincro_coppelia::session::Value;
 
 use super::zmq_client::map;
 

@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::cbor;
 use sincro_remote::legacy::{message, packet};
 use sincro_remote::zmq::wire;
-use sincro_sim::session::{Session, Value};
+use sincro_sim::Extensions;
 
 use super::legacy_client::{Client as Legacy, Command, ints};
 use super::scene::{folder, serve};
@@ -91,9 +92,9 @@ proptest! {
     fn any_function_takes_any_arguments(name in 0_usize..400, arguments in prop::collection::vec(values(), 0..5)) {
         thread_local! {
             static SESSION: std::cell::RefCell<Session> =
-                std::cell::RefCell::new(Session::open(&folder("fuzz-calls", ""), &[], None).unwrap());
+                std::cell::RefCell::new(Session::open(&folder("fuzz-calls", ""), &[], Extensions::default(), None).unwrap());
         }
-        let names: Vec<&str> = sincro_sim::session::api::functions().map(|f| f.name).collect();
+        let names: Vec<&str> = sincro_coppelia::session::api::functions().map(|f| f.name).collect();
         let name = names[name % names.len()];
         SESSION.with_borrow_mut(|session| {
             let _ = session.call(name, &arguments);

@@ -7,8 +7,9 @@ use std::net::TcpListener;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use sincro_coppelia::session::Session;
 use sincro_remote::{Options, Server};
-use sincro_sim::session::Session;
+use sincro_sim::Extensions;
 
 use super::legacy_client::{Client, Command, DISCONTINUE, ONCE, SPLIT, STREAM, floats, ints, text};
 use super::scene::{finished, folder, options, serve, serve_with};
@@ -313,7 +314,7 @@ fn without_synchronous_clients_it_runs_by_itself_pauses_and_stops() {
 fn a_port_in_use_is_named_with_its_flag() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port();
-    let session = Session::open(&folder("taken", ""), &[], None).unwrap();
+    let session = Session::open(&folder("taken", ""), &[], Extensions::default(), None).unwrap();
     let error = Server::start(session, &Options { legacy: vec![port], ..options() }).err().unwrap().to_string();
     assert!(
         error.contains(&format!("port {port} is in use on 127.0.0.1")) && error.contains("--legacy-port"),
@@ -329,7 +330,7 @@ fn a_port_can_be_had_again_at_once() {
     client.ping();
     drop(server);
     drop(client);
-    let session = Session::open(&folder("again", ""), &[], None).unwrap();
+    let session = Session::open(&folder("again", ""), &[], Extensions::default(), None).unwrap();
     drop(Server::start(session, &Options { legacy: vec![port], ..options() }).unwrap());
 }
 

@@ -1,6 +1,6 @@
 //! Many clients at once, and many steps of one.
 
-use sincro_sim::session::Value;
+use sincro_coppelia::session::Value;
 
 use super::legacy_client::Client as Legacy;
 use super::scene::{finished, serve};

@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
+use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
+use sincro_coppelia::session::{Handle, Session, Value, api};
 use sincro_remote::Server;
-use sincro_sim::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
-use sincro_sim::run::Trace;
-use sincro_sim::session::{Handle, Session, Value, api};
+use sincro_sim::Extensions;
+use sincro_sim::trace::Trace;
 
 use super::scene::{finished, folder, options, serve};
 use super::zmq_client::{Client, field, map};
@@ -61,7 +62,7 @@ fn with_callbacks(client: &mut Client, first: Value, mut act: impl FnMut(&mut Cl
 
 /// The steps of the function itself, in process.
 fn in_rust() -> Trace {
-    let mut session = Session::open(&folder("moving-rust", ""), &[], None).unwrap();
+    let mut session = Session::open(&folder("moving-rust", ""), &[], Extensions::default(), None).unwrap();
     session.start().unwrap();
     let handles = ["/joint1", "/joint2"].map(|path| session.table().find(path, Default::default()).unwrap());
     let given = parameters(&handles.map(Value::from), &[]);
@@ -290,7 +291,11 @@ fn a_browser_moves_things_without_callbacks() {
 
 #[test]
 fn three_clients_move_at_once() {
-    let server = Server::start(Session::open(&folder("moving-three", ""), &[], None).unwrap(), &options()).unwrap();
+    let server = Server::start(
+        Session::open(&folder("moving-three", ""), &[], Extensions::default(), None).unwrap(),
+        &options(),
+    )
+    .unwrap();
     let runs: Vec<Vec<f64>> = (0..2)
         .map(|_| {
             let mut first = Client::connect(server.ports().zmq.unwrap(), Some("first"));

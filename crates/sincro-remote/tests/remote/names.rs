@@ -1,6 +1,6 @@
 //! Every function of V-REP's APIs that clients use is answered, or refused with its reason.
 
-use sincro_sim::session::Value;
+use sincro_coppelia::session::Value;
 
 use super::legacy_client::{Client as Legacy, Command, ONCE, ints, text};
 use super::scene::serve;

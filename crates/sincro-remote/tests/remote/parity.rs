@@ -6,10 +6,12 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use sincro_coppelia::session::{Search, Session, Value};
 use sincro_remote::Server;
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Trace, Watch, simulate};
-use sincro_sim::session::{Search, Session, Value};
+use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::trace::Trace;
 
 use super::legacy_client::Client as Legacy;
 use super::scene::{finished, folder, options};
@@ -37,13 +39,13 @@ fn law(q: f64) -> f64 {
 fn by_diagram() -> Trace {
     let folder = folder("parity-diagram", "diagram = \"diagram.toml\"\n");
     std::fs::write(folder.join("diagram.toml"), DIAGRAM).unwrap();
-    let loaded = load(&folder, &[]).unwrap_or_else(|p| panic!("{:?}", p.0));
+    let loaded = load(&folder, &[], Extensions::default()).unwrap_or_else(|p| panic!("{:?}", p.0));
     let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
     simulate(&loaded, Manner::default(), watch).unwrap().trace
 }
 
 fn session(folder: &Path) -> Session {
-    Session::open(folder, &[], None).unwrap()
+    Session::open(folder, &[], Extensions::default(), None).unwrap()
 }
 
 fn in_rust(folder: &Path) -> Trace {

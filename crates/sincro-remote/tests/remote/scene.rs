@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use sincro_coppelia::session::{Finished, Session};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
-use sincro_sim::session::{Finished, Session};
+use sincro_sim::Extensions;
 
 pub const SCENE: &str = r#"
 [[joint]]
@@ -78,7 +79,7 @@ pub fn serve(name: &str) -> Server {
 }
 
 pub fn serve_with(name: &str, options: &Options) -> Server {
-    Server::start(Session::open(&folder(name, ""), &[], None).unwrap(), options).unwrap()
+    Server::start(Session::open(&folder(name, ""), &[], Extensions::default(), None).unwrap(), options).unwrap()
 }
 
 /// The next run that ends.

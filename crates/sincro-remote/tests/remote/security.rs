@@ -6,9 +6,10 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use sincro_coppelia::session::Session;
 use sincro_remote::limits::{Deadlines, PER_ADDRESS};
 use sincro_remote::{Options, Server};
-use sincro_sim::session::Session;
+use sincro_sim::Extensions;
 
 use super::legacy_client::Client as Legacy;
 use super::scene::{finished, folder, options, serve, serve_with};
@@ -149,12 +150,12 @@ fn cross_site_requests_to_the_other_ports_do_nothing() {
         }
     }
     assert_eq!(server.hub().enter().n_clients(), 0);
-    assert_eq!(server.hub().enter().session.phase(), sincro_sim::session::Phase::Stopped);
+    assert_eq!(server.hub().enter().session.phase(), sincro_coppelia::session::Phase::Stopped);
 }
 
 #[test]
 fn beyond_loopback_the_ports_without_password_want_a_flag() {
-    let session = || Session::open(&folder("security-bind", ""), &[], None).unwrap();
+    let session = || Session::open(&folder("security-bind", ""), &[], Extensions::default(), None).unwrap();
     let all: IpAddr = Ipv4Addr::UNSPECIFIED.into();
     for options in [
         Options { bind: all, zmq: None, ..options() },
@@ -226,7 +227,7 @@ fn idle_connections_are_closed_and_used_ones_are_not() {
     let mut used = Zmq::connect(ports.zmq.unwrap(), Some("used"));
     let mut idle = Zmq::connect(ports.zmq.unwrap(), Some("idle"));
     used.call("sim.getSimulationTime", &[]).unwrap();
-    idle.call("sim.setStepping", &[sincro_sim::session::Value::Bool(true)]).unwrap();
+    idle.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
     let mut silent = TcpStream::connect(ports.legacy[0]).unwrap();
     let mut browser = Ws::connect(ports.ws.unwrap());
     let is_over = &AtomicBool::new(false);
@@ -250,7 +251,7 @@ fn a_subscriber_is_kept_while_it_is_sent_to() {
     let mut listener = TcpStream::connect(server.ports().zmq_steps.unwrap()).unwrap();
     super::zmq_client::shake_hands(&mut listener, "SUB");
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("steps"));
-    client.call("sim.setStepping", &[sincro_sim::session::Value::Bool(true)]).unwrap();
+    client.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     let begin = Instant::now();
     let mut told = super::zmq_client::frame(&mut listener).1;
@@ -282,7 +283,7 @@ fn connections_that_say_nothing_keep_nobody_out() {
     let server = serve("security-slots");
     let ports = server.ports().clone();
     let mut good = Zmq::connect(ports.zmq.unwrap(), Some("good"));
-    good.call("sim.setStepping", &[sincro_sim::session::Value::Bool(true)]).unwrap();
+    good.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
     good.call("sim.startSimulation", &[]).unwrap();
     let addresses = [ports.legacy[0], ports.ws.unwrap(), ports.zmq.unwrap()];
     let silent: Vec<TcpStream> =
@@ -298,11 +299,11 @@ fn connections_that_say_nothing_keep_nobody_out() {
 /// The run of a client that steps 40 times; the trace hash.
 fn stepped(server: &Server) -> String {
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("stepper"));
-    client.call("sim.setStepping", &[sincro_sim::session::Value::Bool(true)]).unwrap();
+    client.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     let joint = client.object("/joint1");
     for k in 0..40 {
-        let speed = sincro_sim::session::Value::Real(f64::from(k % 7) / 8.0);
+        let speed = sincro_coppelia::session::Value::Real(f64::from(k % 7) / 8.0);
         client.call("sim.setJointTargetVelocity", &[joint.clone(), speed]).unwrap();
         client.call("sim.step", &[]).unwrap();
     }

@@ -1,6 +1,7 @@
 //! Pictures over the wires: the same bytes by every protocol, whole and in pieces, in the step that they belong to.
 
-use sincro_sim::session::{Search, Session, Value};
+use sincro_coppelia::session::{Search, Session, Value};
+use sincro_sim::Extensions;
 
 use super::legacy_client::{Client, Command, ONCE, SPLIT, STREAM, ints};
 use super::scene::{folder, options, serve};
@@ -8,7 +9,7 @@ use super::zmq_client::Client as Zmq;
 
 /// What the eye of the scene sees after `steps` steps.
 fn expected(name: &str, steps: usize) -> Vec<u8> {
-    let mut session = Session::open(&folder(name, ""), &[], None).unwrap();
+    let mut session = Session::open(&folder(name, ""), &[], Extensions::default(), None).unwrap();
     let eye = session.desk().table.find("/eye", Search::default()).unwrap();
     session.start().unwrap();
     for _ in 0..steps {

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::Server;
+use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
-use sincro_sim::session::{Session, Value};
 
 use super::legacy_client::{Client as Legacy, Reply, floats, ints, text};
 use super::scene::{finished, options};
@@ -17,7 +18,11 @@ fn folder() -> PathBuf {
 }
 
 fn serve() -> Server {
-    Server::start(Session::open(&folder(), &[], None).unwrap_or_else(|p| panic!("{p}")), &options()).unwrap()
+    Server::start(
+        Session::open(&folder(), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{p}")),
+        &options(),
+    )
+    .unwrap()
 }
 
 /// State, point, object and normal: not aligned.
@@ -30,7 +35,7 @@ fn reading(reply: &Reply) -> (u8, [f32; 3], i32, [f32; 3]) {
 
 #[test]
 fn the_cart_stops_before_the_wall_through_the_legacy_door_with_the_same_bits() {
-    let loaded = load(&folder(), &[]).unwrap_or_else(|p| panic!("{p}"));
+    let loaded = load(&folder(), &[], Extensions::default()).unwrap_or_else(|p| panic!("{p}"));
     let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
     let by_diagram = simulate(&loaded, Manner::default(), watch).unwrap().trace;
     let server = serve();

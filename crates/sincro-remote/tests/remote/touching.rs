@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use sincro_coppelia::session::{Files, Grants, Search, Session, Value};
 use sincro_remote::Server;
-use sincro_sim::session::{Files, Grants, Search, Session, Value};
+use sincro_sim::Extensions;
 
 use super::legacy_client::{Client, ints, text};
 use super::scene::options;
@@ -68,7 +69,8 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn serve(name: &str, grants: Grants) -> Server {
-    let mut session = Session::open(&folder(name), &[], None).unwrap_or_else(|p| panic!("{:?}", p.0));
+    let mut session =
+        Session::open(&folder(name), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{:?}", p.0));
     session.grant(grants);
     Server::start(session, &options()).unwrap()
 }
@@ -239,7 +241,8 @@ fn files_are_sent_where_that_is_granted_and_nowhere_else() {
 #[test]
 fn looking_at_contacts_and_force_sensors_changes_nothing() {
     let trace = |looks: bool| {
-        let mut session = Session::open(&folder("looks"), &[], None).unwrap_or_else(|p| panic!("{:?}", p.0));
+        let mut session =
+            Session::open(&folder("looks"), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{:?}", p.0));
         let find = |session: &mut Session, name: &str| session.table().find(name, Search::default()).unwrap();
         let [body, scale] = ["/box", "/scale"].map(|name| find(&mut session, name));
         session.start().unwrap();

@@ -5,8 +5,8 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use sincro_coppelia::session::Value;
 use sincro_remote::Server;
-use sincro_sim::session::Value;
 
 use super::scene::serve;
 use super::zmq_client::{Client, field, frame, map, shake_hands};

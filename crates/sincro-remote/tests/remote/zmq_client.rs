@@ -4,8 +4,8 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
+use sincro_coppelia::session::Value;
 use sincro_remote::cbor;
-use sincro_sim::session::Value;
 
 pub struct Client {
     pub stream: TcpStream,

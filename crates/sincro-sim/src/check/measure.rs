@@ -16,7 +16,7 @@
 //!
 //! A level that is not reached, or a response that has not settled in the last row, gives an infinite time, which never holds.
 
-use crate::experiment::check::Measure;
+use sincro_scene::experiment::check::Measure;
 
 /// A measure of a series, and the row it stands at if there is one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,13 +28,13 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-use crate::experiment::check::{Check, Expected, Measure, Sense};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use along::Along;
 use measure::{Measured, StepShape};
 use rows::Rows;
 use series::Source;
+use sincro_scene::experiment::check::{Check, Expected, Measure, Sense};
 
 /// The judgement of one check, and the numbers it rests on.
 #[derive(Clone, Debug, PartialEq)]

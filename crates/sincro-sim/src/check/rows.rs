@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::along::{Along, short};
-use crate::experiment::check::{Check, Expected, Reference};
+use sincro_scene::experiment::check::{Check, Expected, Reference};
 
 /// The rows that are compared, in ascending order; at least one.
 pub(super) struct Rows {

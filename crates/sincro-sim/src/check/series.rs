@@ -4,8 +4,8 @@ use sincro_math::expression::Expression;
 
 use super::along::Along;
 use super::rows::Rows;
-use crate::experiment::check::{Check, Expected, Subject};
 use crate::table::Column;
+use sincro_scene::experiment::check::{Check, Expected, Subject};
 
 /// A check with the columns it names.
 pub(super) struct Source<'a> {

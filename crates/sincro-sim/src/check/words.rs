@@ -3,7 +3,7 @@
 use super::along::{Along, short};
 use super::rows::file_name;
 use super::series::plain_signal;
-use crate::experiment::check::{Check, Expected, Measure, Sense, Subject};
+use sincro_scene::experiment::check::{Check, Expected, Measure, Sense, Subject};
 
 /// `greatest value of /shoulder.position against 0.2, from t = 1 s to 3 s`.
 pub(super) fn about(check: &Check, along: &Along) -> String {

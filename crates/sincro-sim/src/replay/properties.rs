@@ -9,12 +9,15 @@ use std::path::PathBuf;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::document::{Document, escape};
 use crate::load::Loaded;
-use crate::overrides::{Override, Target, apply_all};
-use crate::problem::Location;
-use crate::schema::{alternatives, description, experiment_schema, property, scene_schema, units};
-use crate::tree;
+use sincro_scene::apply_overrides::{Target, apply_all};
+use sincro_scene::document::{Document, escape};
+use sincro_scene::experiment::experiment_schema;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Location;
+use sincro_scene::scene::scene_schema;
+use sincro_scene::schema::{alternatives, description, property, units};
+use sincro_scene::tree;
 
 /// A number of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -204,18 +207,18 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::{load, load_alone};
+    use crate::{Extensions, load, load_alone};
 
     #[test]
     fn every_number_on_offer_can_be_set() {
         for scene in ["quadrotor-open-loop", "two-dof-position", "flexible-open-loop"] {
             let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
-            let all = properties(&load(&folder, &[]).unwrap(), &[]);
+            let all = properties(&load(&folder, &[], Extensions::default()).unwrap(), &[]);
             assert!(all.len() > 10, "{scene}: {}", all.len());
             for one in &all {
                 let same = Override::new(&one.path, &one.value.to_string());
-                let loaded =
-                    load_alone(&folder, std::slice::from_ref(&same)).unwrap_or_else(|p| panic!("{}: {p}", one.path));
+                let loaded = load_alone(&folder, std::slice::from_ref(&same), Extensions::default())
+                    .unwrap_or_else(|p| panic!("{}: {p}", one.path));
                 let again = properties(&loaded, &[same]);
                 let numbers = |list: &[Property]| list.iter().map(|p| (p.path.clone(), p.value)).collect::<Vec<_>>();
                 assert_eq!(numbers(&again), numbers(&all), "{}", one.path);
@@ -226,7 +229,7 @@ mod tests {
     #[test]
     fn units_are_those_of_the_format() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/quadrotor-open-loop");
-        let all = properties(&load(&folder, &[]).unwrap(), &[]);
+        let all = properties(&load(&folder, &[], Extensions::default()).unwrap(), &[]);
         let unit = |path: &str| all.iter().find(|p| p.path == path).map(|p| p.unit.as_str());
         assert_eq!(unit("/air/quadrotor.mass"), Some("kg"));
         assert_eq!(unit("/air/quadrotor.inertia.xx"), Some("kg·m²"));
@@ -238,7 +241,7 @@ mod tests {
     #[test]
     fn saving_changes_the_numbers_and_nothing_else() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/quadrotor-open-loop");
-        let loaded = load(&folder, &[]).unwrap();
+        let loaded = load(&folder, &[], Extensions::default()).unwrap();
         let set = [Override::new("/air/quadrotor.mass", "12.5"), Override::new("gravity[2]", "-1.62")];
         let texts = edited(&loaded, &set).unwrap();
         let (path, text) = texts.iter().next().unwrap();

@@ -16,7 +16,7 @@ use sincro_dynamics::state::State;
 
 use super::surface::{self, Triangles};
 use super::tape::Layout;
-use crate::scene::{Object, ObjectKind, Scene, ShapeInstance};
+use sincro_scene::scene::{Object, ObjectKind, Scene, ShapeInstance};
 
 /// Everything of a scene that a picture needs.
 #[derive(Clone, Debug, PartialEq, Serialize)]

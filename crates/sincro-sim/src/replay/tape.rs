@@ -18,8 +18,8 @@ use sincro_dynamics::spatial::Quat;
 use sincro_dynamics::world::Observation;
 
 use super::contacts::{CONTACT, Contacts};
-use crate::experiment::Experiment;
-use crate::record::probe::{self, View};
+use sincro_scene::experiment::Experiment;
+use sincro_scene::record::probe::{self, View};
 
 /// Frames a simulated second in a long run [1/s].
 const RATE: f64 = 60.0;

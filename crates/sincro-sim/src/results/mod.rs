@@ -4,7 +4,6 @@
 //! no NaN and no infinity; such a number is null, and `not_finite` at the end of the file says what it was:
 //! `"/energy/residual": "NaN"`.
 
-pub mod file;
 mod number;
 
 use std::path::Path;
@@ -12,11 +11,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::check::{Outcome, Verdict};
-use crate::experiment::check::Sense;
-use crate::run::Outside;
+use crate::file::{self, FileError};
 use crate::sweep::Sweep;
 use crate::table::Table;
-pub use file::{FileError, prepare};
+use crate::validity::Outside;
+use sincro_scene::experiment::check::Sense;
 
 /// The whole file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::*;
-use crate::results::file::test_folder;
+use crate::file::test_folder;
 
 fn settings() -> Settings {
     Settings {

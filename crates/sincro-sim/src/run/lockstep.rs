@@ -1,45 +1,48 @@
 //! A scene and its diagram, tick by tick: what a run, a server and a test all drive.
 
+use std::any::Any;
+
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
-use super::trace::Trace;
 use super::world_with_room;
-use crate::diagram::{Control, NotFinite};
+use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, Source};
+use crate::diagram_controller::DiagramController;
 use crate::load::Loaded;
-use crate::record::float_signals;
-use crate::script::{self, Fault, Message, Phase, Scripts, Setting};
-use crate::sensor::Sensors;
-use crate::session::{self, Desk, Handle, Refusal, Table, Value};
+use crate::sensors::Sensors;
 use crate::snapshot::Snapshot;
+use crate::trace::Trace;
+use sincro_scene::record::float_signals;
+use sincro_scene::script::Fault;
 
 /// A world with its controller.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct LockStep {
     world: World,
-    control: Option<Control<f64>>,
+    control: Option<DiagramController<f64>>,
     sensors: Sensors,
     /// Signals of the diagram, then recorded float signals, then values of sensors, as they were last observed.
     signals: Vec<f64>,
     /// Names of the float signals of scripts and clients that are recorded.
     floats: Vec<String>,
     commands: Vec<Signal>,
+    /// Source of each command, as it was last latched.
+    sources: Vec<Source>,
     step: f64,
     tick: u64,
-    /// What clients and scripts see of the scene and hold in it, if there are any.
-    table: Option<Box<Table>>,
-    scripts: OwnScripts,
+    /// All that act besides the diagram, in their order.
+    controllers: Vec<Box<dyn Controller>>,
+    is_started: bool,
 }
 
-/// Scripts of a lock-step. A copy has none: what they remember is theirs alone; copies are for looking at where the original is.
-#[derive(Debug, Default)]
-struct OwnScripts(Option<Scripts>);
-
-impl Clone for OwnScripts {
-    fn clone(&self) -> Self {
-        Self(None)
-    }
+/// A copy of a lock-step to look ahead with, and what could not be copied.
+#[derive(Debug)]
+pub struct Fork {
+    /// The copy.
+    pub lockstep: LockStep,
+    /// Controllers, or parts of them, that the copy goes on without.
+    pub not_copied: Vec<String>,
 }
 
 /// Why it could not go on.
@@ -63,8 +66,8 @@ pub enum Halt {
         /// The block.
         culprit: NotFinite,
     },
-    /// A script failed.
-    Script {
+    /// A controller failed.
+    Controller {
         /// The tick.
         tick: u64,
         /// Where `[s]`.
@@ -83,7 +86,7 @@ impl Halt {
         match self {
             Self::World { .. } => false,
             Self::Block { .. } => true,
-            Self::Script { is_after_step, .. } => *is_after_step,
+            Self::Controller { is_after_step, .. } => *is_after_step,
         }
     }
 }
@@ -93,45 +96,85 @@ impl LockStep {
     #[must_use]
     pub fn new(loaded: &Loaded, method: MethodKind, refined: bool) -> Self {
         let Loaded { scene, experiment, controller, .. } = loaded;
-        let control = controller.as_ref().map(|c| Control::new(&c.wiring, &scene.model));
+        let control = controller.as_ref().map(|c| DiagramController::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
         let world = world_with_room(scene, experiment, method, refined, n_states);
-        let ticks = experiment.simulation_ticks;
-        let setting = Setting { step: experiment.step * ticks as f64, seed: experiment.seed };
-        let scripts = Scripts::of(scene, setting);
-        let table = scripts.is_some().then(|| {
-            let mut table = Table::new(loaded, ticks);
-            table.phase = session::Phase::Running;
-            Box::new(table)
-        });
+        let engine = loaded.extensions.scripts.filter(|_| !scene.scripts.is_empty());
+        let controllers = engine.map(|engine| engine.controller(loaded)).into_iter().collect();
         let sensors = Sensors::new(scene, experiment);
         let floats: Vec<String> = float_signals(&experiment.record).map(str::to_owned).collect();
         let room = control.as_ref().map_or(0, |c| c.signals().len()) + floats.len() + sensors.values.len();
         let signals = Vec::with_capacity(room);
-        let (commands, scripts) = (scene.commands.clone(), OwnScripts(scripts));
-        let step = experiment.step;
-        let mut new = Self { world, control, sensors, signals, floats, commands, step, tick: 0, table, scripts };
-        match &mut new.control {
-            Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
-            _ => new.world.settle_start(0.0),
+        let (commands, step) = (scene.commands.clone(), experiment.step);
+        let (sources, is_started) = (vec![Source::Scene; world.state.commands.len()], false);
+        let mut new = Self {
+            world,
+            control,
+            sensors,
+            signals,
+            floats,
+            commands,
+            sources,
+            step,
+            tick: 0,
+            controllers,
+            is_started,
+        };
+        match new.control.as_mut().and_then(Controller::continuous) {
+            Some(part) => new.world.settle_start_with(0.0, part),
+            None => new.world.settle_start(0.0),
         }
         new
     }
 
-    /// Gives clients and scripts their table of objects: what they hold there is latched from the next tick on.
-    pub fn set_table(&mut self, table: Box<Table>) {
-        self.table = Some(table);
+    /// Attaches a controller: it acts after those that are there, and its commands win over theirs.
+    ///
+    /// # Panics
+    ///
+    /// It has a continuous part: the world has no room for its states.
+    pub fn attach(&mut self, mut controller: Box<dyn Controller>) {
+        assert!(controller.continuous().is_none(), "the world is made with room for the diagram's states alone");
+        self.controllers.push(controller);
     }
 
-    /// Takes the table of objects away again.
-    pub fn take_table(&mut self) -> Option<Box<Table>> {
-        self.table.take()
+    /// The first controller of a type, with the world; none if there is none.
+    pub fn controller<C: Controller>(&mut self) -> Option<(&mut C, &mut World)> {
+        let Self { controllers, world, .. } = self;
+        let found = controllers.iter_mut().find_map(|controller| (&mut **controller as &mut dyn Any).downcast_mut());
+        found.map(|controller| (controller, world))
     }
 
-    /// The table of objects with the world that it is about; none if nobody asked for one.
-    pub fn desk(&mut self) -> Option<Desk<'_>> {
-        let t = self.t();
-        self.table.as_mut().map(|table| Desk::new(table, &mut self.world, t))
+    /// All controllers besides the diagram.
+    pub(super) fn controllers_mut(&mut self) -> &mut [Box<dyn Controller>] {
+        &mut self.controllers
+    }
+
+    /// A copy to look ahead with, and the names of what it goes on without because it cannot be copied.
+    #[must_use]
+    pub fn fork(&self) -> Fork {
+        let (mut controllers, mut not_copied) = (Vec::new(), Vec::new());
+        for controller in &self.controllers {
+            match controller.fork() {
+                Forked::Whole(copy) => controllers.push(copy),
+                Forked::Part(copy, missing) => {
+                    controllers.push(copy);
+                    not_copied.push(missing);
+                }
+                Forked::Nothing => not_copied.push(controller.name().to_owned()),
+            }
+        }
+        let lockstep = Self {
+            world: self.world.clone(),
+            control: self.control.clone(),
+            sensors: self.sensors.clone(),
+            signals: self.signals.clone(),
+            floats: self.floats.clone(),
+            commands: self.commands.clone(),
+            sources: self.sources.clone(),
+            controllers,
+            ..*self
+        };
+        Fork { lockstep, not_copied }
     }
 
     /// The world.
@@ -162,7 +205,7 @@ impl LockStep {
 
     /// The diagram, if there is one.
     #[must_use]
-    pub fn control(&self) -> Option<&Control<f64>> {
+    pub fn control(&self) -> Option<&DiagramController<f64>> {
         self.control.as_ref()
     }
 
@@ -191,196 +234,171 @@ impl LockStep {
     ///
     /// If a block gives what is not a finite number.
     pub fn start(&mut self) -> Result<(), Halt> {
-        self.call_scripts(Phase::Initialization, 0)?;
-        self.look_around();
-        self.look()?;
-        if let Some(control) = self.control.as_ref().filter(|c| c.is_continuous()) {
-            control.show(&mut self.world.state.commands);
+        self.is_started = true;
+        self.call(false, |controller, at| controller.start(at))?;
+        self.look();
+        self.measure()?;
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller.show(&mut self.world.state.commands);
         }
         Ok(())
     }
 
-    /// Lets the scripts clean up, if they were started. Nothing may be done after it.
+    /// Lets the controllers clean up, if they were started. Nothing may be done after it.
     ///
     /// # Errors
     ///
-    /// If a script fails.
+    /// If a controller fails.
     pub fn end(&mut self) -> Result<(), Halt> {
-        let is_started = self.scripts.0.as_ref().is_some_and(Scripts::is_started);
-        if is_started { self.call_scripts(Phase::Cleanup, self.tick) } else { Ok(()) }
+        if self.is_started { self.call(false, |controller, at| controller.finish(at)) } else { Ok(()) }
     }
 
-    /// Tells the scripts, if they were started, of a pause: that it begins, lasts or ends.
-    ///
-    /// # Errors
-    ///
-    /// If a script fails.
-    pub fn tell_scripts(&mut self, phase: Phase) -> Result<(), Halt> {
-        let is_started = self.scripts.0.as_ref().is_some_and(Scripts::is_started);
-        if is_started { self.call_scripts(phase, self.tick) } else { Ok(()) }
-    }
-
-    /// What clients and scripts have changed of the model.
+    /// Changes of the model by controllers.
     #[must_use]
-    pub fn changes(&self) -> &[session::Change] {
-        self.table.as_ref().map_or(&[], |table| table.changes())
+    pub fn changes(&self) -> Vec<Change> {
+        self.controllers.iter().flat_map(|controller| controller.changes()).cloned().collect()
     }
 
-    /// The streams of graphs, if there can be any.
-    pub(crate) fn graphs(&mut self) -> Option<&mut session::Graphs> {
-        self.table.as_mut().map(|table| &mut table.graphs)
-    }
-
-    /// Calls the scripts; they are told the time of `tick`.
-    fn call_scripts(&mut self, phase: Phase, tick: u64) -> Result<(), Halt> {
-        let Some(scripts) = &mut self.scripts.0 else { return Ok(()) };
-        let t = tick as f64 * self.step;
-        let done = scripts.call(phase, &mut self.world, &mut self.table, (tick, t));
-        let is_after_step = phase == Phase::Sensing;
-        done.map_err(|fault| Halt::Script { tick: self.tick, t: self.tick as f64 * self.step, is_after_step, fault })
-    }
-
-    /// Calls a function of the script on an object, as another script or a client asks for it.
-    ///
-    /// # Errors
-    ///
-    /// There is no script or no such function, or it failed.
-    pub fn call_script(
+    /// Calls all controllers at the present instant, in their order, up to the first that fails.
+    fn call(
         &mut self,
-        object: Handle,
-        kind: Option<script::Kind>,
-        function: &str,
-        arguments: &[Value],
-    ) -> Result<Vec<Value>, Refusal> {
+        is_after_step: bool,
+        mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), Fault>,
+    ) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
-        let Some(scripts) = &mut self.scripts.0 else { return Err(Refusal::new("the scene has no scripts")) };
-        scripts.call_function((object, kind), (function, arguments), &mut self.world, &mut self.table, (tick, t))
+        for controller in all(&mut self.control, &mut self.controllers) {
+            act(controller, Instant { world: &mut self.world, tick, t }).map_err(|fault| Halt::Controller {
+                tick,
+                t,
+                is_after_step,
+                fault,
+            })?;
+        }
+        Ok(())
     }
 
-    /// Runs a text of the script's language in the script on an object.
-    ///
-    /// # Errors
-    ///
-    /// There is no script, or the text failed.
-    pub fn evaluate(&mut self, object: Handle, kind: Option<script::Kind>, text: &str) -> Result<Vec<Value>, Refusal> {
-        let (tick, t) = (self.tick, self.t());
-        let Some(scripts) = &mut self.scripts.0 else { return Err(Refusal::new("the scene has no scripts")) };
-        scripts.evaluate((object, kind), text, &mut self.world, &mut self.table, (tick, t))
-    }
-
-    /// What scripts and clients have said, in the order of time, and how many messages were too many to keep.
+    /// Messages of controllers, in the order of time, and the number of those that were too many to keep.
     #[must_use]
     pub fn messages(&self) -> (Vec<Message>, usize) {
-        let (printed, more_prints) = self.scripts.0.as_ref().map_or((&[][..], 0), Scripts::messages);
-        let (logged, more_logs) = self.table.as_ref().map_or((&[][..], 0), |table| table.notes().all());
-        let mut all = [printed, logged].concat();
+        let (mut all, mut n_more) = (Vec::new(), 0);
+        for controller in &self.controllers {
+            let (messages, more) = controller.messages();
+            all.extend(messages);
+            n_more += more;
+        }
         all.sort_by(|a, b| a.t.total_cmp(&b.t));
-        (all, more_prints + more_logs)
+        (all, n_more)
     }
 
-    /// Takes what scripts have asked for of the run as a whole.
-    pub fn take_requests(&mut self) -> Vec<session::Request> {
-        self.table.as_mut().map_or_else(Vec::new, |table| table.take_requests())
+    /// Takes what controllers have asked for of the run as a whole; true if one asked to stop it.
+    pub fn take_stop_request(&mut self) -> bool {
+        self.controllers.iter_mut().fold(false, |stop, controller| controller.take_stop_request() || stop)
     }
 
-    /// One base step: scripts act, hold, advance, scripts sense, measure, ask.
+    /// One base step, from t_k to t_{k+1}.
+    ///
+    /// ```text
+    /// step(k):
+    ///   1 actuate   each controller, the diagram first: commands and forces of the step      t_k
+    ///   2 latch     u ← signals of the scene, then each controller; the strongest source wins
+    ///   3 remember  each controller: memory for its next tick
+    ///   4 advance   the world goes from t_k to t_{k+1} under u, in sub-steps; a continuous diagram with it
+    ///   5 look      proximity sensors that are due; each controller sees what they found      t_{k+1}
+    ///   6 sense     each controller: measurements of the step, forces of the next one
+    ///   7 arrive    continuous commands are brought to t_{k+1}
+    ///   8 sample    the other sensors that are due
+    ///   9 measure   each controller: measurements at t_{k+1}; blocks that are due are evaluated
+    /// ```
+    ///
+    /// Whoever drives the lock-step hashes and records the state after it. If 1 fails, the state is that of t_k; if 4 fails, that of the last
+    /// instant reached, and the tick is not counted; if 6 or 9 fails, the step has been made and counted.
     ///
     /// # Errors
     ///
-    /// If the world cannot go on (the state is then that of the last instant reached), if a block gives what is not a finite
-    /// number (the world has then made the step), or if a script fails.
+    /// If the world cannot go on, if a block gives what is not a finite number, or if a controller fails.
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
-        if let Some(table) = &mut self.table {
-            table.begin_tick(tick, &self.world.state.totals);
-        }
-        if self.is_due() {
-            self.call_scripts(Phase::Actuation, tick)?;
-        }
-        if let Some(table) = &mut self.table {
-            table.move_targets();
-        }
+        // 1 actuate
+        self.call(false, |controller, at| controller.actuate(at))?;
+        // 2 latch
         self.latch();
-        let advanced = match &mut self.control {
+        // 3 remember
+        all(&mut self.control, &mut self.controllers).for_each(|controller| controller.latched(tick, t));
+        // 4 advance
+        let advanced = match self.control.as_mut().and_then(Controller::continuous) {
+            Some(part) => self.world.advance_with(t, self.step, part),
             None => self.world.advance(t, self.step),
-            Some(control) => {
-                control.update(tick, t);
-                if control.is_continuous() {
-                    self.world.advance_with(t, self.step, control)
-                } else {
-                    self.world.advance(t, self.step)
-                }
-            }
         };
         if let Err((t, cause)) = advanced {
             // between ticks a block shows in the motion first
-            let culprit = self.control.as_ref().and_then(Control::not_finite);
+            let culprit = self.control.as_ref().and_then(DiagramController::not_finite);
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
-        self.look_around();
-        if self.is_due() {
-            self.world.release();
-            if let Some(table) = &mut self.table {
-                table.sense(&self.world.state.q);
-            }
-            let ticks = self.table.as_ref().map_or(1, |table| table.sample_ticks());
-            self.call_scripts(Phase::Sensing, self.tick - ticks.min(self.tick))?;
+        // 5 look
+        self.look();
+        // 6 sense
+        self.call(true, |controller, at| controller.sense(at))?;
+        // 7 arrive
+        let (tick, t) = (self.tick, self.t());
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller.arrive(Instant { world: &mut self.world, tick, t });
         }
-        let arrived = self.t();
-        if let Some(control) = self.control.as_mut().filter(|c| c.is_continuous()) {
-            control.arrive(&mut self.world, arrived);
-        }
-        self.look()
+        // 8 sample, 9 measure
+        self.measure()
     }
 
     /// Latches the commands of the present tick without advancing: the world under the inputs that it will have next.
     pub fn latch(&mut self) {
         let t = self.t();
-        for (command, signal) in self.world.state.commands.iter_mut().zip(&self.commands) {
-            *command = signal.value(t);
+        let mut commands = Commands::of_scene(&mut self.world.state.commands, &mut self.sources);
+        for (command, signal) in self.commands.iter().enumerate() {
+            commands.set(command, signal.value(t));
         }
-        if let Some(control) = &self.control {
-            control.latch(&mut self.world.state.commands);
+        if let Some(diagram) = &self.control {
+            diagram.latch(&mut commands.by(Source::Diagram));
         }
-        if let Some(table) = &self.table {
-            table.latch(&mut self.world.state.commands);
+        for (k, controller) in self.controllers.iter().enumerate() {
+            controller.latch(&mut commands.by(Source::Controller(k)));
         }
     }
 
-    /// Whether a step of clients and scripts begins at the present tick.
-    fn is_due(&self) -> bool {
-        self.table.as_ref().is_some_and(|table| table.is_due(self.tick))
+    /// Source of each command, as it was last latched.
+    #[must_use]
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
     }
 
-    /// Proximity sensors see what is there at the present tick; those that clients and scripts have made, where a step of theirs begins.
-    fn look_around(&mut self) {
+    /// Proximity sensors look at the present tick, then the controllers.
+    fn look(&mut self) {
         let (tick, t) = (self.tick, self.t());
-        self.sensors.look_around(&mut self.world, tick, t, self.table.as_deref_mut());
-        if self.is_due()
-            && let Some(mut desk) = self.desk()
-        {
-            desk.handle_made_sensors();
+        self.sensors.look_around(&mut self.world, tick, t, &mut self.controllers);
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller.look(Instant { world: &mut self.world, tick, t });
         }
     }
 
-    fn look(&mut self) -> Result<(), Halt> {
+    /// Sensors take the samples that are due, then the controllers measure.
+    fn measure(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         self.sensors.sample(&mut self.world, tick, t);
-        let Some(control) = &mut self.control else { return Ok(()) };
-        control.sense(&self.sensors.values);
-        control.look(&mut self.world, tick, t).map_err(|culprit| Halt::Block { tick, t, culprit })
+        for controller in all(&mut self.control, &mut self.controllers) {
+            controller
+                .measure(Instant { world: &mut self.world, tick, t }, &self.sensors.values)
+                .map_err(|culprit| Halt::Block { tick, t, culprit })?;
+        }
+        Ok(())
     }
 
     /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of scripts and clients and the values of
     /// all sensors after them. A float signal that nobody has set is not a number.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
-        let signals = self.control.as_ref().map_or(&[][..], Control::signals);
+        let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
         if !(self.sensors.values.is_empty() && self.floats.is_empty()) {
             self.signals.clear();
             self.signals.extend_from_slice(signals);
-            let table = self.table.as_deref();
-            let float = |name: &String| table.and_then(|table| table.floats.get(name)).copied().unwrap_or(f64::NAN);
+            let set = |name: &String| self.controllers.iter().find_map(|controller| controller.float_signal(name));
+            let float = |name: &String| set(name).unwrap_or(f64::NAN);
             self.signals.extend(self.floats.iter().map(float));
             self.signals.extend_from_slice(&self.sensors.values);
             return (self.world.observe(t), &self.signals);
@@ -405,7 +423,7 @@ impl LockStep {
     /// Everything needed to go on from here bit for bit, with the hash of the run so far.
     #[must_use]
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
-        let diagram = self.control.as_ref().map(|c| c.runner.state.clone());
+        let diagram = self.control.as_ref().and_then(Controller::save);
         Snapshot {
             state: self.world.state.clone(),
             trace,
@@ -424,7 +442,7 @@ impl LockStep {
         self.tick = snapshot.state.tick;
         self.sensors.values.copy_from_slice(&snapshot.sensors);
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
-            control.resume(state.clone(), &snapshot.state);
+            control.restore(state, &snapshot.state);
         }
     }
 
@@ -439,4 +457,13 @@ impl LockStep {
     fn continuous(&self) -> &[f64] {
         self.control.as_ref().map_or(&[], |c| &c.runner.state.continuous)
     }
+}
+
+/// The diagram, then the other controllers in their order.
+fn all<'a>(
+    diagram: &'a mut Option<DiagramController<f64>>,
+    others: &'a mut [Box<dyn Controller>],
+) -> impl Iterator<Item = &'a mut dyn Controller> {
+    let diagram = diagram.iter_mut().map(|diagram| diagram as &mut dyn Controller);
+    diagram.chain(others.iter_mut().map(|controller| &mut **controller))
 }

@@ -1,23 +1,15 @@
-//! The run: who acts when.
+//! A run, from its start to its end.
 //!
-//! One tick k, from t_k to t_{k+1} (DESIGN: measure, ask, hold, advance, publish):
-//!
-//! 1. commands are latched: those of signals sampled at t_k, those of the diagram as it was evaluated at t_k; its memory is updated;
-//! 2. the world advances under them, continuous blocks with it;
-//! 3. the diagram measures the new state and every block that is due is evaluated;
-//! 4. the new state is hashed, and recorded if a row is due.
+//! [`LockStep::advance`] is one base step, with its stages in order; [`simulate`] makes them all, hashes and records the state after each.
 //!
 //! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
 //! why (`stop.rs`).
 
-mod campaign;
+mod bounds;
 mod lockstep;
 mod recording;
-mod refine;
 mod stop;
 mod streams;
-mod trace;
-mod validity;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,21 +19,20 @@ use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, World};
 
-pub use campaign::{Campaign, Done, Progress, judge, run_campaign};
+use crate::trace::Trace;
+use crate::validity::Outside;
 pub use lockstep::{Halt, LockStep};
-pub(crate) use recording::Recording;
-pub use trace::{Trace, model_hash, plant_hash};
-pub use validity::Outside;
+pub use recording::Recording;
 
-use crate::experiment::{Experiment, Integrator};
+use crate::controller::{Change, Message};
+use crate::file::FileError;
 use crate::load::Loaded;
-use crate::problem::Problems;
 use crate::replay::Tape;
-use crate::results::{EnergyReport, FileError, Status};
-use crate::scene::Scene;
-use crate::script::Message;
-use crate::session::{Change, Request};
+use crate::results::{EnergyReport, Status};
 use crate::table::Table;
+use sincro_scene::experiment::{Experiment, Integrator};
+use sincro_scene::problem::Problems;
+use sincro_scene::scene::Scene;
 
 /// Rate times base step above which `auto` takes the stiff method.
 const STIFF_FROM: f64 = 1.0;
@@ -50,7 +41,7 @@ const SLOW_FROM: f64 = 20.0;
 /// Pole times step above which a method that takes a feedback at the old state diverges.
 const EULER_LIMIT: f64 = 1.0;
 /// How much finer the second run of an error estimate is: fixed steps halved, tolerance divided.
-const FINER: f64 = 100.0;
+pub(crate) const FINER: f64 = 100.0;
 
 /// What a single run gave.
 #[derive(Clone, Debug)]
@@ -223,7 +214,7 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         MethodKind::SemiImplicitEuler | MethodKind::Implicit => EULER_LIMIT,
         MethodKind::DormandPrince | MethodKind::Stiff => return (kind, warnings),
     };
-    if let Some((closed, open)) = crate::linearize::fastest_poles(loaded, kind)
+    if let Some((closed, open)) = loaded.extensions.fastest_poles.and_then(|fastest| fastest(loaded, kind))
         && closed > 1.2 * open
         && closed * step > limit
     {
@@ -316,7 +307,7 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             status = Status::Ended { tick: tick + 1, time: lockstep.t(), reason };
             break;
         }
-        if lockstep.take_requests().contains(&Request::Stop) {
+        if lockstep.take_stop_request() {
             status = stopped_by_script(&lockstep);
             break;
         }

@@ -5,20 +5,23 @@ use std::time::Instant;
 
 use sincro_dynamics::world::{MethodKind, Observation, World};
 
+use super::bounds::Bounds;
 use super::lockstep::LockStep;
-use super::{Manner, RunError, Simulated, Trace, validity};
-use crate::diagram::Controller;
-use crate::experiment::stop::Bounds;
+use super::{Manner, RunError, Simulated};
+use crate::file::FileError;
 use crate::load::Loaded;
-use crate::record::Recorder;
 use crate::replay::Tape;
-use crate::results::{EnergyReport, FileError, Status};
+use crate::results::{EnergyReport, Status};
 use crate::table::{CsvWriter, Table};
+use crate::trace::Trace;
+use crate::validity;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::record::Recorder;
 
 use super::streams::Streams;
 
 /// A run as it is recorded.
-pub(crate) struct Recording {
+pub struct Recording {
     recorder: Recorder,
     table: Table,
     /// What ends the run; none in the finer run of an error estimate, which goes as far as the first one.
@@ -43,7 +46,7 @@ impl Recording {
     /// Recorded signals that do not exist, or a CSV file that cannot be written.
     pub fn new(loaded: &Loaded, lockstep: &mut LockStep, manner: Manner<'_>) -> Result<Self, RunError> {
         let Loaded { scene, experiment, controller, .. } = loaded;
-        let entries = controller.as_ref().map(Controller::entries).unwrap_or_default();
+        let entries = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
         let rows = experiment.n_steps / experiment.record_every + 1;
         let table = Table::new(recorder.columns(), rows as usize);
@@ -73,6 +76,7 @@ impl Recording {
     }
 
     /// Hash of the states so far.
+    #[must_use]
     pub fn trace(&self) -> Trace {
         self.trace
     }
@@ -122,7 +126,7 @@ impl Recording {
         let row = self.recorder.row(&seen, signals, t, is_start);
         self.table.push_row(row);
         self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
-        self.streams.look(lockstep.graphs(), self.table.n_rows());
+        self.streams.look(lockstep.controllers_mut(), self.table.n_rows());
         Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
     }
 
@@ -140,7 +144,7 @@ impl Recording {
     ) -> Result<Simulated, FileError> {
         let Self { mut table, csv, streams, tape, validity, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
-        let n_streams = streams.finish(lockstep.graphs(), &mut table)?;
+        let n_streams = streams.finish(lockstep.controllers_mut(), &mut table)?;
         let wall_time = clock.elapsed().as_secs_f64();
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
@@ -153,7 +157,7 @@ impl Recording {
         if n_more > 0 {
             warnings.push(format!("scripts and clients said {n_more} more things than are kept"));
         }
-        let changes = lockstep.changes().to_vec();
+        let changes = lockstep.changes();
         Ok(Simulated {
             table,
             status,

@@ -6,9 +6,9 @@ use sincro_dynamics::world::{MethodKind, Stop, World};
 
 use super::lockstep::{Halt, LockStep};
 use super::method_word;
-use crate::diagram::NotFinite;
-use crate::experiment::Experiment;
+use crate::controller::NotFinite;
 use crate::results::Status;
+use sincro_scene::experiment::Experiment;
 
 impl Halt {
     /// The stop in words; for a world, from the last state that was still finite.
@@ -17,7 +17,7 @@ impl Halt {
         match self {
             Self::World { tick, t, cause } => explain(lockstep.world(), experiment, (tick, t, cause), method),
             Self::Block { tick, t, culprit } => of_block(tick, t, &culprit),
-            Self::Script { tick, t, fault, .. } => {
+            Self::Controller { tick, t, fault, .. } => {
                 let reason = format!("{fault} (tick {tick}, t = {t:.6} s)");
                 Status::Stopped { tick, time: t, reason, help: fault.help.unwrap_or_default() }
             }

@@ -1,14 +1,14 @@
-//! What streams of graphs showed, row by row of a run.
+//! Values of the streams that controllers record, row by row of a run.
 
 use std::path::{Path, PathBuf};
 
-use crate::results::FileError;
-use crate::session::Graphs;
+use crate::controller::Controller;
+use crate::file::FileError;
 use crate::table::{Column, Table};
 
-/// Values of all streams, not a number before a stream was made.
+/// Values of all streams, by controller; not a number before a stream was made.
 pub(super) struct Streams {
-    values: Vec<Vec<f64>>,
+    values: Vec<Vec<Vec<f64>>>,
     /// Rows that there will be.
     capacity: usize,
     /// The file that was written without them.
@@ -21,19 +21,23 @@ impl Streams {
     }
 
     /// After row `n_rows` was recorded.
-    pub fn look(&mut self, graphs: Option<&mut Graphs>, n_rows: usize) {
-        let Some(graphs) = graphs else { return };
-        for cleared in graphs.take_cleared() {
-            if let Some(values) = self.values.get_mut(cleared) {
-                values.fill(f64::NAN);
+    pub fn look(&mut self, controllers: &mut [Box<dyn Controller>], n_rows: usize) {
+        self.values.resize_with(controllers.len(), Vec::new);
+        for (controller, streams) in controllers.iter_mut().zip(&mut self.values) {
+            for cleared in controller.take_cleared_streams() {
+                if let Some(values) = streams.get_mut(cleared) {
+                    values.fill(f64::NAN);
+                }
             }
-        }
-        for (k, stream) in graphs.streams().iter().enumerate() {
-            if k == self.values.len() {
-                self.values.push(Vec::with_capacity(self.capacity));
-            }
-            self.values[k].resize(n_rows - 1, f64::NAN);
-            self.values[k].push(stream.value);
+            let mut k = 0;
+            controller.streams(&mut |_, _, value| {
+                if k == streams.len() {
+                    streams.push(Vec::with_capacity(self.capacity));
+                }
+                streams[k].resize(n_rows - 1, f64::NAN);
+                streams[k].push(value);
+                k += 1;
+            });
         }
     }
 
@@ -43,18 +47,21 @@ impl Streams {
     /// # Errors
     ///
     /// The CSV file cannot be written.
-    pub fn finish(self, graphs: Option<&mut Graphs>, table: &mut Table) -> Result<usize, FileError> {
-        let n_rows = table.n_rows();
-        let streams: Vec<_> = graphs.map_or_else(Vec::new, |graphs| graphs.streams().to_vec());
-        let n_streams = streams.len().min(self.values.len());
-        for (stream, mut values) in streams.into_iter().zip(self.values) {
-            values.resize(n_rows, f64::NAN);
-            let mut name = stream.column;
-            while table.column(&name).is_some() {
-                name.push('\'');
-            }
-            table.columns.push(Column { name, unit: stream.unit, values });
+    pub fn finish(self, controllers: &[Box<dyn Controller>], table: &mut Table) -> Result<usize, FileError> {
+        let (n_rows, n_columns) = (table.n_rows(), table.columns.len());
+        for (controller, streams) in controllers.iter().zip(self.values) {
+            let mut streams = streams.into_iter();
+            controller.streams(&mut |column, unit, _| {
+                let Some(mut values) = streams.next() else { return };
+                values.resize(n_rows, f64::NAN);
+                let mut name = column.to_owned();
+                while table.column(&name).is_some() {
+                    name.push('\'');
+                }
+                table.columns.push(Column { name, unit: unit.to_owned(), values });
+            });
         }
+        let n_streams = table.columns.len() - n_columns;
         if n_streams > 0
             && let Some(path) = &self.csv
         {

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use sincro_sim::overrides::Override;
-use sincro_sim::{Loaded, load};
+use sincro_scene::overrides::Override;
+use sincro_sim::{Extensions, Loaded, load};
 
 pub const SCENE: &str = r##"gravity = [0.0, 0.0, -9.81]
 
@@ -122,7 +122,7 @@ impl TestFolder {
     pub fn load(&self, settings: &[&str]) -> Result<Loaded, String> {
         let settings: Result<Vec<Override>, _> = settings.iter().map(|text| Override::parse(text)).collect();
         let settings = settings.map_err(|problem| problem.to_string())?;
-        load(&self.path, &settings).map_err(|problems| self.short(&problems.to_string()))
+        load(&self.path, &settings, Extensions::default()).map_err(|problems| self.short(&problems.to_string()))
     }
 
     /// A message without the folder's path.

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
-use sincro_sim::diagram::Controller;
-use sincro_sim::experiment::check::{Expected, Subject};
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::Problems;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::check::{Expected, Subject};
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
 use sincro_sim::replay::{SceneView, properties};
-use sincro_sim::{load, load_alone};
+use sincro_sim::{Extensions, load, load_alone};
 
 use super::board::{Board, RunLog};
 use super::command::Command;
@@ -33,8 +33,10 @@ pub struct Source {
     pub folder: PathBuf,
     /// What is set against its files.
     pub settings: Vec<Override>,
+    /// What the scene may need beyond its files: language of scripts.
+    pub extensions: Extensions,
     /// Makes the drawing of a diagram.
-    pub draw: Box<dyn Fn(&Controller) -> String + Send>,
+    pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
 }
 
 /// A live scene with its runs.
@@ -55,7 +57,7 @@ impl Engine {
     ///
     /// Everything that is wrong with the scene.
     pub fn open(source: Source) -> Result<Self, Problems> {
-        let loaded = load(&source.folder, &source.settings)?;
+        let loaded = load(&source.folder, &source.settings, source.extensions)?;
         let film = Film {
             format: FORMAT,
             title: loaded.experiment.title.clone(),
@@ -161,7 +163,7 @@ impl Engine {
                 self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(Some((object, point, force))))
             }
             Command::Release {} => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
-            Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set))
+            Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set), self.source.extensions)
                 .map(|folder| self.board.say("saved", &format!("saved as {}", folder.display()))),
         };
         if let Err(message) = done {
@@ -208,7 +210,8 @@ impl Engine {
 
     fn restart(&mut self) -> Result<(), String> {
         let settings = self.present().settings.clone();
-        let loaded = load_alone(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
+        let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
+            .map_err(|problems| problems.to_string())?;
         let track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
         self.begin_next(track, "from the start");
         Ok(())
@@ -229,7 +232,8 @@ impl Engine {
         let from = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
         let settings = self.settings(set);
         let snapshot = from.snapshot_at(t).filter(|s| s.state.tick > 0 || !joints.is_empty()).cloned();
-        let loaded = load_alone(&self.source.folder, &settings).map_err(|problems| problems.to_string())?;
+        let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
+            .map_err(|problems| problems.to_string())?;
         let mut track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
         if let Some(snapshot) = &snapshot {
             track = track.from(snapshot, joints)?;

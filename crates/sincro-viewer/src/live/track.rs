@@ -2,14 +2,15 @@
 
 use sincro_dynamics::force::Push;
 use sincro_dynamics::spatial::Vec3;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::{Located, Problems};
+use sincro_scene::record::{Recorder, catalogue};
 use sincro_sim::Loaded;
-use sincro_sim::diagram::Controller;
-use sincro_sim::overrides::Override;
-use sincro_sim::problem::{Located, Problems};
-use sincro_sim::record::{Recorder, catalogue};
 use sincro_sim::replay::{Contacts, Layout, SceneView, Tape};
-use sincro_sim::run::{LockStep, Trace, method_for};
+use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
+use sincro_sim::trace::Trace;
 
 use super::thinned::Thinned;
 use crate::film::stop_words;
@@ -185,7 +186,7 @@ fn snapshot_bytes(snapshot: &Snapshot) -> usize {
 /// Everything that can be looked at, as far as it is not too much.
 fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Problems> {
     let (experiment, model) = (&loaded.experiment, &loaded.scene.model);
-    let entries = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+    let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
     let all = catalogue(model);
     let mut names: Vec<String> = experiment.record.iter().map(|r| r.value.clone()).collect();
     let offered = entries.iter().chain(all.iter().filter(|_| all.len() <= MOST_SIGNALS));

@@ -22,9 +22,9 @@ use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 use protobuf::Package;
 use serde_json::{Value, json};
+use sincro_sim::campaign::Done;
+use sincro_sim::file::FileError;
 use sincro_sim::replay::{ObjectView, SceneView, Tape};
-use sincro_sim::results::FileError;
-use sincro_sim::run::Done;
 use sincro_sim::table::Table;
 
 /// Definitions of Foxglove's messages.
@@ -183,10 +183,11 @@ mod tests {
     use std::path::PathBuf;
     use std::sync::atomic::AtomicBool;
 
+    use sincro_sim::campaign::run_campaign;
     use sincro_sim::load;
-    use sincro_sim::run::run_campaign;
 
     use super::*;
+    use sincro_sim::Extensions;
 
     #[test]
     fn names_become_topics_and_fields() {
@@ -200,7 +201,7 @@ mod tests {
     #[test]
     fn a_reader_finds_every_row_and_frame() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-open-loop");
-        let loaded = load(&folder, &[]).unwrap();
+        let loaded = load(&folder, &[], Extensions::default()).unwrap();
         let campaign = run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
         let path: PathBuf = std::env::temp_dir().join(format!("sincro-{}.mcap", std::process::id()));
         write(&campaign.main, &path).unwrap();

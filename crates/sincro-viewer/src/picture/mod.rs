@@ -224,6 +224,7 @@ fn rgb(hex: &str) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sincro_sim::Extensions;
 
     const STILL: [f64; 7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -257,9 +258,10 @@ mod tests {
     #[test]
     fn pictures_of_a_run_are_framed_alike() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-open-loop");
-        let loaded = sincro_sim::load(&folder, &[]).unwrap();
+        let loaded = sincro_sim::load(&folder, &[], Extensions::default()).unwrap();
         let interrupt = std::sync::atomic::AtomicBool::new(false);
-        let campaign = sincro_sim::run::run_campaign(&folder, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
+        let campaign =
+            sincro_sim::campaign::run_campaign(&folder, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
         let tape = campaign.main.simulated.tape.as_ref().unwrap();
         let span = tape.times.last().unwrap() - tape.times[0];
         let pictures = strip(&campaign.main.view, tape, (4.0, 1000), (400.0, 300.0));

@@ -3,7 +3,7 @@
 use clap::Args;
 use sincro_blocks::kind::Group;
 use sincro_blocks::suggest;
-use sincro_sim::diagram::reference::{kinds, page};
+use sincro_scene::diagram::reference::{kinds, page};
 
 use crate::{Exit, diagnostics};
 

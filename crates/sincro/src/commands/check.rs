@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use sincro::{Loaded, load};
 use sincro_blocks::program::Rate;
-use sincro_sim::diagram::Controller;
-use sincro_sim::record::catalogue;
+use sincro_scene::diagram::Controller;
+use sincro_scene::record::catalogue;
+use sincro_scene::scene::{Freedom, Model, Object, ObjectKind, Scene};
+use sincro_scene::script::Kind;
 use sincro_sim::run::{method_for, method_word, model_hash};
-use sincro_sim::scene::{Freedom, Model, Object, ObjectKind, Scene};
-use sincro_sim::script::Kind;
 
 use super::console::{degrees, short};
 use super::run::parse_settings;

@@ -6,10 +6,10 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressStyle};
 use sincro::Loaded;
 use sincro_figures::plot::number::{self, significant};
-use sincro_sim::experiment::check::Sense;
+use sincro_scene::experiment::check::Sense;
+use sincro_scene::script::Message;
+use sincro_sim::campaign::Campaign;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
-use sincro_sim::run::Campaign;
-use sincro_sim::script::Message;
 
 use crate::diagnostics::count;
 

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use sincro::{Loaded, linearization, load};
+use sincro_analysis::linear::{DMatrix, lqr};
+use sincro_analysis::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
 use sincro_figures::linear::{Analysis, text};
-use sincro_sim::linear::{DMatrix, lqr};
-use sincro_sim::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
-use sincro_sim::problem::{Located, Location, Problem, Problems, SourceText};
+use sincro_scene::problem::{Located, Location, Problem, Problems, SourceText};
 
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
@@ -130,7 +130,8 @@ fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Pro
     if arguments.lqr_q.is_empty() {
         return Ok(String::new());
     }
-    let diagonal = |weights: &[f64]| DMatrix::from_diagonal(&sincro_sim::linear::DVector::from_column_slice(weights));
+    let diagonal =
+        |weights: &[f64]| DMatrix::from_diagonal(&sincro_analysis::linear::DVector::from_column_slice(weights));
     let system = &found.system;
     for (flag, given, wanted) in
         [("--lqr-q", arguments.lqr_q.len(), system.n_states()), ("--lqr-r", arguments.lqr_r.len(), system.n_inputs())]

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use sincro::scene_name;
 use sincro::serve::{Deadlines, Event, Options, Record, Recorder, Server, Stored, open};
+use sincro_coppelia::session::{Files, Finished, Grants, Session};
 use sincro_sim::results::Status;
-use sincro_sim::session::{Files, Finished, Grants, Session};
 
 use super::console;
 use super::run::{interrupt, parse_settings};
@@ -232,7 +232,7 @@ impl Watch {
         // a script may hold it: then there is nothing new to tell
         let Some(mut floor) = server.hub().try_enter(GLANCE) else { return };
         let (clients, step, t) = (floor.n_clients(), floor.steps(), floor.session.t());
-        let runs = floor.session.phase() != sincro_sim::session::Phase::Stopped;
+        let runs = floor.session.phase() != sincro_coppelia::session::Phase::Stopped;
         drop(floor);
         if clients != self.clients {
             say!("  {} attached", diagnostics::count(clients, "client"));

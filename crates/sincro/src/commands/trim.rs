@@ -6,9 +6,9 @@ use clap::Args;
 use serde_json::{Map, Value, json};
 use sincro::load;
 use sincro::results::write_text;
-use sincro_sim::linear::Axis;
-use sincro_sim::linearize::{Trim, TrimRequest, operating_point, trim};
-use sincro_sim::problem::{Located, Problem, Problems};
+use sincro_analysis::linear::Axis;
+use sincro_analysis::linearize::{Trim, TrimRequest, operating_point, trim};
+use sincro_scene::problem::{Located, Problem, Problems};
 
 use super::linearize::located;
 use super::run::parse_settings;

@@ -19,11 +19,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use sincro_coppelia::session::{Session, Value};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
+use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Trace, Watch, simulate};
-use sincro_sim::session::{Session, Value};
+use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::trace::Trace;
 
 use legacy_client::{Client as Legacy, Command, ONCE, STREAM, floats, ints};
 use zmq_client::Client as Zmq;
@@ -39,13 +41,20 @@ fn scene(name: &str) -> PathBuf {
 
 /// The hash of the scene's own run, its law as a diagram.
 fn in_process(name: &str) -> Trace {
-    let loaded = load(&scene(name), &[]).unwrap_or_else(|p| panic!("{:?}", p.0));
+    let loaded = load(&scene(name), &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
+        .unwrap_or_else(|p| panic!("{:?}", p.0));
     let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
     simulate(&loaded, Manner::default(), watch).unwrap().trace
 }
 
 fn serve(name: &str) -> Server {
-    let session = Session::open(&scene(name), &[], None).unwrap_or_else(|p| panic!("{:?}", p.0));
+    let session = Session::open(
+        &scene(name),
+        &[],
+        Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() },
+        None,
+    )
+    .unwrap_or_else(|p| panic!("{:?}", p.0));
     let patience = Duration::from_secs(600);
     Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, patience, ..Options::default() })
         .unwrap()

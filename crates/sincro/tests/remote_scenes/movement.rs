@@ -1,7 +1,7 @@
 //! `movement`: three clients move three arms at once, as CoppeliaSim's example `simpleMovement.py` does; the bits are
 //! those of the scripts of `movement-lua`.
 
-use sincro_sim::session::Value;
+use sincro_coppelia::session::Value;
 
 use super::zmq_client::{Client as Zmq, map};
 use super::{finished, in_process, serve};
@@ -62,7 +62,6 @@ fn poses(mut client: Zmq) {
 
 #[test]
 fn three_clients_move_three_arms_with_the_bits_of_scripts() {
-    sincro_lua::install();
     let server = serve("movement");
     let zmq = server.ports().zmq.unwrap();
     let mut first = Zmq::connect(zmq, Some("first"));

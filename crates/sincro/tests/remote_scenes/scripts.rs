@@ -4,9 +4,10 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use sincro_coppelia::session::{Grants, Session, Value};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
-use sincro_sim::session::{Grants, Session, Value};
+use sincro_sim::Extensions;
 
 use super::zmq_client::Client as Zmq;
 
@@ -57,12 +58,13 @@ record = ["/first.position", "float_signal.angle"]
 "#;
 
 fn serve(name: &str, evaluation: bool) -> Server {
-    sincro_lua::install();
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("scripts-{name}"));
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
     std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    let mut session = Session::open(&folder, &[], None).unwrap_or_else(|p| panic!("{:?}", p.0));
+    let mut session =
+        Session::open(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }, None)
+            .unwrap_or_else(|p| panic!("{:?}", p.0));
     session.grant(Grants { files: None, evaluation });
     let patience = Duration::from_secs(600);
     Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, patience, ..Options::default() })

@@ -1,0 +1,153 @@
+//! The scripts of one run: made when there are any, called by the lock-step.
+
+use std::sync::Arc;
+
+use sincro_dynamics::world::World;
+
+use super::{Call, Host, Phase, Setting};
+use crate::session::{Handle, Refusal, Table, Value};
+use sincro_scene::scene::Scene;
+use sincro_scene::script::{Fault, Kind, Script};
+use sincro_sim::controller::Message;
+
+/// Messages that are kept of a run: a script that says something at every tick must not fill the memory.
+const MOST_MESSAGES: usize = 10_000;
+
+/// Level of scripts' messages in the log of a session.
+const OF_SCRIPTS: i64 = 450;
+
+/// Scripts with what they have said.
+#[derive(Debug)]
+pub struct Scripts {
+    host: Box<dyn Host>,
+    messages: Vec<Message>,
+    n_dropped: usize,
+    is_started: bool,
+}
+
+impl Scripts {
+    /// The scripts of a scene. Descendants are called before their ancestors, siblings in the order of the file.
+    pub fn of(scene: &Scene, setting: Setting, start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>) -> Self {
+        let host = start(&order(scene), setting);
+        Self { host, messages: Vec::new(), n_dropped: 0, is_started: false }
+    }
+
+    /// Calls them.
+    ///
+    /// # Errors
+    ///
+    /// The first one that fails.
+    pub fn call(
+        &mut self,
+        phase: Phase,
+        world: &mut World,
+        table: &mut Option<Box<Table>>,
+        (tick, t): (u64, f64),
+    ) -> Result<(), Fault> {
+        self.is_started |= phase == Phase::Initialization;
+        let done = self.host.call(Call { world, table, tick, t }, phase);
+        self.keep_messages(table);
+        done
+    }
+
+    /// Calls a function of the script on an object.
+    ///
+    /// # Errors
+    ///
+    /// There is no script or no such function, or it failed.
+    pub fn call_function(
+        &mut self,
+        (object, kind): (Handle, Option<Kind>),
+        (function, arguments): (&str, &[Value]),
+        world: &mut World,
+        table: &mut Option<Box<Table>>,
+        (tick, t): (u64, f64),
+    ) -> Result<Vec<Value>, Refusal> {
+        if !self.is_started {
+            return Err(Refusal::new("scripts can be called once the simulation is started"));
+        }
+        let done = self.host.call_function(Call { world, table, tick, t }, (object, kind), function, arguments);
+        self.keep_messages(table);
+        done
+    }
+
+    /// Runs a text in the script on an object.
+    ///
+    /// # Errors
+    ///
+    /// There is no script, or the text failed.
+    pub fn evaluate(
+        &mut self,
+        script: (Handle, Option<Kind>),
+        text: &str,
+        world: &mut World,
+        table: &mut Option<Box<Table>>,
+        (tick, t): (u64, f64),
+    ) -> Result<Vec<Value>, Refusal> {
+        if !self.is_started {
+            return Err(Refusal::new("scripts can be called once the simulation is started"));
+        }
+        let done = self.host.evaluate(Call { world, table, tick, t }, script, text);
+        self.keep_messages(table);
+        done
+    }
+
+    fn keep_messages(&mut self, table: &mut Option<Box<Table>>) {
+        for message in self.host.take_messages() {
+            if let Some(table) = table {
+                table.log(OF_SCRIPTS, message.text.clone());
+            }
+            if self.messages.len() < MOST_MESSAGES {
+                self.messages.push(message);
+            } else {
+                self.n_dropped += 1;
+            }
+        }
+    }
+
+    /// Whether their initialisation has been called.
+    #[must_use]
+    pub fn is_started(&self) -> bool {
+        self.is_started
+    }
+
+    /// What they have said, and how many messages were too many to keep.
+    #[must_use]
+    pub fn messages(&self) -> (&[Message], usize) {
+        (&self.messages, self.n_dropped)
+    }
+}
+
+/// Depth first from the leaves; at one object a child script before a customization script.
+fn order(scene: &Scene) -> Arc<[Script]> {
+    let mut scripts: Vec<&Script> = scene.scripts.iter().collect();
+    let rank = ranks(scene);
+    scripts.sort_by_key(|script| (rank[script.object], script.kind));
+    scripts.into_iter().cloned().collect()
+}
+
+/// Place of each object in an order of leaves before roots; objects stand in the scene with parents before children.
+fn ranks(scene: &Scene) -> Vec<usize> {
+    let n = scene.objects.len();
+    // the objects are in preorder: those of a branch follow each other
+    let mut size = vec![1_usize; n];
+    for k in (0..n).rev() {
+        if let Some(parent) = scene.objects[k].parent {
+            size[parent] += size[k];
+        }
+    }
+    let mut rank = vec![0; n];
+    // first free place of the branch below an object, roots behind each other
+    let (mut next_root, mut next_child) = (0, vec![0; n]);
+    for k in 0..n {
+        let next = match scene.objects[k].parent {
+            None => &mut next_root,
+            Some(parent) => &mut next_child[parent],
+        };
+        let start = *next;
+        *next += size[k];
+        next_child[k] = start;
+        rank[k] = start + size[k] - 1;
+    }
+    rank
+}

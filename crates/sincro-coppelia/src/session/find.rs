@@ -1,0 +1,165 @@
+//! Finding objects by the names that V-REP and CoppeliaSim clients use.
+//!
+//! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]` takes the i-th match among
+//! the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for any run and any character. Without, it is a name
+//! of V-REP: `joint`, `joint#` for the first of that name, `joint#0`, `joint#1` for the second and third.
+
+use super::Refusal;
+use super::table::{Entry, Handle, Table};
+
+/// Longest path that is looked for.
+const LONGEST: usize = 1_000;
+
+/// One level of a path.
+struct Element {
+    pattern: Vec<char>,
+    /// `[i]`
+    among: Option<usize>,
+}
+
+/// How to look for an object.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Search {
+    /// What `.` and `..` start from: the object of the script that asks.
+    pub from: Option<Handle>,
+    /// Which match is wanted, from 0.
+    pub index: usize,
+    /// Whether a path without a leading sign is one all the same, below this object.
+    pub below: Option<Handle>,
+}
+
+impl Table {
+    /// The object of a name or path.
+    ///
+    /// # Errors
+    ///
+    /// There is none; the message names the nearest.
+    pub fn find(&self, text: &str, search: Search) -> Result<Handle, Refusal> {
+        if text.len() > LONGEST {
+            return Err(Refusal(format!("a path of {} bytes is longer than {LONGEST}", text.len())));
+        }
+        let found = match text.chars().next() {
+            Some('/' | '.' | ':') => self.find_path(text, search)?,
+            _ if search.below.is_some() => {
+                self.find_path(&format!("./{text}"), Search { from: search.below, ..search })?
+            }
+            _ => self.find_name(text),
+        };
+        found.ok_or_else(|| self.missing(text))
+    }
+
+    /// A name of V-REP, see the head of this file.
+    fn find_name(&self, text: &str) -> Option<Handle> {
+        let text = text.strip_suffix('#').unwrap_or(text);
+        let (name, nth) = match text.rsplit_once('#') {
+            Some((name, digits)) => (name, digits.parse::<usize>().ok()?.checked_add(1)?),
+            None => (text, 0),
+        };
+        self.entries().filter(|e| e.name == name).nth(nth).map(|e| e.handle)
+    }
+
+    fn find_path(&self, text: &str, search: Search) -> Result<Option<Handle>, Refusal> {
+        let (mut start, mut rest) = (None, text);
+        let own =
+            || search.from.ok_or_else(|| Refusal(format!("`{text}` starts at the object of a script, and none asks")));
+        if let Some(tail) = rest.strip_prefix("::").or_else(|| rest.strip_prefix(':')) {
+            // models are not marked here: the outermost object of the tree is the model
+            let mut at = own()?;
+            while let Some(parent) = self.entry(at)?.parent {
+                at = parent;
+            }
+            (start, rest) = (Some(at), tail);
+        } else if rest.starts_with('.') {
+            let mut at = Some(own()?);
+            rest = rest.strip_prefix("./").unwrap_or_else(|| if rest == "." { "" } else { rest });
+            while let Some(tail) = rest.strip_prefix("..") {
+                at = at.and_then(|h| self.entry(h).ok()).and_then(|e| e.parent);
+                rest = tail.strip_prefix('/').unwrap_or(tail);
+            }
+            start = at;
+        }
+        let rest = rest.trim_start_matches('/');
+        if rest.is_empty() {
+            return Ok(start);
+        }
+        let (rest, index) = split_number(rest, '{', '}').unwrap_or((rest, search.index));
+        let Some(elements) = rest.split('/').map(element).collect::<Option<Vec<_>>>() else {
+            return Err(Refusal(format!("`{text}` is no path of objects")));
+        };
+        let mut left = index;
+        Ok(self.search(start, &elements, &mut left))
+    }
+
+    /// Looks for the path among the objects of a level, then below them.
+    fn search(&self, level: Option<Handle>, path: &[Element], left: &mut usize) -> Option<Handle> {
+        let objects: Vec<&Entry> = self.children(level).collect();
+        let (first, more) = path.split_first()?;
+        let (mut n_matches, mut taken) = (0, Vec::new());
+        for object in &objects {
+            if !fits(&first.pattern, &object.name) {
+                continue;
+            }
+            let is_wanted = first.among.is_none_or(|k| k == n_matches);
+            n_matches += 1;
+            if first.among.is_some() {
+                taken.push(object.handle);
+            }
+            if !is_wanted {
+                continue;
+            }
+            if more.is_empty() {
+                if *left == 0 {
+                    return Some(object.handle);
+                }
+                *left -= 1;
+            } else if let Some(found) = self.search(Some(object.handle), more, left) {
+                return Some(found);
+            }
+        }
+        let below = objects.iter().filter(|o| !taken.contains(&o.handle));
+        below.into_iter().find_map(|o| self.search(Some(o.handle), path, left))
+    }
+
+    fn missing(&self, text: &str) -> Refusal {
+        let name = text.rsplit('/').next().unwrap_or(text);
+        let mut known: Vec<&str> = self.entries().flat_map(|e| [e.name.as_str(), e.path.as_str()]).collect();
+        known.dedup();
+        let near = sincro_scene::suggest::nearest(name, known.iter().copied());
+        let hint = near.map(|n| format!(": did you mean `{n}`?")).unwrap_or_default();
+        Refusal(format!("Object does not exist: `{text}`{hint}"))
+    }
+}
+
+/// `name[3]` as its parts; none if it is no name.
+fn element(text: &str) -> Option<Element> {
+    let (name, among) = match split_number(text, '[', ']') {
+        Some((name, k)) => (name, Some(k)),
+        None => (text, None),
+    };
+    (!name.is_empty()).then(|| Element { pattern: name.chars().collect(), among })
+}
+
+/// `text(3)` as `text` and 3, for the given brackets.
+fn split_number(text: &str, open: char, close: char) -> Option<(&str, usize)> {
+    let (head, number) = text.strip_suffix(close)?.rsplit_once(open)?;
+    Some((head, number.parse().ok()?))
+}
+
+/// Whether a name fits a pattern with `*` and `?`; time grows with the product of their lengths at most.
+fn fits(pattern: &[char], name: &str) -> bool {
+    let name: Vec<char> = name.chars().collect();
+    let (mut p, mut n, mut retry) = (0, 0, None);
+    while n < name.len() {
+        if p < pattern.len() && pattern[p] == '*' {
+            retry = Some((p, n));
+            p += 1;
+        } else if p < pattern.len() && (pattern[p] == '?' || pattern[p] == name[n]) {
+            (p, n) = (p + 1, n + 1);
+        } else if let Some((star, at)) = retry {
+            (p, n, retry) = (star + 1, at + 1, Some((star, at + 1)));
+        } else {
+            return false;
+        }
+    }
+    pattern[p..].iter().all(|c| *c == '*')
+}

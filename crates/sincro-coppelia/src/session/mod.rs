@@ -1,0 +1,601 @@
+//! A live session: a loaded scene that clients and scripts start, step, look at and act on, in V-REP's and CoppeliaSim's terms.
+//!
+//! | who | is |
+//! |---|---|
+//! | [`Table`] | the objects with their handles and names, signals, what is held: plain data, lives in the [`LockStep`] |
+//! | [`Desk`] | a table with its world, made for one call or phase: one function for each thing that can be asked or done |
+//! | [`api`] | the same by name, as `sim.getJointPosition`: [`Value`]s in, [`Value`]s out; what Lua and ZeroMQ share |
+//! | [`Session`] | the life of runs: start, step, pause, stop, load; each is recorded, hashed and reported as any run |
+//!
+//! A step of a session lasts [`Table::sample_time`], a whole number of base steps: commands are latched at its start and held, as those of any
+//! controller. Nothing here has a clock, a thread or a socket.
+
+pub mod api;
+mod bodies;
+pub mod cbor;
+mod change;
+mod collections;
+pub mod constants;
+mod contacts;
+pub mod convention;
+mod desk;
+mod distances;
+mod files;
+mod find;
+mod graphs;
+pub mod ik;
+mod joints;
+mod lens;
+mod made;
+mod motions;
+mod note;
+mod pairs;
+mod parameters;
+mod program;
+mod proximity;
+mod refusal;
+mod rotors;
+mod senses;
+pub mod shapes;
+mod signals;
+mod table;
+mod unpack;
+mod value;
+mod vision;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::MethodKind;
+
+pub use collections::{Collection, Entity, Item};
+pub use contacts::Touch;
+pub use desk::{Desk, Reference};
+pub use distances::Nearness;
+pub use files::Files;
+pub use find::Search;
+pub use graphs::{Graphs, Stream};
+pub use motions::{Motion, Stepped};
+pub use pairs::Answer;
+pub use refusal::Refusal;
+pub use signals::Signals;
+pub use table::{Entry, Handle, JointEntry, Kind, LogLine, Request, Table};
+pub use value::{Arguments, Value};
+pub use vision::Sensors;
+
+pub use sincro_dynamics::spatial::{Pose, Vec3};
+
+use crate::api_controller::ApiController;
+use crate::host;
+use sincro_scene::overrides::Override;
+use sincro_scene::problem::Problems;
+use sincro_scene::scene::ObjectKind;
+use sincro_sim::load::{Extensions, Loaded, load};
+use sincro_sim::results::Status;
+use sincro_sim::run::{LockStep, Manner, Recording, RunError, Simulated, method_for};
+use sincro_sim::trace::Trace;
+
+/// What a simulation is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// No run.
+    Stopped,
+    /// A run that goes on as soon as its controllers let it.
+    Running,
+    /// A run that waits to be started again.
+    Paused,
+}
+
+/// A run that has ended.
+#[derive(Debug)]
+pub struct Finished {
+    /// What it gave.
+    pub simulated: Simulated,
+    /// The scene that it was a run of.
+    pub loaded: Loaded,
+    /// Steps of clients.
+    pub steps: u64,
+}
+
+/// A loaded scene with the runs that clients make of it.
+pub struct Session {
+    folder: PathBuf,
+    overrides: Vec<Override>,
+    loaded: Loaded,
+    lockstep: LockStep,
+    method: MethodKind,
+    warnings: Vec<String>,
+    run: Option<Run>,
+    finished: Vec<Finished>,
+    steps: u64,
+    /// Folders that may be loaded by clients, besides the first one's own.
+    root: PathBuf,
+    grants: Grants,
+}
+
+/// What clients may do beyond the simulation: nothing, unless whoever opens the session says so.
+#[derive(Clone, Debug, Default)]
+pub struct Grants {
+    /// Send files, to this folder, and load scenes from it.
+    pub files: Option<Files>,
+    /// Run texts in the scene's scripts.
+    pub evaluation: bool,
+}
+
+/// Scenes that the example programs of CoppeliaSim load, and what they are called here.
+const EXAMPLES: &[(&str, &str)] = &[
+    ("messaging/pControllerViaRemoteApi", "pcontroller"),
+    ("messaging/movementViaRemoteApi", "movement"),
+    ("messaging/synchronousImageTransmissionViaRemoteApi", "camera-stream"),
+];
+
+/// A run under way.
+struct Run {
+    recording: Recording,
+    /// What the table was before it.
+    before: Table,
+    /// Where it started from.
+    start: State<f64>,
+}
+
+impl Session {
+    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says (`simulation_step`).
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the scene; or a sample time that is no whole multiple of its base step.
+    pub fn open(
+        folder: &Path,
+        overrides: &[Override],
+        extensions: Extensions,
+        sample_time: Option<f64>,
+    ) -> Result<Self, Problems> {
+        let loaded = load(folder, overrides, extensions)?;
+        Self::new(folder, overrides, loaded, sample_time)
+    }
+
+    /// As [`Session::open`], of a scene that is loaded already.
+    ///
+    /// # Errors
+    ///
+    /// A sample time that is no whole multiple of the base step.
+    pub fn new(
+        folder: &Path,
+        overrides: &[Override],
+        loaded: Loaded,
+        sample_time: Option<f64>,
+    ) -> Result<Self, Problems> {
+        let (method, warnings) = method_for(&loaded);
+        let mut table = Table::new(&loaded, loaded.experiment.simulation_ticks);
+        if let Some(dt) = sample_time {
+            let refused = |Refusal(message)| Problems::from(sincro_scene::problem::Problem::nowhere(message));
+            table.set_sample_time(dt).map_err(refused)?;
+        }
+        let lockstep = fresh(&loaded, method, table);
+        let root = folder.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        Ok(Self {
+            folder: folder.to_path_buf(),
+            overrides: overrides.to_vec(),
+            loaded,
+            lockstep,
+            method,
+            warnings,
+            run: None,
+            finished: Vec::new(),
+            steps: 0,
+            root,
+            grants: Grants::default(),
+        })
+    }
+
+    /// The scene and its experiment.
+    #[must_use]
+    pub fn loaded(&self) -> &Loaded {
+        &self.loaded
+    }
+
+    /// The folder of the scene.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The settings that it was loaded with.
+    #[must_use]
+    pub fn overrides(&self) -> &[Override] {
+        &self.overrides
+    }
+
+    /// The objects with their world.
+    ///
+    /// # Panics
+    ///
+    /// Never: a session's lock-step has a table.
+    pub fn desk(&mut self) -> Desk<'_> {
+        ApiController::desk(&mut self.lockstep).expect("a session's lock-step has a table")
+    }
+
+    /// The objects.
+    pub fn table(&mut self) -> &mut Table {
+        self.desk().table
+    }
+
+    /// What the simulation is doing.
+    pub fn phase(&mut self) -> Phase {
+        self.table().phase
+    }
+
+    /// Simulation time `[s]`; 0 while stopped.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.lockstep.t()
+    }
+
+    /// Steps of clients since the run began.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Hash of the states of the present run; none while stopped.
+    #[must_use]
+    pub fn trace(&self) -> Option<Trace> {
+        self.run.as_ref().map(|run| run.recording.trace())
+    }
+
+    /// Takes the runs that have ended since this was last asked.
+    pub fn take_finished(&mut self) -> Vec<Finished> {
+        std::mem::take(&mut self.finished)
+    }
+
+    /// Calls a function by name, with or without `sim.` before it, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// There is no such function, or it refused.
+    pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
+        let result = api::call(&mut self.desk(), name, arguments)?;
+        self.do_requests()?;
+        Ok(result)
+    }
+
+    /// Calls a function of the script on an object, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// There is no such script or function, or it failed.
+    pub fn call_script(
+        &mut self,
+        object: Handle,
+        kind: Option<sincro_scene::script::Kind>,
+        function: &str,
+        arguments: &[Value],
+    ) -> Result<Vec<Value>, Refusal> {
+        let results = ApiController::call_script(&mut self.lockstep, (object, kind), function, arguments)?;
+        self.do_requests()?;
+        Ok(results)
+    }
+
+    /// Lets clients do more than they may by themselves.
+    pub fn grant(&mut self, grants: Grants) {
+        self.grants = grants;
+    }
+
+    /// Where clients may send files.
+    ///
+    /// # Errors
+    ///
+    /// They may not.
+    pub fn files(&self) -> Result<&Files, Refusal> {
+        let refused = "clients send and erase no files here: `sincro serve --grant files` lets them";
+        self.grants.files.as_ref().ok_or_else(|| Refusal::new(refused))
+    }
+
+    /// Runs a text in the script on an object, then does what it asked for.
+    ///
+    /// # Errors
+    ///
+    /// It is not granted, there is no such script, or the text failed.
+    pub fn evaluate(
+        &mut self,
+        object: Handle,
+        kind: Option<sincro_scene::script::Kind>,
+        text: &str,
+    ) -> Result<Vec<Value>, Refusal> {
+        if !self.grants.evaluation {
+            let refused = "texts of clients are not run here: `sincro serve --grant scripts` lets them";
+            return Err(Refusal::new(refused));
+        }
+        let results = ApiController::evaluate(&mut self.lockstep, (object, kind), text)?;
+        self.do_requests()?;
+        Ok(results)
+    }
+
+    /// Does what clients and scripts have asked for.
+    ///
+    /// # Errors
+    ///
+    /// The first of it that was refused; the rest is done.
+    pub fn do_requests(&mut self) -> Result<(), Refusal> {
+        let mut first = Ok(());
+        for request in self.table().take_requests() {
+            let done = match request {
+                Request::Start => self.start(),
+                Request::Pause => self.pause(),
+                Request::Stop => self.stop(),
+                Request::Load(path) => self.load(&path),
+                Request::Close => self.stop(),
+            };
+            if first.is_ok() {
+                first = done;
+            }
+        }
+        first
+    }
+
+    /// Starts a run, or goes on after a pause. Time stays 0 until the first step.
+    ///
+    /// # Errors
+    ///
+    /// Nothing can be recorded, or a block of the diagram gives what is not a finite number: the run has then ended.
+    pub fn start(&mut self) -> Result<(), Refusal> {
+        match self.phase() {
+            Phase::Running => return Ok(()),
+            Phase::Paused => {
+                self.tell_scripts(host::Phase::Resume)?;
+                self.table().phase = Phase::Running;
+                return Ok(());
+            }
+            Phase::Stopped => {}
+        }
+        if std::mem::take(&mut self.table().is_model_changed) {
+            self.adopt();
+        }
+        let before = self.table().clone();
+        self.table().begin_run();
+        let start = self.lockstep.state().clone();
+        self.settle(&start);
+        let recording = Recording::new(&self.loaded, &mut self.lockstep, Manner::default()).map_err(told)?;
+        self.run = Some(Run { recording, before, start });
+        self.table().phase = Phase::Running;
+        self.steps = 0;
+        let first = self.lockstep.start();
+        if let Some(run) = &mut self.run {
+            run.recording.start(&mut self.lockstep).map_err(|e| told(e.into()))?;
+        }
+        if let Err(halt) = first {
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            return Err(self.fail(status));
+        }
+        Ok(())
+    }
+
+    /// Drives decide anew whether they hold, if a client has moved joints since the scene was opened.
+    fn settle(&mut self, start: &State<f64>) {
+        let initial = &self.loaded.scene.initial;
+        if start.q != initial.q || start.v != initial.v {
+            self.lockstep.world().settle_start(0.0);
+        }
+    }
+
+    /// What clients have changed of the model while stopped is the scene's from now on, until it is closed: the next run is made as if the file said so.
+    fn adopt(&mut self) {
+        let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
+        let scene = &mut self.loaded.scene;
+        Arc::make_mut(&mut scene.model).take_numbers(self.lockstep.world().model());
+        let table = ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
+        for (object, entry) in scene.objects.iter_mut().zip(table.entries()) {
+            if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {
+                *mass = *new;
+            }
+        }
+        (self.method, self.warnings) = method_for(&self.loaded);
+        self.lockstep = fresh(&self.loaded, self.method, *table);
+        let initial = &self.loaded.scene.initial;
+        if q != initial.q || v != initial.v {
+            // nothing of what was settled for other numbers is kept
+            self.lockstep.place(State { q, v, ..initial.clone() }, &[]);
+        }
+        self.restore();
+    }
+
+    /// Pauses the run; nothing if there is none.
+    ///
+    /// # Errors
+    ///
+    /// A script fails in `sysCall_suspend`: the run has ended.
+    pub fn pause(&mut self) -> Result<(), Refusal> {
+        if self.phase() == Phase::Running {
+            self.tell_scripts(host::Phase::Suspend)?;
+            self.table().phase = Phase::Paused;
+        }
+        Ok(())
+    }
+
+    /// To be called now and then while the run is paused: scripts have `sysCall_suspended` called, and what they ask for is done.
+    ///
+    /// # Errors
+    ///
+    /// A script fails: the run has ended.
+    pub fn idle(&mut self) -> Result<(), Refusal> {
+        if self.phase() != Phase::Paused {
+            return Ok(());
+        }
+        self.tell_scripts(host::Phase::Suspended)?;
+        self.do_requests()
+    }
+
+    /// Tells the scripts of the run of a pause.
+    fn tell_scripts(&mut self, phase: host::Phase) -> Result<(), Refusal> {
+        ApiController::tell_scripts(&mut self.lockstep, phase).map_err(|halt| {
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            self.fail(status)
+        })
+    }
+
+    /// Ends the run and goes back to where it started; nothing if there is none.
+    ///
+    /// # Errors
+    ///
+    /// None yet.
+    pub fn stop(&mut self) -> Result<(), Refusal> {
+        let (tick, time) = (self.lockstep.tick(), self.lockstep.t());
+        let lasted = tick >= self.loaded.experiment.n_steps;
+        self.end(if lasted { Status::Completed } else { Status::Interrupted { tick, time } });
+        Ok(())
+    }
+
+    /// One step of the clients: every base step of it. Nothing unless a run is on and not paused.
+    ///
+    /// # Errors
+    ///
+    /// The world or the diagram could not go on: the run has ended, what was recorded is kept.
+    pub fn step(&mut self) -> Result<(), Refusal> {
+        let table = self.table();
+        if table.phase != Phase::Running {
+            return Ok(());
+        }
+        for _ in 0..table.sample_ticks() {
+            let advanced = self.lockstep.advance();
+            let Some(run) = &mut self.run else { return Ok(()) };
+            if advanced.as_ref().err().is_none_or(sincro_sim::run::Halt::is_after_step) {
+                run.recording.tick(&mut self.lockstep, advanced.is_err()).map_err(|e| told(e.into()))?;
+            }
+            if let Err(halt) = advanced {
+                let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+                return Err(self.fail(status));
+            }
+        }
+        self.steps += 1;
+        // scripts may have asked for something
+        self.do_requests()
+    }
+
+    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one, or a file that a client has sent. A run that is on
+    /// is ended.
+    ///
+    /// # Errors
+    ///
+    /// It lies elsewhere, or something is wrong with it; the scene that was loaded stays.
+    pub fn load(&mut self, path: &str) -> Result<(), Refusal> {
+        let allowed = self.allowed(path);
+        let sent = if allowed.is_ok() { None } else { self.sent(path) };
+        let folder = sent.clone().map_or(allowed, Ok)?;
+        let loaded = load(&folder, &[], self.loaded.extensions).map_err(|problems| {
+            let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
+            Refusal(format!("the scene `{path}` cannot be loaded: {first}"))
+        })?;
+        if let Some(place) = sent.as_deref().and_then(Path::parent) {
+            let is_inside = |file: &Path| file.canonicalize().is_ok_and(|file| file.starts_with(place));
+            if let Some(outside) = loaded.sources.iter().find(|source| !is_inside(&source.path)) {
+                let outside = outside.path.display();
+                return Err(Refusal(format!("the scene `{path}` takes `{outside}`, which no client has sent")));
+            }
+        }
+        self.stop()?;
+        let mut other =
+            Self::new(&folder, &[], loaded, None).map_err(|_| Refusal::new("the scene cannot be loaded"))?;
+        other.finished = std::mem::take(&mut self.finished);
+        other.root.clone_from(&self.root);
+        other.grants.clone_from(&self.grants);
+        *self = other;
+        Ok(())
+    }
+
+    /// The file that a client has sent and means by a path, if there is one.
+    fn sent(&self, path: &str) -> Option<PathBuf> {
+        let name = path.rsplit(['/', '\\']).next()?;
+        let place = self.grants.files.as_ref()?.place(name).ok()?;
+        place.is_file().then(|| place.canonicalize().ok())?
+    }
+
+    /// The scene folder that a client means, if it may be loaded.
+    fn allowed(&self, path: &str) -> Result<PathBuf, Refusal> {
+        let refused = |why: &str| Refusal(format!("the scene `{path}` {why}"));
+        // V-REP's scenes are files; here the folder of the same name
+        let stem = path.strip_suffix(".ttt").or_else(|| path.strip_suffix(".simscene.xml")).unwrap_or(path);
+        let stem = EXAMPLES.iter().find(|(known, _)| stem.ends_with(known)).map_or(stem, |(_, here)| here);
+        let name = Path::new(stem);
+        let root = self.root.canonicalize().map_err(|_| refused("cannot be found"))?;
+        let whole = root.join(name).canonicalize();
+        let whole = whole.or_else(|_| root.join(name.file_name().unwrap_or_default()).canonicalize());
+        let whole = whole.map_err(|_| refused("does not exist"))?;
+        if !whole.starts_with(&root) {
+            return Err(refused("lies outside the folder of the scene that is served"));
+        }
+        Ok(whole)
+    }
+
+    fn fail(&mut self, status: Status) -> Refusal {
+        let message = match &status {
+            Status::Stopped { reason, help, .. } => format!("the run stopped: {reason}; {help}"),
+            _ => "the run stopped".to_owned(),
+        };
+        self.table().log(200, message.clone());
+        self.end(status);
+        Refusal(message)
+    }
+
+    /// Keeps what the run gave and goes back to where it started.
+    fn end(&mut self, status: Status) {
+        let Some(run) = self.run.take() else { return };
+        if let Err(halt) = self.lockstep.end() {
+            let experiment = &self.loaded.experiment;
+            let words = match halt.explain(&mut self.lockstep, experiment, self.method) {
+                Status::Stopped { reason, .. } => reason,
+                _ => String::new(),
+            };
+            self.table().log(200, words);
+        }
+        let warnings = self.warnings.clone();
+        match run.recording.finish(&mut self.lockstep, status, self.method, warnings) {
+            Ok(simulated) => {
+                let (loaded, steps) = (self.loaded.clone(), self.steps);
+                self.finished.push(Finished { simulated, loaded, steps });
+            }
+            Err(error) => self.table().log(200, format!("{error}")),
+        }
+        let mut table = *ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
+        table.end_run(run.before);
+        table.phase = Phase::Stopped;
+        self.lockstep = fresh(&self.loaded, self.method, table);
+        self.lockstep.place(run.start, &[]);
+        self.restore();
+        self.steps = 0;
+    }
+
+    /// What a client changed before the run is so again.
+    fn restore(&mut self) {
+        self.restore_motors();
+        self.desk().restore_pairs();
+    }
+
+    /// Motors that a client changed before the run are so again.
+    fn restore_motors(&mut self) {
+        let desk = self.desk();
+        for joint in desk.table.joints() {
+            if let (Some(index), Some(motor)) = (joint.motor, joint.drive)
+                && desk.world.model().motors()[index] != (sincro_dynamics::force::Motor { dof: joint.v_idx, ..motor })
+            {
+                desk.world.set_motor(index, motor);
+            }
+        }
+    }
+}
+
+/// A lock-step that has not started, with a table.
+fn fresh(loaded: &Loaded, method: MethodKind, table: Table) -> LockStep {
+    let mut lockstep = LockStep::new(loaded, method, false);
+    ApiController::set_table(&mut lockstep, table);
+    lockstep
+}
+
+fn told(error: RunError) -> Refusal {
+    match error {
+        RunError::Problems(problems) => {
+            Refusal(problems.0.first().map_or_else(|| "nothing can be recorded".into(), |p| p.message.clone()))
+        }
+        RunError::File(error) => Refusal(error.to_string()),
+    }
+}

@@ -1,0 +1,89 @@
+//! Pairs of bodies that may touch: who is near, and what a script says that a pair is to do in the coming step (`sysCall_contact`).
+
+use sincro_dynamics::contact::Material;
+
+use super::table::{Handle, Table};
+use super::{Desk, Refusal};
+use sincro_sim::load::Loaded;
+
+/// A pair of surfaces of the model, by its bodies.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    bodies: [Handle; 2],
+    /// What the scene says that they do to each other.
+    material: Material,
+}
+
+/// What a script says of a pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Answer {
+    /// They pass through each other.
+    pub passes: bool,
+    /// Coefficient of friction of the pair, if it is not the scene's.
+    pub friction: Option<f64>,
+    /// Coefficient of restitution of the pair, if it is not the scene's.
+    pub restitution: Option<f64>,
+}
+
+/// The pairs of a scene, in the model's order.
+pub(super) fn pairs_of(loaded: &Loaded, table: &Table) -> Vec<Pair> {
+    let set = loaded.scene.model.constraints();
+    let body = |k: usize| {
+        let name = &set.colliders[k].name;
+        table.entries().find(|e| e.path == *name).map_or(Handle(-1), |e| e.handle)
+    };
+    let both = |a: usize, b: usize| {
+        let mut bodies = [body(a), body(b)];
+        bodies.sort_unstable();
+        bodies
+    };
+    set.pairs.iter().map(|p| Pair { bodies: both(p.a, p.b), material: p.material }).collect()
+}
+
+impl Desk<'_> {
+    /// Pairs of bodies that may come to touch within the coming step, each once, in the order of the scene. From now on each does what the scene says.
+    pub fn near_bodies(&mut self) -> Vec<[Handle; 2]> {
+        self.restore_pairs();
+        let mut near = Vec::new();
+        let step = self.table.sample_time();
+        self.world.near(step, &mut near);
+        self.moved();
+        let mut bodies: Vec<[Handle; 2]> = Vec::new();
+        for pair in near.into_iter().map(|k| &self.table.pairs[k]) {
+            let is_told = pair.bodies.iter().any(|body| self.table.passing.contains(body));
+            if !is_told && !bodies.contains(&pair.bodies) {
+                bodies.push(pair.bodies);
+            }
+        }
+        bodies
+    }
+
+    /// What two bodies do to each other until [`Desk::near_bodies`] is asked again.
+    ///
+    /// # Errors
+    ///
+    /// A coefficient is none.
+    pub fn answer(&mut self, bodies: [Handle; 2], answer: Answer) -> Result<(), Refusal> {
+        if let Some(x) = answer.friction.filter(|x| !(x.is_finite() && *x >= 0.0)) {
+            return Err(Refusal(format!("friction {x} of a contact, expected 0 or more")));
+        }
+        if let Some(x) = answer.restitution.filter(|x| !(0.0..=1.0).contains(x)) {
+            return Err(Refusal(format!("restitution {x} of a contact, expected 0 to 1")));
+        }
+        for (k, pair) in self.table.pairs.iter().enumerate().filter(|(_, pair)| pair.bodies == bodies) {
+            let mut material = pair.material;
+            material.friction = answer.friction.unwrap_or(material.friction);
+            material.restitution = answer.restitution.unwrap_or(material.restitution);
+            self.world.set_pair(k, answer.passes, material);
+        }
+        Ok(())
+    }
+
+    /// Every pair does what the scene says, but those of bodies that pass through all others.
+    pub(super) fn restore_pairs(&mut self) {
+        for (k, pair) in self.table.pairs.iter().enumerate() {
+            let passes = pair.bodies.iter().any(|body| self.table.passing.contains(body));
+            self.world.set_pair(k, passes, pair.material);
+        }
+    }
+}

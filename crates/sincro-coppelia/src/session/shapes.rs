@@ -1,0 +1,353 @@
+//! Shapes that clients and scripts make: seen by sensors, measured by distances, moved where they are put; they weigh nothing and touch nothing.
+
+use std::path::{Component, Path};
+use std::sync::Arc;
+
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::geometry::Geometry;
+use sincro_dynamics::model::Shape;
+use sincro_dynamics::spatial::{Pose, Vec3};
+
+use super::senses::handle_of;
+use super::table::{Handle, Kind, WORLD};
+use super::{Desk, Reference, Refusal};
+use sincro_scene::scene::Triangles;
+
+/// Triangles of one mesh.
+const MOST_TRIANGLES: usize = 200_000;
+/// Largest length of anything that is made `[m]`.
+const MOST_LENGTH: f64 = 1e6;
+
+/// What a shape is, as clients know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShapeInfo {
+    /// Whether it has several parts.
+    pub is_compound: bool,
+    /// `sim.primitiveshape_…`; 0 for meshes and hulls.
+    pub primitive: i64,
+    /// Lengths along x, y, z `[m]`.
+    pub size: [f64; 3],
+}
+
+impl Desk<'_> {
+    /// Makes a shape in the world's origin of parts, each with its place.
+    ///
+    /// # Errors
+    ///
+    /// There are too many objects or corners, or a part has no extent.
+    pub fn create_shape(&mut self, name: &str, parts: Vec<(Surface, Pose<f64>)>) -> Result<Handle, Refusal> {
+        let ready = parts.into_iter().map(|(surface, place)| Ok((self.table.senses.prepare(surface)?, place)));
+        let ready = ready.collect::<Result<Vec<_>, Refusal>>()?;
+        let handle = self.table.create(name, Kind::Shape, WORLD)?;
+        self.finish_pictures();
+        for (geometry, place) in ready {
+            self.table.senses.add(handle, &WORLD, geometry, place);
+        }
+        Ok(handle)
+    }
+
+    /// Makes a mesh of corners in the world and triangles: its frame is in the middle of the box that holds them.
+    ///
+    /// # Errors
+    ///
+    /// A triangle names no corner, a number is not finite, or there are too many.
+    pub fn create_mesh(&mut self, corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Handle, Refusal> {
+        let (low, high) = bounds(corners)?;
+        if triangles.is_empty() || triangles.len() > MOST_TRIANGLES {
+            let n = triangles.len();
+            return Err(Refusal(format!("a mesh of {n} triangles: expected one to {MOST_TRIANGLES}")));
+        }
+        if let Some(k) = triangles.iter().flatten().find(|k| **k as usize >= corners.len()) {
+            return Err(Refusal(format!("there is no corner {k}: there are {}, counted from 0", corners.len())));
+        }
+        let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+        let around = corners.iter().map(|p| std::array::from_fn(|k| p[k] - middle[k])).collect();
+        let surface = Surface::Mesh(around, triangles.to_vec());
+        let handle = self.create_shape("Shape", vec![(surface, Pose::identity())])?;
+        self.set_pose(handle, &Pose::translation(Vec3(middle)), Reference::World)?;
+        Ok(handle)
+    }
+
+    /// Makes ground of heights `[m]`, rows along x, the first one at the least y; `size` along x `[m]`, squares.
+    ///
+    /// # Errors
+    ///
+    /// The heights do not fill the rows, or are not finite.
+    pub fn create_height_field(
+        &mut self,
+        columns: usize,
+        rows: usize,
+        size: f64,
+        heights: Vec<f64>,
+    ) -> Result<Handle, Refusal> {
+        if columns < 2 || rows < 2 || columns.checked_mul(rows) != Some(heights.len()) {
+            let n = heights.len();
+            return Err(Refusal(format!(
+                "{n} heights for {columns} by {rows} points: expected two rows of two at least, all filled"
+            )));
+        }
+        length(size)?;
+        if let Some(bad) = heights.iter().find(|h| !is_near(**h)) {
+            return Err(Refusal(format!("a height of {bad}")));
+        }
+        let size = [size, size * (rows - 1) as f64 / (columns - 1) as f64];
+        self.create_shape("Heightfield", vec![(Surface::HeightField { columns, heights, size }, Pose::identity())])
+    }
+
+    /// The corners and triangles of a mesh file in the scene's folder, STL or OBJ, scaled.
+    ///
+    /// # Errors
+    ///
+    /// It lies elsewhere, cannot be read, or is no mesh.
+    pub(super) fn read_mesh(&self, name: &str, scale: f64) -> Result<Triangles, Refusal> {
+        length(scale)?;
+        let path = Path::new(name);
+        if name.is_empty() || !path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
+            return Err(Refusal(format!("`{name}` is no file of the scene's folder: give a path inside it")));
+        }
+        let folder = Path::new(&self.table.scene_path).parent().unwrap_or(Path::new("."));
+        let whole = folder.join(path).canonicalize();
+        let whole = whole.map_err(|e| Refusal(format!("`{name}` cannot be read: {e}")))?;
+        if !folder.canonicalize().is_ok_and(|folder| whole.starts_with(folder)) {
+            return Err(Refusal(format!("`{name}` lies outside the scene's folder")));
+        }
+        let mut mesh = sincro_scene::scene::mesh_of_file(&whole).map_err(|why| Refusal(format!("`{name}`: {why}")))?;
+        for x in mesh.corners.iter_mut().flatten() {
+            *x *= scale;
+        }
+        Ok(mesh)
+    }
+
+    /// The shape of a handle, which was made at run time.
+    fn shape_made(&self, handle: Handle) -> Result<Handle, Refusal> {
+        let entry = self.table.entry(handle)?;
+        if entry.kind == Kind::Shape {
+            return Ok(entry.handle);
+        }
+        Err(Refusal(format!("`{}` is no shape that was made at run time: change it in the scene", entry.path)))
+    }
+
+    /// One shape of several: the first one keeps its frame and name, the others are gone.
+    ///
+    /// # Errors
+    ///
+    /// There are fewer than two, or one belongs to the scene.
+    pub fn group_shapes(&mut self, shapes: &[Handle]) -> Result<Handle, Refusal> {
+        let [first, others @ ..] = shapes else { return Err(Refusal::new("give two shapes at least")) };
+        if others.is_empty() || (1..shapes.len()).any(|k| shapes[..k].contains(&shapes[k])) {
+            return Err(Refusal::new("give two shapes at least, each once"));
+        }
+        for shape in shapes {
+            self.shape_made(*shape)?;
+        }
+        self.finish_pictures();
+        let frame = self.table.entry(*first)?.frame;
+        let x_wf = self.pose(*first, Reference::World)?;
+        for other in others {
+            let x_fo = x_wf.inverse().compose(&self.pose(*other, Reference::World)?);
+            for (piece, place) in self.table.senses.parts_of(*other) {
+                self.table.senses.add(*first, &frame, piece.geometry, x_fo.compose(&place));
+                let color = piece.color;
+                self.table.senses.paint_last(color);
+            }
+            self.table.remove(*other)?;
+        }
+        Ok(*first)
+    }
+
+    /// Takes a shape of several parts apart: one shape for each, the first keeps the frame's handle.
+    ///
+    /// # Errors
+    ///
+    /// It belongs to the scene.
+    pub fn ungroup_shape(&mut self, shape: Handle) -> Result<Vec<Handle>, Refusal> {
+        self.shape_made(shape)?;
+        self.finish_pictures();
+        let parts = self.table.senses.parts_of(shape);
+        let (x_ws, parent) = (self.pose(shape, Reference::World)?, self.table.entry(shape)?.parent);
+        let mut all = Vec::new();
+        for (piece, place) in &parts {
+            let made = self.table.create("Shape", Kind::Shape, WORLD)?;
+            self.table.senses.add(made, &WORLD, piece.geometry.clone(), Pose::identity());
+            self.table.senses.paint_last(piece.color);
+            self.set_pose(made, &x_ws.compose(place), Reference::World)?;
+            self.set_parent(made, parent, true)?;
+            all.push(made);
+        }
+        self.table.remove(shape)?;
+        Ok(all)
+    }
+
+    /// Makes a shape larger or smaller in all directions, about its own origin.
+    ///
+    /// # Errors
+    ///
+    /// It belongs to the scene, or the factor is not positive.
+    pub fn scale_shape(&mut self, shape: Handle, factor: f64) -> Result<(), Refusal> {
+        self.shape_made(shape)?;
+        length(factor)?;
+        let (parts, frame) = (self.table.senses.parts_of(shape), self.table.entry(shape)?.frame);
+        let scaled = parts.iter().map(|(piece, place)| {
+            let geometry = Geometry::new(scaled(piece.geometry.surface(), factor));
+            let geometry = geometry.ok_or_else(|| Refusal::new("it would have no extent"))?;
+            Ok((Arc::new(geometry), Pose { pos: place.pos.scale(factor), ..*place }, piece.color))
+        });
+        let scaled = scaled.collect::<Result<Vec<_>, Refusal>>()?;
+        self.finish_pictures();
+        self.table.senses.forget_parts(shape);
+        for (geometry, place, color) in scaled {
+            self.table.senses.add(shape, &frame, geometry, place);
+            self.table.senses.paint_last(color);
+        }
+        Ok(())
+    }
+
+    /// Colours an object, for sensors that see colours: red, green, blue from 0 to 1.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, or a number is none.
+    pub fn paint(&mut self, handle: Handle, color: [f64; 3]) -> Result<(), Refusal> {
+        let own = self.table.entry(handle)?.handle;
+        if color.iter().any(|x| x.is_nan()) {
+            return Err(Refusal::new("a colour has numbers that are none"));
+        }
+        self.finish_pictures();
+        self.table.senses.paint(own, color.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
+        Ok(())
+    }
+
+    /// What a shape or body looks like.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, or it has no shape.
+    pub fn shape_info(&self, handle: Handle) -> Result<ShapeInfo, Refusal> {
+        let own = self.table.entry(handle)?;
+        let pieces: Vec<&Surface> =
+            self.table.senses.pieces().filter(|p| handle_of(p) == own.handle).map(|p| p.geometry.surface()).collect();
+        let Some(first) = pieces.first() else { return Err(Refusal(format!("`{}` has no shape", own.path))) };
+        let (primitive, size) = if pieces.len() > 1 { (0, [0.0; 3]) } else { primitive(first) };
+        Ok(ShapeInfo { is_compound: pieces.len() > 1, primitive, size })
+    }
+}
+
+/// A primitive shape by its number, with full lengths along x, y and z `[m]`, its frame in the middle of its box.
+///
+/// # Errors
+///
+/// There is none of that number, or it cannot have these lengths.
+pub fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface, Pose<f64>), Refusal> {
+    let [x, y, z] = size;
+    let used = match kind {
+        1 | 2 => 2,
+        _ => 3,
+    };
+    for x in &size[..used] {
+        length(*x)?;
+    }
+    let round = |what: &str, n: usize| {
+        if size[1..n].iter().all(|other| (other - x).abs() <= 1e-9 * x) {
+            return Ok(());
+        }
+        Err(Refusal(format!("a {what} with the lengths {size:?} is not round: make a mesh with createMeshShape")))
+    };
+    let plain = Pose::identity();
+    let solid = Surface::Solid;
+    Ok(match kind {
+        1 => ("Plane", solid(Shape::Cuboid { size: [x, y, 0.0] }), plain),
+        2 => {
+            round("disc", 2)?;
+            ("Disc", solid(Shape::Cylinder { radius: 0.5 * x, length: 0.0 }), plain)
+        }
+        3 => ("Cuboid", solid(Shape::Cuboid { size }), plain),
+        4 => {
+            round("ball", 3)?;
+            ("Sphere", solid(Shape::Sphere { radius: 0.5 * x }), plain)
+        }
+        5 => {
+            round("cylinder", 2)?;
+            ("Cylinder", solid(Shape::Cylinder { radius: 0.5 * x, length: z }), plain)
+        }
+        6 => {
+            round("cone", 2)?;
+            let middle = Pose::translation(Vec3([0.0, 0.0, -0.25 * z]));
+            ("Cone", solid(Shape::Cone { radius: 0.5 * x, length: z }), middle)
+        }
+        8 => {
+            round("capsule", 2)?;
+            if z < x {
+                return Err(Refusal(format!("a capsule with the lengths {size:?} is shorter than it is wide")));
+            }
+            ("Capsule", solid(Shape::Capsule { radius: 0.5 * x, length: z - x }), plain)
+        }
+        _ => {
+            let known = "plane 1, disc 2, cuboid 3, spheroid 4, cylinder 5, cone 6, capsule 8";
+            return Err(Refusal(format!("{kind} is no primitive shape: {known}")));
+        }
+    })
+}
+
+/// Number and lengths of a surface that is a primitive shape.
+fn primitive(surface: &Surface) -> (i64, [f64; 3]) {
+    match surface {
+        Surface::Solid(Shape::Cuboid { size }) => (if size[2] == 0.0 { 1 } else { 3 }, *size),
+        Surface::Solid(Shape::Sphere { radius }) => (4, [2.0 * radius; 3]),
+        Surface::Solid(Shape::Cylinder { radius, length }) => {
+            (if *length == 0.0 { 2 } else { 5 }, [2.0 * radius, 2.0 * radius, *length])
+        }
+        Surface::Solid(Shape::Cone { radius, length }) => (6, [2.0 * radius, 2.0 * radius, *length]),
+        Surface::Solid(Shape::Capsule { radius, length }) => (8, [2.0 * radius, 2.0 * radius, length + 2.0 * radius]),
+        Surface::HeightField { size, .. } => (7, [size[0], size[1], 0.0]),
+        Surface::HalfSpace => (1, [0.0; 3]),
+        Surface::Hull(_) | Surface::Mesh(..) => (0, [0.0; 3]),
+    }
+}
+
+fn scaled(surface: &Surface, k: f64) -> Surface {
+    let points = |list: &[[f64; 3]]| list.iter().map(|p| p.map(|x| k * x)).collect();
+    match surface {
+        Surface::Solid(Shape::Cuboid { size }) => Surface::Solid(Shape::Cuboid { size: size.map(|x| k * x) }),
+        Surface::Solid(Shape::Sphere { radius }) => Surface::Solid(Shape::Sphere { radius: k * radius }),
+        Surface::Solid(Shape::Cylinder { radius, length }) => {
+            Surface::Solid(Shape::Cylinder { radius: k * radius, length: k * length })
+        }
+        Surface::Solid(Shape::Cone { radius, length }) => {
+            Surface::Solid(Shape::Cone { radius: k * radius, length: k * length })
+        }
+        Surface::Solid(Shape::Capsule { radius, length }) => {
+            Surface::Solid(Shape::Capsule { radius: k * radius, length: k * length })
+        }
+        Surface::HalfSpace => Surface::HalfSpace,
+        Surface::Hull(list) => Surface::Hull(points(list)),
+        Surface::Mesh(list, triangles) => Surface::Mesh(points(list), triangles.clone()),
+        Surface::HeightField { columns, heights, size } => Surface::HeightField {
+            columns: *columns,
+            heights: heights.iter().map(|h| k * h).collect(),
+            size: size.map(|x| k * x),
+        },
+    }
+}
+
+fn length(x: f64) -> Result<(), Refusal> {
+    if x > 0.0 && x <= MOST_LENGTH {
+        return Ok(());
+    }
+    Err(Refusal(format!("{x} is no length or factor here: expected more than 0, at most {MOST_LENGTH}")))
+}
+
+/// Neither far away nor no number.
+fn is_near(x: f64) -> bool {
+    x.abs() <= MOST_LENGTH
+}
+
+/// The box that holds some corners.
+fn bounds(corners: &[[f64; 3]]) -> Result<([f64; 3], [f64; 3]), Refusal> {
+    if corners.is_empty() || corners.iter().flatten().any(|x| !is_near(*x)) {
+        return Err(Refusal::new("corners are missing, not finite, or too far away"));
+    }
+    let bound = |f: fn(f64, f64) -> f64| {
+        corners[1..].iter().fold(corners[0], |all, p| std::array::from_fn(|k| f(all[k], p[k])))
+    };
+    Ok((bound(f64::min), bound(f64::max)))
+}

@@ -1,0 +1,590 @@
+//! The table of objects, as clients and scripts know them: handles, names, what they hold. Plain data; what needs the world is in
+//! [`super::Desk`].
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::kinematics::Attached;
+use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::signal::Signal;
+use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+
+use super::graphs::Graphs;
+use super::motions::{Course, Motions};
+use super::note::Notes;
+use super::pairs::{self, Pair};
+use super::senses::Senses;
+use super::signals::Signals;
+use super::vision::Vision;
+use super::{Phase, Refusal, convention};
+use sincro_scene::scene::{Object, ObjectKind};
+use sincro_sim::controller::{Change, Commands};
+use sincro_sim::load::Loaded;
+
+/// Name of an object on every wire: small and positive. Negative numbers have meanings of their own (`sim.handle_world` …).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Handle(pub i32);
+
+/// Bytes that clients and scripts may store: string signals, data with objects, named parameters.
+const MOST_BYTES: usize = 256 << 20;
+/// Lines of the log that are kept until somebody takes them.
+const MOST_LINES: usize = 1_000;
+
+/// What an object is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// A joint; its index in [`Table::joints`], none if it does not move or has no coordinate of its own.
+    Joint(Option<usize>),
+    /// A body: a dynamic shape.
+    Body(MassProperties),
+    /// A named point.
+    Frame,
+    /// An external force.
+    Force,
+    /// A rotor: to clients and scripts a joint that turns at the speed it is told. Its index among the model's.
+    Rotor(usize),
+    /// A fixed joint that measures what goes through it: its first degree of freedom, which is held.
+    ForceSensor(usize),
+    /// A camera whose pictures are read: its index among the table's.
+    Vision(usize),
+    /// Made by a client or script: a named point.
+    Dummy,
+    /// Made by a client or script: something to be seen, without mass.
+    Shape,
+    /// A proximity sensor, of the scene or made.
+    Proximity,
+}
+
+/// An object.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Its handle.
+    pub handle: Handle,
+    /// Last part of its path.
+    pub name: String,
+    /// Path in the scene; of what was made later, that of its parent, `/` and its name.
+    pub path: String,
+    /// What it is.
+    pub kind: Kind,
+    /// Whether a client or script has made it.
+    pub is_made: bool,
+    /// What it hangs on; none: the world.
+    pub parent: Option<Handle>,
+    /// Its frame; of a joint, the one on its parent's side. z is the axis of a joint.
+    pub frame: Attached<f64>,
+    /// Where its children hang: of a joint, the frame that moves; else the same.
+    pub moving: Attached<f64>,
+}
+
+/// A joint with one coordinate, and what it was told.
+#[derive(Clone, Debug)]
+pub struct JointEntry {
+    /// The object.
+    pub handle: Handle,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Place in q.
+    pub q_idx: usize,
+    /// Place in v.
+    pub v_idx: usize,
+    /// Index of its motor, if it has one.
+    pub motor: Option<usize>,
+    /// The motor as it now is.
+    pub drive: Option<Motor<f64>>,
+    /// The mode that its motor has in the scene.
+    pub scene_mode: Option<MotorMode>,
+    /// Velocity it was told [rad/s] or [m/s].
+    pub target_velocity: Option<f64>,
+    /// Position it was told `[rad]` or `[m]`.
+    pub target_position: Option<f64>,
+    /// Effort it was told, in torque mode [N·m] or `[N]`.
+    pub target_force: Option<f64>,
+}
+
+/// A line for whoever runs the simulator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LogLine {
+    /// Level as in V-REP: 200 errors, 300 warnings, 450 messages of scripts, 500 informations.
+    pub level: i64,
+    /// One line or several.
+    pub text: String,
+}
+
+/// What was asked for that can happen only between two steps.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// Start, or go on after a pause.
+    Start,
+    /// Pause.
+    Pause,
+    /// Stop.
+    Stop,
+    /// Load another scene.
+    Load(String),
+    /// Close the scene.
+    Close,
+}
+
+/// The table.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Handle 1 is the first; a hole where an object was removed.
+    pub(super) entries: Vec<Option<Entry>>,
+    pub(super) n_created: usize,
+    /// How many objects have a name, and the first number that may be free behind a name that is taken.
+    pub(super) names: BTreeMap<String, usize>,
+    pub(super) numbers: BTreeMap<String, usize>,
+    joints: Vec<JointEntry>,
+    /// Joint of each handle, where there is one.
+    joint_of: BTreeMap<Handle, usize>,
+    /// Commands held from outside: they win over the scene's signals and the diagram.
+    held: Vec<Option<f64>>,
+    commands: Vec<Signal>,
+    /// Base step `[s]`.
+    step: f64,
+    sample_ticks: u64,
+    impulse: Vec<f64>,
+    has_stepped: bool,
+    /// Whole numbers by name.
+    pub integers: Signals<i64>,
+    /// Numbers by name.
+    pub floats: Signals<f64>,
+    /// Texts and bytes by name.
+    pub strings: Signals<Vec<u8>>,
+    /// Parameters of the scripts of objects, as text.
+    pub script_parameters: BTreeMap<(Handle, String), String>,
+    /// Data that clients and scripts stored with objects.
+    pub data: BTreeMap<(Handle, String), Vec<u8>>,
+    /// Parameters by name.
+    pub named: BTreeMap<String, Vec<u8>>,
+    log: VecDeque<LogLine>,
+    notes: Notes,
+    requests: Vec<Request>,
+    /// What the simulation is doing.
+    pub phase: Phase,
+    /// Folder of the scene.
+    pub scene_path: String,
+    /// How often a stop was asked for.
+    pub stop_requests: i64,
+    /// Vision sensors.
+    pub(super) vision: Vision,
+    /// Environments of inverse kinematics.
+    pub(super) environments: Vec<Option<super::ik::Environment>>,
+    pub(super) zero: Vec<f64>,
+    /// What is other than in the scene.
+    pub(super) changes: Vec<Change>,
+    /// Whether the model was changed while stopped, and the next run must be made of it.
+    pub(super) is_model_changed: bool,
+    /// Pairs of surfaces, in the model's order.
+    pub(super) pairs: Vec<Pair>,
+    /// Bodies that pass through all others.
+    pub(super) passing: BTreeSet<Handle>,
+    /// Mass properties of the solids of bodies at density 1, where all of a body is solids of closed form.
+    pub(super) solids: BTreeMap<Handle, MassProperties>,
+    /// Streams of graphs.
+    pub graphs: Graphs,
+    /// Motions of numbers.
+    pub(super) motions: Motions,
+    /// Targets of motors that are on their way.
+    pub(super) courses: BTreeMap<Handle, Course>,
+    /// What can be seen, and who looks.
+    pub(super) senses: Senses,
+}
+
+impl Table {
+    /// The objects of a scene; steps of clients and scripts last `sample_ticks` base steps.
+    #[must_use]
+    pub fn new(loaded: &Loaded, sample_ticks: u64) -> Self {
+        let (scene, names) = (&loaded.scene, loaded.scene.model.names());
+        let mut new = Self {
+            entries: Vec::with_capacity(scene.objects.len()),
+            n_created: 0,
+            names: BTreeMap::new(),
+            numbers: BTreeMap::new(),
+            joints: Vec::new(),
+            joint_of: BTreeMap::new(),
+            held: vec![None; scene.model.n_commands()],
+            commands: scene.commands.clone(),
+            step: loaded.experiment.step,
+            sample_ticks: sample_ticks.max(1),
+            impulse: vec![0.0; scene.model.motors().len()],
+            has_stepped: false,
+            integers: Signals::default(),
+            floats: Signals::default(),
+            strings: Signals::default(),
+            script_parameters: BTreeMap::new(),
+            data: BTreeMap::new(),
+            named: BTreeMap::new(),
+            log: VecDeque::new(),
+            notes: Notes::default(),
+            requests: Vec::new(),
+            phase: Phase::Stopped,
+            scene_path: loaded.experiment.scene_path.display().to_string(),
+            stop_requests: 0,
+            vision: Vision::default(),
+            environments: Vec::new(),
+            zero: vec![0.0; scene.model.n_v()],
+            changes: Vec::new(),
+            is_model_changed: false,
+            pairs: Vec::new(),
+            passing: BTreeSet::new(),
+            solids: BTreeMap::new(),
+            graphs: Graphs::default(),
+            motions: Motions::default(),
+            courses: BTreeMap::new(),
+            senses: Senses::new(scene),
+        };
+        for object in &scene.objects {
+            let handle = new.next_handle();
+            let parent = object.parent.map(|k| Handle(k as i32 + 1));
+            let of_parent = parent.and_then(|p| new.entry(p).ok()).map_or(WORLD, |p| p.moving);
+            let beside = Attached { pose: of_parent.pose.compose(&object.pose), ..of_parent };
+            let of_frame = || names.frame(&object.path).map(|f| Attached { link: f.link, pose: f.pose });
+            let (kind, frame, moving) = match &object.kind {
+                ObjectKind::Joint { kind, motor } => match names.joint(&object.path) {
+                    None => (Kind::Joint(None), beside, beside),
+                    Some(joint) => {
+                        if *kind == JointKind::Fixed {
+                            let measuring = Kind::ForceSensor(joint.v_idx);
+                            new.add(object, measuring, parent, (joint.base, joint.moving));
+                            continue;
+                        }
+                        let turn = axis_of(kind).map_or_else(Mat3::identity, convention::rotation_to);
+                        let own = axis_of(kind).is_some().then(|| {
+                            new.joint_of.insert(handle, new.joints.len());
+                            new.joints.push(JointEntry {
+                                handle,
+                                kind: *kind,
+                                q_idx: joint.q_idx,
+                                v_idx: joint.v_idx,
+                                motor: *motor,
+                                drive: motor.map(|m| scene.model.motors()[m]),
+                                scene_mode: motor.map(|m| scene.model.motors()[m].mode),
+                                target_velocity: None,
+                                target_position: None,
+                                target_force: None,
+                            });
+                            new.joints.len() - 1
+                        });
+                        (Kind::Joint(own), turned(joint.base, &turn), turned(joint.moving, &turn))
+                    }
+                },
+                ObjectKind::Body { mass } => {
+                    let at = of_frame().unwrap_or(beside);
+                    (Kind::Body(*mass), at, at)
+                }
+                ObjectKind::Frame | ObjectKind::Sensor => {
+                    let at = of_frame().unwrap_or(beside);
+                    let looks = new.senses.looks.contains_key(&handle);
+                    (if looks { Kind::Proximity } else { Kind::Frame }, at, at)
+                }
+                ObjectKind::Camera { sensor, .. } => {
+                    let eye = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
+                    (eye.unwrap_or(Kind::Frame), beside, beside)
+                }
+                ObjectKind::Fixture => {
+                    let at = of_frame().unwrap_or(beside);
+                    let none = MassProperties { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
+                    (Kind::Body(none), at, at)
+                }
+                ObjectKind::Force | ObjectKind::Drag => (Kind::Force, beside, beside),
+                ObjectKind::Rotor => {
+                    let index = names.rotors.iter().position(|name| *name == object.path);
+                    (Kind::Rotor(index.expect("every rotor has a name")), beside, beside)
+                }
+            };
+            new.solids.extend(unit_mass(object).map(|mass| (handle, mass)));
+            new.add(object, kind, parent, (frame, moving));
+        }
+        new.pairs = pairs::pairs_of(loaded, &new);
+        for script in &scene.scripts {
+            let object = Handle(script.object as i32 + 1);
+            let texts = script.parameters.iter().map(|(name, value)| ((object, name.clone()), value.to_string()));
+            new.script_parameters.extend(texts);
+        }
+        new
+    }
+
+    /// An object of the scene.
+    fn add(&mut self, object: &Object, kind: Kind, parent: Option<Handle>, at: (Attached<f64>, Attached<f64>)) {
+        let (handle, name, path) = (self.next_handle(), object.name.clone(), object.path.clone());
+        let is_made = false;
+        *self.names.entry(name.clone()).or_default() += 1;
+        self.entries.push(Some(Entry { handle, name, path, kind, is_made, parent, frame: at.0, moving: at.1 }));
+    }
+
+    pub(super) fn next_handle(&self) -> Handle {
+        Handle(self.entries.len() as i32 + 1)
+    }
+
+    /// All objects, parents before children, children in the order of the file; what was made later comes last.
+    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().flatten()
+    }
+
+    /// The object of a handle.
+    ///
+    /// # Errors
+    ///
+    /// There is none.
+    pub fn entry(&self, handle: Handle) -> Result<&Entry, Refusal> {
+        let found = usize::try_from(handle.0 - 1).ok().and_then(|k| self.entries.get(k)?.as_ref());
+        found.ok_or_else(|| Refusal(format!("there is no object with the handle {}", handle.0)))
+    }
+
+    /// The entry of a handle that was found.
+    pub(super) fn entry_mut(&mut self, handle: Handle) -> &mut Entry {
+        self.entries[handle.0 as usize - 1].as_mut().expect("it was found")
+    }
+
+    /// What hangs directly on an object, or on the world; in its order.
+    pub fn children(&self, parent: Option<Handle>) -> impl Iterator<Item = &Entry> {
+        self.entries().filter(move |e| e.parent == parent)
+    }
+
+    /// An object and all that hangs on it, it first.
+    #[must_use]
+    pub fn tree(&self, base: Handle) -> Vec<Handle> {
+        let mut found = vec![base];
+        // parents have smaller handles than their children, unless a dummy was hung elsewhere: go on until nothing is added
+        loop {
+            let n = found.len();
+            let more = self.entries().filter(|e| e.parent.is_some_and(|p| found.contains(&p)));
+            let more: Vec<Handle> = more.map(|e| e.handle).filter(|h| !found.contains(h)).collect();
+            found.extend(more);
+            if found.len() == n {
+                return found;
+            }
+        }
+    }
+
+    /// All joints that have one coordinate.
+    #[must_use]
+    pub fn joints(&self) -> &[JointEntry] {
+        &self.joints
+    }
+
+    /// The joint of a handle.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, or it is no joint with one coordinate.
+    pub fn joint(&self, handle: Handle) -> Result<&JointEntry, Refusal> {
+        let entry = self.entry(handle)?;
+        match entry.kind {
+            Kind::Joint(Some(k)) => Ok(&self.joints[k]),
+            Kind::Joint(None) => Err(Refusal(format!("joint `{}` has no single coordinate", entry.path))),
+            Kind::Rotor(_) => {
+                Err(Refusal(format!("`{}` is a rotor: it has a speed and a target velocity only", entry.path)))
+            }
+            _ => Err(Refusal(format!("`{}` is no joint", entry.path))),
+        }
+    }
+
+    pub(super) fn joint_mut(&mut self, handle: Handle) -> Result<&mut JointEntry, Refusal> {
+        let motor = self.joint(handle)?.handle;
+        let k = self.joint_of[&motor];
+        Ok(&mut self.joints[k])
+    }
+
+    /// Seconds of one step of clients and scripts.
+    #[must_use]
+    pub fn sample_time(&self) -> f64 {
+        self.sample_ticks as f64 * self.step
+    }
+
+    /// Base steps of one step of clients and scripts.
+    #[must_use]
+    pub fn sample_ticks(&self) -> u64 {
+        self.sample_ticks
+    }
+
+    /// Base step `[s]`.
+    #[must_use]
+    pub fn base_step(&self) -> f64 {
+        self.step
+    }
+
+    /// Sets the step of clients and scripts, while stopped.
+    ///
+    /// # Errors
+    ///
+    /// A run is on, or it is no whole multiple of the base step.
+    pub fn set_sample_time(&mut self, dt: f64) -> Result<(), Refusal> {
+        let ticks = (dt / self.step).round();
+        let fits = (ticks * self.step - dt).abs() <= 1e-6 * dt;
+        if self.phase != Phase::Stopped {
+            return Err(Refusal::new("the time step can be set while the simulation is stopped"));
+        }
+        if !(fits && (1.0..1e9).contains(&ticks)) {
+            let step = self.step;
+            return Err(Refusal(format!(
+                "a time step of {dt} s is no whole multiple of the scene's base step, {step} s"
+            )));
+        }
+        self.sample_ticks = ticks as u64;
+        Ok(())
+    }
+
+    /// Whether a step of clients and scripts begins at a tick.
+    #[must_use]
+    pub fn is_due(&self, tick: u64) -> bool {
+        tick.is_multiple_of(self.sample_ticks)
+    }
+
+    /// Holds a command from outside; none gives it back to the scene.
+    pub fn hold(&mut self, command: usize, value: Option<f64>) {
+        self.held[command] = value;
+    }
+
+    /// What is held of a command.
+    #[must_use]
+    pub fn held(&self, command: usize) -> Option<f64> {
+        self.held[command]
+    }
+
+    /// The scene's own command at a time `[s]`.
+    pub(super) fn scene_command(&self, command: usize, t: f64) -> f64 {
+        self.commands[command].value(t)
+    }
+
+    /// Before a base step: impulses of motors are kept where a step of clients begins, to tell mean torques afterwards.
+    pub(crate) fn begin_tick(&mut self, tick: u64, totals: &[f64]) {
+        if self.is_due(tick) {
+            self.impulse.copy_from_slice(&totals[2..]);
+            self.has_stepped = true;
+        }
+    }
+
+    /// Commands that are held from outside, over those of the scene.
+    pub(crate) fn latch(&self, commands: &mut Commands<'_>) {
+        for (command, held) in self.held.iter().enumerate() {
+            if let Some(x) = held {
+                commands.set(command, *x);
+            }
+        }
+    }
+
+    /// Impulse of a motor at the start of the last step; none before the first.
+    pub(super) fn impulse_before(&self, motor: usize) -> Option<f64> {
+        self.has_stepped.then(|| self.impulse[motor])
+    }
+
+    /// Refuses bytes that would be too many together with those that clients and scripts have stored already.
+    ///
+    /// # Errors
+    ///
+    /// They would.
+    pub fn make_room(&self, n: usize) -> Result<(), Refusal> {
+        let stored = self.strings.total() + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
+        if stored + n > MOST_BYTES {
+            let mib = MOST_BYTES >> 20;
+            return Err(Refusal(format!("signals and data of clients would take more than {mib} MiB: clear some")));
+        }
+        Ok(())
+    }
+
+    /// A line for whoever runs the simulator; the oldest are dropped if nobody takes them.
+    pub fn log(&mut self, level: i64, text: impl Into<String>) {
+        if self.log.len() == MOST_LINES {
+            self.log.pop_front();
+        }
+        let mut text = text.into();
+        text.truncate(text.floor_char_boundary(10_000));
+        self.log.push_back(LogLine { level, text });
+    }
+
+    /// What is kept of a run's messages with the run.
+    pub(crate) fn notes(&self) -> &Notes {
+        &self.notes
+    }
+
+    /// Keeps a message with the run that is on.
+    pub(crate) fn note(&mut self, t: f64, object: &str, text: &str) {
+        if self.phase.is_on() {
+            self.notes.add(t, object, text);
+        }
+    }
+
+    /// Takes the lines gathered so far.
+    pub fn take_log(&mut self) -> Vec<LogLine> {
+        self.log.drain(..).collect()
+    }
+
+    /// Asks for something that can happen only between two steps.
+    pub fn ask(&mut self, request: Request) {
+        if request == Request::Stop {
+            self.stop_requests += 1;
+        }
+        self.requests.push(request);
+    }
+
+    /// Takes what was asked for.
+    pub fn take_requests(&mut self) -> Vec<Request> {
+        std::mem::take(&mut self.requests)
+    }
+
+    /// A run begins: what the last one left is forgotten.
+    pub(super) fn begin_run(&mut self) {
+        self.integers.forget_run();
+        self.floats.forget_run();
+        self.strings.forget_run();
+        self.graphs.forget_run();
+        self.notes = Notes::default();
+        self.has_stepped = false;
+        self.vision.forget();
+        self.reset_looks();
+    }
+
+    /// A step of clients and scripts has been made: vision sensors that are not handled explicitly are handled.
+    pub(crate) fn sense(&mut self, q: &[f64]) {
+        self.vision.handle(q);
+    }
+
+    /// A run has ended: everything told to joints is as it was `before` it, the rest stays.
+    pub(super) fn end_run(&mut self, before: Self) {
+        self.joints = before.joints;
+        self.held = before.held;
+        (self.motions, self.courses) = (before.motions, before.courses);
+        self.vision.end_run(before.vision);
+        self.script_parameters = before.script_parameters;
+        (self.changes, self.passing) = (before.changes, before.passing);
+        self.has_stepped = false;
+        let n_before = before.entries.len();
+        for (now, then) in self.entries.iter_mut().zip(before.entries) {
+            if let (Some(now), Some(then)) = (now.as_mut(), then) {
+                (now.frame, now.moving, now.parent) = (then.frame, then.moving, then.parent);
+                now.kind = then.kind;
+            }
+        }
+        self.settle_senses(n_before);
+    }
+}
+
+/// The world as something to hang on.
+pub(super) const WORLD: Attached<f64> = Attached {
+    link: None,
+    pose: Pose { rot: Mat3([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), pos: Vec3([0.0; 3]) },
+};
+
+/// Mass properties of a body's solids at density 1; none if there are none, or something that is no solid of closed form.
+fn unit_mass(object: &Object) -> Option<MassProperties> {
+    if object.shapes.is_empty() || !object.surfaces.is_empty() {
+        return None;
+    }
+    let parts = object.shapes.iter().map(|s| s.shape.mass_properties(1.0).placed(&s.pose.rot, s.pose.pos));
+    Some(MassProperties::sum(&parts.collect::<Vec<_>>()))
+}
+
+/// The axis of a joint with one coordinate, in its own frame.
+fn axis_of(kind: &JointKind) -> Option<[f64; 3]> {
+    match *kind {
+        JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. } => Some(axis),
+        _ => None,
+    }
+}
+
+fn turned(at: Attached<f64>, rot: &Mat3<f64>) -> Attached<f64> {
+    Attached { pose: Pose { rot: at.pose.rot.mul(rot), ..at.pose }, ..at }
+}

@@ -1,0 +1,258 @@
+//! What clients change of the model: the run is that of a scene which says so, the balance of energy holds, and nothing is left behind.
+
+use std::path::Path;
+
+use sincro_coppelia::session::{Phase, Search, Session, Value};
+use sincro_scene::overrides::Override;
+use sincro_sim::Extensions;
+use sincro_sim::run::Simulated;
+
+const SCENE: &str = r#"
+gravity = [0.0, 0.0, -9.81]
+[[body]]
+name = "floor"
+shape = [{ plane = {} }]
+contact = { friction = 0.5 }
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+position = [0.0, 0.0, 3.0]
+limits = { lower = -1.0, upper = 1.2, restitution = 0.5 }
+initial = { position = 0.5 }
+[[body]]
+name = "arm"
+parent = "/hinge"
+mass = 1.0
+center_of_mass = [0.0, 0.0, -0.5]
+inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
+[[body]]
+name = "bob"
+parent = "/hinge/arm"
+position = [0.1, 0.0, -1.0]
+density = 500.0
+shape = [{ cuboid = { size = [0.1, 0.2, 0.3] } }]
+[[joint]]
+name = "follower"
+kind = "prismatic"
+axis = [1.0, 0.0, 0.0]
+position = [5.0, 0.0, 1.0]
+initial = { position = 1.0 }
+[[body]]
+name = "slide"
+parent = "/follower"
+mass = 1.0
+inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+[[coupling]]
+name = "gear"
+joints = ["/hinge", "/follower"]
+ratio = 2.0
+[[joint]]
+name = "loose"
+kind = "free"
+initial = { position = [10.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0] }
+[[body]]
+name = "ball"
+parent = "/loose"
+density = 1000.0
+shape = [{ sphere = { radius = 0.1 } }]
+contact = { friction = 0.5 }
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "Changes"
+duration = 0.5
+step = 0.01
+record = ["/hinge.position", "/loose.position.z", "/loose.position.x", "energy.balance", "/hinge/arm/bob.center_of_mass.x"]
+"#;
+
+/// A session of the scene with settings, in a folder of its own.
+fn session(name: &str, set: &[(&str, &str)]) -> Session {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("changes-{name}"));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
+    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
+    let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
+    Session::open(&folder, &set, Extensions::default(), None).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn call(session: &mut Session, name: &str, object: &str, more: &[Value]) -> Result<Vec<Value>, String> {
+    let handle = session.desk().table.find(object, Search::default()).unwrap();
+    let arguments = [&[Value::from(handle)], more].concat();
+    session.call(name, &arguments).map_err(|refusal| refusal.to_string())
+}
+
+fn run(session: &mut Session) -> Simulated {
+    session.start().unwrap();
+    (0..50).for_each(|_| session.step().unwrap());
+    session.stop().unwrap();
+    session.take_finished().remove(0).simulated
+}
+
+fn last(run: &Simulated, name: &str) -> f64 {
+    *run.table.column(name).unwrap().values.last().unwrap()
+}
+
+#[test]
+fn a_mass_that_is_set_while_stopped_is_that_of_a_scene_which_has_it() {
+    let mut changed = session("mass", &[]);
+    let plain = run(&mut changed).trace;
+    call(&mut changed, "sim.setShapeMass", "/arm", &[Value::Real(2.0)]).unwrap();
+    call(&mut changed, "sim.computeMassAndInertia", "/bob", &[Value::Real(800.0)]).unwrap();
+    assert_eq!(call(&mut changed, "sim.getShapeMass", "/arm", &[]), Ok(vec![Value::Real(2.0)]));
+    let set = [
+        ("/hinge/arm.mass", "2.0"),
+        ("/hinge/arm.inertia.xx", "0.2"),
+        ("/hinge/arm.inertia.yy", "0.2"),
+        ("/hinge/arm.inertia.zz", "0.02"),
+        ("/hinge/arm/bob.density", "800.0"),
+    ];
+    let wanted = run(&mut session("mass-set", &set));
+    for _ in 0..2 {
+        let run = run(&mut changed);
+        assert_eq!(run.trace, wanted.trace, "it stays for all runs");
+        assert_eq!(run.method, wanted.method);
+        let told: Vec<_> = run.changes.iter().map(|c| (c.t, c.object.as_str(), c.quantity)).collect();
+        assert_eq!(told[0], (0.0, "/hinge/arm", "mass"));
+        assert_eq!(told.len(), 6);
+    }
+    assert_ne!(plain, wanted.trace);
+    // and is gone with the scene
+    changed.load("changes-mass").unwrap();
+    assert_eq!(run(&mut changed).trace, plain);
+}
+
+#[test]
+fn masses_inertias_and_centres_come_back_as_they_were_given() {
+    let mut session = session("inertia", &[]);
+    let nine = Value::reals([0.3, 0.01, 0.0, 0.01, 0.2, 0.0, 0.0, 0.0, 0.25]);
+    // a quarter turn about z, shifted
+    let at = Value::reals([0.0, -1.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.2, 0.0, 0.0, 1.0, 0.3]);
+    call(&mut session, "sim.setShapeInertia", "/arm", &[nine, at]).unwrap();
+    let got = call(&mut session, "sim.getShapeInertia", "/arm", &[]).unwrap();
+    let [Value::List(inertia), Value::List(place)] = &got[..] else { panic!("{got:?}") };
+    let expected = [0.2, -0.01, 0.0, -0.01, 0.3, 0.0, 0.0, 0.0, 0.25];
+    for (x, e) in inertia.iter().zip(expected) {
+        assert!((x.as_real().unwrap() - e).abs() < 1e-15, "{inertia:?}");
+    }
+    assert_eq!([&place[3], &place[7], &place[11]].map(|x| x.as_real().unwrap()), [0.1, 0.2, 0.3]);
+    // what the older function gives it takes, in the world and in any frame
+    let frame = Value::reals([1.0, 0.0, 0.0, 0.5, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 1.0]);
+    for frame in [&[][..], std::slice::from_ref(&frame)] {
+        let told = call(&mut session, "sim.getShapeMassAndInertia", "/arm", frame).unwrap();
+        call(&mut session, "sim.setShapeMassAndInertia", "/arm", &[&told[..], frame].concat()).unwrap();
+        let again = call(&mut session, "sim.getShapeMassAndInertia", "/arm", frame).unwrap();
+        let numbers =
+            |values: &[Value]| values.iter().flat_map(|v| v.as_reals().unwrap_or_default()).collect::<Vec<_>>();
+        let (told, again) = (numbers(&told[1..]), numbers(&again[1..]));
+        assert!(told.len() == 12 && told.iter().zip(&again).all(|(a, b)| (a - b).abs() < 1e-12), "{told:?} {again:?}");
+    }
+}
+
+#[test]
+fn a_mass_that_changes_in_a_run_is_work_and_is_gone_after_it() {
+    let mut session = session("in-run", &[]);
+    let plain = run(&mut session).trace;
+    session.start().unwrap();
+    (0..20).for_each(|_| session.step().unwrap());
+    call(&mut session, "sim.setShapeMass", "/arm", &[Value::Real(3.0)]).unwrap();
+    (0..10).for_each(|_| session.step().unwrap());
+    session.call("sim.setArrayParam", &[Value::Int(0), Value::reals([0.0, 0.0, -1.62])]).unwrap();
+    (0..20).for_each(|_| session.step().unwrap());
+    session.stop().unwrap();
+    let run = session.take_finished().remove(0).simulated;
+    let balance = &run.table.column("energy.balance").unwrap().values;
+    assert!(balance.iter().all(|x| x.abs() < 1e-6), "{balance:?}");
+    assert!(run.energy.work.abs() > 1.0, "{:?}", run.energy);
+    let told: Vec<_> = run.changes.iter().map(|c| ((c.t * 100.0).round(), c.object.as_str(), c.quantity)).collect();
+    assert_eq!((told[0], told[3]), ((20.0, "/hinge/arm", "mass"), (30.0, "/", "gravity")));
+    assert_eq!(self::run(&mut session).trace, plain, "the next run is that of the scene");
+    assert_eq!(call(&mut session, "sim.getShapeMass", "/arm", &[]), Ok(vec![Value::Real(1.0)]));
+}
+
+#[test]
+fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
+    let mut changed = session("stops", &[]);
+    let interval = |low: f64, range: f64| [Value::Bool(false), Value::reals([low, range])];
+    call(&mut changed, "sim.setJointInterval", "/hinge", &interval(-0.5, 1.25)).unwrap();
+    let got = call(&mut changed, "sim.getJointInterval", "/hinge", &[]).unwrap();
+    assert_eq!(got, [Value::Bool(false), Value::reals([-0.5, 1.25])]);
+    let hinge = Value::from(changed.desk().table.find("/hinge", Search::default()).unwrap());
+    call(&mut changed, "sim.setJointDependency", "/follower", &[hinge.clone(), Value::Real(0.25), Value::Real(3.0)])
+        .unwrap();
+    assert_eq!(call(&mut changed, "sim.getJointPosition", "/follower", &[]), Ok(vec![Value::Real(1.75)]));
+    let set = [
+        ("/hinge.limits.lower", "-0.5"),
+        ("/hinge.limits.upper", "0.75"),
+        ("coupling.0.ratio", "3.0"),
+        ("coupling.0.offset", "0.25"),
+        ("/follower.initial.position", "1.75"),
+    ];
+    let (run, wanted) = (self::run(&mut changed), self::run(&mut session("stops-set", &set)));
+    assert_eq!(run.trace, wanted.trace);
+    assert!(last(&run, "/hinge.position") >= -0.5 - 1e-9);
+    for (name, object, arguments, why) in [
+        ("setJointInterval", "/hinge", interval(0.8, 0.1).to_vec(), "beyond 0.8 to 0.9"),
+        ("setJointInterval", "/hinge", interval(0.3, f64::NAN).to_vec(), "is no interval"),
+        ("setJointInterval", "/follower", interval(-9.0, 20.0).to_vec(), "stops are moved, not made"),
+        ("setJointInterval", "/hinge", vec![Value::Bool(true), Value::Nil], "not taken away"),
+        ("setJointDependency", "/hinge", vec![hinge.clone(), Value::Real(0.0), Value::Real(1.0)], "does not couple"),
+        ("setJointDependency", "/follower", vec![hinge.clone(), Value::Real(0.0), Value::Real(0.0)], "not zero"),
+    ] {
+        let told = call(&mut changed, &format!("sim.{name}"), object, &arguments).unwrap_err();
+        assert!(told.contains(why), "{told}");
+    }
+    changed.start().unwrap();
+    let told = call(&mut changed, "sim.setJointDependency", "/follower", &[hinge, Value::Real(0.0), Value::Real(2.0)]);
+    assert!(told.unwrap_err().contains("stop the run first"));
+}
+
+#[test]
+fn a_body_may_pass_through_all_others_and_begin_with_a_velocity() {
+    let mut session = session("pass", &[]);
+    let plain = run(&mut session).trace;
+    call(&mut session, "sim.setObjectInt32Param", "/ball", &[Value::Int(3004), Value::Int(0)]).unwrap();
+    assert_eq!(call(&mut session, "sim.getObjectInt32Param", "/ball", &[Value::Int(3004)]), Ok(vec![Value::Int(0)]));
+    for (id, x) in [(3000, 2.0), (3002, 1.0), (3021, 3.0)] {
+        call(&mut session, "sim.setObjectFloatParam", "/ball", &[Value::Int(id), Value::Real(x)]).unwrap();
+    }
+    for _ in 0..2 {
+        let run = run(&mut session);
+        let (x, z) = (last(&run, "/loose.position.x"), last(&run, "/loose.position.z"));
+        assert!((x - 11.0).abs() < 1e-9 && (z - (0.1 + 0.5 - 0.5 * 9.81 * 0.25)).abs() < 1e-9, "{x} {z}");
+    }
+    call(&mut session, "sim.setObjectInt32Param", "/ball", &[Value::Int(3004), Value::Int(1)]).unwrap();
+    for id in [3000, 3002, 3021] {
+        call(&mut session, "sim.setObjectFloatParam", "/ball", &[Value::Int(id), Value::Real(0.0)]).unwrap();
+    }
+    assert_eq!(run(&mut session).trace, plain);
+    let told = call(&mut session, "sim.setObjectInt32Param", "/arm", &[Value::Int(3004), Value::Int(0)]).unwrap_err();
+    assert!(told.contains("`/hinge/arm` touches nothing"), "{told}");
+    let told =
+        call(&mut session, "sim.setObjectFloatParam", "/arm", &[Value::Int(3000), Value::Real(0.0)]).unwrap_err();
+    assert!(told.contains("hangs on no free joint"), "{told}");
+}
+
+#[test]
+fn what_nothing_weighs_is_refused() {
+    let mut session = session("refused", &[]);
+    let nine = |a: f64, b: f64, c: f64| Value::reals([a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, c]);
+    let one = Value::reals([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    let skew = Value::reals([1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    for (name, object, arguments, why) in [
+        ("setShapeMass", "/arm", vec![Value::Real(0.0)], "mass 0 kg of `/hinge/arm` is not positive"),
+        ("setShapeMass", "/arm", vec![Value::Real(f64::INFINITY)], "not positive"),
+        ("setShapeMass", "/floor", vec![Value::Real(1.0)], "fixed in the world"),
+        ("setShapeMass", "/hinge", vec![Value::Real(1.0)], "`/hinge` is no body"),
+        ("setShapeInertia", "/arm", vec![nine(1.0, 1.0, 3.0), one.clone()], "no rigid body has the inertia"),
+        ("setShapeInertia", "/arm", vec![nine(1.0, 1.0, -0.5), one.clone()], "negative principal moment"),
+        ("setShapeInertia", "/arm", vec![skew, one], "not symmetric: 0.5 and 0"),
+        ("computeMassAndInertia", "/arm", vec![Value::Real(1.0)], "no solids of closed form"),
+        ("computeMassAndInertia", "/bob", vec![Value::Real(-1.0)], "density -1 kg/m³ is not positive"),
+    ] {
+        let told = call(&mut session, &format!("sim.{name}"), object, &arguments).unwrap_err();
+        assert!(told.contains(why), "{told}");
+    }
+    assert_eq!(session.phase(), Phase::Stopped);
+    assert!(run(&mut session).changes.is_empty());
+}

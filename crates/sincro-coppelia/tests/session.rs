@@ -1,0 +1,275 @@
+//! Live sessions: the same motion as a run, and objects as V-REP's clients know them.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use sincro_coppelia::session::{Handle, Phase, Reference, Search, Session, Value};
+use sincro_dynamics::force::MotorMode;
+use sincro_sim::Extensions;
+use sincro_sim::load;
+use sincro_sim::run::{Manner, Watch, simulate};
+
+const ARM: &str = r#"
+gravity = [0.0, 0.0, -9.81]
+[[joint]]
+name = "joint1"
+kind = "revolute"
+axis = [0.0, -1.0, 0.0]
+motor = { mode = "velocity" }
+[[body]]
+name = "link1"
+parent = "/joint1"
+mass = 1.0
+center_of_mass = [0.25, 0.0, 0.0]
+inertia = { xx = 0.001, yy = 0.02, zz = 0.02 }
+[[joint]]
+name = "joint2"
+parent = "/joint1/link1"
+kind = "revolute"
+axis = [0.0, -1.0, 0.0]
+position = [0.5, 0.0, 0.0]
+motor = { mode = "velocity" }
+[[body]]
+name = "link2"
+parent = "/joint1/link1/joint2"
+mass = 1.0
+center_of_mass = [0.25, 0.0, 0.0]
+inertia = { xx = 0.001, yy = 0.02, zz = 0.02 }
+[[frame]]
+name = "tip"
+parent = "/joint1/link1/joint2/link2"
+position = [0.5, 0.0, 0.0]
+[[joint]]
+name = "loose"
+kind = "free"
+[[body]]
+name = "ball"
+parent = "/loose"
+density = 1000.0
+shape = [{ sphere = { radius = 0.1 } }]
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "Arm"
+scene = "scene.toml"
+duration = 0.5
+step = 0.005
+record = ["/joint1.position", "/joint1/link1/joint2.position"]
+"#;
+
+fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+/// A session of the arm in a folder of its own.
+fn arm(name: &str) -> Session {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("session-{name}"));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("scene.toml"), ARM).unwrap();
+    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
+    Session::open(&folder, &[], Extensions::default(), Some(0.05)).unwrap()
+}
+
+fn find(session: &mut Session, name: &str) -> Handle {
+    session.desk().table.find(name, Search::default()).unwrap()
+}
+
+#[test]
+fn a_session_without_clients_is_the_run_of_its_scene() {
+    for (scene, sample) in [("two-dof-open-loop", 0.01), ("pid-tuning", 0.01)] {
+        let folder = scenes().join(scene);
+        let loaded = load(&folder, &[], Extensions::default()).unwrap();
+        let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+        let run = simulate(&loaded, Manner::default(), watch).unwrap();
+        let mut session = Session::open(&folder, &[], Extensions::default(), Some(sample)).unwrap();
+        for _ in 0..2 {
+            session.start().unwrap();
+            while session.t() < loaded.experiment.duration - 1e-9 {
+                session.step().unwrap();
+            }
+            session.stop().unwrap();
+            let finished = session.take_finished().pop().unwrap().simulated;
+            assert_eq!(finished.trace, run.trace, "{scene}");
+            assert_eq!(finished.table.columns.last().unwrap().values, run.table.columns.last().unwrap().values);
+            assert_eq!((session.t(), session.phase()), (0.0, Phase::Stopped));
+        }
+    }
+}
+
+#[test]
+fn an_arm_that_is_held_reports_minus_the_effort_of_its_motors() {
+    let mut arm = arm("held");
+    let [joint1, joint2] = ["joint1", "joint2#"].map(|name| find(&mut arm, name));
+    assert_eq!(arm.desk().joint_force(joint1).unwrap(), None);
+    arm.start().unwrap();
+    assert_eq!((arm.t(), arm.desk().simulation_state()), (0.0, 16));
+    arm.step().unwrap();
+    assert_eq!((arm.t(), arm.desk().simulation_state()), (0.05, 17));
+    // measured on CoppeliaSim, both engines: −9.810 and −2.452 N·m; gravity alone: m·g·(0.25 + 0.75), m·g·0.25
+    let forces = [joint1, joint2].map(|joint| arm.desk().joint_force(joint).unwrap().unwrap());
+    assert!((forces[0] + 9.81).abs() < 1e-9 && (forces[1] + 2.4525).abs() < 1e-9, "{forces:?}");
+    arm.desk().set_target_velocity(joint1, 1.0).unwrap();
+    arm.step().unwrap();
+    assert!((arm.desk().joint_position(joint1).unwrap() - 0.05).abs() < 1e-12);
+    let link2 = find(&mut arm, "link2");
+    let (_, angular) = arm.desk().velocity(link2).unwrap();
+    assert!((angular[1] + 1.0).abs() < 1e-12, "plain angular velocity of the world: {angular:?}");
+    arm.stop().unwrap();
+    assert_eq!(arm.desk().joint_position(joint1).unwrap(), 0.0);
+    arm.start().unwrap();
+    arm.step().unwrap();
+    assert_eq!(arm.desk().joint_position(joint1).unwrap(), 0.0, "the first run's target is forgotten");
+}
+
+#[test]
+fn objects_are_found_by_old_names_and_by_paths() {
+    let mut arm = arm("names");
+    let joint2 = find(&mut arm, "joint2");
+    let names =
+        ["joint2#", "/joint2", "/joint1/joint2", "/joint1/link1/joint2", "/joint1[0]//joint2", "/jo?nt2", "/*2"];
+    for name in names.iter().filter(|n| !n.contains("//")) {
+        assert_eq!(find(&mut arm, name), joint2, "{name}");
+    }
+    for missing in [
+        "joint3",
+        "/joint2/link1",
+        "/joint1[1]",
+        "joint2#0",
+        "",
+        "/[0]",
+        "/joint2{7}",
+        "./x",
+        "/a[99999999999999999999]",
+    ] {
+        assert!(arm.desk().table.find(missing, Search::default()).is_err(), "{missing}");
+    }
+    let message = arm.desk().table.find("/joimt2", Search::default()).unwrap_err().0;
+    assert!(message.contains("did you mean `joint2`"), "{message}");
+    let search = Search { index: 1, ..Search::default() };
+    let second = arm.desk().table.find("/joint*", search).unwrap();
+    assert_eq!(second, joint2);
+}
+
+#[test]
+fn poses_follow_the_conventions_of_vrep() {
+    let mut arm = arm("poses");
+    let call =
+        |arm: &mut Session, name: &str, args: &[Value]| arm.call(name, args).unwrap().remove(0).as_reals().unwrap();
+    let [joint1, joint2, tip] = ["joint1", "joint2", "tip"].map(|name| Value::from(find(&mut arm, name)));
+    arm.call("sim.setJointPosition", &[joint1.clone(), Value::Real(std::f64::consts::FRAC_PI_2)]).unwrap();
+    let near =
+        |got: &[f64], want: &[f64]| got.len() == want.len() && got.iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-12);
+    // about −y, x goes up
+    let p = call(&mut arm, "sim.getObjectPosition", std::slice::from_ref(&tip));
+    assert!(near(&p, &[0.0, 0.0, 1.0]), "{p:?}");
+    let m = call(&mut arm, "simGetObjectMatrix", &[joint2.clone(), Value::Int(-1)]);
+    assert!(near(&[m[2], m[6], m[10]], &[0.0, -1.0, 0.0]), "z of a joint is its axis: {m:?}");
+    let against_joint = call(&mut arm, "sim.getObjectPosition", &[tip.clone(), joint1.clone()]);
+    let at_zero = {
+        arm.call("sim.setJointPosition", &[joint1.clone(), Value::Real(0.0)]).unwrap();
+        call(&mut arm, "sim.getObjectPosition", &[tip, joint1])
+    };
+    assert!(near(&against_joint, &at_zero), "against a joint means against what it moves");
+}
+
+#[test]
+fn a_push_lasts_one_step_and_does_its_work() {
+    let mut arm = arm("push");
+    let ball = find(&mut arm, "ball");
+    assert!(arm.desk().add_force_and_torque(ball, [1.0; 3], [0.0; 3]).is_err(), "nothing runs");
+    arm.start().unwrap();
+    let mass = arm.desk().mass(ball).unwrap().mass;
+    arm.desk().add_force_and_torque(ball, [0.0, 0.0, mass * 9.81], [0.0; 3]).unwrap();
+    arm.desk().add_force_and_torque(ball, [mass * 2.0, 0.0, 0.0], [0.0; 3]).unwrap();
+    arm.step().unwrap();
+    let v = arm.desk().velocity(ball).unwrap().0;
+    assert!((v[0] - 0.1).abs() < 1e-12 && v[2].abs() < 1e-12, "{v:?}");
+    arm.step().unwrap();
+    let v = arm.desk().velocity(ball).unwrap().0;
+    assert!((v[0] - 0.1).abs() < 1e-12 && (v[2] + 9.81 * 0.05).abs() < 1e-12, "{v:?}");
+    arm.stop().unwrap();
+    let finished = arm.take_finished().pop().unwrap().simulated;
+    assert!(finished.energy.residual < 1e-9, "the work of the push is counted: {}", finished.energy.residual);
+}
+
+#[test]
+fn a_free_body_can_be_put_anywhere_and_a_link_cannot() {
+    let mut arm = arm("place");
+    let [ball, link] = ["ball", "link2"].map(|name| Value::from(find(&mut arm, name)));
+    let list = Value::reals([1.0, 2.0, 3.0]);
+    arm.call("sim.setObjectPosition", &[ball.clone(), Value::Int(-1), list.clone()]).unwrap();
+    assert_eq!(
+        arm.call("sim.getObjectPosition", &[ball.clone(), Value::Int(-1)]).unwrap(),
+        *std::slice::from_ref(&list)
+    );
+    arm.start().unwrap();
+    arm.step().unwrap();
+    arm.stop().unwrap();
+    assert_eq!(
+        arm.call("sim.getObjectPosition", &[ball]).unwrap(),
+        *std::slice::from_ref(&list),
+        "edits while stopped stay"
+    );
+    let message = arm.call("sim.setObjectPosition", &[link, list]).unwrap_err().0;
+    assert!(message.contains("cannot be put anywhere"), "{message}");
+}
+
+#[test]
+fn modes_and_limits_of_motors_can_be_changed() {
+    let mut arm = arm("modes");
+    let joint2 = find(&mut arm, "joint2");
+    arm.start().unwrap();
+    arm.desk().set_joint_mode(joint2, MotorMode::Free).unwrap();
+    arm.step().unwrap();
+    let falling = arm.desk().joint_velocity(joint2).unwrap();
+    assert!(falling < -0.1, "about −y a link along x falls with negative velocity: {falling}");
+    arm.desk().set_joint_mode(joint2, MotorMode::Position).unwrap();
+    arm.desk().set_target_position(joint2, 0.3).unwrap();
+    for _ in 0..40 {
+        arm.step().unwrap();
+    }
+    assert!((arm.desk().joint_position(joint2).unwrap() - 0.3).abs() < 1e-6);
+    arm.desk().set_target_force(joint2, 0.1, true).unwrap();
+    arm.step().unwrap();
+    let force = arm.desk().joint_force(joint2).unwrap().unwrap();
+    assert!((force + 0.1).abs() < 1e-9, "too weak to hold: {force}");
+    let link1 = find(&mut arm, "link1");
+    assert!(arm.desk().set_target_velocity(link1, 1.0).is_err());
+    assert!(arm.desk().set_target_velocity(joint2, f64::NAN).is_err());
+}
+
+#[test]
+fn points_are_made_hung_and_removed() {
+    let mut arm = arm("points");
+    let tip = find(&mut arm, "tip");
+    let dummy = arm.desk().table.create_dummy("Dummy").unwrap();
+    arm.desk().set_parent(dummy, Some(tip), false).unwrap();
+    assert_eq!(arm.desk().pose(dummy, Reference::World).unwrap().pos.0, [1.0, 0.0, 0.0]);
+    assert_eq!(arm.desk().table.entry(dummy).unwrap().path, "/joint1/link1/joint2/link2/tip/Dummy");
+    assert!(arm.desk().set_parent(tip, Some(dummy), true).is_err());
+    assert!(arm.desk().table.remove(tip).is_err());
+    arm.desk().table.remove(dummy).unwrap();
+    assert!(arm.desk().pose(dummy, Reference::World).is_err());
+}
+
+#[test]
+fn what_means_nothing_is_refused_with_a_reason() {
+    let mut arm = arm("refused");
+    let refused = [
+        ("sim.noSuch", vec![], "No such function: sim.noSuch"),
+        (
+            "sim.getJointPosition",
+            vec![],
+            "argument 1 is nothing, expected a handle (in function 'sim.getJointPosition')",
+        ),
+        ("sim.getJointPosition", vec![Value::Int(77)], "there is no object with the handle 77"),
+        ("sim.getJointPosition", vec![Value::Text("x".into())], "argument 1 is text, expected a handle"),
+        ("sim.loadScene", vec![Value::Text("nowhere".into())], "does not exist"),
+        ("sim.loadScene", vec![Value::Text("..".into())], "lies outside"),
+        ("sim.setFloatParam", vec![Value::Int(1), Value::Real(0.003)], "no whole multiple"),
+    ];
+    for (name, arguments, expected) in refused {
+        let message = arm.call(name, &arguments).unwrap_err().0;
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+}

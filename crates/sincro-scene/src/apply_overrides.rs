@@ -1,0 +1,303 @@
+//! Settings written into the documents of a scene folder: each finds its file, its key and the schema that knows it.
+
+use serde_json::{Map, Value};
+use toml::de::DeValue;
+
+use crate::document::{Document, escape};
+use crate::experiment::experiment_schema;
+use crate::overrides::Override;
+use crate::problem::{Problem, Problems};
+use crate::scene::scene_schema;
+use crate::schema::{alternatives, property, property_names};
+use crate::suggest;
+use crate::tree;
+
+/// Which file a path reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The scene file.
+    Scene,
+    /// The experiment file.
+    Experiment,
+    /// The diagram file.
+    Diagram,
+}
+
+impl Override {
+    /// Which file it is for; by its first key.
+    pub fn target(&self) -> Target {
+        let path = &self.path.value;
+        let first = path.split(['.', '[']).next().unwrap_or("");
+        let knows = |schema: &Value| schema["properties"].get(first).is_some();
+        if path.starts_with('/') || knows(scene_schema()) {
+            Target::Scene
+        } else if path.starts_with(OF_DIAGRAM) || (path.contains('.') && !knows(experiment_schema())) {
+            Target::Diagram
+        } else {
+            Target::Experiment
+        }
+    }
+
+    /// The finding about a setting for a diagram that is not there.
+    pub fn without_diagram(&self) -> Problem {
+        let first = self.path.value.split(['.', '[']).next().unwrap_or("");
+        let known: Vec<&str> = [scene_schema(), experiment_schema()]
+            .into_iter()
+            .flat_map(|schema| property_names(schema.as_object().expect("a schema is a table")))
+            .collect();
+        let problem = self.error(format!("`{}`: a scene or experiment has no `{first}`", self.path.value));
+        problem.with_help(suggest::help(first, &known, "keys"))
+    }
+
+    /// A parameter of a block, or a key of the diagram file.
+    fn apply_to_diagram(&self, document: &mut Document) -> Result<(), Problem> {
+        let path = self.path.value.strip_prefix(OF_DIAGRAM).unwrap_or(&self.path.value);
+        let keys = steps(path);
+        let names: Vec<String> = names_of_blocks(document);
+        if keys.is_empty() {
+            let help = "write BLOCK.PARAMETER=VALUE, such as pid.kp=3";
+            return Err(self.error(format!("`{}` names nothing", self.path.value)).with_help(help));
+        }
+        let pointer = match names.iter().position(|name| *name == keys[0]) {
+            Some(k) => format!("/block/{k}"),
+            None if matches!(keys[0].as_str(), "parameters" | "sample_time") => String::new(),
+            None => {
+                let known: Vec<&str> = names.iter().map(String::as_str).collect();
+                let problem = self.error(format!("`{}`: the diagram has no block `{}`", self.path.value, keys[0]));
+                return Err(problem.with_help(suggest::help(&keys[0], &known, "blocks")));
+            }
+        };
+        let rest = if pointer.is_empty() { &keys[..] } else { &keys[1..] };
+        if rest.is_empty() {
+            let problem = self.error(format!("`{}` names a block, none of its parameters", self.path.value));
+            return Err(problem.with_help(format!("write {}.PARAMETER=VALUE", self.path.value)));
+        }
+        let (last, inner) = rest.split_last().expect("not empty");
+        let mut at = pointer;
+        for key in inner {
+            at = format!("{at}/{}", escape(key));
+            if document.get(&at).is_none() {
+                document.put_silently(&at, Value::Object(Map::new()), &self.path.at);
+            }
+        }
+        match document.get(&at) {
+            Some(Value::Object(_)) => {}
+            Some(Value::Array(list)) if last.parse::<usize>().is_ok_and(|k| k < list.len()) => {}
+            Some(Value::Array(list)) => {
+                let message = format!("`{}`: there are {} entries, no entry {last}", self.path.value, list.len());
+                return Err(self.error(message).with_help("entries are counted from 0"));
+            }
+            _ => return Err(self.error(format!("`{}`: there is nothing inside a number", self.path.value))),
+        }
+        self.put(document, &format!("{at}/{}", escape(last)))
+    }
+
+    /// Writes the value into its document.
+    ///
+    /// # Errors
+    ///
+    /// The path reaches nothing in the document, or the value is no TOML.
+    pub fn apply(&self, document: &mut Document, target: Target) -> Result<(), Problem> {
+        let (mut walk, keys) = match target {
+            Target::Diagram => return self.apply_to_diagram(document),
+            Target::Experiment => (Walk::from_root(self, experiment_schema()), self.path.value.as_str()),
+            Target::Scene if self.path.value.starts_with('/') => self.find_object(document)?,
+            Target::Scene => (Walk::from_root(self, scene_schema()), self.path.value.as_str()),
+        };
+        let keys = steps(keys);
+        if keys.is_empty() {
+            return Err(self.error("the path names an object, none of its keys").with_help(suggest::help(
+                "",
+                &walk.known(),
+                "keys",
+            )));
+        }
+        for (k, key) in keys.iter().enumerate() {
+            walk.enter(document, key, k + 1 == keys.len())?;
+        }
+        self.put(document, &walk.pointer)
+    }
+
+    fn put(&self, document: &mut Document, pointer: &str) -> Result<(), Problem> {
+        let text = &self.value.value;
+        if let Ok(value) = DeValue::parse(text) {
+            document.put(pointer, &self.path.at, &value, &self.value.at);
+            return Ok(());
+        }
+        if text.starts_with(['[', '{', '"', '\'']) {
+            let problem = Problem::error(&self.value.at, format!("`{text}` is not a TOML value"));
+            return Err(problem.with_help("numbers, [lists], { tables = 1 }, \"strings\" or bare words"));
+        }
+        document.put_silently(pointer, Value::String(text.clone()), &self.value.at);
+        Ok(())
+    }
+
+    /// The object at the head of the path, and the keys behind it.
+    fn find_object(&self, document: &Document) -> Result<(Walk<'_>, &str), Problem> {
+        let path = self.path.value.as_str();
+        let (object, keys) = path.split_once('.').unwrap_or((path, ""));
+        let objects = tree::raw_objects(document);
+        let Some(found) = objects.iter().find(|o| o.path == object) else {
+            let known: Vec<&str> = objects.iter().map(|o| o.path.as_str()).collect();
+            let problem = self.error(format!("there is no object `{object}`"));
+            return Err(problem.with_help(suggest::help(object, &known, "objects")));
+        };
+        let list = found.pointer.split('/').nth(1).unwrap_or("");
+        let schema = &scene_schema()["properties"][list]["items"];
+        Ok((Walk { setting: self, root: scene_schema(), schema, pointer: found.pointer.clone() }, keys))
+    }
+
+    fn error(&self, message: impl Into<String>) -> Problem {
+        Problem::error(&self.path.at, message)
+    }
+}
+
+/// What stands before the name of a block that is also a key of another file.
+const OF_DIAGRAM: &str = "diagram.";
+
+fn names_of_blocks(document: &Document) -> Vec<String> {
+    let blocks = document.get("/block").and_then(Value::as_array).into_iter().flatten();
+    blocks.map(|b| b.get("name").and_then(Value::as_str).unwrap_or("").to_owned()).collect()
+}
+
+/// The keys of a path: `axis[2]` and `axis.2` are the same.
+fn steps(keys: &str) -> Vec<String> {
+    let flat = keys.replace('[', ".").replace(']', "");
+    flat.split('.').filter(|key| !key.is_empty()).map(str::to_owned).collect()
+}
+
+/// A walk down a document and its schema.
+struct Walk<'a> {
+    setting: &'a Override,
+    root: &'static Value,
+    schema: &'static Value,
+    pointer: String,
+}
+
+impl<'a> Walk<'a> {
+    fn from_root(setting: &'a Override, root: &'static Value) -> Self {
+        Self { setting, root, schema: root, pointer: String::new() }
+    }
+
+    /// One step down; whatever must be there for the next step is made.
+    fn enter(&mut self, document: &mut Document, key: &str, is_last: bool) -> Result<(), Problem> {
+        let known_to_table = self.tables().find_map(|table| property(table, key));
+        let index = key.parse::<usize>().ok();
+        let item = index.and(self.lists().find_map(|list| list.get("items")));
+        let Some(schema) = known_to_table.or(item) else { return Err(self.unknown(document, key)) };
+        self.check_presence(document, key, known_to_table.is_some(), index)?;
+        self.pointer = format!("{}/{}", self.pointer, escape(key));
+        self.schema = schema;
+        if !is_last && document.get(&self.pointer).is_none() {
+            self.create(document)?;
+        }
+        Ok(())
+    }
+
+    /// The step must be possible in the file as it is: an entry that is there, a name that is used, a table to go into.
+    fn check_presence(
+        &self,
+        document: &Document,
+        key: &str,
+        as_key: bool,
+        index: Option<usize>,
+    ) -> Result<(), Problem> {
+        let here = document.get(&self.pointer);
+        match (here, index) {
+            (Some(Value::Array(list)), Some(k)) if k >= list.len() => {
+                let message =
+                    format!("`{}` has {} entries, there is no entry {k}", self.setting.path.value, list.len());
+                Err(self.setting.error(message).with_help("entries are counted from 0"))
+            }
+            (Some(Value::Object(table)), _) if as_key => {
+                let named = self.tables().any(|t| t.get("properties").is_some_and(|p| p.get(key).is_some()));
+                if named || table.contains_key(key) {
+                    return Ok(());
+                }
+                let known: Vec<&str> = table.keys().map(String::as_str).collect();
+                let problem = self.setting.error(format!("there is no `{key}` in `{}`", last_key(&self.pointer)));
+                Err(problem.with_help(suggest::help(key, &known, "known")))
+            }
+            (Some(Value::Array(_)), Some(_)) => Ok(()),
+            _ => {
+                let what = last_key(&self.pointer);
+                let problem = self.setting.error(format!("`{what}` has no `{key}` in the file as it is"));
+                Err(problem.with_help(format!("set `{what}` as a whole")))
+            }
+        }
+    }
+
+    /// What the file leaves out: the default of the schema, or an empty table.
+    fn create(&self, document: &mut Document) -> Result<(), Problem> {
+        let content = match self.schema.get("default") {
+            Some(default) => default.clone(),
+            None if self.tables().next().is_some() => Value::Object(Map::new()),
+            None => {
+                let what = last_key(&self.pointer);
+                let problem = self.setting.error(format!("`{what}` is not in the file"));
+                return Err(problem.with_help(format!("set `{what}` as a whole")));
+            }
+        };
+        document.put_silently(&self.pointer, content, &self.setting.path.at);
+        Ok(())
+    }
+
+    fn unknown(&self, document: &Document, key: &str) -> Problem {
+        let known = self.known();
+        let known: Vec<&str> = known.iter().copied().filter(|k| !matches!(*k, "name" | "parent")).collect();
+        let what = if self.pointer.is_empty() { "a scene or experiment".into() } else { format!("`{}`", self.title()) };
+        let problem = self.setting.error(format!("`{}`: {what} has no `{key}`", self.setting.path.value));
+        if self.pointer.is_empty() && document.get(&format!("/parameters/{}", escape(key))).is_some() {
+            return problem.with_help(format!("did you mean `parameters.{key}`?"));
+        }
+        if known.is_empty() && self.lists().next().is_some() {
+            return problem.with_help("it is a list; its entries are counted from 0");
+        }
+        problem.with_help(suggest::help(key, &known, "keys"))
+    }
+
+    fn title(&self) -> String {
+        let path = &self.setting.path.value;
+        let keys = self.pointer.split('/').skip(1).filter(|s| s.parse::<usize>().is_err());
+        match path.strip_prefix('/').and(path.split('.').next()) {
+            Some(object) if keys.clone().count() == 1 => object.to_owned(),
+            _ => last_key(&self.pointer).to_owned(),
+        }
+    }
+
+    fn known(&self) -> Vec<&'static str> {
+        let mut known: Vec<&str> = self.tables().flat_map(property_names).collect();
+        if self.pointer.is_empty() {
+            known.extend(property_names(scene_schema().as_object().expect("a schema is a table")));
+        }
+        known
+    }
+
+    fn tables(&self) -> impl Iterator<Item = &'static Map<String, Value>> {
+        self.of_type("object")
+    }
+
+    fn lists(&self) -> impl Iterator<Item = &'static Map<String, Value>> {
+        self.of_type("array")
+    }
+
+    fn of_type(&self, name: &'static str) -> impl Iterator<Item = &'static Map<String, Value>> {
+        let choices = alternatives(self.root, self.schema).into_iter();
+        choices.filter(move |choice| choice.get("type").and_then(Value::as_str) == Some(name))
+    }
+}
+
+fn last_key(pointer: &str) -> &str {
+    pointer.rsplit('/').find(|step| step.parse::<usize>().is_err()).unwrap_or("")
+}
+
+/// Applies those settings that are for `target`, in order; later ones win.
+pub fn apply_all(document: &mut Document, target: Target, settings: &[Override]) -> Problems {
+    let mut problems = Problems::new();
+    for setting in settings.iter().filter(|s| s.target() == target) {
+        if let Err(problem) = setting.apply(document, target) {
+            problems.push(problem);
+        }
+    }
+    problems
+}

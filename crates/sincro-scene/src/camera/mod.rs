@@ -1,0 +1,184 @@
+//! Pictures of a scene: what a camera sees, by rays that meet every surface where it really is. No part of a step.
+//!
+//! | file | has |
+//! |---|---|
+//! | `mod.rs` | [`Optics`]: how many pixels, which lens, from where to where |
+//! | `image.rs` | [`Image`]: colours, depths, and what is seen, pixel by pixel; parts of it as bytes |
+//! | `render.rs` | [`Renderer`]: one piece after the other, nearest first, each in the rectangle that holds it |
+//! | `bounds.rs` | the rectangle of a piece |
+//! | `light.rs` | colours of lit surfaces |
+//! | `png.rs` | pictures as PNG |
+//!
+//! A camera looks along z of its frame, y is up in the picture, so x points to the left. Pixels are counted as V-REP counts them: row by row
+//! from the bottom, from left to right. A pixel is the ray through its middle. The same scene gives the same bytes on every machine.
+
+mod bounds;
+mod image;
+mod light;
+pub mod png;
+mod render;
+#[cfg(test)]
+mod tests;
+
+pub use image::{Image, Layer, Part};
+pub use render::{NOTHING, Renderer};
+
+use sincro_math::elementary;
+
+/// Most columns, and most rows, of a picture.
+pub const MOST_SIDE: usize = 4096;
+/// Most pixels of a picture: 4 Mi, which take 60 MB.
+pub const MOST_PIXELS: usize = 1 << 22;
+/// Where a picture begins, if nothing else is said `[m]`.
+pub const NEAR: f64 = 0.01;
+/// Where a picture ends, if nothing else is said `[m]`.
+pub const FAR: f64 = 100.0;
+/// What is seen where nothing is, if nothing else is said: red, green, blue, as behind the page's picture.
+pub const BACKGROUND: [u8; 3] = [0xf7, 0xf8, 0xfa];
+/// Farthest end of a picture, and largest height of an orthographic one `[m]`.
+const MOST_LENGTH: f64 = 1e6;
+
+/// How a camera draws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Optics {
+    /// Columns and rows.
+    pub resolution: [usize; 2],
+    /// Distance along the camera's z at which the picture begins `[m]`.
+    pub near: f64,
+    /// Distance along the camera's z at which it ends `[m]`.
+    pub far: f64,
+    /// How lines meet.
+    pub lens: Lens,
+}
+
+/// How lines meet in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// In the camera's origin; the angle between the upper and the lower edge `[rad]`.
+    Perspective(f64),
+    /// Nowhere: all are parallel to z; the height of the picture `[m]`.
+    Orthographic(f64),
+}
+
+impl Optics {
+    /// Half the height of the picture: at a distance of one metre, or anywhere, if it is orthographic `[m]`.
+    #[must_use]
+    pub fn half_height(&self) -> f64 {
+        match self.lens {
+            Lens::Perspective(angle) => elementary::tan(0.5 * angle).0,
+            Lens::Orthographic(height) => 0.5 * height,
+        }
+    }
+
+    /// Edge of a pixel, where [`Optics::half_height`] is measured `[m]`.
+    #[must_use]
+    pub fn pixel(&self) -> f64 {
+        2.0 * self.half_height() / self.resolution[1] as f64
+    }
+
+    /// Width over height, but never less than one: V-REP's angles and sizes are those of the longer side.
+    fn longer(&self) -> f64 {
+        (self.resolution[0] as f64 / self.resolution[1] as f64).max(1.0)
+    }
+
+    /// Angle over the longer side of a perspective picture `[rad]`; 0 of an orthographic one.
+    #[must_use]
+    pub fn view_angle(&self) -> f64 {
+        match self.lens {
+            Lens::Perspective(_) => 2.0 * elementary::atan(self.half_height() * self.longer()).0,
+            Lens::Orthographic(_) => 0.0,
+        }
+    }
+
+    /// The longer side of an orthographic picture `[m]`; 0 of a perspective one.
+    #[must_use]
+    pub fn view_size(&self) -> f64 {
+        match self.lens {
+            Lens::Perspective(_) => 0.0,
+            Lens::Orthographic(height) => height * self.longer(),
+        }
+    }
+
+    /// The same, with an angle over the longer side `[rad]`.
+    #[must_use]
+    pub fn with_view_angle(self, angle: f64) -> Self {
+        let tall = elementary::tan(0.5 * angle.clamp(0.0, 3.1)).0 / self.longer();
+        Self { lens: Lens::Perspective(2.0 * elementary::atan(tall).0), ..self }
+    }
+
+    /// The same, orthographic, with a longer side `[m]`.
+    #[must_use]
+    pub fn with_view_size(self, size: f64) -> Self {
+        Self { lens: Lens::Orthographic(size / self.longer()), ..self }
+    }
+
+    /// Whether a picture can be made.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong first.
+    pub fn check(&self) -> Result<(), Wrong> {
+        self.wrongs().into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// Everything that is wrong.
+    #[must_use]
+    pub fn wrongs(&self) -> Vec<Wrong> {
+        [self.wrong_resolution(), self.wrong_near(), self.wrong_far(), self.wrong_lens()]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
+    fn wrong_resolution(&self) -> Option<Wrong> {
+        let [columns, rows] = self.resolution;
+        let sides = [columns, rows].iter().all(|n| (1..=MOST_SIDE).contains(n));
+        (!sides || columns * rows > MOST_PIXELS).then(|| Wrong {
+            key: "resolution",
+            found: format!("a resolution of {columns} × {rows} pixels"),
+            expected: format!("1 to {MOST_SIDE} columns and rows, and at most {MOST_PIXELS} pixels in all"),
+        })
+    }
+
+    fn wrong_near(&self) -> Option<Wrong> {
+        let fits = self.near > 0.0 && self.near < MOST_LENGTH;
+        let found = || format!("a picture that begins at {} m", self.near);
+        (!fits).then(|| Wrong { key: "near", found: found(), expected: "more than 0 m".into() })
+    }
+
+    fn wrong_far(&self) -> Option<Wrong> {
+        let fits = self.far > self.near && self.far <= MOST_LENGTH;
+        (!fits).then(|| Wrong {
+            key: "far",
+            found: format!("a picture that ends at {} m", self.far),
+            expected: format!("more than where it begins, {} m, and at most {MOST_LENGTH} m", self.near),
+        })
+    }
+
+    fn wrong_lens(&self) -> Option<Wrong> {
+        match self.lens {
+            Lens::Perspective(angle) if !(angle > 0.0 && angle < 170_f64.to_radians()) => Some(Wrong {
+                key: "field_of_view_deg",
+                found: format!("a field of view of {:.4}°", angle.to_degrees()),
+                expected: "more than 0° and less than 170° from the upper to the lower edge".into(),
+            }),
+            Lens::Orthographic(height) if !(height > 0.0 && height <= MOST_LENGTH) => Some(Wrong {
+                key: "orthographic_height",
+                found: format!("a picture {height} m high"),
+                expected: format!("more than 0 m and at most {MOST_LENGTH} m"),
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// Why no picture can be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    /// The key of the scene file that says it.
+    pub key: &'static str,
+    /// What was found.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
+}

@@ -1,0 +1,262 @@
+//! Block diagrams of a scene folder: the file, its errors, and the diagram in one step with the world.
+//!
+//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `wiring.rs`
+//! connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
+
+mod file;
+mod lua;
+mod ports;
+mod read;
+pub mod reference;
+pub mod robot;
+mod schema;
+mod wiring;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use sincro_blocks::compile::{Interface, Place, Spot, compile};
+use sincro_blocks::diagram::{Diagram, What};
+use sincro_blocks::program::Program;
+use sincro_blocks::runner::Runner;
+use sincro_dynamics::model::Model;
+
+pub(crate) use file::DiagramFile;
+pub use lua::LuaBlock;
+pub use ports::is_known_at_ticks_only;
+use read::{DiagramReader, Origin};
+pub use reference::reference;
+pub use schema::diagram_schema;
+pub use wiring::{Reading, Wiring};
+
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Location, Problem, Problems};
+use crate::record::{Entry, Probe, catalogue};
+use crate::script::ScriptParser;
+
+/// A diagram of a scene, ready to run.
+#[derive(Clone, Debug)]
+pub struct ControlDiagram {
+    /// As it is drawn.
+    pub diagram: Diagram,
+    /// Compiled and connected to the model.
+    pub wiring: Arc<Wiring>,
+}
+
+/// What a diagram is read for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setting<'a> {
+    pub model: &'a Arc<Model<f64>>,
+    /// Base step `[s]`.
+    pub step: f64,
+    pub seed: u64,
+    /// The experiment's parameters: formulas know them.
+    pub parameters: &'a BTreeMap<String, f64>,
+    /// Parser of laws that are written in a script's language.
+    pub parser: Option<&'static dyn ScriptParser>,
+}
+
+/// Reads and compiles a document that fits the schema.
+pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Problems> {
+    let file: DiagramFile = serde_json::from_value(document.root.clone())
+        .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
+    let robot = robot::Context { parser: setting.parser, model: setting.model.clone() };
+    let mut reader = DiagramReader::new(document, folder, &file, &robot);
+    let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
+    if reader.problems.any_error() {
+        return Err(shortened(reader.problems));
+    }
+    if let Some(sample_time) = sample_time {
+        for entry in &mut diagram.entries {
+            entry.sample_time.get_or_insert(sample_time);
+        }
+    }
+    ControlDiagram::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
+        let (mut problems, mut said) = (Problems::new(), BTreeSet::new());
+        for problem in found {
+            let at = locate(document, &origin, &diagram, &problem.place);
+            // what is wrong in a definition is said once, however often it is used
+            if said.insert((at.span.start, problem.message.clone())) {
+                problems.push(Problem::error(&at, problem.message).with_help(problem.help));
+            }
+        }
+        shortened(problems)
+    })
+}
+
+/// Sorted, and of very many the first: who has mended those will see the next.
+fn shortened(problems: Problems) -> Problems {
+    const MOST: usize = 200;
+    let mut problems = problems.sorted();
+    let n_more = problems.0.len().saturating_sub(MOST);
+    if n_more > 0 {
+        problems.0.truncate(MOST);
+        problems.push(Problem::nowhere(format!("{n_more} more problems of the diagram are not shown")));
+    }
+    problems
+}
+
+impl ControlDiagram {
+    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything random.
+    ///
+    /// ```
+    /// use sincro_blocks::diagram::Diagram;
+    /// use sincro_blocks::library::maths::Gain;
+    /// use crate::diagram::ControlDiagram;
+    ///
+    /// let scene = r#"
+    /// joint = [{ name = "hinge", kind = "revolute", axis = [0, 1, 0], motor = { mode = "torque" } }]
+    /// body = [{ name = "arm", parent = "/hinge", mass = 1, center_of_mass = [0, 0, -0.5], inertia = { xx = 0.1, yy = 0.1, zz = 0.01 } }]
+    /// "#;
+    /// let scene = crate::scene::from_text(scene).unwrap();
+    /// let mut diagram = Diagram::new();
+    /// diagram.block("spring", Gain::new(-20.0)).wire("/hinge.position", "spring").wire("spring", "/hinge");
+    /// let controller = ControlDiagram::new(diagram, &scene.model, 0.001, 0).unwrap();
+    /// assert_eq!(controller.entries()[0].name, "spring");
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the diagram.
+    pub fn new(
+        diagram: Diagram,
+        model: &Arc<Model<f64>>,
+        step: f64,
+        seed: u64,
+    ) -> Result<Self, Vec<sincro_blocks::compile::Problem>> {
+        let measurements = ports::measurements(model);
+        let interface = Interface {
+            step,
+            seed,
+            measurements: measurements.iter().map(|m| m.terminal.clone()).collect(),
+            commands: ports::commands(model),
+        };
+        let program = Arc::new(compile(&diagram, &interface)?);
+        let wiring = Arc::new(Wiring::new(program, &measurements));
+        Ok(Self { diagram, wiring })
+    }
+
+    /// The block whose continuous state decays fastest at the start, and how fast [1/s]; none if nothing does.
+    #[must_use]
+    pub fn fastest(&self) -> Option<(String, f64)> {
+        let program = self.wiring.program();
+        let mut runner = Runner::<f64>::new(program.clone());
+        let mut decay = vec![0.0; program.n_states];
+        runner.decays(0, 0.0, &mut decay);
+        let k = (0..decay.len()).max_by(|a, b| decay[*a].total_cmp(&decay[*b]))?;
+        let step = program.steps.iter().find(|s| s.states.contains(&k))?;
+        (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
+    }
+
+    /// What its scopes look at: title, and the names of the recorded signals.
+    #[must_use]
+    pub fn scopes(&self, model: &Model<f64>) -> Vec<(String, Vec<String>)> {
+        let program = self.wiring.program();
+        let entries = self.entries();
+        let of_world = catalogue(model);
+        let name = |signal: usize| {
+            let own = entries.iter().find(|e| e.probe == Probe::Signal(signal));
+            own.or_else(|| of_world.iter().find(|e| Some(e.probe) == self.wiring.measured(signal)))
+                .map(|e| e.name.clone())
+        };
+        let scopes = program.steps.iter().filter(|step| step.template.kind().name == "scope");
+        scopes
+            .map(|step| {
+                let signals = step.ports.iter().flat_map(|&(at, len)| at as usize..(at + len) as usize);
+                let names = signals.filter_map(|k| name(source_of(program, k))).collect();
+                let title = match step.template.label() {
+                    title if title.is_empty() => step.path.clone(),
+                    title => title,
+                };
+                (title, names)
+            })
+            .collect()
+    }
+
+    /// The diagram's signals as they are recorded: `block`, `block.port`, components of vectors as `block[0]`.
+    #[must_use]
+    pub fn entries(&self) -> Vec<Entry> {
+        entries(&self.wiring)
+    }
+}
+
+/// The signal that a component of a bundle `[a, b]` is taken from; any other signal is its own.
+fn source_of(program: &Program, signal: usize) -> usize {
+    let bundle = program.steps.iter().find(|s| s.out.contains(&signal) && s.path.contains('['));
+    let Some(step) = bundle else { return signal };
+    let mut within = signal - step.out.start;
+    for &(at, len) in &step.ports {
+        if within < len as usize {
+            return source_of(program, at as usize + within);
+        }
+        within -= len as usize;
+    }
+    signal
+}
+
+/// See [`ControlDiagram::entries`].
+fn entries(wiring: &Wiring) -> Vec<Entry> {
+    let mut list = Vec::new();
+    for (name, range, unit) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {
+        let unit: std::borrow::Cow<'static, str> = unit.map_or("".into(), |u| u.to_string().into());
+        match range.len() {
+            1 => list.push(Entry { name, unit, probe: Probe::Signal(range.start) }),
+            _ => list.extend(range.clone().map(|k| Entry {
+                name: format!("{name}[{}]", k - range.start),
+                unit: unit.clone(),
+                probe: Probe::Signal(k),
+            })),
+        }
+    }
+    list
+}
+
+/// Where in the file a problem of the compiler is.
+fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place) -> Location {
+    let (mut origin, mut diagram) = (origin, diagram);
+    // where sample times may be given, outermost first
+    let mut times = vec!["/sample_time".to_owned()];
+    for name in &place.diagram {
+        let Some(inner) = origin.inner.get(name) else { break };
+        times.push(format!("{}/sample_time", inner.pointer));
+        if let Some(k) = diagram.entries.iter().rposition(|e| e.name == *name) {
+            times.push(format!("{}/block/{k}/sample_time", origin.pointer));
+        }
+        origin = inner;
+        if let Some(What::Diagram(_, content)) = diagram.entry(name).map(|e| &e.what) {
+            diagram = content;
+        }
+    }
+    let pointer = &origin.pointer;
+    let block = |name: &str| {
+        let k = diagram.entries.iter().rposition(|e| e.name == *name)?;
+        Some(format!("{pointer}/block/{k}"))
+    };
+    match &place.what {
+        Spot::Entry(name) => block(name).map_or_else(|| document.at(pointer), |p| document.title_at(&p)),
+        Spot::SampleTime(name) => {
+            times.extend(block(name).map(|p| format!("{p}/sample_time")));
+            let found = times.into_iter().rev().find(|p| document.get(p).is_some());
+            found.map_or_else(
+                || block(name).map_or(document.at(pointer), |p| document.title_at(&p)),
+                |p| document.at(&p),
+            )
+        }
+        Spot::Unit(name) => block(name).map_or_else(
+            || document.at(pointer),
+            |p| {
+                let unit = format!("{p}/unit");
+                if document.get(&unit).is_some() { document.at(&unit) } else { document.title_at(&p) }
+            },
+        ),
+        Spot::From(k) | Spot::To(k) => match origin.wires.get(*k) {
+            Some((text, from, to)) => {
+                let span = if matches!(place.what, Spot::From(_)) { from } else { to };
+                read::within(&document.at(&format!("{pointer}/wires/{text}")), span)
+            }
+            None => document.at(&format!("{pointer}/wires")),
+        },
+        Spot::Port(_) => document.at(&format!("{pointer}/outputs")),
+    }
+}

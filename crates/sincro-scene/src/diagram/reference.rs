@@ -1,0 +1,215 @@
+//! The reference of all blocks, from what they say of themselves: `docs/blocks.md` and `sincro blocks`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use sincro_blocks::instance::Template;
+use sincro_blocks::kind::{Group, Kind, Parameter, Takes};
+use sincro_blocks::library;
+use sincro_blocks::reader::{NoFiles, Reader, Value};
+use sincro_dynamics::model::Model;
+
+use super::robot;
+
+/// All kinds of blocks, shelf by shelf.
+#[must_use]
+pub fn kinds() -> Vec<&'static Kind> {
+    let of_library = library::all().map(|item| item.kind);
+    let mut kinds: Vec<&'static Kind> = of_library.chain(robot::all().map(|item| item.kind)).collect();
+    kinds.sort_by_key(|kind| kind.group);
+    kinds
+}
+
+/// The reference as Markdown: a section a shelf, in it a section a block.
+#[must_use]
+pub fn reference() -> String {
+    let mut text = String::from(
+        "# The blocks\n\nGenerated from the blocks themselves; `sincro blocks NAME` prints the same. How diagrams are written stands in \
+         [diagrams.md](diagrams.md).\n\nEvery block also takes `unit` and, but for those of the continuous shelf, `sample_time`. Wherever a number stands, a formula of the parameters may \
+         stand in quotes. Most blocks work component by component: their inputs and parameters are single numbers, which then stand for all \
+         components, or vectors of one length.\n",
+    );
+    let mut shelf: Option<Group> = None;
+    for kind in kinds() {
+        if shelf != Some(kind.group) {
+            shelf = Some(kind.group);
+            let _ = write!(text, "\n## {}\n", kind.group.title());
+        }
+        text.push_str(&section(kind));
+    }
+    text
+}
+
+fn section(kind: &'static Kind) -> String {
+    let mut text = format!("\n### {}\n\n{}\n\n`{}`\n", kind.name, kind.summary, kind.equation);
+    if let Some((inputs, outputs)) = ports(kind) {
+        let _ = write!(text, "\nInputs: {inputs}. Outputs: {outputs}.\n");
+    }
+    if !kind.parameters.is_empty() {
+        text.push_str("\n| parameter | takes | meaning | default |\n|---|---|---|---|\n");
+        for p in kind.parameters {
+            let default = default(p)
+                .map_or_else(|| "must be given".into(), |d| if d.is_empty() { "—".into() } else { format!("`{d}`") });
+            let meaning = p.meaning.replace('|', "\\|");
+            let _ = writeln!(text, "| `{}` | {} | {meaning} | {default} |", p.name, takes(p.takes));
+        }
+    }
+    text
+}
+
+/// A block as it is printed on a terminal, with an example for a diagram file.
+#[must_use]
+pub fn page(kind: &'static Kind) -> String {
+    let mut text = format!("{} ({})\n  {}\n  {}\n", kind.name, kind.group.title(), kind.summary, kind.equation);
+    if let Some((inputs, outputs)) = ports(kind) {
+        let _ = write!(text, "ports\n  inputs: {}\n  outputs: {}\n", inputs.replace('`', ""), outputs.replace('`', ""));
+    }
+    text.push_str("parameters\n");
+    let width = kind.parameters.iter().map(|p| p.name.len()).chain(["sample_time".len()]).max().unwrap_or(0);
+    for p in kind.parameters {
+        let default = match default(p).as_deref() {
+            None => ", must be given".to_owned(),
+            Some("") => String::new(),
+            Some(default) => format!(", default {default}"),
+        };
+        let _ = writeln!(text, "  {:<width$}  {}: {}{default}", p.name, takes(p.takes), p.meaning);
+    }
+    if kind.group != Group::Continuous {
+        let _ =
+            writeln!(text, "  {:<width$}  number: time between two samples, a multiple of the step [s]", "sample_time");
+    }
+    let _ = writeln!(text, "  {:<width$}  text: unit of its outputs, such as N·m", "unit");
+    let _ = write!(text, "example\n{}", example(kind));
+    text
+}
+
+/// A block as it stands in a file, with what must be given.
+fn example(kind: &Kind) -> String {
+    let mut text = format!("  [[block]]\n  name = \"{}1\"\n  type = \"{}\"\n", kind.name.replace('-', "_"), kind.name);
+    for p in kind.parameters.iter().filter(|p| p.default.is_none()) {
+        let _ = writeln!(text, "  {} = {}", p.name, written(p));
+    }
+    text
+}
+
+/// Something that a parameter could be.
+fn written(parameter: &Parameter) -> String {
+    match parameter.takes {
+        Takes::Choice(words) => format!("\"{}\"", words[0]),
+        Takes::Number | Takes::Positive | Takes::Numbers => "1.0".into(),
+        Takes::Count => "1".into(),
+        Takes::Matrix => "[[1.0]]".into(),
+        Takes::Flag => "true".into(),
+        Takes::Text => "\"…\"".into(),
+        Takes::Texts => "[\"…\"]".into(),
+        Takes::Names => "{ x = 1.0 }".into(),
+        Takes::File => "\"table.csv\"".into(),
+    }
+}
+
+/// Names of inputs and outputs with as few parameters as can be given; none where that does not say it.
+fn ports(kind: &'static Kind) -> Option<(String, String)> {
+    let template = least(kind)?;
+    let ports = template.ports();
+    let list = |names: &[String]| match names {
+        [] => "none".to_owned(),
+        names => names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", "),
+    };
+    Some((list(&ports.inputs), list(&ports.outputs)))
+}
+
+/// The block with as few parameters as it needs.
+fn least(kind: &'static Kind) -> Option<Box<dyn Template>> {
+    let value = |p: &Parameter| match p.takes {
+        Takes::Choice(words) => Value::from(words[0]),
+        Takes::Flag => Value::Flag(true),
+        Takes::Text | Takes::File => Value::from("u"),
+        Takes::Texts => vec!["u"].into(),
+        Takes::Names => Value::Table(Vec::new()),
+        Takes::Matrix => Value::List(vec![vec![1.0].into()]),
+        _ => Value::Number(1.0),
+    };
+    let required = kind.parameters.iter().filter(|p| p.default.is_none());
+    let mut given: BTreeMap<String, Value> = required.map(|p| (p.name.to_owned(), value(p))).collect();
+    // where one of several must be given
+    let pair = || Value::from(vec![0.0, 1.0]);
+    let more: Vec<(&str, Value)> = match kind.name {
+        "sine" => vec![("frequency_hz", 1.0.into())],
+        "table" => vec![("times", pair()), ("values", pair())],
+        "expression" => vec![("expression", "u".into())],
+        "lua" => vec![("code", "function output(t, u, memory) return u.u end".into())],
+        "lookup-table" => vec![("breakpoints", pair()), ("values", pair())],
+        _ => Vec::new(),
+    };
+    given.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
+    let scope = BTreeMap::new();
+    let mut reader = Reader::new(kind, &given, &scope, &NoFiles);
+    let template = match library::find(kind.name) {
+        Some(item) => (item.read)(&mut reader),
+        None => {
+            let context = robot::Context { parser: None, model: Arc::new(one_joint()?) };
+            (robot::find(kind.name)?.read)(&mut reader, &context)
+        }
+    };
+    // a frame that is not there does not change the ports; anything else may
+    (reader.finish().is_empty() || matches!(kind.group, Group::Robot | Group::Scripts)).then_some(template)
+}
+
+/// A model for blocks that need one.
+fn one_joint() -> Option<Model<f64>> {
+    let text = "joint = [{ name = \"j\", kind = \"revolute\" }]\n\
+                body = [{ name = \"b\", parent = \"/j\", mass = 1, inertia = { xx = 1, yy = 1, zz = 1 } }]";
+    let scene = crate::scene::from_text(text).ok()?;
+    Some((*scene.model).clone())
+}
+
+/// The default as it is shown; empty if it means that nothing is given, none if the parameter must be given.
+fn default(parameter: &Parameter) -> Option<String> {
+    parameter.default.map(|text| match text {
+        "none" if !matches!(parameter.takes, Takes::Choice(_)) => String::new(),
+        "" | "[]" => String::new(),
+        text => text.to_owned(),
+    })
+}
+
+fn takes(takes: Takes) -> String {
+    match takes {
+        Takes::Number => "number".into(),
+        Takes::Positive => "number > 0".into(),
+        Takes::Count => "whole number".into(),
+        Takes::Numbers => "number or list".into(),
+        Takes::Matrix => "rows of numbers".into(),
+        Takes::Flag => "true or false".into(),
+        Takes::Text => "text".into(),
+        Takes::Texts => "list of texts".into(),
+        Takes::Names => "names and values".into(),
+        Takes::Choice(words) => words.join(", "),
+        Takes::File => "CSV file".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// The committed reference must be the one the blocks give; `SINCRO_BLESS=1` rewrites it.
+    #[test]
+    fn committed_reference_is_that_of_the_blocks() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/blocks.md");
+        if std::env::var_os("SINCRO_BLESS").is_some() {
+            std::fs::write(&path, reference()).unwrap();
+        }
+        let committed = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(committed == reference(), "{} is out of date: run the tests with SINCRO_BLESS=1", path.display());
+    }
+
+    #[test]
+    fn every_block_has_a_page_with_an_example() {
+        for kind in kinds() {
+            let page = page(kind);
+            assert!(page.contains(&format!("type = \"{}\"", kind.name)) && page.contains(kind.summary), "{page}");
+        }
+    }
+}

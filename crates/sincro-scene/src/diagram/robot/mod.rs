@@ -1,0 +1,119 @@
+//! Robot blocks: what the model knows, for use in a controller.
+//!
+//! `q` are all coordinates of the scene's model and `v` all velocities, in the order of `world.q` and `world.v`. Springs, dampers and friction
+//! are no part of inverse dynamics, gravity torque and mass matrix; the armature of motors is part of the mass matrix.
+
+mod forward_kinematics;
+mod gravity_torque;
+mod inverse_dynamics;
+mod jacobian;
+mod mass_matrix;
+
+use std::sync::Arc;
+
+use sincro_blocks::instance::Template;
+use sincro_blocks::kind::Kind;
+use sincro_blocks::reader::Reader;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::scratch::Scratch;
+use sincro_math::Real;
+
+use crate::script::ScriptParser;
+
+pub use forward_kinematics::ForwardKinematics;
+pub use gravity_torque::GravityTorque;
+pub use inverse_dynamics::InverseDynamics;
+pub use jacobian::{Jacobian, Rows as JacobianRows};
+pub use mass_matrix::MassMatrix;
+
+/// What robot blocks are made with.
+#[derive(Clone, Debug)]
+pub struct Context {
+    /// Parser of laws that are written in a script's language, if this program has one.
+    pub parser: Option<&'static dyn ScriptParser>,
+    /// The scene's model.
+    pub model: Arc<Model<f64>>,
+}
+
+/// A kind of block and how one is made from parameters and the model.
+#[derive(Clone, Copy, Debug)]
+pub struct Item {
+    /// Its description.
+    pub kind: &'static Kind,
+    /// Makes one.
+    pub read: fn(&mut Reader<'_>, &Context) -> Box<dyn Template>,
+}
+
+/// All blocks that are made here and not in the library.
+pub fn all() -> impl Iterator<Item = &'static Item> {
+    const SHELF: &[Item] = &[
+        forward_kinematics::ITEM,
+        jacobian::ITEM,
+        inverse_dynamics::ITEM,
+        gravity_torque::ITEM,
+        mass_matrix::ITEM,
+        super::lua::ITEM,
+    ];
+    SHELF.iter()
+}
+
+/// The block of a name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Item> {
+    all().find(|item| item.kind.name == name)
+}
+
+/// The model on the numbers that a diagram runs on, with memory for its algorithms; made when the block is.
+#[derive(Clone, Debug, Default)]
+pub struct Robot<R>(Option<Box<Parts<R>>>);
+
+#[derive(Clone, Debug)]
+struct Parts<R> {
+    model: Model<R>,
+    scratch: Scratch<R>,
+    zero: Vec<R>,
+}
+
+impl<R: Real> Robot<R> {
+    fn new(model: &Model<f64>) -> Self {
+        let model = Model::pack(&[model]).expect("one model has one structure");
+        let scratch = Scratch::new(&model);
+        let zero = vec![R::zero(); model.n_v()];
+        Self(Some(Box::new(Parts { model, scratch, zero })))
+    }
+
+    /// Model, scratch, and as many zeros as there are velocities.
+    fn parts(&mut self) -> (&Model<R>, &mut Scratch<R>, &[R]) {
+        let Parts { model, scratch, zero } = &mut **self.0.as_mut().expect("made with the block");
+        (model, scratch, zero)
+    }
+}
+
+/// A frame of the model, named by a parameter.
+fn frame(reader: &mut Reader<'_>, context: &Context) -> usize {
+    let path = reader.text("frame");
+    let frames = &context.model.names().frames;
+    match frames.iter().position(|f| f.name == path) {
+        Some(k) => k,
+        None => {
+            let near = crate::suggest::nearest(&path, frames.iter().map(|f| f.name.as_str()));
+            let all = frames.iter().map(|f| format!("`{}`", f.name)).collect::<Vec<_>>().join(", ");
+            let help =
+                near.map_or_else(|| format!("bodies and frames: {all}"), |near| format!("did you mean `{near}`?"));
+            reader.fault("frame", format!("there is no body or frame `{path}`"), help);
+            0
+        }
+    }
+}
+
+/// Inputs that must be as wide as the model's vectors are.
+fn check_widths(inputs: &[Option<usize>], wanted: &[(&str, usize)]) -> Result<(), String> {
+    for (given, (name, width)) in inputs.iter().zip(wanted) {
+        if let Some(given) = given
+            && given != width
+        {
+            return Err(format!("`{name}` has {given} components, the model has {width}"));
+        }
+    }
+    Ok(())
+}

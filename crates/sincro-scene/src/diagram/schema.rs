@@ -1,0 +1,60 @@
+//! The schema of diagram files: that of the structure from its types, that of every block's parameters from the library.
+
+use std::sync::LazyLock;
+
+use serde_json::{Map, Value, json};
+use sincro_blocks::kind::{Kind, Parameter, Takes};
+use sincro_blocks::library;
+
+use super::{DiagramFile, robot};
+use crate::schema::generate;
+
+/// JSON Schema of `diagram.toml`.
+pub fn diagram_schema() -> &'static Value {
+    static SCHEMA: LazyLock<Value> = LazyLock::new(|| with_blocks(generate::<DiagramFile>()));
+    &SCHEMA
+}
+
+/// Adds to the schema of the structure, for each type of block, the parameters that it takes.
+fn with_blocks(mut schema: Value) -> Value {
+    let kinds = library::all().map(|item| item.kind).chain(robot::all().map(|item| item.kind));
+    let rules: Vec<Value> = kinds.map(rule).collect();
+    if let Some(block) = schema.pointer_mut("/$defs/BlockFile").and_then(Value::as_object_mut) {
+        block.insert("allOf".into(), Value::Array(rules));
+    }
+    schema
+}
+
+/// If the block is of this kind, then it takes these parameters.
+fn rule(kind: &Kind) -> Value {
+    let mut properties = Map::new();
+    for parameter in kind.parameters {
+        properties.insert(parameter.name.into(), schema_of(parameter));
+    }
+    let required: Vec<&str> = kind.parameters.iter().filter(|p| p.default.is_none()).map(|p| p.name).collect();
+    let description = format!("{} {}", kind.summary, kind.equation);
+    json!({
+        "if": {"properties": {"type": {"const": kind.name}}},
+        "then": {"description": description, "properties": properties, "required": required}
+    })
+}
+
+fn schema_of(parameter: &Parameter) -> Value {
+    let number = json!(["number", "string"]);
+    let mut schema = match parameter.takes {
+        Takes::Number | Takes::Positive | Takes::Count => json!({"type": number}),
+        Takes::Numbers => json!({"type": ["number", "string", "array"], "items": {"type": number}}),
+        Takes::Matrix => json!({"type": ["number", "string", "array"]}),
+        Takes::Flag => json!({"type": "boolean"}),
+        Takes::Text | Takes::File => json!({"type": "string"}),
+        Takes::Texts => json!({"type": ["string", "array"], "items": {"type": ["string", "number", "array"]}}),
+        Takes::Names => json!({"type": "object"}),
+        Takes::Choice(words) => json!({"enum": words}),
+    };
+    let description = match parameter.default {
+        Some(default) => format!("{} (default {default})", parameter.meaning),
+        None => parameter.meaning.to_owned(),
+    };
+    schema["description"] = description.into();
+    schema
+}

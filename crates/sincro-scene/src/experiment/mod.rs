@@ -1,0 +1,175 @@
+//! What is run, recorded and checked: the experiment file, resolved.
+//!
+//! Names of recorded signals are kept as they were written, with their places; whoever knows the model resolves them.
+
+pub mod check;
+mod checks;
+mod file;
+mod grid;
+mod resolve;
+mod sample_times;
+mod schema;
+pub mod stop;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+pub(crate) use file::ExperimentFile;
+pub(crate) use grid::short;
+pub(crate) use resolve::resolve;
+pub(crate) use sample_times::check_sample_times;
+pub use schema::experiment_schema;
+
+use crate::overrides::Override;
+use crate::problem::{Located, Location};
+use check::{Check, Reference};
+use stop::StopWhen;
+
+/// An experiment: everything about a run but the scene.
+#[derive(Clone, Debug)]
+pub struct Experiment {
+    /// Title of the report.
+    pub title: String,
+    /// What stands under it; may be empty.
+    pub description: String,
+    /// The scene file; the folder is part of it.
+    pub scene_path: PathBuf,
+    /// How long is simulated `[s]`.
+    pub duration: f64,
+    /// Base step `[s]`.
+    pub step: f64,
+    /// Base steps in `duration`; at least one.
+    pub n_steps: u64,
+    /// Base steps from one call of the scripts to the next, and in one step of remote clients; at least one.
+    pub simulation_ticks: u64,
+    /// Base steps for each recorded row; at least one.
+    pub record_every: u64,
+    /// How the equations of motion are integrated.
+    pub integrator: Integrator,
+    /// Local tolerance of the variable-step methods.
+    pub accuracy: f64,
+    /// How the error bar of the recorded signals is found.
+    pub error_bar: ErrorBar,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Names of the recorded signals; not empty, no name twice.
+    pub record: Vec<Located<String>>,
+    /// Names and numbers for formulas.
+    pub parameters: BTreeMap<String, f64>,
+    /// Where the run ends before its duration.
+    pub stops: Vec<StopWhen>,
+    /// What must come out of the run.
+    pub checks: Vec<Check>,
+    /// Repeats the run over a parameter.
+    pub sweep: Option<Sweep>,
+    /// The same experiment with other settings.
+    pub variants: Vec<Variant>,
+    /// Plots of the report; empty if the report is to choose.
+    pub plots: Vec<Plot>,
+}
+
+/// How the equations of motion are integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Integrator {
+    /// Chosen for the scene; second order or better.
+    Auto,
+    /// Semi-implicit Euler at the base step.
+    SemiImplicitEuler,
+    /// The classical Runge–Kutta method at the base step.
+    Rk4,
+    /// Springs and dampers implicit, at the base step.
+    Implicit,
+    /// Explicit pair of order 5(4) with error control.
+    DormandPrince,
+    /// Implicit with error control.
+    Stiff,
+}
+
+impl Integrator {
+    /// The word in the file.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::SemiImplicitEuler => "semi-implicit-euler",
+            Self::Rk4 => "rk4",
+            Self::Implicit => "implicit",
+            Self::DormandPrince => "dormand-prince",
+            Self::Stiff => "stiff",
+        }
+    }
+}
+
+/// How the error bar of the recorded signals is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ErrorBar {
+    /// By a second, finer run.
+    Refine,
+    /// Not at all.
+    None,
+}
+
+/// A static characteristic: the run is repeated over a parameter, and final values are recorded.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// What is varied: a path as for `--set`.
+    pub parameter: Located<String>,
+    /// What takes the same value.
+    pub also: Vec<Located<String>>,
+    /// Its values, in the order in which they are run.
+    pub values: Vec<f64>,
+    /// What must come out over the whole sweep.
+    pub checks: Vec<Check>,
+}
+
+impl Sweep {
+    /// The settings for one value, to be added to those the experiment was loaded with.
+    pub fn settings(&self, value: f64) -> impl Iterator<Item = Override> {
+        std::iter::once(&self.parameter).chain(&self.also).map(move |path| {
+            let number = Override::new(&path.value, &format!("{value:?}"));
+            Override { path: path.clone(), ..number }
+        })
+    }
+}
+
+/// The same experiment with other settings: load it again with `set` added to the settings.
+///
+/// Its checks then stand in that experiment's variant of the same name, with the variant's parameters.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Short name, letters, digits, `_`, `-` and `.`; none twice.
+    pub name: String,
+    /// What is different; may be empty.
+    pub description: String,
+    /// The settings, in the order of their paths.
+    pub set: Vec<Override>,
+    /// Whether the main run's checks are also made on the variant.
+    pub inherit_checks: bool,
+    /// What must come out of the variant.
+    pub checks: Vec<Check>,
+    /// Its name in the file.
+    pub location: Location,
+}
+
+/// A plot of the report.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// Its title.
+    pub title: String,
+    /// Whether it shows paths in space: its signals are then vectors, see [`path_components`].
+    pub is_path: bool,
+    /// Recorded signals, one line each; at least one.
+    pub signals: Vec<Located<String>>,
+    /// Drawn over the first signal; if none is given, what the checks compare that signal with.
+    pub reference: Option<Reference>,
+    /// Whether the panel below shows how the variants differ from the main run; none: as it fits.
+    pub compares_variants: Option<bool>,
+    /// Names of the variants that are drawn; none: all.
+    pub variants: Option<Vec<String>>,
+}
+
+/// Names that the components of a vector in space may be recorded under: `/drone.position.x` …, or `block[0]` ….
+#[must_use]
+pub fn path_components(vector: &str) -> [[String; 3]; 2] {
+    [["x", "y", "z"].map(|a| format!("{vector}.{a}")), ["0", "1", "2"].map(|k| format!("{vector}[{k}]"))]
+}

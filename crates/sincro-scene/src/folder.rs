@@ -1,0 +1,128 @@
+//! The folder of an experiment: reads the text files in it, each once, with clear words when it cannot.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::io::{ErrorKind, Read};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use crate::problem::{Located, Problem, SourceText};
+use crate::suggest;
+
+/// Largest file that is read [bytes]: whatever is larger is not a scene, and would be read into memory whole.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// A folder whose files have been read once at most.
+#[derive(Debug, Default)]
+pub struct Folder {
+    path: PathBuf,
+    read: RefCell<BTreeMap<PathBuf, Arc<SourceText>>>,
+}
+
+impl Folder {
+    /// The folder at `path`; nothing is read yet.
+    pub fn new(path: &Path) -> Self {
+        Self { path: path.to_owned(), read: RefCell::default() }
+    }
+
+    /// Path of a file of the folder as it is shown.
+    pub fn path_of(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Text of a file of the folder that is named nowhere in a file.
+    pub fn read(&self, name: &str) -> Result<Arc<SourceText>, Problem> {
+        self.text(name).map_err(Problem::nowhere)
+    }
+
+    /// Text of a file that is named in a file, there where it is named.
+    pub fn read_named(&self, name: &Located<String>) -> Result<Arc<SourceText>, Problem> {
+        self.named(name, |path| self.text(path))
+    }
+
+    fn named<T>(&self, name: &Located<String>, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Problem> {
+        let path = Path::new(&name.value);
+        if path.components().any(|c| matches!(c, Component::RootDir | Component::Prefix(_))) {
+            let problem = Problem::error(&name.at, format!("the path `{}` is absolute", name.value));
+            return Err(problem.with_help("give it relative to the folder, so that the folder can be moved"));
+        }
+        read(&name.value).map_err(|message| {
+            let problem = Problem::error(&name.at, message);
+            match self.neighbours(path) {
+                Some(help) => problem.with_help(help),
+                None => problem,
+            }
+        })
+    }
+
+    /// Bytes of a file that is named in a file, whatever is in it; not kept.
+    pub fn bytes_named(&self, name: &Located<String>) -> Result<Vec<u8>, Problem> {
+        self.named(name, |path| read_bytes(&self.path_of(path)))
+    }
+
+    /// Every file read so far.
+    pub fn sources(&self) -> Vec<Arc<SourceText>> {
+        self.read.borrow().values().cloned().collect()
+    }
+
+    fn text(&self, name: &str) -> Result<Arc<SourceText>, String> {
+        let path = self.path_of(name);
+        if let Some(known) = self.read.borrow().get(&path) {
+            return Ok(known.clone());
+        }
+        let source = Arc::new(SourceText { text: read_text(&path)?, path: path.clone() });
+        self.read.borrow_mut().insert(path, source.clone());
+        Ok(source)
+    }
+
+    /// A help that names files of the same kind beside one that is not there.
+    fn neighbours(&self, missing: &Path) -> Option<String> {
+        let path = self.path.join(missing);
+        let beside = std::fs::read_dir(path.parent()?).ok()?;
+        let mut names: Vec<String> = beside
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .filter(|name| Path::new(name).extension() == missing.extension())
+            .collect();
+        names.sort();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        (!names.is_empty()).then(|| suggest::help(missing.to_str().unwrap_or(""), &names, "files there"))
+    }
+}
+
+/// Reads a whole file, or says in words why not.
+fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
+    let shown = path.display();
+    let refused = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => format!("there is no file `{shown}`"),
+        ErrorKind::PermissionDenied => format!("`{shown}` may not be read (permission denied)"),
+        _ => format!("`{shown}` cannot be read: {error}"),
+    };
+    let metadata = std::fs::metadata(path).map_err(refused)?;
+    if !metadata.is_file() {
+        let what = if metadata.is_dir() { "a folder" } else { "a device or pipe" };
+        return Err(format!("`{shown}` is {what}, not a file"));
+    }
+    let too_large = |n: u64| format!("`{shown}` has {n} bytes, more than {} MiB", MAX_BYTES >> 20);
+    if metadata.len() > MAX_BYTES {
+        return Err(too_large(metadata.len()));
+    }
+    let mut bytes = Vec::new();
+    // what grows while it is read is cut off too
+    let file = std::fs::File::open(path).map_err(refused)?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(refused)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(too_large(bytes.len() as u64));
+    }
+    Ok(bytes)
+}
+
+/// Reads a whole text file, or says in words why not.
+fn read_text(path: &Path) -> Result<String, String> {
+    let (bytes, shown) = (read_bytes(path)?, path.display());
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count();
+        format!("`{shown}` is not UTF-8 text (line {line})")
+    })?;
+    // a byte-order mark of an editor is no part of the text
+    Ok(text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned))
+}

@@ -1,0 +1,168 @@
+//! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is linearised.
+
+use sincro_dynamics::attachment::{Response, Seen};
+use sincro_dynamics::energy::{energy, momentum};
+use sincro_dynamics::force::rotor::{Hub, Load, Validity};
+use sincro_dynamics::force::{damper, spring};
+use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::model::Model;
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::Observation;
+use sincro_math::Real;
+
+use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
+
+/// What a measurement is taken of.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a, R> {
+    /// Time `[s]`.
+    pub t: f64,
+    /// The model.
+    pub model: &'a Model<R>,
+    /// Coordinates.
+    pub q: &'a [R],
+    /// Velocities.
+    pub v: &'a [R],
+    /// States of rotors.
+    pub rotors: &'a [R],
+    /// As latched; empty where they are not known yet.
+    pub commands: &'a [R],
+    /// With the kinematics at (q, v), where a probe needs them.
+    pub scratch: &'a Scratch<R>,
+}
+
+impl<'a, R> View<'a, R> {
+    /// Of what an attachment sees.
+    pub fn of(seen: &'a Seen<'_, R>) -> Self {
+        let &Seen { t, model, q, v, rotors, commands, ref scratch } = seen;
+        Self { t, model, q, v, rotors, commands, scratch }
+    }
+}
+
+impl<'a> View<'a, f64> {
+    /// Of a world that is observed.
+    pub fn observed(seen: &'a Observation<'_>, t: f64) -> Self {
+        let State { q, v, rotors, commands, .. } = seen.state;
+        Self { t, model: seen.model(), q, v, rotors, commands, scratch: seen.scratch() }
+    }
+}
+
+/// Whether a probe needs the poses and twists of links.
+pub fn needs_kinematics(probe: Probe) -> bool {
+    matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
+}
+
+/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks only.
+pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
+    let model = at.model;
+    Some(match probe {
+        Probe::Coordinate(i) => at.q[i],
+        Probe::Rate(k) => at.v[k],
+        Probe::SpringTorque(k) => {
+            let dof = &model.dofs()[k];
+            spring::torque(dof, at.q[dof.coordinate().expect("a scalar joint")])
+        }
+        Probe::DampingTorque(k) => damper::torque(&model.dofs()[k], at.v[k]),
+        Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
+        Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
+        Probe::Energy(EnergyQuantity::Kinetic) => energy(model, at.q, at.v, at.scratch).kinetic,
+        Probe::Energy(EnergyQuantity::Potential) => energy(model, at.q, at.v, at.scratch).potential,
+        Probe::Energy(EnergyQuantity::Total) => energy(model, at.q, at.v, at.scratch).total(),
+        Probe::Momentum(k) if k < 3 => momentum(model, at.scratch).ang[k],
+        Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
+        Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
+        Probe::Drag(k, component) => drag(at, k)[component],
+        Probe::Wind(k) => {
+            let wind = model.wind()?;
+            wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
+        }
+        _ => return None,
+    })
+}
+
+/// A measurement that depends on the commands; after kinematics with the accelerations.
+pub fn of_response<R: Real>(at: &View<'_, R>, response: Response<'_, R>, probe: Probe) -> Option<R> {
+    Some(match probe {
+        Probe::Acceleration(k) => response.accelerations[k],
+        Probe::MotorTorqueNow(m) => response.motor_torque[m],
+        Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
+        Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
+            kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
+        }
+        _ => return None,
+    })
+}
+
+/// Whether what a rotor does changes at once when its command does.
+pub fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuantity, rotor: usize) -> bool {
+    quantity != RotorQuantity::Speed && model.rotors()[rotor].speed.follows_at_once()
+}
+
+/// Speed and load of a rotor, and how the air meets it.
+pub fn rotor<'a, R: Real>(at: &View<'a, R>, k: usize) -> (R, Load<R>, Hub<'a, R>) {
+    let rotor = &at.model.rotors()[k];
+    let speed = rotor.speed.value(at.v, at.commands, at.rotors);
+    let air = at.model.wind().map(|wind| wind.at(at.t));
+    let hub = rotor.hub(&at.scratch.twist(rotor.link), &at.scratch.link_poses()[rotor.link], air.as_ref());
+    (speed, rotor.load(speed, at.rotors, &hub), hub)
+}
+
+fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
+    if quantity == RotorQuantity::Speed {
+        return at.model.rotors()[k].speed.value(at.v, at.commands, at.rotors);
+    }
+    let (speed, load, hub) = rotor(at, k);
+    match quantity {
+        RotorQuantity::Speed => speed,
+        RotorQuantity::Thrust => load.thrust,
+        RotorQuantity::Torque => load.torque,
+        RotorQuantity::Inflow => load.inflow,
+        RotorQuantity::Power => load.power,
+        RotorQuantity::Valid => match at.model.rotors()[k].validity(speed, &hub, &load) {
+            Validity::Valid => R::one(),
+            _ => R::zero(),
+        },
+    }
+}
+
+/// Force of a drag element, world axes `[N]`.
+pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
+    let drag = &at.model.drags()[k];
+    let x_wl = &at.scratch.link_poses()[drag.link];
+    let air = at.model.wind().map(|wind| wind.at(at.t));
+    let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref())).force;
+    x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
+}
+
+/// Where a frame of the model is fixed.
+pub fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
+    let info = &model.names().frames[frame];
+    let rot = Mat3(info.pose.rot.0.map(|row| row.map(R::splat)));
+    Attached { link: info.link, pose: Pose { rot, pos: Vec3(info.pose.pos.0.map(R::splat)) } }
+}
+
+fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, component: usize) -> R {
+    let fixed = attached(at.model, frame);
+    let pose = || kinematics::frame_pose(at.scratch, &fixed);
+    match quantity {
+        FrameQuantity::Position => pose().pos[component],
+        FrameQuantity::Quaternion => {
+            let q = Quat::from_matrix(&pose().rot);
+            [q.w, q.xyz[0], q.xyz[1], q.xyz[2]][component]
+        }
+        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&pose().rot)[component],
+        FrameQuantity::Velocity => kinematics::frame_velocity(at.scratch, &fixed).lin[component],
+        FrameQuantity::AngularVelocity => kinematics::frame_velocity(at.scratch, &fixed).ang[component],
+        FrameQuantity::Acceleration => kinematics::frame_acceleration(at.scratch, &fixed).lin[component],
+        FrameQuantity::Wind => {
+            let height = pose().pos[2];
+            at.model.wind().map_or(R::zero(), |wind| wind.velocity(at.t, height)[component])
+        }
+        FrameQuantity::CenterOfMass => {
+            let com = at.model.names().frames[frame].body.map_or([0.0; 3], |(com, _)| com);
+            pose().point(Vec3(com.map(R::splat)))[component]
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! Triangle meshes from files: STL, binary and text, and Wavefront OBJ; what of them makes a solid.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::contact::polyhedron::{self, Flaw};
+use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::spatial::Pose;
+
+use super::body;
+use super::file::{BodyFile, MeshFile, OneOrList};
+use super::placement::{self, Placement};
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Located, Location, Problem, Problems, SourceText};
+
+/// Flaws of one mesh that are told one by one.
+const TOLD: usize = 4;
+
+/// Corners of a hull beyond which contact would take too long: each may touch.
+const MAX_HULL: usize = 512;
+
+/// Bytes of a binary STL before its triangles, and of each of them.
+const STL_HEAD: usize = 84;
+const STL_TRIANGLE: usize = 50;
+
+/// Corners `[m]` and triangles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Triangles {
+    /// Corners `[m]`.
+    pub corners: Vec<[f64; 3]>,
+    /// Corners of each triangle, by index.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A mesh of a body.
+#[derive(Clone, Debug)]
+pub(super) struct MeshInstance {
+    mesh: Triangles,
+    is_convex: bool,
+    /// In the body's frame.
+    pub pose: Pose<f64>,
+    /// [kg/m³], if it has one.
+    pub density: Option<f64>,
+    /// In pictures.
+    pub color: Option<[u8; 3]>,
+}
+
+impl MeshInstance {
+    /// In the body's frame.
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        let own = polyhedron::mass_properties(&self.mesh.corners, &self.mesh.triangles, density);
+        own.placed(&self.pose.rot, self.pose.pos)
+    }
+
+    /// What it touches others with.
+    pub fn surface(&self) -> Surface {
+        if self.is_convex {
+            return Surface::Hull(self.mesh.corners.clone());
+        }
+        Surface::Mesh(self.mesh.corners.clone(), self.mesh.triangles.clone())
+    }
+}
+
+/// The meshes of a body; those that enclose no volume are refused.
+pub(super) fn meshes(
+    file: &BodyFile,
+    pointer: &str,
+    document: &Document,
+    folder: &Folder,
+    problems: &mut Problems,
+) -> Vec<MeshInstance> {
+    let mut list = Vec::new();
+    for (k, shape) in file.shape.iter().enumerate() {
+        let Some(mesh) = &shape.mesh else { continue };
+        let pointer = format!("{pointer}/shape/{k}");
+        let named = Located { value: mesh.file.clone(), at: document.at(&format!("{pointer}/mesh/file")) };
+        let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
+        let pose = placement::pose(&placement, &pointer, document, problems);
+        let scale = mesh.scale.as_ref().map_or(&[1.0][..], OneOrList::as_slice);
+        if !matches!(scale.len(), 1 | 3) || !scale.iter().all(|x| *x > 0.0) {
+            let at = document.at(&format!("{pointer}/mesh/scale"));
+            let problem = Problem::error(&at, format!("`scale` of the mesh `{}` is {scale:?}", mesh.file));
+            problems.push(problem.with_help("give a positive number, or one for x, y and z; 0.001 for millimetres"));
+            continue;
+        }
+        match read(&named, mesh, scale, folder) {
+            Ok(found) => {
+                let density = shape.density.or(file.density);
+                let color = shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, problems));
+                list.push(MeshInstance { mesh: found, is_convex: mesh.convex, pose, density, color });
+            }
+            Err(found) => found.into_iter().for_each(|p| problems.push(p)),
+        }
+    }
+    list
+}
+
+/// The mesh of a file, scaled; its hull if that is asked for.
+fn read(named: &Located<String>, file: &MeshFile, scale: &[f64], folder: &Folder) -> Result<Triangles, Vec<Problem>> {
+    let bytes = folder.bytes_named(named).map_err(|p| vec![p])?;
+    let found = triangles_of(&bytes, &folder.path_of(&named.value));
+    // what has no place of its own in the file stands where the file is named
+    let found = found.map_err(|p| match p.source {
+        Some(_) => vec![p],
+        None => {
+            vec![Problem { help: p.help, ..Problem::error(&named.at, format!("`{}`: {}", named.value, p.message)) }]
+        }
+    })?;
+    let corners = found.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c.min(scale.len() - 1)]));
+    let found = Triangles { corners: corners.collect(), triangles: found.triangles };
+    if file.convex { convex(&found, named) } else { closed(found, named) }
+}
+
+/// The triangles of a file's bytes; its name tells what it is.
+fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Problem> {
+    let source = |text: &str| Arc::new(SourceText { path: path.to_path_buf(), text: text.to_owned() });
+    let lower = path.to_string_lossy().to_lowercase();
+    if lower.ends_with(".stl") {
+        stl(bytes, &source)
+    } else if lower.ends_with(".obj") {
+        text_of(bytes).and_then(|text| obj(text, &source(text)))
+    } else {
+        Err(Problem::nowhere("a mesh is an STL or an OBJ file").with_help("name a file that ends in .stl or .obj"))
+    }
+}
+
+/// Largest mesh file that is read for clients and scripts.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The triangles of a mesh file; what is wrong, in a sentence.
+///
+/// # Errors
+///
+/// The file cannot be read, is too large, or is no mesh.
+pub fn mesh_of_file(path: &Path) -> Result<Triangles, String> {
+    let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
+    if size > MOST_BYTES {
+        return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MOST_BYTES >> 20));
+    }
+    let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
+    triangles_of(&bytes, path).map_err(|problem| problem.message)
+}
+
+fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {
+    let refuse = |message: String, help: &str| Err(vec![Problem::error(&named.at, message).with_help(help)]);
+    match polyhedron::hull(&mesh.corners) {
+        None => refuse(
+            format!("the convex hull of `{}` has no volume", named.value),
+            "its corners are finite, and do not all lie in one plane",
+        ),
+        Some((corners, _)) if corners.len() > MAX_HULL => refuse(
+            format!("the convex hull of `{}` has {} corners, more than {MAX_HULL}", named.value, corners.len()),
+            "each corner may touch: simplify the mesh, or use a sphere, capsule or cylinder",
+        ),
+        Some((corners, triangles)) => Ok(Triangles { corners, triangles }),
+    }
+}
+
+fn closed(mesh: Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {
+    let flaws = polyhedron::flaws(&mesh.corners, &mesh.triangles);
+    if flaws.is_empty() {
+        return Ok(mesh);
+    }
+    let told = flaws.iter().take(TOLD).map(|flaw| {
+        let (message, help) = words(flaw);
+        Problem::error(&named.at, format!("the mesh `{}` {message}", named.value)).with_help(help)
+    });
+    let mut problems: Vec<Problem> = told.collect();
+    if let Some(last) = problems.last_mut().filter(|_| flaws.len() > TOLD) {
+        last.message += &format!(" (and {} flaws more)", flaws.len() - TOLD);
+    }
+    Err(problems)
+}
+
+/// Triangles are counted from 1, in the order of the file.
+fn words(flaw: &Flaw) -> (String, &'static str) {
+    let run = |[a, b]: &[[f64; 3]; 2]| format!("from {} to {}", triple(a), triple(b));
+    match flaw {
+        Flaw::NotFinite { corner } => {
+            (format!("is not finite: corner {}", corner + 1), "every coordinate is a finite number")
+        }
+        Flaw::TooFew => ("has fewer than four triangles".into(), "a closed mesh has four triangles at least"),
+        Flaw::Flat { triangle } => (
+            format!("has a triangle without area: number {}", triangle + 1),
+            "remove it, and join the corners that coincide",
+        ),
+        Flaw::Open { triangle, edge } => (
+            format!("is not closed: no other triangle has the edge of triangle {} {}", triangle + 1, run(edge)),
+            "every edge belongs to two triangles: fill the hole, or take the hull with convex = true",
+        ),
+        Flaw::Twice { triangles: [a, b], edge } => (
+            format!("is not closed: triangles {} and {} run along the edge {} the same way", a + 1, b + 1, run(edge)),
+            "all triangles are counter-clockwise seen from outside: turn one of them over, or separate what touches in an edge",
+        ),
+        Flaw::InsideOut { volume } => (
+            format!("is inside out: its volume is {volume} m³"),
+            "all triangles are counter-clockwise seen from outside: turn them all over (recalculate the normals)",
+        ),
+    }
+}
+
+fn triple(p: &[f64; 3]) -> String {
+    format!("({}, {}, {})", p[0], p[1], p[2])
+}
+
+fn text_of(bytes: &[u8]) -> Result<&str, Problem> {
+    let refused = |_| Problem::nowhere("it is not UTF-8 text").with_help("an OBJ file is text; export it again");
+    std::str::from_utf8(bytes).map_err(refused)
+}
+
+/// Collects triangles whose corners are given again and again; the same bits are the same corner.
+#[derive(Default)]
+struct Weld {
+    mesh: Triangles,
+    known: BTreeMap<[u64; 3], u32>,
+}
+
+impl Weld {
+    fn corner(&mut self, p: [f64; 3]) -> u32 {
+        // zero has two signs
+        let key = p.map(|x| (x + 0.0).to_bits());
+        *self.known.entry(key).or_insert_with(|| {
+            self.mesh.corners.push(p);
+            (self.mesh.corners.len() - 1) as u32
+        })
+    }
+}
+
+fn stl(bytes: &[u8], source: &dyn Fn(&str) -> Arc<SourceText>) -> Result<Triangles, Problem> {
+    let count = bytes.get(80..STL_HEAD).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
+    if let Some(n) = count.filter(|n| bytes.len() == STL_HEAD + n * STL_TRIANGLE) {
+        return Ok(binary_stl(&bytes[STL_HEAD..], n));
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) if text.trim_start().starts_with("solid") => text_stl(text, &source(text)),
+        _ => Err(Problem::nowhere(match count {
+            Some(n) => format!(
+                "it is no STL file: its head tells of {n} triangles, which take {} bytes, and it has {}",
+                STL_HEAD + n * STL_TRIANGLE,
+                bytes.len()
+            ),
+            None => format!("it is no STL file: {} bytes", bytes.len()),
+        })
+        .with_help("export it again, as binary STL, text STL or OBJ")),
+    }
+}
+
+fn binary_stl(bytes: &[u8], n: usize) -> Triangles {
+    let mut weld = Weld::default();
+    for record in bytes.chunks_exact(STL_TRIANGLE).take(n) {
+        let number = |k: usize| {
+            let b = &record[4 * k..4 * k + 4];
+            f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        };
+        // after the normal, which says nothing that the corners do not
+        let t = [3, 6, 9].map(|k| weld.corner([number(k), number(k + 1), number(k + 2)]));
+        weld.mesh.triangles.push(t);
+    }
+    weld.mesh
+}
+
+/// A line of a text, in words, for what is wrong in it.
+struct Line<'a> {
+    source: &'a Arc<SourceText>,
+    start: usize,
+    words: Vec<&'a str>,
+    length: usize,
+}
+
+impl Line<'_> {
+    fn refuse<T>(&self, message: String, help: &str) -> Result<T, Problem> {
+        let at = Location { source: self.source.clone(), span: self.start..self.start + self.length };
+        Err(Problem::error(&at, message).with_help(help))
+    }
+
+    /// Three numbers from word `first` on.
+    fn point(&self, first: usize) -> Result<[f64; 3], Problem> {
+        let mut p = [f64::NAN; 3];
+        for (k, x) in p.iter_mut().enumerate() {
+            let Some(word) = self.words.get(first + k) else {
+                return self.refuse(format!("`{}` has fewer than three numbers", self.words[0]), "give x, y and z");
+            };
+            let Ok(number) = word.parse() else {
+                return self.refuse(format!("`{word}` is not a number"), "give x, y and z as decimal numbers");
+            };
+            *x = number;
+        }
+        Ok(p)
+    }
+}
+
+fn lines<'a>(text: &'a str, source: &'a Arc<SourceText>) -> impl Iterator<Item = Line<'a>> {
+    let mut start = 0;
+    text.split_inclusive('\n').filter_map(move |line| {
+        let at = start;
+        start += line.len();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let before = line.len() - line.trim_start().len();
+        (!words.is_empty()).then(|| Line { source, start: at + before, length: line.trim().len(), words })
+    })
+}
+
+fn text_stl(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Problem> {
+    let (mut weld, mut loop_of) = (Weld::default(), Vec::new());
+    for line in lines(text, source) {
+        match line.words[0] {
+            "vertex" => {
+                let p = line.point(1)?;
+                loop_of.push(weld.corner(p));
+            }
+            "endloop" => match loop_of[..] {
+                [a, b, c] => {
+                    weld.mesh.triangles.push([a, b, c]);
+                    loop_of.clear();
+                }
+                _ => return line.refuse(format!("a loop of {} corners", loop_of.len()), "facets are triangles"),
+            },
+            "solid" | "facet" | "outer" | "endfacet" | "endsolid" => {}
+            other => return line.refuse(format!("`{other}` is no word of an STL file"), "export the file again"),
+        }
+    }
+    Ok(weld.mesh)
+}
+
+fn obj(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Problem> {
+    let mut mesh = Triangles::default();
+    for line in lines(text, source) {
+        match line.words[0] {
+            "v" => mesh.corners.push(line.point(1)?),
+            "f" => {
+                let corner = |word: &&str| face_corner(word, mesh.corners.len(), &line);
+                let face = line.words[1..].iter().map(corner).collect::<Result<Vec<u32>, Problem>>()?;
+                if face.len() < 3 {
+                    return line
+                        .refuse(format!("a face of {} corners", face.len()), "a face has three corners or more");
+                }
+                mesh.triangles.extend((1..face.len() - 1).map(|k| [face[0], face[k], face[k + 1]]));
+            }
+            // names, materials, smoothing, texture and normals change no shape
+            "vn" | "vt" | "o" | "g" | "s" | "usemtl" | "mtllib" => {}
+            word if word.starts_with('#') => {}
+            other => {
+                return line.refuse(format!("`{other}` is not read"), "export triangles or polygons only: `v` and `f`");
+            }
+        }
+    }
+    Ok(mesh)
+}
+
+/// A corner of a face, `7`, `7/1`, `7//3` or, counted from the last one, `-1`.
+fn face_corner(word: &str, n: usize, line: &Line<'_>) -> Result<u32, Problem> {
+    let index = word.split('/').next().unwrap_or("").parse::<i64>().ok();
+    let known =
+        index.and_then(|k| if k < 0 { usize::try_from(n as i64 + k).ok() } else { usize::try_from(k - 1).ok() });
+    match known.filter(|k| *k < n) {
+        Some(k) => Ok(k as u32),
+        None => line.refuse(format!("there is no corner `{word}`"), &format!("{n} corners stand above this line")),
+    }
+}

@@ -1,0 +1,459 @@
+//! From a scene file to a compiled model: a tree of named objects, checked as a whole.
+//!
+//! The types of `file.rs` are what is written; `compile` orders the tree, makes the builder's specifications of joints,
+//! bodies and forces, and brings what the builder finds back to lines of the file. All problems are reported at once.
+
+mod air;
+mod body;
+mod camera;
+mod contact;
+mod file;
+mod height_field;
+mod initial;
+mod joint;
+mod mesh;
+mod object;
+mod pieces;
+mod placement;
+mod proximity;
+mod rotor;
+mod schema;
+mod script;
+mod sensor;
+mod signal_file;
+mod stills;
+mod text;
+mod tree;
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
+use sincro_dynamics::signal::Signal;
+use sincro_dynamics::spatial::Pose;
+use sincro_dynamics::state::State;
+
+pub(crate) use file::SceneFile;
+pub use sincro_dynamics::model::Model;
+pub use sincro_dynamics::start::Freedom;
+
+pub use camera::VisionSensor;
+pub(crate) use camera::looking;
+pub use mesh::{Triangles, mesh_of_file};
+pub use object::{Object, ObjectKind, ShapeInstance};
+pub use pieces::frame_of;
+pub use schema::scene_schema;
+pub use stills::Camera;
+pub use text::from_text;
+
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Problem, Problems};
+use crate::scenery::Scenery;
+use crate::script::{Script, ScriptParser};
+use crate::sensor::SensorSpec;
+use file::{ForceFile, InFrameFile};
+use signal_file::SignalReader;
+use tree::Entry;
+
+/// A scene, ready to run.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The compiled model; its names are the paths of the objects.
+    pub model: Arc<Model<f64>>,
+    /// Where it starts.
+    pub initial: State<f64>,
+    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of rotors.
+    pub commands: Vec<Signal>,
+    /// Its sensors, in the order in which their values are kept.
+    pub sensors: Vec<SensorSpec>,
+    /// Every object, parents before children, children in the order of the file.
+    pub objects: Vec<Object>,
+    /// Scripts, in the order of the file.
+    pub scripts: Vec<Script>,
+    /// What the user should know of.
+    pub warnings: Vec<Problem>,
+    /// Made when somebody looks first.
+    scenery: OnceLock<Scenery>,
+}
+
+impl Scene {
+    /// What of it can be seen.
+    #[must_use]
+    pub fn scenery(&self) -> &Scenery {
+        self.scenery.get_or_init(|| pieces::scenery_of(self))
+    }
+
+    /// Degrees of freedom at the start, closed loops counted.
+    #[must_use]
+    pub fn freedom(&self) -> Freedom {
+        sincro_dynamics::start::freedom(&self.model, &self.initial)
+    }
+
+    /// The object of a path.
+    #[must_use]
+    pub fn object(&self, path: &str) -> Option<&Object> {
+        self.objects.iter().find(|object| object.path == path)
+    }
+}
+
+/// What the builder is told of an object.
+enum Spec {
+    Joint(JointSpec, Option<Signal>),
+    Body(BodySpec, Vec<ShapeInstance>, contact::Skin),
+    Fixture(Vec<ShapeInstance>, contact::Skin),
+    Frame,
+    Force(ForceSpec),
+    Rotor(Box<rotor::RotorMade>, Signal),
+    Drag(DragSpec),
+    Sensor(Option<SensorSpec>),
+    Camera(f64, Option<VisionSensor>),
+}
+
+/// Compiles a document that fits the schema; `seed` is that of the turbulence.
+pub(crate) fn compile(
+    document: &Document,
+    folder: &Folder,
+    seed: u64,
+    parser: Option<&dyn ScriptParser>,
+) -> Result<Scene, Problems> {
+    let file: SceneFile = serde_json::from_value(document.root.clone())
+        .map_err(|e| Problem::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
+    let entries = tree::entries(&file);
+    let mut problems = Problems::new();
+    let order = tree::order(&entries, document, &mut problems);
+    let mut maker = Maker { document, folder, air_density: file.air_density, problems: &mut problems };
+    let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
+    let joints: Vec<&str> =
+        entries.iter().filter(|e| matches!(e.file, tree::AnyFile::Joint(_))).map(|e| e.path.as_str()).collect();
+    for entry in &entries {
+        if let tree::AnyFile::Rotor(file) = entry.file {
+            rotor::check_joint(file, &entry.pointer, &joints, &mut maker.signals());
+        }
+    }
+    let wind = file.wind.as_ref().and_then(|wind| air::wind(wind, seed, document, &mut problems));
+    if problems.any_error() {
+        return Err(problems.sorted());
+    }
+    let mut assembly = Assembly::new(file.gravity);
+    if let Some(wind) = wind {
+        assembly.builder.wind(wind);
+    }
+    for place in &order {
+        let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
+        assembly.add(&entries[place.entry], place, spec, pose, document);
+    }
+    assembly.join(&file, document, &mut problems);
+    let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut problems);
+    assembly.finish(&entries, &file, scripts, document, problems)
+}
+
+/// Makes specifications, noting what is wrong.
+struct Maker<'a> {
+    document: &'a Document,
+    folder: &'a Folder,
+    /// [kg/m³]
+    air_density: f64,
+    problems: &'a mut Problems,
+}
+
+impl Maker<'_> {
+    fn spec(&mut self, entry: &Entry<'_>) -> Spec {
+        match entry.file {
+            tree::AnyFile::Joint(file) => {
+                let (spec, command) = joint::spec(file, &entry.pointer, &mut self.signals());
+                Spec::Joint(spec, command)
+            }
+            tree::AnyFile::Body(file) => {
+                let shapes = body::shapes(file, &entry.pointer, self.document, self.problems);
+                let meshes = mesh::meshes(file, &entry.pointer, self.document, self.folder, self.problems);
+                let skin = contact::skin(file, &meshes, &entry.pointer, self.document, self.folder, self.problems);
+                if body::is_fixture(file) {
+                    return Spec::Fixture(shapes, skin);
+                }
+                let mass = body::mass(file, &shapes, &meshes, &entry.pointer, self.document, self.problems);
+                Spec::Body(BodySpec { mass }, shapes, skin)
+            }
+            tree::AnyFile::Frame(_) => Spec::Frame,
+            tree::AnyFile::Rotor(file) => rotor::spec(file, &entry.pointer, self.air_density, &mut self.signals()),
+            tree::AnyFile::Drag(file) => {
+                let (density, document) = (self.air_density, self.document);
+                Spec::Drag(air::drag(file, &entry.pointer, density, document, self.problems))
+            }
+            tree::AnyFile::Sensor(file) => {
+                let (path, pointer) = (&entry.path, &entry.pointer);
+                Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.problems))
+            }
+            tree::AnyFile::Camera(file) => {
+                let sensor = camera::sensor(file, &entry.pointer, self.document, self.problems);
+                Spec::Camera(file.field_of_view_deg, sensor)
+            }
+            tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
+        }
+    }
+
+    fn signals(&mut self) -> SignalReader<'_> {
+        SignalReader { document: self.document, folder: self.folder, problems: self.problems }
+    }
+
+    fn pose(&mut self, entry: &Entry<'_>) -> Pose<f64> {
+        if let tree::AnyFile::Camera(file) = entry.file {
+            return camera::pose(file, &entry.pointer, self.document, self.problems);
+        }
+        placement::pose(&entry.placement(), &entry.pointer, self.document, self.problems)
+    }
+}
+
+fn force(file: &ForceFile, pointer: &str, signals: &mut SignalReader<'_>) -> ForceSpec {
+    let mut three = |list: &[signal_file::SignalFile; 3], key: &str| {
+        std::array::from_fn(|k| signals.read(&list[k], &format!("{pointer}/{key}/{k}")))
+    };
+    ForceSpec {
+        force: three(&file.force, "force"),
+        torque: three(&file.torque, "torque"),
+        in_body: file.in_frame == InFrameFile::Body,
+        is_input: file.input,
+    }
+}
+
+/// What of a surface only something fixed in the world can have, and what else to do.
+fn only_fixed(surface: &Surface) -> Option<(&'static str, &'static str)> {
+    match surface {
+        Surface::HalfSpace => Some(("a plane", "planes are fixed in the world; use a cuboid, or hang the body on `/`")),
+        Surface::HeightField { .. } => {
+            Some(("a height field", "height fields are fixed in the world; hang the body on `/`"))
+        }
+        Surface::Mesh(..) => Some((
+            "a mesh that may be hollow",
+            "convex = true takes the hull of the mesh; or build it of several convex ones, or hang the body on `/`",
+        )),
+        _ => None,
+    }
+}
+
+/// The builder, and what must be known to find the way back from it.
+struct Assembly {
+    builder: ModelBuilder,
+    nodes: Vec<NodeId>,
+    objects: Vec<Object>,
+    /// Command of the motor of the joint, or speed of the rotor, that is object k.
+    commands: BTreeMap<usize, Signal>,
+    sensors: Vec<SensorSpec>,
+    /// Entry that is object k.
+    entry_of: Vec<usize>,
+}
+
+impl Assembly {
+    fn new(gravity: [f64; 3]) -> Self {
+        Self {
+            builder: ModelBuilder::new(gravity),
+            nodes: Vec::new(),
+            objects: Vec::new(),
+            commands: BTreeMap::new(),
+            sensors: Vec::new(),
+            entry_of: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, entry: &Entry<'_>, place: &tree::PlaceInTree, spec: Spec, pose: Pose<f64>, document: &Document) {
+        let parent = place.parent.map_or(NodeId::WORLD, |k| self.nodes[k]);
+        let path = place.path.clone();
+        let (mut shapes, mut skin) = (Vec::new(), contact::Skin::default());
+        let (node, kind) = match spec {
+            Spec::Joint(spec, command) => {
+                let kind = ObjectKind::Joint { kind: spec.kind, motor: None };
+                if let Some(command) = command {
+                    self.commands.insert(self.objects.len(), command);
+                }
+                (self.builder.joint(&path, parent, pose, spec), kind)
+            }
+            Spec::Fixture(of_body, of_skin) => {
+                (shapes, skin) = (of_body, of_skin);
+                (self.builder.frame(&path, parent, pose), ObjectKind::Fixture)
+            }
+            Spec::Body(spec, of_body, of_skin) => {
+                (shapes, skin) = (of_body, of_skin);
+                let kind = ObjectKind::Body { mass: spec.mass };
+                (self.builder.body(&path, parent, pose, spec), kind)
+            }
+            Spec::Sensor(spec) => {
+                self.sensors.extend(spec);
+                (self.builder.frame(&path, parent, pose), ObjectKind::Sensor)
+            }
+            Spec::Frame => (self.builder.frame(&path, parent, pose), ObjectKind::Frame),
+            // nothing hangs on a camera, and the model knows none
+            Spec::Camera(field_of_view_deg, sensor) => (parent, ObjectKind::Camera { field_of_view_deg, sensor }),
+            Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
+            Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
+            Spec::Rotor(made, speed) => {
+                self.commands.insert(self.objects.len(), speed);
+                let joint = made.joint.as_ref().and_then(|path| self.objects.iter().position(|o| o.path == *path));
+                let spec = made.spec(joint.map(|k| self.nodes[k]));
+                (self.builder.rotor(&path, parent, pose, spec), ObjectKind::Rotor)
+            }
+        };
+        let name = entry.name.to_owned();
+        let location = document.title_at(&entry.pointer);
+        skin.add_to(&mut self.builder, node, &shapes);
+        let contact::Skin { material: contact, surfaces, colors: surface_colors } = skin;
+        let parent = place.parent;
+        self.objects.push(Object {
+            path,
+            name,
+            kind,
+            parent,
+            pose,
+            contact,
+            surfaces,
+            surface_colors,
+            shapes,
+            location,
+        });
+        self.nodes.push(node);
+        self.entry_of.push(place.entry);
+    }
+
+    /// Closures and couplings, which name objects by their paths.
+    fn join(&mut self, file: &SceneFile, document: &Document, problems: &mut Problems) {
+        self.builder.set_rest_speed(file.rest_speed);
+        let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, problems };
+        for (k, closure) in file.closure.iter().enumerate() {
+            if let Some(spec) = joiner.closure(closure, &format!("/closure/{k}")) {
+                self.builder.closure(&format!("/{}", closure.name), spec);
+            }
+        }
+        for (k, coupling) in file.coupling.iter().enumerate() {
+            if let Some(spec) = joiner.coupling(coupling, &format!("/coupling/{k}")) {
+                self.builder.coupling(&format!("/{}", coupling.name), spec);
+            }
+        }
+    }
+
+    fn finish(
+        mut self,
+        entries: &[Entry<'_>],
+        file: &SceneFile,
+        scripts: Vec<Script>,
+        document: &Document,
+        mut problems: Problems,
+    ) -> Result<Scene, Problems> {
+        let (model, found) = match self.builder.build() {
+            Ok((model, warnings)) => (Some(model), warnings),
+            Err(found) => (None, found),
+        };
+        for problem in found {
+            problems.push(self.place(problem, entries, document));
+        }
+        let Some(mut model) = model else { return Err(problems.sorted()) };
+        crate::sensor::register(&mut model, &self.sensors);
+        sensor::find_bodies(&mut self.sensors, &self.objects, &mut problems);
+        proximity::find_bodies(&mut self.sensors, &self.objects, &mut problems);
+        let mut starts = Vec::new();
+        for (object, &entry) in self.objects.iter().zip(&self.entry_of) {
+            if let tree::AnyFile::Joint(file) = entries[entry].file {
+                starts.push((object.path.as_str(), entries[entry].pointer.as_str(), &file.initial));
+            }
+        }
+        let initial = initial::state(&model, &starts, document, &mut problems);
+        self.check_fixtures(&model, &mut problems);
+        contact::check_start(&model, &initial, file, &self.objects, document, &mut problems);
+        let commands = self.motors(&model);
+        self.warn_of_idle_forces(&model, &mut problems);
+        if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
+            let problem = Problem::error(&document.at("/wind"), "nothing in this scene feels the wind").as_warning();
+            problems.push(problem.with_help("rotors and drag elements do: add a [[drag]] to a body"));
+        }
+        if problems.any_error() {
+            return Err(problems.sorted());
+        }
+        let warnings = problems.sorted().0;
+        Ok(Scene {
+            model: Arc::new(model),
+            initial,
+            commands,
+            sensors: self.sensors,
+            objects: self.objects,
+            scripts,
+            warnings,
+            scenery: OnceLock::new(),
+        })
+    }
+
+    /// Commands in the model's order; tells joints the index of their motors.
+    fn motors(&mut self, model: &Model<f64>) -> Vec<Signal> {
+        let mut commands = vec![Signal::Constant(0.0); model.n_commands()];
+        for (rotor, name) in model.rotors().iter().zip(&model.names().rotors) {
+            let speed = self.objects.iter().position(|o| o.path == *name).and_then(|k| self.commands.remove(&k));
+            if let Some(command) = rotor.speed.command() {
+                commands[command] = speed.expect("a rotor that takes a command has one");
+            }
+        }
+        for joint in &model.names().joints {
+            let Some(index) = self.objects.iter().position(|o| o.path == joint.name) else { continue };
+            if let (Some(motor), ObjectKind::Joint { motor: known, .. }) = (joint.motor, &mut self.objects[index].kind)
+            {
+                *known = Some(motor);
+                commands[motor] = self.commands.remove(&index).expect("a joint with a motor has a command");
+            }
+        }
+        commands
+    }
+
+    /// A body without mass can only stand in the world.
+    fn check_fixtures(&self, model: &Model<f64>, problems: &mut Problems) {
+        for object in self.objects.iter().filter(|o| o.kind == ObjectKind::Fixture || !o.surfaces.is_empty()) {
+            let moves = model.names().frame(&object.path).is_some_and(|f| f.link.is_some());
+            let only_fixed = object.surfaces.iter().find_map(|(s, _)| only_fixed(s));
+            if moves && object.kind == ObjectKind::Fixture {
+                let problem = Problem::error(&object.location, format!("body `{}`: it has no mass", object.path));
+                let help =
+                    "give `density` and shapes, or `mass` and `inertia`; only what is fixed in the world needs none";
+                problems.push(problem.with_help(help));
+            } else if let Some((what, help)) = only_fixed.filter(|_| moves && object.contact.is_some()) {
+                let problem = Problem::error(&object.location, format!("body `{}` moves and has {what}", object.path));
+                problems.push(problem.with_help(help));
+            }
+        }
+    }
+
+    fn warn_of_idle_forces(&self, model: &Model<f64>, problems: &mut Problems) {
+        for object in
+            self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force | ObjectKind::Rotor | ObjectKind::Drag))
+        {
+            let carrier = object.parent.and_then(|k| model.names().frame(&self.objects[k].path));
+            if carrier.is_some_and(|frame| frame.link.is_none()) {
+                let word = object.kind.word();
+                let message = format!("{word} `{}` acts on something that is fixed in the world", object.path);
+                let problem = Problem::error(&object.location, message).as_warning();
+                problems.push(problem.with_help("it moves nothing; hang its parent on a joint"));
+            }
+        }
+    }
+
+    /// A finding of the builder, at the key of the file that it is about.
+    fn place(&self, found: sincro_dynamics::model::Problem, entries: &[Entry<'_>], document: &Document) -> Problem {
+        let object = found.node.and_then(|node| self.nodes.iter().position(|n| *n == node));
+        let at = match object {
+            Some(k) => {
+                let pointer = &entries[self.entry_of[k]].pointer;
+                let mut keys = keys_of_field(found.field).into_iter().map(|key| format!("{pointer}/{key}"));
+                let written = keys.find(|p| document.get(p).is_some());
+                written.map_or_else(|| document.title_at(pointer), |p| document.at(&p))
+            }
+            None => document.at(&format!("/{}", found.field)),
+        };
+        Problem { severity: found.severity, ..Problem::error(&at, found.message) }.with_help(found.help)
+    }
+}
+
+/// Keys of the file that a field of the builder may come from, the likeliest first.
+fn keys_of_field(field: &'static str) -> Vec<&'static str> {
+    match field {
+        "mass" => vec!["mass", "density", "shape"],
+        "center_of_mass" => vec!["center_of_mass", "shape"],
+        "inertia" => vec!["inertia", "shape"],
+        "rotation" => vec!["rotation_deg", "quaternion_wxyz"],
+        other => vec![other],
+    }
+}

@@ -1,0 +1,14 @@
+//! The schema of scene files.
+
+use std::sync::LazyLock;
+
+use serde_json::Value;
+
+use super::SceneFile;
+use crate::schema::generate;
+
+/// JSON Schema of `scene.toml`.
+pub fn scene_schema() -> &'static Value {
+    static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<SceneFile>);
+    &SCHEMA
+}

@@ -1,0 +1,144 @@
+//! Scripts of a scene file: text, object, parameters, and what their language says of the text.
+
+use std::sync::Arc;
+
+use super::file::{ScriptFile, ScriptKindFile, ScriptParameterFile, ScriptStyleFile};
+use super::object::Object;
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Problem, Problems, SourceText};
+use crate::script::{Kind, Parameter, Script, ScriptParser, Style};
+use crate::suggest;
+
+/// The scripts that can be, in the order of the file; notes what is wrong with the others.
+pub(super) fn read(
+    files: &[ScriptFile],
+    objects: &[Object],
+    document: &Document,
+    folder: &Folder,
+    parser: Option<&dyn ScriptParser>,
+    problems: &mut Problems,
+) -> Vec<Script> {
+    let mut scripts: Vec<Script> = Vec::new();
+    for (k, file) in files.iter().enumerate() {
+        let pointer = format!("/script/{k}");
+        let Some(script) = script(file, &pointer, objects, document, folder, problems) else { continue };
+        if let Some(first) = scripts.iter().find(|s| s.object == script.object && s.kind == script.kind) {
+            let line = first.at.line_column().0;
+            let message = format!("`{}` has two {} scripts", file.object, word(script.kind));
+            let help = format!("the other one is in line {line}; put both into one, or one of them on another object");
+            problems.push(Problem::error(&document.at(&format!("{pointer}/object")), message).with_help(help));
+            continue;
+        }
+        scripts.push(script);
+    }
+    check(&scripts, parser, problems);
+    scripts
+}
+
+fn word(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Child => "child",
+        Kind::Customization => "customization",
+    }
+}
+
+/// What the language says of the texts.
+fn check(scripts: &[Script], parser: Option<&dyn ScriptParser>, problems: &mut Problems) {
+    let Some(first) = scripts.first() else { return };
+    let Some(parser) = parser else {
+        let problem = Problem::error(&first.at, "this program cannot run Lua scripts");
+        problems.push(problem.with_help("it was built without `sincro-lua`; use the `sincro` command"));
+        return;
+    };
+    for fault in scripts.iter().filter_map(|script| parser.check(script).err()) {
+        problems.push(fault.problem());
+    }
+}
+
+fn script(
+    file: &ScriptFile,
+    pointer: &str,
+    objects: &[Object],
+    document: &Document,
+    folder: &Folder,
+    problems: &mut Problems,
+) -> Option<Script> {
+    let object = objects.iter().position(|object| object.path == file.object);
+    if object.is_none() {
+        let known: Vec<&str> = objects.iter().map(|object| object.path.as_str()).collect();
+        let message = format!("there is no object `{}` for the script", file.object);
+        let problem = Problem::error(&document.at(&format!("{pointer}/object")), message);
+        problems.push(problem.with_help(suggest::help(&file.object, &known, "objects")));
+    }
+    let (source, text, lines_before) = match (&file.file, &file.code) {
+        (Some(_), _) => {
+            let name = document.located(&format!("{pointer}/file"))?;
+            let source = folder.read_named(&name).map_err(|problem| problems.push(problem)).ok()?;
+            (source.clone(), source.text.clone(), 0)
+        }
+        (None, Some(code)) => {
+            let at = document.at(&format!("{pointer}/code"));
+            // the line break after an opening ''' is no part of the text
+            let opens_line = ["'''\n", "'''\r\n", "\"\"\"\n", "\"\"\"\r\n"].iter().any(|q| at.text().starts_with(q));
+            let lines_before = at.line_column().0 - 1 + usize::from(opens_line);
+            (at.source, code.clone(), lines_before)
+        }
+        (None, None) => return None,
+    };
+    let files = granted(file, pointer, document, folder, problems);
+    let object = object?;
+    let parameters = file.parameters.iter().map(|(name, value)| (name.clone(), parameter(value))).collect();
+    Some(Script {
+        object,
+        path: file.object.clone(),
+        source,
+        text,
+        lines_before,
+        parameters,
+        files: files?,
+        style: match file.style {
+            ScriptStyleFile::Detect => Style::Detect,
+            ScriptStyleFile::Old => Style::Old,
+            ScriptStyleFile::New => Style::New,
+        },
+        kind: match file.kind {
+            ScriptKindFile::Child => Kind::Child,
+            ScriptKindFile::Customization => Kind::Customization,
+        },
+        is_threaded: file.threaded,
+        max_memory: (file.max_memory_mib as usize) << 20,
+        max_instructions: file.max_instructions,
+        at: document.at(pointer),
+    })
+}
+
+/// The files that a script may read; none if one of them cannot be.
+fn granted(
+    file: &ScriptFile,
+    pointer: &str,
+    document: &Document,
+    folder: &Folder,
+    problems: &mut Problems,
+) -> Option<Vec<(String, Arc<SourceText>)>> {
+    let mut files = Some(Vec::new());
+    for (k, name) in file.files.iter().enumerate() {
+        let named = document.located(&format!("{pointer}/files/{k}"))?;
+        match folder.read_named(&named) {
+            Ok(source) => files.as_mut().into_iter().for_each(|files| files.push((name.clone(), source.clone()))),
+            Err(problem) => {
+                problems.push(problem);
+                files = None;
+            }
+        }
+    }
+    files
+}
+
+fn parameter(value: &ScriptParameterFile) -> Parameter {
+    match value {
+        ScriptParameterFile::Number(x) => Parameter::Number(*x),
+        ScriptParameterFile::Flag(truth) => Parameter::Flag(*truth),
+        ScriptParameterFile::Text(text) => Parameter::Text(text.clone()),
+    }
+}

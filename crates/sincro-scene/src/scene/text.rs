@@ -1,0 +1,44 @@
+//! A scene from a text instead of a folder.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{Scene, scene_schema};
+use crate::document::Document;
+use crate::folder::Folder;
+use crate::problem::{Problems, SourceText};
+use crate::schema::validate;
+
+/// Compiles the text of a scene file. Files that it names are looked for in the working directory; the seed of its
+/// turbulence is 0.
+///
+/// ```
+/// let text = r#"
+///     [[joint]]
+///     name = "hinge"
+///     kind = "revolute"
+///     axis = [0.0, 1.0, 0.0]
+///
+///     [[body]]
+///     name = "rod"
+///     parent = "/hinge"
+///     mass = 1.0
+///     center_of_mass = [0.0, 0.0, -0.5]
+///     inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
+/// "#;
+/// let scene = crate::scene::from_text(text).unwrap();
+/// assert_eq!(scene.model.n_v(), 1);
+/// ```
+///
+/// # Errors
+///
+/// Everything that is wrong with the text, warnings included.
+pub fn from_text(text: &str) -> Result<Scene, Problems> {
+    let source = Arc::new(SourceText { path: "scene.toml".into(), text: text.to_owned() });
+    let document = Document::parse(&source)?;
+    let found = validate(&document, scene_schema());
+    if found.any_error() {
+        return Err(found.sorted());
+    }
+    super::compile(&document, &Folder::new(Path::new("")), 0, None)
+}

@@ -1,0 +1,37 @@
+//! What of a scene can be seen: every solid and surface of its bodies, where it hangs and what colour it has. Sensors that look (distances,
+//! images) and clients ask it; no step does.
+
+use std::sync::Arc;
+
+use sincro_dynamics::geometry::Geometry;
+use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::Pose;
+
+/// A solid or surface where it hangs.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// Index of its body among the objects of the scene.
+    pub object: usize,
+    /// Where its frame is fixed.
+    pub at: Attached<f64>,
+    /// What it is.
+    pub geometry: Arc<Geometry>,
+    /// Red, green, blue.
+    pub color: [u8; 3],
+}
+
+/// All pieces of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Scenery {
+    /// In the order of the objects.
+    pub pieces: Vec<Piece>,
+}
+
+/// Pieces with their poses in the world, after `scratch` has the poses of the links.
+pub fn placed<'a>(
+    pieces: impl Iterator<Item = &'a Piece>,
+    scratch: &Scratch<f64>,
+) -> impl Iterator<Item = (&'a Piece, Pose<f64>)> {
+    pieces.map(|piece| (piece, kinematics::frame_pose(scratch, &piece.at)))
+}

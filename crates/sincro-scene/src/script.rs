@@ -1,0 +1,179 @@
+//! Scripts of a scene: which object each belongs to, its text, its limits; and the parser of their language.
+//!
+//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptParser`], which looks texts over when a scene is loaded.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::problem::{Location, Problem, SourceText};
+
+/// A script as a scene has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Script {
+    /// Index among the scene's objects.
+    pub object: usize,
+    /// Path of that object.
+    pub path: String,
+    /// The text that positions refer to: the script's own file, or the scene file that it stands in.
+    pub source: Arc<SourceText>,
+    /// The script's text: all of the source, or the text of its key.
+    pub text: String,
+    /// Lines of the source before the text.
+    pub lines_before: usize,
+    /// Numbers and texts that are stored with it.
+    pub parameters: Vec<(String, Parameter)>,
+    /// Files that it may read, by their names in the scene; their texts as they were when it was loaded.
+    pub files: Vec<(String, Arc<SourceText>)>,
+    /// How it is called.
+    pub style: Style,
+    /// Where it stands among scripts of the same place.
+    pub kind: Kind,
+    /// Whether an old script is a thread of its own.
+    pub is_threaded: bool,
+    /// Memory that it may take `[bytes]`.
+    pub max_memory: usize,
+    /// Instructions that one call may take.
+    pub max_instructions: u64,
+    /// Its entry in the scene file.
+    pub at: Location,
+}
+
+/// What is stored with a script.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Parameter {
+    /// A number.
+    Number(f64),
+    /// True or false.
+    Flag(bool),
+    /// A text.
+    Text(String),
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(x) if x.fract() == 0.0 && x.abs() < 1e15 => write!(f, "{x:.0}"),
+            Self::Number(x) => write!(f, "{x:?}"),
+            Self::Flag(truth) => write!(f, "{truth}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+/// How a script is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// As its text tells: `New` if it has a function `sysCall_…` after its first run, else `Old`.
+    Detect,
+    /// The whole text is run again for every call, with `sim_call_type` set.
+    Old,
+    /// Functions `sysCall_init`, `sysCall_actuation` …
+    New,
+}
+
+/// Kinds of scripts, in the order in which those of one place are called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// Belongs to the simulation.
+    Child,
+    /// Belongs to the model.
+    Customization,
+}
+
+/// Why a script could not go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// Path of its object.
+    pub object: String,
+    /// The line of its text.
+    pub at: Option<Location>,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it, if that is known.
+    pub help: Option<String>,
+}
+
+impl Fault {
+    /// As a finding in the script's text.
+    #[must_use]
+    pub fn problem(&self) -> Problem {
+        let message = format!("script of `{}`: {}", self.object, self.message);
+        let problem = match &self.at {
+            Some(at) => Problem::error(at, message),
+            None => Problem::nowhere(message),
+        };
+        match &self.help {
+            Some(help) => problem.with_help(help.clone()),
+            None => problem,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the script of `{}` failed", self.object)?;
+        if let Some(at) = &self.at {
+            let line = at.line_column().0;
+            write!(f, " at {}:{line}, `{}`", at.source.path.display(), at.text().trim())?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+/// A law in a script's language, for a block of a diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawSpec {
+    /// Its text.
+    pub code: String,
+    /// Names of its inputs.
+    pub inputs: Vec<String>,
+    /// Names and widths of its outputs.
+    pub outputs: Vec<(String, usize)>,
+    /// Names of the numbers that it keeps.
+    pub memory: Vec<String>,
+    /// Numbers that it knows by name.
+    pub parameters: Vec<(String, f64)>,
+}
+
+/// A law in memory. It keeps nothing between calls but what it is given.
+pub trait Law: Send + Sync + fmt::Debug {
+    /// Outputs, one after the other, at time `t` `[s]`.
+    ///
+    /// # Errors
+    ///
+    /// The law failed: where and why.
+    fn output(&mut self, t: f64, inputs: &[Vec<f64>], memory: &[f64], y: &mut [f64]) -> Result<(), String>;
+
+    /// The memory for the next tick.
+    ///
+    /// # Errors
+    ///
+    /// The law failed: where and why.
+    fn update(&mut self, t: f64, inputs: &[Vec<f64>], memory: &mut [f64]) -> Result<(), String>;
+
+    /// Another one of the same.
+    fn boxed_clone(&self) -> Box<dyn Law>;
+}
+
+impl Clone for Box<dyn Law> {
+    fn clone(&self) -> Self {
+        self.boxed_clone()
+    }
+}
+
+/// Parser of the language of scripts: looks texts over when a scene is loaded.
+pub trait ScriptParser: Send + Sync + fmt::Debug {
+    /// What is wrong with a script before anything runs: its syntax.
+    ///
+    /// # Errors
+    ///
+    /// The first fault of the text.
+    fn check(&self, script: &Script) -> Result<(), Fault>;
+
+    /// A law for a block.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with its text.
+    fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String>;
+}

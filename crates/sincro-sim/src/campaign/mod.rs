@@ -1,0 +1,330 @@
+//! An experiment with everything that belongs to it: the main run, its error bars, its variants, its sweep, their checks.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use sincro_dynamics::joint::JointKind;
+
+mod refine;
+
+use crate::check::{Outcome, evaluate, evaluate_sweep};
+use crate::controller::{Change, Message};
+use crate::load::{Loaded, load};
+use crate::replay::SceneView;
+use crate::results::{
+    ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
+    SweepReport, VariantReport,
+};
+use crate::run::{Manner, RunError, Simulated, Watch, method_word, simulate};
+use crate::sweep::Sweep;
+use crate::table::Table;
+use crate::trace::model_hash;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::{Experiment, Sweep as SweepPlan, Variant};
+use sincro_scene::open::settings_with;
+use sincro_scene::overrides::Override;
+use sincro_scene::scene::{ObjectKind, Scene};
+
+/// One run of a campaign with its judgement.
+#[derive(Clone, Debug)]
+pub struct Done {
+    /// What came out.
+    pub simulated: Simulated,
+    /// Columns with their error bars.
+    pub columns: Vec<ColumnReport>,
+    /// Its checks.
+    pub outcomes: Vec<Outcome>,
+    /// How it was run.
+    pub settings: Settings,
+    /// Hash of its model.
+    pub model_hash: String,
+    /// Its diagram, if it has one.
+    pub controller: Option<ControlDiagram>,
+    /// Its scene, to be shown.
+    pub view: SceneView,
+}
+
+/// Everything that came out.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// The main run.
+    pub main: Done,
+    /// The variants, each with its name and description.
+    pub variants: Vec<(Variant, Done)>,
+    /// The sweep and its checks.
+    pub sweep: Option<(Sweep, Vec<Outcome>)>,
+    /// All of it as it stands in `run.json`.
+    pub report: RunReport,
+}
+
+/// Told what is being done and the share of it.
+pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
+
+/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a folder a variant.
+///
+/// # Errors
+///
+/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that fails is a
+/// result, not an error.
+pub fn run_campaign(
+    folder: &Path,
+    overrides: &[Override],
+    loaded: &Loaded,
+    out_dir: Option<&Path>,
+    interrupt: &AtomicBool,
+    progress: Progress<'_>,
+) -> Result<Campaign, RunError> {
+    let csv = out_dir.map(|dir| dir.join("signals.csv"));
+    let main = one_run(loaded, None, &[], csv.as_deref(), (interrupt, "run", &mut *progress))?;
+    let interrupted = |done: &Done| matches!(done.simulated.status, Status::Interrupted { .. });
+
+    let mut variants = Vec::new();
+    for variant in &loaded.experiment.variants {
+        if interrupted(&main) {
+            break;
+        }
+        let settings = settings_with(overrides, &variant.set);
+        let other = load(folder, &settings, loaded.extensions)?;
+        let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
+        if let Some(dir) = &dir {
+            crate::file::prepare(dir)?;
+        }
+        let csv = dir.map(|dir| dir.join("signals.csv"));
+        let words = format!("variant {}", variant.name);
+        let before: Vec<(&str, &Table)> = std::iter::once(("main", &main.simulated.table))
+            .chain(variants.iter().map(|(v, done): &(Variant, Done)| (v.name.as_str(), &done.simulated.table)))
+            .collect();
+        let observer = (interrupt, words.as_str(), &mut *progress);
+        let done = one_run(&other, Some(&variant.name), &before, csv.as_deref(), observer)?;
+        variants.push((variant.clone(), done));
+    }
+    let sweep = match &loaded.experiment.sweep {
+        Some(plan) if !interrupted(&main) => Some(run_sweep(folder, overrides, loaded, plan, interrupt, progress)?),
+        _ => None,
+    };
+    let report = report(folder, loaded, &main, &variants, sweep.as_ref());
+    if let Some(dir) = out_dir {
+        if let Some((sweep, _)) = &sweep {
+            sweep.write(dir)?;
+        }
+        report.write(dir)?;
+    }
+    Ok(Campaign { main, variants, sweep, report })
+}
+
+/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no variants, no sweep, no error
+/// bars, because it cannot be repeated.
+#[must_use]
+pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
+    let columns = ColumnReport::of_table(&simulated.table);
+    let time = simulated.table.times().last().copied();
+    let ended = if simulated.status == Status::Completed { None } else { time };
+    let outcomes = evaluate(&loaded.experiment.checks, &simulated.table, simulated.status.stopped_at().or(ended));
+    let settings = settings(&loaded.experiment, &simulated);
+    let model_hash = model_hash(&loaded.scene.model);
+    let controller = loaded.controller.clone();
+    let view = SceneView::new(&loaded.scene);
+    let main = Done { simulated, columns, outcomes, settings, model_hash, controller, view };
+    let report = report(folder, loaded, &main, &[], None);
+    Campaign { main, variants: Vec::new(), sweep: None, report }
+}
+
+type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
+
+/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs `before` it.
+fn one_run(
+    loaded: &Loaded,
+    variant: Option<&str>,
+    before: &[(&str, &Table)],
+    csv: Option<&Path>,
+    observer: Observer<'_, '_>,
+) -> Result<Done, RunError> {
+    let (scene, experiment) = (&loaded.scene, &loaded.experiment);
+    let (interrupt, words, progress) = observer;
+    let mut tell = |share: f64| progress(words, share);
+    let mut watch = Watch { interrupt, progress: &mut tell };
+    let simulated = simulate(loaded, Manner { csv, variant, refined: false, films: true }, &mut watch)?;
+    let columns = match simulated.status {
+        Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
+        _ => ColumnReport::of_table(&simulated.table),
+    };
+    let stopped = simulated.status.stopped_at();
+    let outcomes = match variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) {
+        None => evaluate(&experiment.checks, &simulated.table, stopped),
+        Some(variant) => {
+            let table = simulated.table.beside(before);
+            let mut outcomes = evaluate(&variant.checks, &table, stopped);
+            if variant.inherit_checks {
+                outcomes.extend(evaluate(&experiment.checks, &table, stopped));
+            }
+            outcomes
+        }
+    };
+    let settings = settings(experiment, &simulated);
+    let model_hash = model_hash(&scene.model);
+    let controller = loaded.controller.clone();
+    let view = SceneView::new(scene);
+    Ok(Done { simulated, columns, outcomes, settings, model_hash, controller, view })
+}
+
+fn settings(experiment: &Experiment, run: &Simulated) -> Settings {
+    Settings {
+        integrator: method_word(run.method).into(),
+        step: experiment.step,
+        accuracy: experiment.accuracy,
+        duration: experiment.duration,
+        record_every: experiment.record_every,
+        seed: experiment.seed,
+        overrides: Vec::new(),
+    }
+}
+
+/// The runs of a sweep on all processors; results in the order of the values.
+fn run_sweep(
+    folder: &Path,
+    overrides: &[Override],
+    loaded: &Loaded,
+    plan: &SweepPlan,
+    interrupt: &AtomicBool,
+    progress: Progress<'_>,
+) -> Result<(Sweep, Vec<Outcome>), RunError> {
+    let n = plan.values.len();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
+    let point = |value: f64| -> Result<Simulated, RunError> {
+        let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
+        let at = load(folder, &settings, loaded.extensions)?;
+        simulate(&at, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
+    };
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let mut points: Vec<Option<Result<Simulated, RunError>>> = (0..n).map(|_| None).collect();
+    std::thread::scope(|scope| {
+        let worker = || {
+            let take = || next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let mut mine = Vec::new();
+            let mut k = take();
+            while k < n {
+                mine.push((k, point(plan.values[k])));
+                k = take();
+            }
+            mine
+        };
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        for handle in handles {
+            for (k, result) in handle.join().expect("a run does not panic") {
+                points[k] = Some(result);
+            }
+        }
+    });
+    progress("sweep", 1.0);
+    let unit = parameter_unit(&loaded.scene, &plan.parameter.value);
+    let signals: Vec<(&str, &str)> = Vec::new();
+    let mut sweep = Sweep::new(&plan.parameter.value, unit, signals, n);
+    for (k, result) in points.into_iter().enumerate() {
+        let run = result.expect("every point was run")?;
+        if k == 0 {
+            let columns =
+                run.table.columns[..n_recorded(&run)].iter().skip(1).map(|c| (c.name.as_str(), c.unit.as_str()));
+            sweep = Sweep::new(&plan.parameter.value, unit, columns, n);
+        }
+        let finals: Vec<f64> = run.table.columns[..n_recorded(&run)]
+            .iter()
+            .skip(1)
+            .map(|c| c.values.last().copied().unwrap_or(f64::NAN))
+            .collect();
+        match &run.status {
+            // at a bound a run is at its end: the values there are its final ones
+            Status::Completed | Status::Ended { .. } => sweep.push(plan.values[k], &finals),
+            Status::Stopped { time, reason, .. } => sweep.push_stopped(plan.values[k], *time, reason),
+            Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
+        }
+    }
+    let outcomes = evaluate_sweep(&loaded.experiment.sweep.as_ref().map_or(Vec::new(), |s| s.checks.clone()), &sweep);
+    Ok((sweep, outcomes))
+}
+
+/// Unit of what a `--set` path reaches, as far as its last word and the kind of its joint tell; else empty.
+fn parameter_unit(scene: &Scene, path: &str) -> &'static str {
+    let (object, keys) = path.split_once('.').unwrap_or(("", path));
+    let is_length = scene
+        .object(object)
+        .is_some_and(|o| matches!(o.kind, ObjectKind::Joint { kind: JointKind::Prismatic { .. }, .. }));
+    let of_joint = |angle: &'static str, length: &'static str| if is_length { length } else { angle };
+    match keys.rsplit('.').next().unwrap_or(keys) {
+        "stiffness" => of_joint("N·m/rad", "N/m"),
+        "damping" => of_joint("N·m·s/rad", "N·s/m"),
+        "friction" | "max_torque" | "torque" => of_joint("N·m", "N"),
+        "rest" => of_joint("rad", "m"),
+        "velocity" | "max_velocity" => of_joint("rad/s", "m/s"),
+        "armature" => of_joint("kg·m²", "kg"),
+        "mass" => "kg",
+        "density" => "kg/m³",
+        "radius" | "length" => "m",
+        "step" | "duration" => "s",
+        _ => "",
+    }
+}
+
+fn report(
+    folder: &Path,
+    loaded: &Loaded,
+    main: &Done,
+    variants: &[(Variant, Done)],
+    sweep: Option<&(Sweep, Vec<Outcome>)>,
+) -> RunReport {
+    let scene = sincro_scene::open::folder_name(folder);
+    let problems = loaded.warnings.iter().map(|w| w.message.clone());
+    RunReport {
+        sincro_version: env!("CARGO_PKG_VERSION").into(),
+        scene,
+        scene_path: folder.display().to_string(),
+        title: loaded.experiment.title.clone(),
+        status: main.simulated.status.clone(),
+        settings: main.settings.clone(),
+        model_hash: main.model_hash.clone(),
+        trace_hash: main.simulated.trace.to_string(),
+        n_dof: loaded.scene.model.n_v(),
+        columns: main.columns.clone(),
+        energy: Some(main.simulated.energy),
+        checks: main.outcomes.iter().map(CheckReport::from).collect(),
+        sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
+        variants: variants.iter().map(variant_report).collect(),
+        outside_theory: main.simulated.outside.iter().map(Into::into).collect(),
+        warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
+        messages: main.simulated.messages.iter().map(message_report).collect(),
+        changes: main.simulated.changes.iter().map(change_report).collect(),
+        wall_time_s: main.simulated.wall_time,
+        real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
+    }
+}
+
+/// Columns that every run of a sweep has: streams of graphs are a matter of the script.
+fn n_recorded(run: &Simulated) -> usize {
+    run.table.columns.len() - run.n_streams
+}
+
+fn change_report(change: &Change) -> ChangeReport {
+    let Change { t, object, quantity, value } = change;
+    ChangeReport { t: *t, object: object.clone(), quantity: (*quantity).to_owned(), value: value.clone() }
+}
+
+fn message_report(message: &Message) -> MessageReport {
+    MessageReport { t: message.t, object: message.object.clone(), text: message.text.clone() }
+}
+
+fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {
+    let set = variant.set.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
+    VariantReport {
+        name: variant.name.clone(),
+        description: variant.description.clone(),
+        status: done.simulated.status.clone(),
+        settings: Settings { overrides: set.collect(), ..done.settings.clone() },
+        model_hash: done.model_hash.clone(),
+        trace_hash: done.simulated.trace.to_string(),
+        columns: done.columns.clone(),
+        energy: Some(done.simulated.energy),
+        checks: done.outcomes.iter().map(CheckReport::from).collect(),
+        outside_theory: done.simulated.outside.iter().map(Into::into).collect(),
+        warnings: done.simulated.warnings.clone(),
+        wall_time_s: done.simulated.wall_time,
+    }
+}

@@ -1,0 +1,327 @@
+//! A diagram and a world in one step.
+//!
+//! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
+//! are latched from that instant on ([`Controller::latch`]), and memory is updated ([`Controller::latched`]). Between ticks the diagram is an
+//! [`Attachment`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
+
+use std::sync::Arc;
+
+use sincro_blocks::instance::Number;
+use sincro_blocks::runner::{Runner, State};
+use sincro_dynamics::attachment::{Attachment, Response, Seen};
+use sincro_dynamics::kinematics;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::state::State as WorldState;
+use sincro_dynamics::world::World;
+use sincro_math::Real;
+
+use crate::controller::{Commands, Controller, Forked, Instant, NotFinite};
+use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
+use sincro_scene::record::Probe;
+use sincro_scene::record::probe::{self, View};
+
+/// A diagram that controls a world.
+#[derive(Clone, Debug)]
+pub struct DiagramController<R: Number> {
+    wiring: Arc<Wiring>,
+    /// The diagram with its state.
+    pub runner: Runner<R>,
+    tick: u64,
+    corner: f64,
+    zero: Vec<R>,
+    late_torque: Vec<R>,
+    late_accelerations: Vec<R>,
+    impulse: Vec<f64>,
+    /// What sensors gave last.
+    sensed: Vec<f64>,
+    held: Vec<f64>,
+}
+
+impl<R: Number> DiagramController<R> {
+    /// At the start of a run of `model`.
+    #[must_use]
+    pub fn new(wiring: &Arc<Wiring>, model: &Model<f64>) -> Self {
+        let zeros = |n: usize| vec![R::zero(); n];
+        Self {
+            runner: Runner::new(wiring.program().clone()),
+            wiring: wiring.clone(),
+            tick: 0,
+            corner: f64::INFINITY,
+            zero: zeros(model.n_v()),
+            late_torque: zeros(model.motors().len()),
+            late_accelerations: zeros(model.n_v()),
+            impulse: vec![0.0; model.motors().len()],
+            sensed: vec![0.0; model.names().sensors.iter().map(|s| s.values.len()).sum()],
+            held: vec![0.0; model.n_commands()],
+        }
+    }
+
+    /// What it is connected to.
+    #[must_use]
+    pub fn wiring(&self) -> &Arc<Wiring> {
+        &self.wiring
+    }
+
+    /// Whether anything happens between ticks, so that the world must take it along.
+    #[must_use]
+    pub fn is_continuous(&self) -> bool {
+        self.wiring.program().is_continuous()
+    }
+
+    fn read_state(&mut self, seen: &mut Seen<'_, R>, is_minor: bool) {
+        if self.wiring.early.is_empty() {
+            return;
+        }
+        if self.wiring.needs_poses[usize::from(is_minor)] {
+            kinematics::motions(seen.model, seen.q, seen.v, &self.zero, seen.scratch);
+        }
+        let view = View::of(seen);
+        for reading in self.wiring.early.iter().filter(|r| r.is_minor || !is_minor) {
+            for (k, probe) in reading.probes.iter().enumerate() {
+                if let Some(x) = probe::of_state(&view, *probe) {
+                    self.runner.signals_mut()[reading.at + k] = x;
+                }
+            }
+        }
+    }
+
+    fn read_response(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, is_minor: bool) {
+        kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
+        let view = View::of(seen);
+        for reading in self.wiring.late.iter().filter(|r| r.is_minor || !is_minor) {
+            for (k, probe) in reading.probes.iter().enumerate() {
+                if let Some(x) = probe::of_response(&view, response, *probe) {
+                    self.runner.signals_mut()[reading.at + k] = x;
+                }
+            }
+        }
+    }
+
+    fn write_commands(&self, commands: &mut [R], continuous_only: bool) {
+        for command in &self.wiring.program().commands {
+            if command.is_continuous || !continuous_only {
+                commands[command.terminal] = self.runner.signals()[command.signal.start];
+            }
+        }
+    }
+}
+
+/// What linearisation needs: everything continuous is evaluated, whether or not the integrator needs it.
+impl<R: Number> DiagramController<R> {
+    /// The same diagram in the same state on other numbers, without derivatives.
+    pub fn like(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
+        let mut new = Self::new(&other.wiring, model);
+        let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
+        let state = &other.runner.state;
+        let state =
+            State { signals: cast(&state.signals), continuous: cast(&state.continuous), memory: cast(&state.memory) };
+        new.runner.resume(state, other.tick);
+        new.tick = other.tick;
+        new
+    }
+
+    /// As [`Attachment::drive`]; `perturbed` is a signal and its change.
+    pub fn drive_whole(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R], perturbed: Option<(usize, R)>) {
+        self.runner.state.continuous.copy_from_slice(z);
+        self.read_state(seen, false);
+        self.runner.evaluate_continuous(self.tick, seen.t, false, perturbed);
+        self.write_commands(commands, true);
+    }
+
+    /// As [`Attachment::slope`].
+    pub fn slope_whole(
+        &mut self,
+        seen: &mut Seen<'_, R>,
+        response: Response<'_, R>,
+        slope: &mut [R],
+        perturbed: Option<(usize, R)>,
+    ) {
+        if !self.wiring.late.is_empty() {
+            self.read_response(seen, response, false);
+            self.runner.evaluate_continuous(self.tick, seen.t, true, perturbed);
+        }
+        self.runner.slopes(self.tick, seen.t, f64::INFINITY, slope);
+    }
+}
+
+impl DiagramController<f64> {
+    /// Measures and evaluates everything that is due at a tick.
+    ///
+    /// # Errors
+    ///
+    /// The first block, in the order of evaluation, whose output is not finite.
+    pub fn evaluate(&mut self, world: &mut World, tick: u64, t: f64) -> Result<(), NotFinite> {
+        self.tick = tick;
+        if self.feels_contact() {
+            // forces of contact under the commands that led here
+            world.rates(t);
+        }
+        self.read_tick_sums(world, tick);
+        world.with_seen(t, |mut seen| self.read_state(&mut seen, false));
+        self.runner.evaluate(tick, t);
+        if !self.wiring.late.is_empty() {
+            self.look_late(world, tick, t);
+        }
+        self.not_finite().map_or(Ok(()), Err)
+    }
+
+    /// The first block, in the order of evaluation, whose output is not finite as it was last evaluated.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<NotFinite> {
+        let (step, _) = self.runner.not_finite()?;
+        let signals = self.runner.signals();
+        let inputs = step.ports.iter().flat_map(|&(at, len)| &signals[at as usize..(at + len) as usize]);
+        Some(NotFinite {
+            block: step.path.clone(),
+            kind: step.template.kind().name,
+            outputs: signals[step.out.clone()].to_vec(),
+            inputs: inputs.copied().collect(),
+            fault: step.template.fault().map(String::into_boxed_str),
+        })
+    }
+
+    /// What depends on the accelerations that the new commands cause.
+    fn look_late(&mut self, world: &mut World, tick: u64, t: f64) {
+        self.held.copy_from_slice(&world.state.commands);
+        let mut commands = core::mem::take(&mut world.state.commands);
+        self.write_commands(&mut commands, false);
+        world.state.commands = commands;
+        let (accelerations, torques) = world.rates(t);
+        self.late_accelerations.copy_from_slice(accelerations);
+        self.late_torque.copy_from_slice(torques);
+        let (accelerations, torques) =
+            (core::mem::take(&mut self.late_accelerations), core::mem::take(&mut self.late_torque));
+        let response = Response { accelerations: &accelerations, motor_torque: &torques };
+        world.with_seen(t, |mut seen| self.read_response(&mut seen, response, false));
+        (self.late_accelerations, self.late_torque) = (accelerations, torques);
+        world.state.commands.copy_from_slice(&self.held);
+        self.runner.evaluate_late(tick, t);
+    }
+
+    fn feels_contact(&self) -> bool {
+        self.wiring.early.iter().any(|r| r.probes.iter().any(|p| matches!(p, Probe::Contact(..) | Probe::Reaction(_))))
+    }
+
+    /// Means and sums over the step that ended, and forces of contact at its end.
+    fn read_tick_sums(&mut self, world: &World, tick: u64) {
+        let totals = &world.state.totals;
+        let step = self.wiring.program().step;
+        for reading in &self.wiring.early {
+            for (k, probe) in reading.probes.iter().enumerate().filter(|(_, p)| is_known_at_ticks_only(**p)) {
+                use sincro_scene::record::EnergyQuantity as E;
+                let x = match *probe {
+                    Probe::Sensor(i) => self.sensed[i],
+                    Probe::MotorTorqueMean(_) if tick == 0 => 0.0,
+                    Probe::MotorTorqueMean(m) => (totals[2 + m] - self.impulse[m]) / step,
+                    Probe::Contact(quantity, frame, k) => {
+                        sincro_scene::record::contact::read(world.model(), world.contacts(), quantity, frame, k)
+                    }
+                    Probe::Reaction(k) => world.reaction(k),
+                    Probe::Energy(E::Work) => totals[0],
+                    Probe::Energy(E::Dissipated) => totals[1],
+                    _ => 0.0,
+                };
+                self.runner.signals_mut()[reading.at + k] = x;
+            }
+        }
+        self.impulse.copy_from_slice(&totals[2..]);
+    }
+
+    /// The signals of the diagram as they were last evaluated at a tick.
+    #[must_use]
+    pub fn signals(&self) -> &[f64] {
+        self.runner.signals()
+    }
+}
+
+impl Controller for DiagramController<f64> {
+    fn name(&self) -> &str {
+        "diagram"
+    }
+
+    fn latch(&self, commands: &mut Commands<'_>) {
+        for command in &self.wiring.program().commands {
+            commands.set(command.terminal, self.runner.signals()[command.signal.start]);
+        }
+    }
+
+    fn latched(&mut self, tick: u64, t: f64) {
+        self.runner.update(tick, t);
+    }
+
+    fn continuous(&mut self) -> Option<&mut dyn Attachment<f64>> {
+        if self.is_continuous() { Some(self) } else { None }
+    }
+
+    /// Sampled blocks still hold: what the world is seen with before the next tick acts.
+    fn arrive(&mut self, at: Instant<'_>) {
+        if !self.is_continuous() {
+            return;
+        }
+        at.world.with_seen(at.t, |mut seen| self.read_state(&mut seen, true));
+        self.runner.minor(self.tick, at.t, self.corner);
+        self.write_commands(&mut at.world.state.commands, true);
+    }
+
+    fn measure(&mut self, at: Instant<'_>, sensors: &[f64]) -> Result<(), NotFinite> {
+        self.sensed.copy_from_slice(sensors);
+        self.evaluate(at.world, at.tick, at.t)
+    }
+
+    fn show(&self, commands: &mut [f64]) {
+        if self.is_continuous() {
+            self.write_commands(commands, true);
+        }
+    }
+
+    fn save(&self) -> Option<State<f64>> {
+        Some(self.runner.state.clone())
+    }
+
+    fn restore(&mut self, saved: &State<f64>, world: &WorldState<f64>) {
+        self.runner.resume(saved.clone(), world.tick);
+        self.tick = world.tick;
+        self.impulse.copy_from_slice(&world.totals[2..]);
+    }
+
+    fn fork(&self) -> Forked {
+        Forked::Whole(Box::new(self.clone()))
+    }
+}
+
+impl<R: Number + Real> Attachment<R> for DiagramController<R> {
+    fn states(&mut self) -> &mut [R] {
+        &mut self.runner.state.continuous
+    }
+
+    fn set_corner(&mut self, corner: f64) {
+        self.corner = corner;
+    }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        self.wiring.program().next_corner(t)
+    }
+
+    fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
+        self.runner.state.continuous.copy_from_slice(z);
+        self.read_state(seen, true);
+        self.runner.minor(self.tick, seen.t, self.corner);
+        self.write_commands(commands, true);
+    }
+
+    fn slope(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
+        if z.is_empty() {
+            return;
+        }
+        if self.wiring.late.iter().any(|r| r.is_minor) {
+            self.read_response(seen, response, true);
+        }
+        // also what depends on a held sample of a late measurement and on something that moves
+        self.runner.minor_late(self.tick, seen.t, self.corner);
+        self.runner.slopes(self.tick, seen.t, self.corner, slope);
+    }
+
+    fn decay(&mut self, decay: &mut [R]) {
+        self.runner.decays(self.tick, 0.0, decay);
+    }
+}

@@ -1,0 +1,224 @@
+//! Sensors in a run: due samples are taken, the others held.
+
+use sincro_blocks::library::sources::random::{gaussian, splitmix};
+use sincro_blocks::program::seed_of;
+use sincro_dynamics::attachment::Seen;
+use sincro_dynamics::constraint::ContactPoint;
+use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
+use sincro_dynamics::spatial::{Quat, Vec3};
+use sincro_dynamics::world::World;
+
+use crate::controller::Controller;
+use crate::proximity::{Detection, Eye};
+use sincro_scene::experiment::Experiment;
+use sincro_scene::record::probe::attached;
+use sincro_scene::scene::Scene;
+use sincro_scene::scenery::Scenery;
+use sincro_scene::sensor::{Errors, SensorKind, every};
+
+/// All sensors of a scene with what they gave last.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensors {
+    list: Vec<Sensor>,
+    /// Values of all sensors, one after the other.
+    pub values: Vec<f64>,
+    accelerations: Vec<f64>,
+    /// What presses at the tick.
+    points: Vec<ContactPoint>,
+    /// What can be seen, if there is a sensor that looks.
+    scenery: Scenery,
+    zero: Vec<f64>,
+}
+
+#[derive(Clone, Debug)]
+struct Sensor {
+    kind: SensorKind,
+    /// Its object in the scene; of one that looks, what it looks into.
+    object: usize,
+    eye: Option<Eye>,
+    /// Frame of the body whose contacts it feels, and of those it feels; none: of all.
+    of: usize,
+    with: Vec<usize>,
+    at: Attached<f64>,
+    every: u64,
+    /// 1/√(sample time).
+    root_rate: f64,
+    seed: u64,
+    first: usize,
+    n: usize,
+}
+
+impl Sensors {
+    /// Before their first sample.
+    pub fn new(scene: &Scene, experiment: &Experiment) -> Self {
+        let (mut list, mut first) = (Vec::new(), 0);
+        for spec in &scene.sensors {
+            let frames = &scene.model.names().frames;
+            let frame = frames.iter().position(|f| f.name == spec.path).expect("a sensor is a frame of the model");
+            let frame_of = |path: &str| frames.iter().position(|f| f.name == path);
+            let every = every(spec, experiment.step).expect("sample times have been checked");
+            let n = spec.kind.values().len();
+            let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
+            let eye = Eye::of(spec, scene);
+            list.push(Sensor {
+                kind: spec.kind,
+                object: object_of(&spec.path).expect("a sensor is an object"),
+                eye,
+                of: frame_of(&spec.of).unwrap_or(usize::MAX),
+                with: spec.with.iter().filter_map(|path| frame_of(&path.value)).collect(),
+                at: attached(&scene.model, frame),
+                every,
+                root_rate: 1.0 / (every as f64 * experiment.step).sqrt(),
+                seed: seed_of(experiment.seed, &spec.path),
+                first,
+                n,
+            });
+            first += n;
+        }
+        let accelerations = vec![0.0; scene.model.n_v()];
+        let points = Vec::with_capacity(scene.model.constraints().n_contacts());
+        let looks = list.iter().any(|sensor: &Sensor| sensor.eye.is_some());
+        let scenery = if looks { scene.scenery().clone() } else { Scenery::default() };
+        let zero = vec![0.0; if looks { scene.model.n_v() } else { 0 }];
+        Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
+    }
+
+    /// Sensors that look take their samples before scripts sense, as in V-REP, and the controllers are told. What they have added to the scene is seen, too.
+    pub fn look_around(&mut self, world: &mut World, tick: u64, t: f64, controllers: &mut [Box<dyn Controller>]) {
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_some();
+        if !self.list.iter().any(|s| due(&s)) {
+            return;
+        }
+        let (list, values, zero, scenery) = (&self.list, &mut self.values, &self.zero, &self.scenery);
+        world.with_seen(t, |seen| {
+            kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
+            for sensor in list.iter().filter(due) {
+                let made = controllers.iter().flat_map(|controller| controller.pieces());
+                let found = sensor.look(&seen, scenery.pieces.iter().chain(made), tick / sensor.every);
+                sensor.write(found.as_ref(), &mut values[sensor.first..][..sensor.n]);
+                controllers.iter_mut().for_each(|controller| controller.detected(sensor.object, found));
+            }
+        });
+    }
+
+    /// Takes the samples that are due at a tick, but for those of sensors that look.
+    pub fn sample(&mut self, world: &mut World, tick: u64, t: f64) {
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_none();
+        if !self.list.iter().any(|s| due(&s)) {
+            return;
+        }
+        let feels = |s: &Sensor| matches!(s.kind, SensorKind::Imu { .. } | SensorKind::Contact { .. });
+        if self.list.iter().filter(due).any(feels) {
+            self.accelerations.copy_from_slice(world.rates(t).0);
+            self.points.clear();
+            self.points.extend(world.contacts());
+        }
+        let (list, values, accelerations, points) = (&self.list, &mut self.values, &self.accelerations, &self.points);
+        world.with_seen(t, |seen| {
+            kinematics::motions(seen.model, seen.q, seen.v, accelerations, seen.scratch);
+            for sensor in list.iter().filter(due) {
+                sensor.measure(&seen, tick / sensor.every, points, &mut values[sensor.first..][..sensor.n]);
+            }
+        });
+    }
+}
+
+impl Sensor {
+    /// Sample `k`, after the kinematics.
+    fn measure(&self, seen: &Seen<'_, f64>, k: u64, points: &[ContactPoint], y: &mut [f64]) {
+        let noise = |component: usize| gaussian(splitmix(self.seed, component as u64), k);
+        let three = |first: usize, x: Vec3<f64>, errors: &Errors, scale: f64| -> [f64; 3] {
+            core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * noise(first + i))
+        };
+        let plain = |noise: f64| Errors { bias: [0.0; 3], noise };
+        let pose = frame_pose(seen.scratch, &self.at);
+        match &self.kind {
+            SensorKind::Imu { accelerometer, gyro } => {
+                let own = |v: Vec3<f64>| pose.rot.transpose().mul_vec(v);
+                let force = own(frame_acceleration(seen.scratch, &self.at).lin - seen.model.gravity());
+                let rate = own(frame_velocity(seen.scratch, &self.at).ang);
+                y[..3].copy_from_slice(&three(0, force, accelerometer, self.root_rate));
+                y[3..].copy_from_slice(&three(3, rate, gyro, self.root_rate));
+            }
+            SensorKind::Pose { position_noise, angle_noise } => {
+                y[..3].copy_from_slice(&three(0, pose.pos, &plain(*position_noise), 1.0));
+                let half = Vec3(core::array::from_fn(|i| 0.5 * angle_noise * noise(3 + i)));
+                let turned = Quat::from_matrix(&pose.rot).mul(&Quat { w: 1.0, xyz: half }.normalized());
+                y[3] = turned.w;
+                y[4..7].copy_from_slice(&turned.xyz.0);
+                y[7..].copy_from_slice(&kinematics::roll_pitch_yaw(&turned.matrix()).0);
+            }
+            SensorKind::Velocity { noise } => {
+                let velocity = frame_velocity(seen.scratch, &self.at).lin;
+                y.copy_from_slice(&three(0, velocity, &plain(*noise), 1.0));
+            }
+            SensorKind::Height { bias, noise: std } => y[0] = pose.pos[2] + bias + std * noise(0),
+            SensorKind::Contact { force_noise, torque_noise, threshold } => {
+                let (force, torque, n) = self.touch(seen, points, pose.pos, *threshold);
+                let own = |v: Vec3<f64>| pose.rot.tr_mul_vec(v);
+                y[..3].copy_from_slice(&three(0, own(force), &plain(*force_noise), 1.0));
+                y[3..6].copy_from_slice(&three(3, own(torque), &plain(*torque_noise), 1.0));
+                y[6] = f64::from(n > 0);
+                y[7] = f64::from(n);
+            }
+            SensorKind::Proximity { .. } => unreachable!("sensors that look have their samples taken before"),
+        }
+    }
+
+    /// Sample `k` of a sensor that looks, after the kinematics.
+    fn look<'a>(
+        &self,
+        seen: &Seen<'_, f64>,
+        pieces: impl Iterator<Item = &'a sincro_scene::scenery::Piece>,
+        k: u64,
+    ) -> Option<Detection> {
+        let (eye, at) = (self.eye.as_ref()?, &self.at);
+        let SensorKind::Proximity { noise, .. } = self.kind else { return None };
+        let pieces = pieces.filter(|piece| eye.admits(at, piece));
+        let found = eye.look(&frame_pose(seen.scratch, at), pieces, seen.scratch, f64::INFINITY)?;
+        if noise == 0.0 {
+            return Some(found);
+        }
+        Some(found.at_distance(found.distance + noise * gaussian(splitmix(self.seed, 0), k)))
+    }
+
+    /// What it saw as values.
+    fn write(&self, found: Option<&Detection>, y: &mut [f64]) {
+        let Some(found) = found else {
+            y.fill(0.0);
+            y[1] = self.eye.as_ref().map_or(0.0, |eye| eye.field.offset() + eye.field.range());
+            return;
+        };
+        (y[0], y[1]) = (1.0, found.distance);
+        y[2..5].copy_from_slice(&found.point.0);
+        y[5..8].copy_from_slice(&found.normal.0);
+    }
+
+    /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that press with more than `threshold`.
+    fn touch(
+        &self,
+        seen: &Seen<'_, f64>,
+        points: &[ContactPoint],
+        origin: Vec3<f64>,
+        threshold: f64,
+    ) -> (Vec3<f64>, Vec3<f64>, u32) {
+        let colliders = &seen.model.constraints().colliders;
+        let (mut force, mut torque, mut n) = (Vec3::zero(), Vec3::zero(), 0);
+        for point in points {
+            let [a, b] = point.surfaces.map(|s| colliders[s].frame);
+            // the force is on the first surface's body
+            let (sign, other) = match (a == self.of, b == self.of) {
+                (true, false) => (1.0, b),
+                (false, true) => (-1.0, a),
+                _ => continue,
+            };
+            if !self.with.is_empty() && !self.with.contains(&other) {
+                continue;
+            }
+            force += point.force.scale(sign);
+            torque += (point.torque + (point.point - origin).cross(point.force)).scale(sign);
+            n += u32::from(point.force.dot(point.normal) > threshold);
+        }
+        (force, torque, n)
+    }
+}
