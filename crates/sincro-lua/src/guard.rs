@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use mlua::{HookTriggers, Lua, Thread, VmState};
 
+use crate::library;
 use crate::sandbox::CHUNK;
 
 /// Instructions between two looks at the count.
@@ -230,8 +231,11 @@ impl Guard {
     fn count(self: &Arc<Self>, lua: &Lua) -> mlua::Result<VmState> {
         let every = u64::from(EVERY);
         // once doomed the hook fires at every instruction: nothing to count
-        self.check()?;
-        self.charge(lua, every)?;
+        if let Err(error) = self.check().and_then(|()| self.charge(lua, every)) {
+            // what the error closes would run with hooks off
+            library::disarm(lua)?;
+            return Err(error);
+        }
         let slice = self.slice.load(Ordering::Relaxed);
         if slice >= every {
             self.slice.store(slice - every, Ordering::Relaxed);
@@ -257,7 +261,7 @@ impl Guard {
             self.was_doomed.store(true, Ordering::Relaxed);
             self.line.store(0, Ordering::Relaxed);
             // without a count nothing would hold the script: then it stays doomed
-            if self.watch(lua, EVERY).is_err() {
+            if self.watch(lua, EVERY).and_then(|()| library::rearm(lua)).is_err() {
                 self.doom.store(doom, Ordering::Relaxed);
             }
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use mlua::thread::ThreadStatus;
 use mlua::{Error, Lua, MultiValue, Table, Value};
 
-use super::{Arguments, Library, Original, put};
+use super::{Arguments, Library, Original, closers, put};
 
 /// Instructions that one collection of garbage counts as. A collection takes as long as the script's memory is large, up to some 0.1 s, but
 /// what it has to go through is not the same on every machine: so the price is one for all, and the wall clock ends a loop of long ones.
@@ -14,7 +14,8 @@ pub(super) const COLLECTION: u64 = 10_000;
 pub(super) fn install(lua: &Lua, library: &Arc<Library>) -> mlua::Result<()> {
     let globals = lua.globals();
     let own = Original::of(library, &globals, "setmetatable")?;
-    put(lua, library, &globals, "setmetatable", move |_, arguments| set_metatable(&own, arguments))?;
+    let metatables = closers::install(lua)?;
+    put(lua, library, &globals, "setmetatable", move |_, arguments| set_metatable(&own, &metatables, arguments))?;
     let own = Original::of(library, &globals, "collectgarbage")?;
     put(lua, library, &globals, "collectgarbage", move |library, arguments| collect_garbage(library, &own, arguments))?;
     let coroutines: Table = globals.get("coroutine")?;
@@ -23,11 +24,14 @@ pub(super) fn install(lua: &Lua, library: &Arc<Library>) -> mlua::Result<()> {
 }
 
 /// As Lua's, but a metatable with `__gc` is refused. Lua looks at the field at this moment only: one that is set later is never called.
-fn set_metatable(own: &Original, arguments: &Arguments<'_>) -> mlua::Result<MultiValue> {
-    if let Some(Value::Table(metatable)) = arguments.get(2)
-        && metatable.raw_get::<Value>("__gc")? != Value::Nil
-    {
-        return Err(Error::RuntimeError("a metatable with `__gc` is not allowed: scripts have no finalizers".into()));
+fn set_metatable(own: &Original, metatables: &Table, arguments: &Arguments<'_>) -> mlua::Result<MultiValue> {
+    if let Some(Value::Table(metatable)) = arguments.get(2) {
+        if metatable.raw_get::<Value>("__gc")? != Value::Nil {
+            return Err(Error::RuntimeError(
+                "a metatable with `__gc` is not allowed: scripts have no finalizers".into(),
+            ));
+        }
+        closers::remember(metatables, metatable)?;
     }
     own.call(arguments.lua, &arguments.values)
 }

@@ -75,7 +75,7 @@ impl Pair {
             });
             if expected != found {
                 let texts = [subject, pattern, replacement].map(|bytes| bytes.escape_ascii().to_string());
-                return Err(format!("{name} {texts:?} {init:?}: expected {expected:?}, found {found:?}"));
+                return Err(format!("{name} {:?} {init:?}: expected {expected:?}, found {found:?}", &texts[1..]));
             }
         }
         self.guard.begin(false);

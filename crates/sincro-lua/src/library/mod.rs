@@ -10,12 +10,13 @@
 //! | `table.insert`, `remove`, `move`, `concat` | 8 elements an instruction, charged before anything is moved |
 //! | `table.sort` | own merge sort, one instruction an element and a comparison |
 //! | `collectgarbage` | [`base::COLLECTION`] instructions each |
-//! | `setmetatable` | no finalizers: hooks are off in them |
+//! | `setmetatable` | no finalizers: hooks are off in them; `__close` is taken away from doomed calls (`closers.rs`) |
 //! | `coroutine.close` | not after a limit was reached in the coroutine: its hooks are off |
 //!
 //! Functions that are not here take time in proportion to their arguments' or results' size, which `max_memory` bounds.
 
 mod base;
+mod closers;
 #[cfg(test)]
 mod differential;
 #[cfg(test)]
@@ -30,6 +31,7 @@ use std::sync::Arc;
 use mlua::{Error, Function, IntoLuaMulti, Lua, LuaString, MultiValue, RegistryKey, Table, Value};
 
 use crate::guard::Guard;
+pub(crate) use closers::{disarm, rearm};
 pub(crate) use sort::sort_keys;
 
 /// Bytes that are copied or searched for one instruction.

@@ -102,6 +102,8 @@ fn is_of_class(byte: u8, letter: u8) -> bool {
         b'u' => byte.is_ascii_uppercase(),
         b'w' => byte.is_ascii_alphanumeric(),
         b'x' => byte.is_ascii_hexdigit(),
+        // of older Lua, not in the manual
+        b'z' => byte == 0,
         _ => return letter == byte,
     };
     is_of != letter.is_ascii_uppercase()

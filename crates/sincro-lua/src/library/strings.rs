@@ -112,7 +112,7 @@ fn iterate(library: &Arc<Library>, arguments: &Arguments<'_>) -> mlua::Result<Mu
         let mut meter = Meter::new(lua, &library.guard);
         let found = next_match(lua, &subject, &pattern, (start, last_end), &mut meter);
         meter.settle().map_err(|stop| *stop)?;
-        let Some((end, values)) = found? else { return one(Value::Nil) };
+        let Some((end, values)) = found? else { return Ok(MultiValue::new()) };
         (start, last_end) = (end, Some(end));
         Ok(values)
     })?;
@@ -268,8 +268,7 @@ impl Output<'_> {
                 Some(b'%') => self.push(b"%")?,
                 Some(b'0') => self.push(&subject[whole.0..whole.1])?,
                 Some(digit @ b'1'..=b'9') => {
-                    let value =
-                        matcher.value(usize::from(digit - b'1'), whole).map_err(|stop| in_replacement(*stop))?;
+                    let value = matcher.value(usize::from(digit - b'1'), whole).map_err(|stop| *stop)?;
                     match value {
                         Captured::Bytes { start, end } => self.push(&subject[start..end])?,
                         Captured::Position(position) => self.push(position.to_string().as_bytes())?,
@@ -283,15 +282,6 @@ impl Output<'_> {
     }
 }
 
-fn in_replacement(error: Error) -> Error {
-    match error {
-        Error::RuntimeError(text) if text.starts_with("invalid capture index") => {
-            Error::RuntimeError(text + " in replacement string")
-        }
-        other => other,
-    }
-}
-
 /// `string.rep`: nothing repeated is nothing, however often.
 fn repeat(library: &Library, own: &Original, arguments: &Arguments<'_>) -> mlua::Result<MultiValue> {
     let text = arguments.string(1)?;
@@ -301,7 +291,9 @@ fn repeat(library: &Library, own: &Original, arguments: &Arguments<'_>) -> mlua:
     if len == 0 {
         return one(Value::String(arguments.lua.create_string("")?));
     }
-    // what does not fit is refused before it is made
-    library.charge_bytes(arguments.lua, usize::try_from(len).unwrap_or(usize::MAX).min(library.max_memory))?;
+    // Lua refuses what does not fit before it is made
+    if let Some(len) = usize::try_from(len).ok().filter(|len| *len <= library.max_memory) {
+        library.charge_bytes(arguments.lua, len)?;
+    }
     own.call(arguments.lua, &arguments.values)
 }
