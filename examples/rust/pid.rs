@@ -7,7 +7,7 @@ use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::discrete::DiscretePid;
 use sincro_blocks::library::maths::Sum;
 use sincro_blocks::library::sources::Constant;
-use sincro_scene::diagram::Controller;
+use sincro_scene::diagram::ControlDiagram;
 
 /// Angle to be reached `[rad]`.
 const SETPOINT: f64 = 0.5;
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     diagram.wire("setpoint", "error.u1").wire("/hinge.position", "error.u2");
     diagram.wire("error", "pid").wire("pid", "/hinge");
     let (step, seed) = (loaded.experiment.step, loaded.experiment.seed);
-    let controller = Controller::new(diagram, &loaded.scene.model, step, seed);
+    let controller = ControlDiagram::new(diagram, &loaded.scene.model, step, seed);
     loaded.controller = Some(controller.map_err(|problems| format!("{problems:?}"))?);
 
     let simulated = sincro::simulate(&loaded)?;

@@ -6,37 +6,53 @@ use sincro_coppelia::session::Value;
 /// Tables inside each other beyond which a value is refused: a table may hold itself.
 const MAX_DEPTH: usize = 64;
 
+/// Size beyond which values are refused together [bytes]: a table that is in a table many times is that many values here.
+const MAX_SIZE: usize = 256 << 20;
+
 /// From Lua; functions and the like have no value elsewhere.
 pub(crate) fn from_lua(value: LuaValue) -> mlua::Result<Value> {
-    at_depth(value, 0)
+    at_depth(value, 0, &mut 0)
 }
 
-fn at_depth(value: LuaValue, depth: usize) -> mlua::Result<Value> {
+/// Counts a value; `size` is that of all so far.
+fn count(size: &mut usize, more: usize) -> mlua::Result<()> {
+    *size += more;
+    if *size <= MAX_SIZE {
+        return Ok(());
+    }
+    Err(Error::RuntimeError(format!("values of more than {} MiB cannot be passed on", MAX_SIZE >> 20)))
+}
+
+fn at_depth(value: LuaValue, depth: usize, size: &mut usize) -> mlua::Result<Value> {
+    count(size, size_of::<Value>())?;
     Ok(match value {
         LuaValue::Nil => Value::Nil,
         LuaValue::Boolean(truth) => Value::Bool(truth),
         LuaValue::Integer(n) => Value::Int(n),
         LuaValue::Number(x) => Value::Real(x),
-        LuaValue::String(text) => match text.to_str() {
-            Ok(text) => Value::Text(text.to_owned()),
-            Err(_) => Value::Bytes(text.as_bytes().to_vec()),
-        },
+        LuaValue::String(text) => {
+            count(size, text.as_bytes().len())?;
+            match text.to_str() {
+                Ok(text) => Value::Text(text.to_owned()),
+                Err(_) => Value::Bytes(text.as_bytes().to_vec()),
+            }
+        }
         LuaValue::Table(table) => {
             if depth >= MAX_DEPTH {
                 return Err(Error::RuntimeError(
                     "a table holds itself, or tables are too deep inside each other".into(),
                 ));
             }
-            of_table(&table, depth)?
+            of_table(&table, depth, size)?
         }
         other => return Err(Error::RuntimeError(format!("a {} cannot be passed on", other.type_name()))),
     })
 }
 
-fn of_table(table: &Table, depth: usize) -> mlua::Result<Value> {
+fn of_table(table: &Table, depth: usize, size: &mut usize) -> mlua::Result<Value> {
     let n = table.raw_len();
     if n > 0 {
-        let items = (1..=n).map(|k| at_depth(table.raw_get(k)?, depth + 1));
+        let items = (1..=n).map(|k| at_depth(table.raw_get(k)?, depth + 1, size));
         return Ok(Value::List(items.collect::<mlua::Result<_>>()?));
     }
     let mut map = Vec::new();
@@ -52,7 +68,8 @@ fn of_table(table: &Table, depth: usize) -> mlua::Result<Value> {
                 )));
             }
         };
-        map.push((name, at_depth(value, depth + 1)?));
+        count(size, size_of::<String>() + name.len())?;
+        map.push((name, at_depth(value, depth + 1, size)?));
     }
     // Lua has no order of keys that is the same in every run
     map.sort_by(|a: &(String, Value), b| a.0.cmp(&b.0));
@@ -87,7 +104,8 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value) -> mlua::Result<LuaValue> {
 
 /// Arguments or results.
 pub(crate) fn list_from_lua(values: MultiValue) -> mlua::Result<Vec<Value>> {
-    values.into_iter().map(from_lua).collect()
+    let mut size = 0;
+    values.into_iter().map(|value| at_depth(value, 0, &mut size)).collect()
 }
 
 /// Results.

@@ -63,9 +63,7 @@ pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
     let (message, line) = words(error);
     let line = if guard.is_doomed() { guard.line().or(line) } else { line };
     let (message, help) = if guard.is_doomed() {
-        let help = "look for a loop without end; a thread waits with sim.switchThread(), and `max_instructions` of the script \
-                    raises the limit";
-        (guard.words(), Some(help.to_owned()))
+        (guard.words(), guard.help())
     } else if is_of_memory(error) {
         let message = format!("it took more than {} MiB of memory", script.max_memory >> 20);
         (

@@ -1,14 +1,19 @@
-//! Limits on what one call of a script may take.
+//! Limits on one call of a script: instructions, wall-clock time, and the end of the program.
 //!
-//! Instructions are counted by a hook every [`EVERY`] of them: the same count on every machine, whatever its clock says. Once the
-//! limit is reached the call is doomed: the hook then fires at each instruction, and `pcall`, `xpcall` and `coroutine.resume` of the
+//! Instructions are counted by a hook every [`EVERY`] of them: the same count on every machine, whatever its clock says. Library
+//! functions that do work of their own add it to the count ([`Guard::charge`]). The wall clock is a second line of defence, against work
+//! that neither sees (`..` of large strings, garbage collection): it is read by the hook and by charges.
+//!
+//! Once a limit is reached the call is doomed: the hook then fires at each instruction, and `pcall`, `xpcall` and `coroutine.resume` of the
 //! sandbox fail when they are entered or left, so that no script can catch it and go on.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
 
 use mlua::{HookTriggers, Lua, Thread, VmState};
 
+use crate::library;
 use crate::sandbox::CHUNK;
 
 /// Instructions between two looks at the count.
@@ -20,13 +25,51 @@ const SLICE: u64 = 1_000_000;
 /// Name under which the registry holds the thread that a script is.
 pub(crate) const THREAD: &str = "script thread";
 
+/// Wall-clock limit of one call `[s]`, for up to [`BUDGET_WITHIN_TIME_LIMIT`] instructions; more instructions have more time in proportion.
+/// A hundred million take about a second: the limit is reached by work that is not counted only.
+const TIME_LIMIT: f64 = 30.0;
+
+/// Instruction limit up to which [`TIME_LIMIT`] holds.
+const BUDGET_WITHIN_TIME_LIMIT: u64 = 100_000_000;
+
+/// Set once, when the program ends.
+static IS_ABORTED: AtomicBool = AtomicBool::new(false);
+
+/// Ends every script that is running in this process, and every one that runs later, at its next check: within a thousand instructions.
+///
+/// For a program that is asked to end (Ctrl-C) while a script computes. It may be called from a signal handler's thread, and cannot be undone.
+pub fn abort_running_scripts() {
+    IS_ABORTED.store(true, Ordering::Relaxed);
+}
+
+/// Reason why a call is doomed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+enum Doom {
+    None,
+    Instructions,
+    Time,
+    Abort,
+}
+
+impl Doom {
+    fn of(number: u8) -> Self {
+        [Self::None, Self::Instructions, Self::Time, Self::Abort][usize::from(number)]
+    }
+}
+
 /// Counts of the present call.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Guard {
-    budget: AtomicU64,
+    budget: u64,
     left: AtomicU64,
     slice: AtomicU64,
-    is_doomed: AtomicBool,
+    time_limit: Duration,
+    /// End of the present call's time, on the clock of [`now`]; 0 until the call's first check, so that short calls read no clock.
+    deadline: AtomicU64,
+    doom: AtomicU8,
+    /// True once a call was doomed and the script went on: see [`Guard::was_doomed`].
+    was_doomed: AtomicBool,
     is_in_thread: AtomicBool,
     switches_by_itself: AtomicBool,
     /// Line of the script that was running when the limit was reached; 0 if none is known.
@@ -41,27 +84,65 @@ fn line_of(lua: &Lua) -> usize {
 }
 
 impl Guard {
-    /// With a number of instructions for each call.
+    /// With a number of instructions for each call, and the wall-clock limit that belongs to it.
     pub fn new(budget: u64) -> Arc<Self> {
-        let new = Self::default();
-        new.budget.store(budget, Ordering::Relaxed);
-        new.switches_by_itself.store(true, Ordering::Relaxed);
-        Arc::new(new)
+        let share = (budget as f64 / BUDGET_WITHIN_TIME_LIMIT as f64).max(1.0);
+        // a limit beyond what the clock can tell is none
+        let time_limit = Duration::try_from_secs_f64(TIME_LIMIT * share).unwrap_or(Duration::MAX);
+        Self::with_time_limit(budget, time_limit)
+    }
+
+    /// With a number of instructions and a wall-clock limit for each call.
+    pub fn with_time_limit(budget: u64, time_limit: Duration) -> Arc<Self> {
+        Arc::new(Self {
+            budget,
+            left: AtomicU64::new(0),
+            slice: AtomicU64::new(0),
+            time_limit,
+            deadline: AtomicU64::new(0),
+            doom: AtomicU8::new(Doom::None as u8),
+            was_doomed: AtomicBool::new(false),
+            is_in_thread: AtomicBool::new(false),
+            switches_by_itself: AtomicBool::new(true),
+            line: AtomicUsize::new(0),
+        })
+    }
+
+    /// Wall-clock limit of a call.
+    #[cfg(test)]
+    pub fn time_limit(&self) -> Duration {
+        self.time_limit
+    }
+
+    /// The guard of a Lua state.
+    pub fn of(lua: &Lua) -> Option<Arc<Self>> {
+        lua.app_data_ref::<Arc<Self>>().map(|guard| guard.clone())
     }
 
     /// Before a call; `is_thread` if a thread is resumed.
     pub fn begin(&self, is_thread: bool) {
-        self.left.store(self.budget.load(Ordering::Relaxed), Ordering::Relaxed);
+        self.left.store(self.budget, Ordering::Relaxed);
         self.slice.store(SLICE, Ordering::Relaxed);
+        self.deadline.store(0, Ordering::Relaxed);
         self.is_in_thread.store(is_thread, Ordering::Relaxed);
     }
 
-    /// Whether the limit was reached.
-    pub fn is_doomed(&self) -> bool {
-        self.is_doomed.load(Ordering::Relaxed)
+    fn doom(&self) -> Doom {
+        Doom::of(self.doom.load(Ordering::Relaxed))
     }
 
-    /// Whether threads that do not wait are made to.
+    /// Returns true if a limit was reached.
+    pub fn is_doomed(&self) -> bool {
+        self.doom() != Doom::None
+    }
+
+    /// Returns true if any call of this Lua state was ever doomed. A coroutine that ended by an error of the hook has its hooks off for good:
+    /// what it has yet to close must not run.
+    pub fn was_doomed(&self) -> bool {
+        self.is_doomed() || self.was_doomed.load(Ordering::Relaxed)
+    }
+
+    /// Sets whether threads that do not wait are made to, and returns what was set before.
     pub fn set_switching(&self, by_itself: bool) -> bool {
         self.switches_by_itself.swap(by_itself, Ordering::Relaxed)
     }
@@ -71,27 +152,90 @@ impl Guard {
         Some(self.line.load(Ordering::Relaxed)).filter(|line| *line > 0)
     }
 
-    /// What is said when the limit is reached.
+    /// Message of the limit that was reached.
     pub fn words(&self) -> String {
-        let budget = self.budget.load(Ordering::Relaxed);
-        format!("one call took more than {budget} instructions")
+        match self.doom() {
+            Doom::None | Doom::Instructions => format!("one call took more than {} instructions", self.budget),
+            Doom::Time => format!("one call took more than {} s", self.time_limit.as_secs_f64()),
+            Doom::Abort => "the program is being ended".to_owned(),
+        }
     }
 
-    /// Fails once the limit was reached.
+    /// Help for the limit that was reached.
+    pub fn help(&self) -> Option<String> {
+        let help = match self.doom() {
+            Doom::None | Doom::Instructions => {
+                "look for a loop without end; a thread waits with sim.switchThread(), and `max_instructions` of the script raises the limit"
+            }
+            Doom::Time => "look for a loop that makes large strings or tables again and again, or collects garbage",
+            Doom::Abort => return None,
+        };
+        Some(help.to_owned())
+    }
+
+    /// Fails once a limit was reached.
     pub fn check(&self) -> mlua::Result<()> {
         if self.is_doomed() { Err(mlua::Error::RuntimeError(self.words())) } else { Ok(()) }
     }
 
-    /// Counts down; what is to be done now.
-    fn count(self: &Arc<Self>, lua: &Lua) -> mlua::Result<VmState> {
-        let every = u64::from(EVERY);
+    /// Adds the work of a library function to the count, before or while it is done; fails, and dooms the call, if that is more than is left.
+    pub fn charge(self: &Arc<Self>, lua: &Lua, instructions: u64) -> mlua::Result<()> {
         let left = self.left.load(Ordering::Relaxed);
-        if left < every && !self.is_doomed.swap(true, Ordering::Relaxed) {
+        if left < instructions {
+            self.condemn(lua, Doom::Instructions)?;
+        }
+        self.check()?;
+        self.left.store(left - instructions, Ordering::Relaxed);
+        self.check_clock(lua)
+    }
+
+    /// Dooms the call if the program is being ended or the call's time is over; the first check of a call starts its time.
+    pub fn check_clock(self: &Arc<Self>, lua: &Lua) -> mlua::Result<()> {
+        if IS_ABORTED.load(Ordering::Relaxed) {
+            self.condemn(lua, Doom::Abort)?;
+        } else if self.is_late() {
+            self.condemn(lua, Doom::Time)?;
+        }
+        self.check()
+    }
+
+    fn is_late(&self) -> bool {
+        let (now, deadline) = (now(), self.deadline.load(Ordering::Relaxed));
+        if deadline > 0 {
+            return now >= deadline;
+        }
+        self.deadline.store(now.saturating_add(nanoseconds(self.time_limit)).max(1), Ordering::Relaxed);
+        self.time_limit.is_zero()
+    }
+
+    /// Runs a function of another guard's script, as part of the present call: within what is left of this call's time.
+    pub fn lend_time<T>(&self, other: &Self, run: impl FnOnce() -> T) -> T {
+        // starts the time if nothing has yet
+        self.is_late();
+        let own = other.deadline.swap(self.deadline.load(Ordering::Relaxed), Ordering::Relaxed);
+        let result = run();
+        other.deadline.store(own, Ordering::Relaxed);
+        result
+    }
+
+    fn condemn(self: &Arc<Self>, lua: &Lua, why: Doom) -> mlua::Result<()> {
+        let first = self.doom.compare_exchange(Doom::None as u8, why as u8, Ordering::Relaxed, Ordering::Relaxed);
+        if first.is_ok() {
             self.line.store(line_of(lua), Ordering::Relaxed);
             self.watch(lua, 1)?;
         }
-        self.check()?;
-        self.left.store(left - every, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// Counts down; returns the thread's next state.
+    fn count(self: &Arc<Self>, lua: &Lua) -> mlua::Result<VmState> {
+        let every = u64::from(EVERY);
+        // once doomed the hook fires at every instruction: nothing to count
+        if let Err(error) = self.check().and_then(|()| self.charge(lua, every)) {
+            // what the error closes would run with hooks off
+            library::disarm(lua)?;
+            return Err(error);
+        }
         let slice = self.slice.load(Ordering::Relaxed);
         if slice >= every {
             self.slice.store(slice - every, Ordering::Relaxed);
@@ -112,17 +256,30 @@ impl Guard {
 
     /// After a call from outside that reached the limit: it has failed, the script itself goes on.
     pub fn forgive(self: &Arc<Self>, lua: &Lua) {
-        if self.is_doomed.swap(false, Ordering::Relaxed) {
+        let doom = self.doom.swap(Doom::None as u8, Ordering::Relaxed);
+        if doom != Doom::None as u8 {
+            self.was_doomed.store(true, Ordering::Relaxed);
             self.line.store(0, Ordering::Relaxed);
             // without a count nothing would hold the script: then it stays doomed
-            if self.watch(lua, EVERY).is_err() {
-                self.is_doomed.store(true, Ordering::Relaxed);
+            if self.watch(lua, EVERY).and_then(|()| library::rearm(lua)).is_err() {
+                self.doom.store(doom, Ordering::Relaxed);
             }
         }
     }
 
-    /// Begins to count in a Lua state.
+    /// Begins to count in a Lua state, and makes the guard known to it.
     pub fn install(self: &Arc<Self>, lua: &Lua) -> mlua::Result<()> {
+        lua.set_app_data(self.clone());
         self.watch(lua, EVERY)
     }
+}
+
+/// Nanoseconds since the first call of this function.
+fn now() -> u64 {
+    static ZERO: OnceLock<Instant> = OnceLock::new();
+    nanoseconds(ZERO.get_or_init(Instant::now).elapsed())
+}
+
+fn nanoseconds(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
 }

@@ -82,6 +82,7 @@ impl Host for Scripts {
         let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
         self.lend(&mut call);
         let done = self.machines[place].call_function(function, arguments);
+        self.machines.iter().for_each(Machine::forgive);
         self.lend(&mut call);
         done
     }
@@ -96,6 +97,7 @@ impl Host for Scripts {
         let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
         self.lend(&mut call);
         let done = self.machines[place].evaluate(text);
+        self.machines.iter().for_each(Machine::forgive);
         self.lend(&mut call);
         done
     }

@@ -118,6 +118,11 @@ impl Machine {
         self.guard.begin(false);
     }
 
+    /// Lets the script go on after a client's call reached a limit: in this script, or in another one that it called.
+    pub fn forgive(&self) {
+        self.guard.forgive(&self.lua);
+    }
+
     /// Calls a function by its name, for a client.
     pub fn call_function(&mut self, name: &str, arguments: &[session::Value]) -> Result<Vec<session::Value>, Refusal> {
         let path = self.script().path.clone();
@@ -128,18 +133,17 @@ impl Machine {
             let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
             convert::list_from_lua(values)
         });
-        self.guard.forgive(&self.lua);
         done.map_err(|fault| Refusal(fault.to_string()))
     }
 
     /// Runs a text as if it stood in the script, for a client.
     pub fn evaluate(&mut self, text: &str) -> Result<Vec<session::Value>, Refusal> {
-        let text = power::with_calls(text);
         let done = self.within(false, |m| {
+            sandbox::charge_text(&m.lua, &m.guard, text)?;
+            let text = power::with_calls(text);
             let values = m.lua.load(text).set_name("=text").set_mode(ChunkMode::Text).call(())?;
             convert::list_from_lua(values)
         });
-        self.guard.forgive(&self.lua);
         done.map_err(|fault| Refusal(fault.message))
     }
 

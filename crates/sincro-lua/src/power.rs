@@ -18,13 +18,13 @@ pub(crate) fn with_calls(text: &str) -> String {
         return text.to_owned();
     }
     let words = words(text);
-    let reader = Reader { text, words: &words };
+    let reader = Reader { text, words: &words, partners: partners(text, &words) };
     let mut edits: Vec<(usize, String)> = Vec::new();
     for k in 0..words.len() {
         if reader.symbol(k) != Some("^") {
             continue;
         }
-        let (Some(first), Some(last)) = (reader.operand_before(k), reader.operand_after(k + 1)) else { continue };
+        let (Some(first), Some(last)) = (reader.operand_before(k), reader.operand_after(k + 1, 0)) else { continue };
         if last == k + 1 && &text[words[last].at.clone()] == "2" {
             continue;
         }
@@ -50,9 +50,32 @@ fn apply(text: &str, mut edits: Vec<(usize, String)>) -> String {
     out
 }
 
+/// Powers of powers that are read; the compiler refuses deeper ones.
+const MAX_DEPTH: usize = 200;
+
 struct Reader<'a> {
     text: &'a str,
     words: &'a [Word],
+    /// Word of the other bracket, for each word that is a bracket of a pair.
+    partners: Vec<Option<usize>>,
+}
+
+/// The other bracket of each pair; brackets of any kind are pairs, the compiler says which are not.
+fn partners(text: &str, words: &[Word]) -> Vec<Option<usize>> {
+    let (mut partners, mut open) = (vec![None; words.len()], Vec::new());
+    for (k, word) in words.iter().enumerate().filter(|(_, word)| word.sort == Sort::Symbol) {
+        match &text[word.at.clone()] {
+            "(" | "[" | "{" => open.push(k),
+            ")" | "]" | "}" => {
+                if let Some(start) = open.pop() {
+                    partners[start] = Some(k);
+                    partners[k] = Some(start);
+                }
+            }
+            _ => {}
+        }
+    }
+    partners
 }
 
 impl Reader<'_> {
@@ -83,7 +106,7 @@ impl Reader<'_> {
                 },
                 (_, Some(")" | "]" | "}")) => {
                     let is_index = self.symbol(at) == Some("]");
-                    let open = self.opening(at)?;
+                    let open = self.partners[at]?;
                     match previous(open) {
                         Some(p) if self.ends_expression(p) => at = p,
                         _ if is_index => return None,
@@ -105,50 +128,22 @@ impl Reader<'_> {
         }
     }
 
-    /// The bracket that the one at `k` closes.
-    fn opening(&self, k: usize) -> Option<usize> {
-        let mut depth = 0;
-        for at in (0..=k).rev() {
-            match self.symbol(at) {
-                Some(")" | "]" | "}") => depth += 1,
-                Some("(" | "[" | "{") => depth -= 1,
-                _ => {}
-            }
-            if depth == 0 {
-                return Some(at);
-            }
-        }
-        None
-    }
-
-    fn closing(&self, k: usize) -> Option<usize> {
-        let mut depth = 0;
-        for at in k..self.words.len() {
-            match self.symbol(at) {
-                Some("(" | "[" | "{") => depth += 1,
-                Some(")" | "]" | "}") => depth -= 1,
-                _ => {}
-            }
-            if depth == 0 {
-                return Some(at);
-            }
-        }
-        None
-    }
-
     /// Last word of the operand that begins at word `k`: unary operators, an expression, and a power of it.
-    fn operand_after(&self, mut k: usize) -> Option<usize> {
+    fn operand_after(&self, mut k: usize, depth: usize) -> Option<usize> {
+        if depth > MAX_DEPTH {
+            return None;
+        }
         while matches!(self.symbol(k), Some("-" | "not" | "#" | "~")) {
             k += 1;
         }
         let end = match (self.sort(k)?, self.symbol(k)) {
             (Sort::Number | Sort::Constant | Sort::Text, _) | (_, Some("...")) => k,
             (Sort::Name, _) => self.suffixes_after(k)?,
-            (_, Some("(")) => self.suffixes_after(self.closing(k)?)?,
-            (_, Some("{")) => self.closing(k)?,
+            (_, Some("(")) => self.suffixes_after(self.partners[k]?)?,
+            (_, Some("{")) => self.partners[k]?,
             _ => return None,
         };
-        if self.symbol(end + 1) == Some("^") { self.operand_after(end + 2) } else { Some(end) }
+        if self.symbol(end + 1) == Some("^") { self.operand_after(end + 2, depth + 1) } else { Some(end) }
     }
 
     /// Last word of the indices and calls that follow word `k`, or `k`.
@@ -156,7 +151,7 @@ impl Reader<'_> {
         loop {
             k = match (self.sort(k + 1), self.symbol(k + 1)) {
                 (_, Some("." | ":")) if self.sort(k + 2) == Some(Sort::Name) => k + 2,
-                (_, Some("(" | "[" | "{")) => self.closing(k + 1)?,
+                (_, Some("(" | "[" | "{")) => self.partners[k + 1]?,
                 (Some(Sort::Text), _) => k + 1,
                 _ => return Some(k),
             };
@@ -188,6 +183,16 @@ mod tests {
             let expected = expected.replace("2^0.5", "__pow(2,0.5)");
             assert_eq!(with_calls(text), expected, "{text}");
         }
+    }
+
+    #[test]
+    fn long_texts_take_time_in_proportion() {
+        // a chain of powers deeper than the compiler goes, and brackets in brackets
+        let n = 100_000;
+        let chain = "1^".repeat(n) + "1";
+        assert!(with_calls(&chain).len() < 20 * n);
+        let nested = "(".repeat(n) + "a" + &")^3".repeat(n);
+        assert_eq!(with_calls(&nested).len(), nested.len() + n * "__pow()".len());
     }
 
     #[test]

@@ -5,7 +5,6 @@ local raw_next, raw_pcall, raw_xpcall, raw_error = next, pcall, xpcall, error
 local raw_resume, raw_create, yield = coroutine.resume, coroutine.create, coroutine.yield
 local yieldable = coroutine.isyieldable
 local type, rawget, rawlen, select, getmetatable, setmetatable = type, rawget, rawlen, select, getmetatable, setmetatable
-local sort = table.sort
 
 -- errors: after a limit was reached each of these fails at once, so that nothing can go on for long
 local function checked(ok, ...)
@@ -46,13 +45,7 @@ function coroutine.wrap(f)
 end
 
 -- order: as it stands while no key is a text, else truth values, numbers and texts, each in their own order
-local rank = { boolean = 1, number = 2, string = 3 }
-local function before(a, b)
-  local ra, rb = rank[type(a)], rank[type(b)]
-  if ra ~= rb then return ra < rb end
-  if ra == 1 then return b and not a end
-  return a < b
-end
+local is_ordered = { boolean = true, number = true, string = true }
 
 local function keys_of(t)
   local keys, n, texts, others = {}, 0, false, 0
@@ -62,14 +55,14 @@ local function keys_of(t)
     local kind = type(k)
     if kind == 'string' then
       texts = true
-    elseif not rank[kind] then
+    elseif not is_ordered[kind] then
       others = others + 1
     end
   end
   if others > 0 and n > 1 then
     raw_error('pairs: a table with tables or functions as keys has no order that is the same in every run', 3)
   end
-  if texts then sort(keys, before) end
+  if texts then host.sort_keys(keys) end
   return keys, n
 end
 

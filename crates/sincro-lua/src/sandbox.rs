@@ -11,10 +11,17 @@ use mlua::{Error, Function, Lua, LuaOptions, MultiValue, StdLib, Table, Value, V
 use sincro_math::elementary;
 
 use crate::guard::Guard;
+use crate::library::{self, Raised};
 use crate::power;
 
 /// The chunk name of a script: positions read `script:12:`.
 pub(crate) const CHUNK: &str = "script";
+
+/// Longest text that is compiled in a run [bytes].
+const MAX_TEXT: usize = 1 << 20;
+
+/// Length of a printed line beyond which nothing is added [bytes]; messages are cut at 10 000.
+const MAX_LINE: usize = 10_000;
 
 /// Finds the value of a signal.
 type Signal = dyn Fn(&Lua, &str) -> mlua::Result<Value> + Send;
@@ -49,6 +56,7 @@ pub(crate) fn new(guard: &Arc<Guard>, max_memory: usize) -> mlua::Result<Lua> {
     let lua = Lua::new_with(libraries, LuaOptions::new().catch_rust_panics(true))?;
     lua.set_memory_limit(max_memory)?;
     guard.install(&lua)?;
+    library::install(&lua, guard, max_memory)?;
     Ok(lua)
 }
 
@@ -57,8 +65,8 @@ pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Servic
     let globals = lua.globals();
     mathematics(lua, seed)?;
     forbid(lua)?;
-    let load = lua.create_function(load)?;
-    globals.set("load", load)?;
+    let loading = guard.clone();
+    globals.set("load", lua.create_function(move |lua, arguments| load(lua, &loading, arguments))?)?;
     globals.set(power::POWER, lua.create_function(power_of)?)?;
     let Services { time, signal, print } = services;
     globals.set("print", printing(lua, print)?)?;
@@ -70,6 +78,8 @@ pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Servic
     host.set("check", lua.create_function(move |_, ()| checked.check())?)?;
     let doomed = guard.clone();
     host.set("doomed", lua.create_function(move |_, ()| Ok(doomed.is_doomed()))?)?;
+    let sorting = guard.clone();
+    host.set("sort_keys", lua.create_function(move |lua, keys: Table| library::sort_keys(lua, &sorting, &keys))?)?;
     host.set("text", lua.create_function(|lua, error: Value| text_of(lua, error))?)?;
     host.set("time", clock(lua, &time)?)?;
     host.set("signal", lua.create_function(move |lua, name: String| signal(lua, &name))?)?;
@@ -130,6 +140,7 @@ fn forbid(lua: &Lua) -> mlua::Result<()> {
 /// As Lua's `load`, for texts only; powers are made calls in them too.
 fn load(
     lua: &Lua,
+    guard: &Arc<Guard>,
     (chunk, name, mode, env): (Value, Option<String>, Option<String>, Option<Table>),
 ) -> mlua::Result<MultiValue> {
     let text = match chunk {
@@ -139,7 +150,13 @@ fn load(
             loop {
                 let piece: Option<mlua::LuaString> = pieces.call(())?;
                 match piece.filter(|piece| !piece.as_bytes().is_empty()) {
-                    Some(piece) => text.push_str(&piece.to_string_lossy()),
+                    Some(piece) => {
+                        text.push_str(&piece.to_string_lossy());
+                        guard.charge(lua, 1)?;
+                        if text.len() > MAX_TEXT {
+                            break text;
+                        }
+                    }
                     None => break text,
                 }
             }
@@ -149,6 +166,7 @@ fn load(
             return Err(Error::RuntimeError(message));
         }
     };
+    charge_text(lua, guard, &text)?;
     if mode.is_some_and(|mode| !mode.contains('t')) {
         return Err(Error::RuntimeError("bytecode is not allowed: load takes text".into()));
     }
@@ -164,6 +182,20 @@ fn load(
             MultiValue::from_iter([Value::Nil, Value::String(message)])
         }
     })
+}
+
+/// Charges for the compilation of a text from within a run; Lua's compiler goes through the open jumps and labels of a function again at each one.
+pub(crate) fn charge_text(lua: &Lua, guard: &Arc<Guard>, text: &str) -> mlua::Result<()> {
+    if text.len() > MAX_TEXT {
+        return Err(Error::RuntimeError(format!(
+            "a text of more than {} KiB is not compiled in a run",
+            MAX_TEXT >> 10
+        )));
+    }
+    let jumps =
+        ["elseif", "goto", "::", "break"].map(|word| memchr::memmem::find_iter(text.as_bytes(), word).count() as u64);
+    let jumps: u64 = jumps.iter().sum();
+    guard.charge(lua, (text.len() as u64 + jumps * jumps) / 16)
 }
 
 /// What the compiler said, without mlua's words around it.
@@ -264,10 +296,14 @@ fn printing(lua: &Lua, print: Box<dyn Fn(String) + Send>) -> mlua::Result<Functi
     lua.create_function(move |_, values: Variadic<Value>| {
         let mut line = String::new();
         for (k, value) in values.into_iter().enumerate() {
+            let text: mlua::LuaString = tostring.call(value)?;
+            if line.len() > MAX_LINE {
+                continue;
+            }
             if k > 0 {
                 line.push('\t');
             }
-            line.push_str(&tostring.call::<mlua::LuaString>(value)?.to_string_lossy());
+            line.push_str(&text.to_string_lossy());
         }
         print(line);
         Ok(())
@@ -277,6 +313,9 @@ fn printing(lua: &Lua, print: Box<dyn Fn(String) + Send>) -> mlua::Result<Functi
 /// An error as scripts know it: a text with its position; other values stay.
 fn text_of(lua: &Lua, error: Value) -> mlua::Result<Value> {
     let Value::Error(error) = error else { return Ok(error) };
+    if let Some(value) = Raised::value(lua, &error) {
+        return Ok(value);
+    }
     let (message, line) = crate::fault::words(&error);
     let text = match line {
         Some(line) => format!("{CHUNK}:{line}: {message}"),

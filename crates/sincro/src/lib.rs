@@ -43,6 +43,7 @@ pub mod view;
 pub use load::{camera, extensions, load, scene_name};
 pub use run::{RunFailure, RunRequest, Verdict, simulate};
 
+pub use sincro_lua::abort_running_scripts;
 pub use sincro_scene::overrides::Override;
 pub use sincro_scene::problem::Problems;
 pub use sincro_sim::Loaded;

@@ -4,6 +4,7 @@ use mlua::{Error, Function, Lua, MultiValue, Value as LuaValue};
 
 use super::{Shelf, scripts};
 use crate::convert;
+use crate::guard::Guard;
 
 /// Scripts that may be calling each other at once.
 const MAX_DEPTH: usize = 16;
@@ -44,9 +45,12 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         });
         result.map_err(|error| fail(format!("`{name}` of the script of `{path}`: {}", crate::fault::words(&error).0)))
     })?;
-    shelf.add("testCB", |_, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {
+    let guard = shelf.guard.clone();
+    shelf.add("testCB", move |lua, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {
         let mut result = MultiValue::new();
         for _ in 0..=n.unwrap_or(99) {
+            // a function in C has no instructions that are counted
+            guard.charge(lua, 1)?;
             result = callback.call((a.clone(), b.clone()))?;
         }
         Ok(result)
@@ -66,10 +70,17 @@ pub(crate) fn find(lua: &Lua, name: &str) -> Option<Function> {
     }
 }
 
-/// Calls a function of another Lua state.
+/// Calls a function of another Lua state, within the time of the present call.
 fn pass(lua: &Lua, other: &Lua, function: &Function, arguments: MultiValue) -> mlua::Result<MultiValue> {
     let given = convert::list_from_lua(arguments)?;
-    let result: MultiValue = function.call(convert::list_to_lua(other, &given)?)?;
+    let given = convert::list_to_lua(other, &given)?;
+    let result: MultiValue = match (Guard::of(lua), Guard::of(other)) {
+        (Some(own), Some(others)) => {
+            own.charge(lua, 1)?;
+            own.lend_time(&others, || function.call(given))?
+        }
+        _ => function.call(given)?,
+    };
     let values = convert::list_from_lua(result)?;
     convert::list_to_lua(lua, &values)
 }

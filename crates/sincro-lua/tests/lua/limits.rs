@@ -32,6 +32,10 @@ fn no_loop_without_end_goes_on_however_it_catches_errors() {
         "while true do local x <close> = setmetatable({}, { __close = function() while true do end end }) end",
         "while true do load('while true do end')() end",
         "sim.testCB(1, function() while true do end end, 2)",
+        "sim.testCB(1, math.abs, 2, 1 << 40)",
+        "while true do pcall(string.find, ('a'):rep(10000), '.-.-.-.-b') end",
+        "table.move({}, 1, 1e15, 2)",
+        "while true do collectgarbage() end",
     ];
     for text in loops {
         endless(&format!("function sysCall_init() {text} end"));
@@ -55,6 +59,27 @@ fn memory_has_an_end() {
         assert!(reason.contains("it took more than 64 MiB of memory"), "{reason}");
         assert!(help.contains("max_memory_mib"), "{help}");
     }
+}
+
+#[test]
+fn no_script_has_a_finalizer() {
+    let (reason, _) =
+        stop("function sysCall_init()\n  setmetatable({}, { __gc = function() while true do end end })\nend");
+    assert!(reason.contains("a.lua:2") && reason.contains("a metatable with `__gc` is not allowed"), "{reason}");
+}
+
+#[test]
+fn a_value_that_is_in_a_table_many_times_has_an_end() {
+    let code = "function sysCall_init()
+        local t = { 1 }
+        for k = 1, 40 do t = { t, t } end
+        print(pcall(sim.setFloatSignal, 'x', t))
+    end";
+    let said = super::world::said(code);
+    assert!(
+        said[0].starts_with("false") && said[0].contains("values of more than 256 MiB cannot be passed on"),
+        "{said:?}"
+    );
 }
 
 #[test]

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use sincro::{Loaded, load};
 use sincro_blocks::program::Rate;
-use sincro_scene::diagram::Controller;
+use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
 use sincro_scene::scene::{Freedom, Model, Object, ObjectKind, Scene};
 use sincro_scene::script::Kind;
-use sincro_sim::run::{method_for, method_word, model_hash};
+use sincro_sim::run::{method_for, method_word};
+use sincro_sim::trace::model_hash;
 
 use super::console::{degrees, short};
 use super::run::parse_settings;
@@ -37,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     print(&loaded);
     if arguments.signals {
         say!("signals");
-        let of_diagram = loaded.controller.as_ref().map(Controller::entries).unwrap_or_default();
+        let of_diagram = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         for entry in catalogue(&loaded.scene.model).into_iter().chain(of_diagram) {
             say!("  {:<48} {}", entry.name, entry.unit);
         }
@@ -137,7 +138,7 @@ fn print_constraints(model: &Model<f64>, freedom: &Freedom) {
 }
 
 /// The blocks in the order of evaluation: when each is evaluated, how many states it has.
-fn print_diagram(controller: &Controller, step: f64) {
+fn print_diagram(controller: &ControlDiagram, step: f64) {
     let program = controller.wiring.program();
     let count = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
     say!(

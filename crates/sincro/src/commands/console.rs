@@ -7,8 +7,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sincro::Loaded;
 use sincro_figures::plot::number::{self, significant};
 use sincro_scene::experiment::check::Sense;
-use sincro_scene::script::Message;
 use sincro_sim::campaign::Campaign;
+use sincro_sim::controller::Message;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
 
 use crate::diagnostics::count;

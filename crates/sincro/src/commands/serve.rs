@@ -146,7 +146,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         }
     }
     // a run that is on is ended and kept, unless a script that does not return holds it
-    //ABORT
+    sincro::abort_running_scripts();
     match server.hub().try_enter(LAST_CALL) {
         Some(mut floor) => drop(floor.act(Session::stop)),
         None => {
