@@ -5,6 +5,7 @@ use std::path::Path;
 
 use sincro::serve;
 use sincro_coppelia::session::Search;
+use sincro_math::elementary::sin_cos;
 
 /// Angle to be reached `[rad]`.
 const SETPOINT: f64 = 0.5;
@@ -19,8 +20,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     while session.t() < 3.0 {
         let mut objects = session.desk();
         let (angle, velocity) = (objects.joint_position(hinge)?, objects.joint_velocity(hinge)?);
+        // the sine of the library has the same bits on every platform
+        let (sin, _) = sin_cos(angle);
         // proportional-derivative control with the weight of the arm compensated
-        let torque = 20.0 * (SETPOINT - angle) - 2.0 * velocity + weight * angle.sin();
+        let torque = 20.0 * (SETPOINT - angle) - 2.0 * velocity + weight * sin;
         objects.set_target_force(hinge, torque, true)?;
         if session.steps() % 100 == 0 {
             println!("{:5.2} s   {angle:8.5} rad   {torque:8.4} N·m", session.t());

@@ -125,8 +125,8 @@ fn widths(name: &str, text: &str, found: &mut Vec<String>) {
 
 /// Retired identifiers in code; words in comments and in strings are free.
 fn identifiers(name: &str, text: &str, found: &mut Vec<String>) {
-    let waits = |owner: &&str| UNCONVERTED.contains(&format!("crates/{owner}").as_str());
-    let refused: Vec<&Retired> = RETIRED.iter().filter(|r| !r.owners.iter().any(|owner| waits(&owner))).collect();
+    let waits = |owner: &str| UNCONVERTED.contains(&format!("crates/{owner}").as_str());
+    let refused: Vec<&Retired> = RETIRED.iter().filter(|r| !r.owners.iter().any(|owner| waits(owner))).collect();
     for (k, line) in text.lines().enumerate() {
         for word in words(line) {
             if word.starts_with(RETIRED_PREFIX) {

@@ -34,7 +34,7 @@ pub(crate) enum FigureKind {
     /// Time that a block diagram adds to a step
     Diagram,
     /// Cost of a message of a client and of a call of a script
-    #[value(alias = "adapters")]
+    #[value(alias = "doors")]
     Adapters,
     /// A picture of 256 × 256 pixels of what a camera sees
     Picture,
@@ -417,4 +417,17 @@ fn thread_gain(scene: &Scene, seconds: f64) -> (f64, String) {
     let gain = one.timing().min.wall / two.timing().min.wall;
     let had = if most > 0.0 { format!("; at best {most:.2} processors were free") } else { String::new() };
     (gain, format!("2 threads against one, shortest times on the wall{had}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::ValueEnum;
+
+    use super::*;
+
+    #[test]
+    fn the_former_name_of_the_adapters_is_taken() {
+        assert_eq!(FigureKind::from_str("doors", false), Ok(FigureKind::Adapters));
+        assert_eq!(FigureKind::from_str("adapters", false), Ok(FigureKind::Adapters));
+    }
 }

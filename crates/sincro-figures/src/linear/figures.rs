@@ -18,7 +18,9 @@ const MAX_ASPECT: f64 = 6.0;
 /// Rays whose ends are nearer than this share of the map are left out.
 const CROWDED: f64 = 0.07;
 
-/// File name and figure, channel by channel.
+/// Figures of a linear system, each with a file name without its ending: Bode diagram, map of poles and zeros and step
+/// response of each channel shown.
+#[must_use]
 pub fn all(analysis: &Analysis) -> Vec<(String, Figure)> {
     let mut figures = Vec::new();
     for (k, channel) in analysis.shown().iter().enumerate() {

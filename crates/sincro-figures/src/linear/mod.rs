@@ -21,39 +21,40 @@ pub const MAX_CHANNELS: usize = 6;
 pub struct Analysis<'a> {
     /// Title of the scene.
     pub title: String,
-    /// The matrices.
+    /// Matrices A, B, C, D with the names and units of states, inputs and outputs.
     pub system: &'a StateSpace,
-    /// Slowest first.
+    /// Poles with damping ratio and natural frequency [rad/s], slowest first.
     pub poles: Vec<Mode>,
     /// Controllability: the dimensions that the inputs reach.
     pub controllability: Reach,
     /// Observability: the dimensions that the outputs see.
     pub observability: Reach,
-    /// Every input with every output, input by input.
+    /// Transfer functions of every input to every output that depends on it, input by input.
     pub channels: Vec<Channel>,
-    /// Channels without a path, by name, in words.
+    /// Inputs without an effect on an output: a message for each such pair.
     pub silent: Vec<String>,
 }
 
-/// One input, one output that depends on it.
+/// Transfer function of one input to one output.
 #[derive(Clone, Debug)]
 pub struct Channel {
-    /// Index of the input.
+    /// Index of the input in the system.
     pub input: usize,
-    /// Index of the output.
+    /// Index of the output in the system.
     pub output: usize,
-    /// By modulus.
+    /// Zeros [1/s], by modulus; of a sampled system in the z plane.
     pub zeros: Vec<Complex<f64>>,
-    /// Static gain; `None`: the system integrates.
+    /// Static gain, in [`Analysis::gain_unit`]; `None`: the system integrates.
     pub gain: Option<f64>,
-    /// Over the frequencies that all channels share.
+    /// Magnitude and phase over the frequencies that all channels share.
     pub bode: Bode,
-    /// Over the times that all channels share.
+    /// Response to a unit step over the times that all channels share.
     pub step: StepResponse,
 }
 
 impl<'a> Analysis<'a> {
-    /// Derives everything that is shown.
+    /// Derives poles, zeros, Bode data and step responses of a system; `title` heads text and page.
+    #[must_use]
     pub fn of(title: impl Into<String>, system: &'a StateSpace) -> Self {
         let omega = system.frequencies();
         let pairs = (0..system.n_inputs()).flat_map(|i| (0..system.n_outputs()).map(move |o| (i, o)));
@@ -75,23 +76,27 @@ impl<'a> Analysis<'a> {
         }
     }
 
-    /// Channels shown in full.
+    /// Channels shown in full: the first [`MAX_CHANNELS`].
+    #[must_use]
     pub fn shown(&self) -> &[Channel] {
         &self.channels[..self.channels.len().min(MAX_CHANNELS)]
     }
 
-    /// Names of the channels that are only in the files.
+    /// Names of the channels beyond [`MAX_CHANNELS`], which are only in the files.
+    #[must_use]
     pub fn unshown(&self) -> Vec<String> {
         self.channels.iter().skip(MAX_CHANNELS).map(|channel| self.name(channel)).collect()
     }
 
-    /// `from /motor.command to /arm/hinge.position`.
+    /// Name of a channel: `from /motor.command to /arm/hinge.position`.
+    #[must_use]
     pub fn name(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input], &self.system.outputs[channel.output]);
         format!("from {} to {}", input.name, output.name)
     }
 
     /// Unit of the gain of a channel: `rad/(N·m)`, `rad/(s·V)`.
+    #[must_use]
     pub fn gain_unit(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input].unit, &self.system.outputs[channel.output].unit);
         match (output.as_str(), input.as_str()) {

@@ -7,7 +7,8 @@ use crate::plot::{Figure, escape, escape_raised};
 use crate::report::page::figure;
 use crate::report::shell::{document, list, paragraph, section};
 
-/// The page as HTML.
+/// Report page of a linear system as HTML, with its figures inline.
+#[must_use]
 pub fn html(analysis: &Analysis) -> String {
     let banner = format!(
         "<header>\n<h1>{}</h1>\n{}<div class=\"banner plain\" role=\"status\"><p class=\"verdict\">{}</p></div>\n</header>\n",

@@ -105,7 +105,8 @@ impl StateTable {
     }
 }
 
-/// The whole text.
+/// Summary, poles, channels and matrices of a linear system as text for a terminal, in lines of less than 130 columns.
+#[must_use]
 pub fn text(analysis: &Analysis) -> String {
     let mut out = format!("{}\n", analysis.title);
     out += &format!("  {}\n", summary(analysis));

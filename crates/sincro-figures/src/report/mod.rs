@@ -32,7 +32,7 @@ pub struct Page {
     pub warnings: Vec<String>,
     /// The replay as HTML with its program; may be empty.
     pub replay: String,
-    /// Drawn in order, each over the full width.
+    /// Figures in order, each over the full width.
     pub figures: Vec<Figure>,
     /// Block diagrams as SVG for a page, each with its title.
     pub diagrams: Vec<(String, String)>,
@@ -53,11 +53,11 @@ pub struct Page {
 /// A run that ended before its time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stop {
-    /// When `[s]`.
+    /// Time of the end `[s]`.
     pub time: f64,
     /// Event and culprit, in words.
     pub reason: String,
-    /// The setting that mends it; may be empty.
+    /// Setting that would avoid it; may be empty.
     pub help: String,
     /// True: the experiment asked for this end.
     pub is_good: bool,
@@ -76,7 +76,7 @@ pub struct CheckRow {
     pub expected: Option<f64>,
     /// Kind of the expected value: a value to be met, or a bound.
     pub sense: Sense,
-    /// |measured − expected|, divided by the expected value if `is_relative`; how far beyond a bound.
+    /// |measured − expected|, divided by the expected value if `is_relative`; for a bound the distance beyond it.
     pub deviation: f64,
     /// Largest deviation allowed.
     pub limit: f64,
@@ -101,7 +101,7 @@ pub enum CheckVerdict {
     NotMade,
 }
 
-/// A recorded signal and how well it is known.
+/// A recorded signal with its error bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalRow {
     /// Its path: `/shoulder.position`.
@@ -131,14 +131,14 @@ pub struct Energy {
     pub residual: f64,
 }
 
-/// The gallery of many runs.
+/// The index of many runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IndexPage {
     /// Title of the whole.
     pub title: String,
     /// One or two sentences under the title.
     pub description: String,
-    /// One for each experiment, in order.
+    /// Cards of the experiments, in order.
     pub cards: Vec<Card>,
     /// Versions, machine, total time.
     pub settings: Vec<(String, String)>,
@@ -146,7 +146,7 @@ pub struct IndexPage {
     pub notes: Vec<String>,
 }
 
-/// One experiment in the gallery.
+/// One experiment in the index.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Card {
     /// Title of the experiment.
@@ -207,7 +207,7 @@ pub fn html(page: &Page) -> String {
     page::html(page)
 }
 
-/// The gallery of many runs as HTML.
+/// The index of many runs as HTML.
 #[must_use]
 pub fn index_html(page: &IndexPage) -> String {
     index::html(page)
