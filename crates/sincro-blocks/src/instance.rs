@@ -4,55 +4,55 @@ use core::fmt::Debug;
 
 use sincro_math::{Dual, Real};
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports};
-use crate::kind::{Described, Kind};
+use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
+use crate::kind::Kind;
 use crate::unit::Unit;
 
 /// The numbers that a diagram can run on.
 pub trait Number: Real {
     /// A block that runs on them.
-    fn instance(template: &dyn Template) -> Box<dyn Instance<Self>>;
+    fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>>;
 }
 
 impl Number for f64 {
-    fn instance(template: &dyn Template) -> Box<dyn Instance<Self>> {
+    fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>> {
         template.on_numbers()
     }
 }
 
 impl Number for Dual<1> {
-    fn instance(template: &dyn Template) -> Box<dyn Instance<Self>> {
+    fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>> {
         template.on_duals()
     }
 }
 
 /// A block of any kind, as it stands in a diagram. Implemented for every [`Block`] that is [`Described`].
 #[allow(missing_docs)] // the verbs of `Block`
-pub trait Template: Debug + Send + Sync {
+pub trait DynBlock: Debug + Send + Sync {
     fn kind(&self) -> &'static Kind;
     fn ports(&self) -> Ports;
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String>;
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String>;
-    fn pace(&self) -> Pace;
-    fn feeds_through(&self, input: usize) -> bool;
+    fn sample_time_kind(&self) -> SampleTimeKind;
+    fn has_direct_feedthrough(&self, input: usize) -> bool;
     fn memory(&self, node: &Node) -> Memory;
     fn check(&self, node: &Node) -> Result<(), (String, String)>;
-    fn next_corner(&self, t: f64) -> f64;
+    fn next_time_event(&self, t: f64) -> f64;
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String>;
     fn fault(&self) -> Option<String>;
     fn label(&self) -> String;
-    fn on_numbers(&self) -> Box<dyn Instance<f64>>;
-    fn on_duals(&self) -> Box<dyn Instance<Dual<1>>>;
-    fn boxed_clone(&self) -> Box<dyn Template>;
+    fn on_numbers(&self) -> Box<dyn RunningBlock<f64>>;
+    fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;
+    fn boxed_clone(&self) -> Box<dyn DynBlock>;
 }
 
-impl Clone for Box<dyn Template> {
+impl Clone for Box<dyn DynBlock> {
     fn clone(&self) -> Self {
         self.boxed_clone()
     }
 }
 
-impl<B: Block + Described> Template for B {
+impl<B: Block> DynBlock for B {
     fn kind(&self) -> &'static Kind {
         B::KIND
     }
@@ -65,11 +65,11 @@ impl<B: Block + Described> Template for B {
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
         Block::units(self, inputs)
     }
-    fn pace(&self) -> Pace {
-        Block::pace(self)
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        Block::sample_time_kind(self)
     }
-    fn feeds_through(&self, input: usize) -> bool {
-        Block::feeds_through(self, input)
+    fn has_direct_feedthrough(&self, input: usize) -> bool {
+        Block::has_direct_feedthrough(self, input)
     }
     fn memory(&self, node: &Node) -> Memory {
         Block::memory(self, node)
@@ -77,8 +77,8 @@ impl<B: Block + Described> Template for B {
     fn check(&self, node: &Node) -> Result<(), (String, String)> {
         Block::check(self, node)
     }
-    fn next_corner(&self, t: f64) -> f64 {
-        Block::next_corner(self, t)
+    fn next_time_event(&self, t: f64) -> f64 {
+        Block::next_time_event(self, t)
     }
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String> {
         Block::notice(self, node, memory)
@@ -89,29 +89,29 @@ impl<B: Block + Described> Template for B {
     fn label(&self) -> String {
         Block::label(self)
     }
-    fn on_numbers(&self) -> Box<dyn Instance<f64>> {
+    fn on_numbers(&self) -> Box<dyn RunningBlock<f64>> {
         Box::new(Running { block: self.clone(), work: self.work() })
     }
-    fn on_duals(&self) -> Box<dyn Instance<Dual<1>>> {
+    fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>> {
         Box::new(Running { block: self.clone(), work: self.work() })
     }
-    fn boxed_clone(&self) -> Box<dyn Template> {
+    fn boxed_clone(&self) -> Box<dyn DynBlock> {
         Box::new(self.clone())
     }
 }
 
 /// A block that runs on numbers of type `R`.
 #[allow(missing_docs)] // the verbs of `Block`
-pub trait Instance<R>: Debug + Send + Sync {
+pub trait RunningBlock<R>: Debug + Send + Sync {
     fn start(&self, node: &Node, states: &mut [R], memory: &mut [R]);
     fn output(&mut self, at: &At<'_, R>, y: &mut [R]);
-    fn slope(&mut self, at: &At<'_, R>, slope: &mut [R]);
-    fn decay(&self, at: &At<'_, R>, decay: &mut [R]);
+    fn derivatives(&mut self, at: &At<'_, R>, derivatives: &mut [R]);
+    fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]);
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]);
-    fn boxed_clone(&self) -> Box<dyn Instance<R>>;
+    fn boxed_clone(&self) -> Box<dyn RunningBlock<R>>;
 }
 
-impl<R: Real> Clone for Box<dyn Instance<R>> {
+impl<R: Real> Clone for Box<dyn RunningBlock<R>> {
     fn clone(&self) -> Self {
         self.boxed_clone()
     }
@@ -123,23 +123,23 @@ struct Running<B: Block, R: Real> {
     work: B::Work<R>,
 }
 
-impl<B: Block, R: Real> Instance<R> for Running<B, R> {
+impl<B: Block, R: Real> RunningBlock<R> for Running<B, R> {
     fn start(&self, node: &Node, states: &mut [R], memory: &mut [R]) {
         self.block.start(node, states, memory);
     }
     fn output(&mut self, at: &At<'_, R>, y: &mut [R]) {
         self.block.output(at, &mut self.work, y);
     }
-    fn slope(&mut self, at: &At<'_, R>, slope: &mut [R]) {
-        self.block.slope(at, &mut self.work, slope);
+    fn derivatives(&mut self, at: &At<'_, R>, derivatives: &mut [R]) {
+        self.block.derivatives(at, &mut self.work, derivatives);
     }
-    fn decay(&self, at: &At<'_, R>, decay: &mut [R]) {
-        self.block.decay(at, decay);
+    fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]) {
+        self.block.neg_jacobian_diagonal(at, diagonal);
     }
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]) {
         self.block.update(at, &mut self.work, memory, states);
     }
-    fn boxed_clone(&self) -> Box<dyn Instance<R>> {
+    fn boxed_clone(&self) -> Box<dyn RunningBlock<R>> {
         Box::new(self.clone())
     }
 }

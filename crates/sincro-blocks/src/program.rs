@@ -7,7 +7,7 @@ use core::ops::Range;
 
 use crate::block::{Memory, Node};
 use crate::compile::{EARLY, Flat, Interface, LATE, Problem};
-use crate::instance::Template;
+use crate::instance::DynBlock;
 use crate::unit::Unit;
 
 /// When a block is evaluated.
@@ -27,7 +27,7 @@ pub struct Step {
     /// Names of the entries that lead to it, with `/` between them.
     pub path: String,
     /// The block.
-    pub template: Box<dyn Template>,
+    pub template: Box<dyn DynBlock>,
     /// Its sizes.
     pub node: Node,
     /// When it is evaluated.
@@ -249,11 +249,11 @@ impl Program {
         of_blocks.chain(of_diagrams)
     }
 
-    /// The first instant after `t` at which a function of time that is evaluated between ticks has a corner; infinite if none.
+    /// The first instant after `t` at which a function of time that is evaluated between ticks has a time event; infinite if none.
     #[must_use]
-    pub fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_time_event(&self, t: f64) -> f64 {
         let minor = self.steps.iter().filter(|step| step.is_minor);
-        minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_corner(t)))
+        minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_time_event(t)))
     }
 
     /// Whether anything happens between ticks.
@@ -273,7 +273,8 @@ fn minor_reads(flat: &Flat, minor: &[bool], rates: &[Rate], reads: impl Fn(&usiz
 
 fn has_states(flat: &Flat, rates: &[Rate], n: usize) -> bool {
     let template = flat.nodes[n].template.as_ref();
-    rates[n] == Rate::Continuous && template.is_some_and(|t| t.pace() == crate::block::Pace::Continuous)
+    rates[n] == Rate::Continuous
+        && template.is_some_and(|t| t.sample_time_kind() == crate::block::SampleTimeKind::Continuous)
 }
 
 /// Which nodes the integrator needs: continuous ones that continuous states or the world's commands depend on.
@@ -289,7 +290,7 @@ fn between_ticks(flat: &Flat, order: &[usize], rates: &[Rate]) -> Vec<bool> {
     for &n in order.iter().rev() {
         if needed[n] && rates[n] == Rate::Continuous && n != LATE {
             for (k, input) in flat.nodes[n].inputs.iter().enumerate() {
-                needed[input.node] |= flat.feeds_through(n, k);
+                needed[input.node] |= flat.has_direct_feedthrough(n, k);
             }
         }
     }

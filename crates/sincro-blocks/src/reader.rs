@@ -92,7 +92,7 @@ impl Files for NoFiles {
 }
 
 /// Ports of one block.
-pub const MOST_PORTS: usize = 10_000;
+pub const MAX_PORTS: usize = 10_000;
 
 /// Reads the parameters of one block.
 pub struct Reader<'a> {
@@ -184,7 +184,7 @@ impl<'a> Reader<'a> {
         match parameter.default {
             Some(text) => Some(default_value(text, parameter.takes)),
             None => {
-                let message = format!("`{}` needs the parameter `{key}`: {}", self.kind.name, parameter.meaning);
+                let message = format!("`{}` needs the parameter `{key}`: {}", self.kind.name, parameter.meaning());
                 self.faults.push(Fault { path: Vec::new(), span: None, message, help: format!("give {key} = …") });
                 None
             }
@@ -251,13 +251,26 @@ impl<'a> Reader<'a> {
         if is_whole { x as usize } else { 1 }
     }
 
-    /// A whole number of ports, up to [`MOST_PORTS`] (1 if it is greater, 0 after other faults).
-    pub fn port_count(&mut self, key: &str) -> usize {
+    /// Number of ports, from 1 to [`MAX_PORTS`]; of those that are possible the nearest to 1000 after an error.
+    pub fn positive_port_count(&mut self, key: &str) -> usize {
         let n = self.count(key);
-        if n > MOST_PORTS {
-            self.fault(key, format!("`{key}` is {n}"), format!("a block has at most {MOST_PORTS}"));
+        if n > MAX_PORTS {
+            self.fault(key, format!("`{key}` is {n}"), format!("a block has at most {MAX_PORTS}"));
+            return 1;
         }
-        if n > MOST_PORTS { 1 } else { n }
+        if n == 0 {
+            self.fault(key, format!("`{key}` is 0"), "it must be 1 or more");
+        }
+        n.clamp(1, 1000)
+    }
+
+    /// Number of inputs of a block with as many of them as one likes: from 1 to 1000.
+    pub fn input_count(&mut self, key: &str) -> usize {
+        let n = self.count(key);
+        if !(1..=1000).contains(&n) {
+            self.fault(key, format!("`{key}` is {n}"), "it must be from 1 to 1000");
+        }
+        n.clamp(1, 1000)
     }
 
     /// One number, or one for each component; never empty.
@@ -273,6 +286,15 @@ impl<'a> Reader<'a> {
             Some(value) => vec![self.numeric(&value, &[key])],
             None => vec![f64::NAN],
         }
+    }
+
+    /// A list of whole numbers from `least` on and below a million.
+    pub fn counts(&mut self, key: &str, least: usize) -> Vec<usize> {
+        let list = self.numbers(key);
+        if let Some(bad) = list.iter().find(|x| x.fract() != 0.0 || !(least as f64..1e6).contains(*x)) {
+            self.fault(key, format!("`{key}` has {}", plain(*bad)), format!("{key} are whole numbers from {least} on"));
+        }
+        list.iter().map(|x| *x as usize).collect()
     }
 
     /// As [`Reader::numbers`], each greater than zero.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use b_common::{add, block, list, made, rows, table};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
-use sincro_blocks::kind::Group;
+use sincro_blocks::kind::Category;
 use sincro_blocks::library;
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::program::Program;
@@ -137,10 +137,10 @@ fn fed(kind: &str, parameters: &[(&str, Value)], inputs: &[usize]) -> Arc<Progra
 
 #[test]
 fn no_block_is_forgotten_here() {
-    use Group::{Adaptation, Continuous, Discrete, Matrices, Nonlinear, Rotations};
+    use Category::{Adaptation, Continuous, Discrete, Matrices, Nonlinear, Rotations};
     let known: Vec<&str> = examples().iter().map(|e| e.0).collect();
     let is_own = |group| matches!(group, Matrices | Nonlinear | Continuous | Discrete | Adaptation | Rotations);
-    let own = library::all().filter(|i| is_own(i.kind.group));
+    let own = library::all().filter(|i| is_own(i.kind.category));
     for item in own {
         assert!(known.contains(&item.kind.name), "{}", item.kind.name);
     }
@@ -161,8 +161,8 @@ fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
             }
             plain.update(tick, t);
             dual.update(tick, t);
-            plain.slopes(tick, t, f64::INFINITY, &mut slope);
-            dual.slopes(tick, t, f64::INFINITY, &mut dual_slope);
+            plain.derivatives(tick, t, f64::INFINITY, &mut slope);
+            dual.derivatives(tick, t, f64::INFINITY, &mut dual_slope);
             for k in 0..slope.len() {
                 assert_eq!(slope[k].to_bits(), dual_slope[k].value.to_bits(), "{kind}");
                 plain.state.continuous[k] += STEP * slope[k];
@@ -184,8 +184,8 @@ fn decay_is_the_derivative_of_the_slope_by_its_own_state() {
             runner.state.continuous[seed] = Dual::variable(0.1, 0);
             runner.evaluate(0, 0.0);
             let (mut slope, mut decay) = (vec![Dual::default(); n], vec![Dual::default(); n]);
-            runner.slopes(0, 0.0, f64::INFINITY, &mut slope);
-            runner.decays(0, 0.0, &mut decay);
+            runner.derivatives(0, 0.0, f64::INFINITY, &mut slope);
+            runner.neg_jacobian_diagonal(0, 0.0, &mut decay);
             let (own, told) = (-slope[seed].partials[0], decay[seed].value);
             assert!((own - told).abs() < 1e-12 * (1.0 + told.abs()), "{kind}, state {seed}: {own} {told}");
         }

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sincro_blocks::compile::{Interface, compile};
-use sincro_blocks::diagram::{Diagram, What};
-use sincro_blocks::instance::Template;
+use sincro_blocks::diagram::{Content, Diagram};
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::{Kind, Takes};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::library::{Item, all};
@@ -55,7 +55,7 @@ fn required(kind: &Kind) -> BTreeMap<String, Value> {
     given
 }
 
-fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn Template>, Vec<Fault>) {
+fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn DynBlock>, Vec<Fault>) {
     let scope = BTreeMap::new();
     let mut reader = Reader::new(item.kind, given, &scope, &AnyFile);
     let block = (item.read)(&mut reader);
@@ -64,8 +64,8 @@ fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn Template>, Vec
 
 /// The shelves whose blocks this file knows how to feed.
 fn is_own(kind: &Kind) -> bool {
-    use sincro_blocks::kind::Group::{Logic, Maths, Routing, Sinks, Sources};
-    matches!(kind.group, Sources | Maths | Routing | Logic | Sinks)
+    use sincro_blocks::kind::Category::{Logic, Maths, Routing, Sinks, Sources};
+    matches!(kind.category, Sources | Maths | Routing | Logic | Sinks)
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn every_block_is_described() {
         assert!(!kind.equation.is_empty(), "{}", kind.name);
         let mut keys = BTreeSet::new();
         for parameter in kind.parameters {
-            assert!(!parameter.meaning.is_empty(), "{}: {}", kind.name, parameter.name);
+            assert!(!parameter.meaning().is_empty(), "{}: {}", kind.name, parameter.name);
             assert!(keys.insert(parameter.name), "{}: two parameters {}", kind.name, parameter.name);
             if let (Takes::Choice(words), Some(default)) = (parameter.takes, parameter.default) {
                 assert!(words.contains(&default), "{}: {default}", kind.name);
@@ -140,7 +140,7 @@ fn fed(item: &Item, width: usize) -> Option<(Diagram, Vec<String>)> {
         return None;
     }
     let mut d = Diagram::new();
-    d.add("block", What::Block(block), None);
+    d.add("block", Content::Block(block), None);
     for (k, port) in ports.inputs.iter().enumerate() {
         // within the domain of every function, and a whole number for selectors
         let value = (0..width).map(|i| if k == 0 && width == 1 { 1.0 } else { 0.3 + 0.2 * (k + i) as f64 }).collect();

@@ -57,12 +57,12 @@ pub struct Place {
     /// Names of the entries that lead to the diagram; empty for the outermost.
     pub diagram: Vec<String>,
     /// What of it.
-    pub what: Spot,
+    pub element: Element,
 }
 
 /// What of a diagram.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Spot {
+pub enum Element {
     /// The entry of a name.
     Entry(String),
     /// The sample time of an entry.
@@ -131,7 +131,7 @@ pub(crate) struct FlatNode {
     pub path: String,
     pub place: Place,
     /// None for the world.
-    pub template: Option<Box<dyn crate::instance::Template>>,
+    pub template: Option<Box<dyn crate::instance::DynBlock>>,
     /// With whether it is inherited from a diagram around it.
     pub sample_time: Option<(f64, bool)>,
     pub unit: Option<String>,
@@ -178,8 +178,8 @@ impl Flat {
         }
     }
 
-    pub fn feeds_through(&self, node: usize, input: usize) -> bool {
-        self.nodes[node].template.as_ref().is_none_or(|t| t.feeds_through(input))
+    pub fn has_direct_feedthrough(&self, node: usize, input: usize) -> bool {
+        self.nodes[node].template.as_ref().is_none_or(|t| t.has_direct_feedthrough(input))
     }
 }
 
@@ -206,7 +206,7 @@ mod tests {
     use crate::library::discrete::UnitDelay;
     use crate::library::maths::{Gain, Sum};
     use crate::library::sources::Constant;
-    use crate::solo::Solo;
+    use crate::simulator::Simulator;
 
     fn problems(diagram: &Diagram) -> Vec<String> {
         compile(diagram, &Interface::new(0.001)).unwrap_err().iter().map(ToString::to_string).collect()
@@ -222,8 +222,8 @@ mod tests {
 
     #[test]
     fn first_order_lag_follows_its_exponential() {
-        let mut solo = Solo::new(&decay(), 0.01).unwrap();
-        let x = solo.record("x", 100);
+        let mut simulator = Simulator::new(&decay(), 0.01).unwrap();
+        let x = simulator.record("x", 100);
         let exact = 1.0 - sincro_math::elementary::exp(-2.0).0;
         assert!((x[100] - exact).abs() < 1e-9, "{} {exact}", x[100]);
     }
@@ -304,15 +304,15 @@ mod tests {
         d.diagram("first", lag.clone(), None).diagram("second", lag, None);
         d.block("both", Gain::new(1.0));
         d.wire("one[1]", "first").wire("first", "second").wire("[first, second.out]", "both");
-        let mut solo = Solo::new(&d, 0.01).unwrap();
+        let mut simulator = Simulator::new(&d, 0.01).unwrap();
         assert_eq!(
-            solo.runner.program().order(),
+            simulator.runner.program().order(),
             ["one", "first/x", "first/error", "second/x", "second/error", "[both]", "both"]
         );
-        solo.record("both", 2000);
-        assert!((solo.output("both")[1] - 3.0).abs() < 1e-6);
+        simulator.record("both", 2000);
+        assert!((simulator.output("both")[1] - 3.0).abs() < 1e-6);
         // an inner diagram's output goes by its own name too
-        assert_eq!(solo.output("second"), solo.output("second/x"));
+        assert_eq!(simulator.output("second"), simulator.output("second/x"));
     }
 
     #[test]
@@ -320,7 +320,7 @@ mod tests {
         let mut d = Diagram::new();
         d.block("one", Constant::new(1.0)).block("x", Integrator::new(0.0)).sampled("held", 0.004, Gain::new(1.0));
         d.wire("one", "x").wire("x", "held");
-        let held = Solo::new(&d, 0.001).unwrap().record("held", 8);
+        let held = Simulator::new(&d, 0.001).unwrap().record("held", 8);
         assert_eq!(held.iter().map(|x| (x * 1000.0).round()).collect::<Vec<_>>(), [0., 0., 0., 0., 4., 4., 4., 4., 8.]);
     }
 

@@ -39,7 +39,7 @@ fn needed(flat: &Flat, node: usize) -> Vec<usize> {
         return Vec::new();
     }
     let inputs = flat.nodes[node].inputs.iter().enumerate();
-    inputs.filter(|(k, _)| flat.feeds_through(node, *k)).map(|(_, input)| input.node).collect()
+    inputs.filter(|(k, _)| flat.has_direct_feedthrough(node, *k)).map(|(_, input)| input.node).collect()
 }
 
 /// One loop for each knot of blocks that wait for each other.

@@ -3,8 +3,8 @@
 //! A block with a sample time runs at its ticks. One without takes the pace of its inputs: continuous if any of them is, constant if
 //! all are, else at every tick at which one of them may change.
 
-use super::{EARLY, Flat, FlatNode, LATE, Place, Problem, Spot};
-use crate::block::Pace;
+use super::{EARLY, Element, Flat, FlatNode, LATE, Place, Problem};
+use crate::block::SampleTimeKind;
 use crate::program::Rate;
 
 pub(super) fn infer(flat: &Flat, order: &[usize], step: f64) -> Result<Vec<Rate>, Vec<Problem>> {
@@ -26,13 +26,13 @@ fn rate(flat: &Flat, n: usize, rates: &[Rate], step: f64) -> Result<Rate, Proble
     let node = &flat.nodes[n];
     let template = node.template.as_ref().expect("a block, not the world");
     let given = node.sample_time.map(|(ts, inherited)| (multiple(node, ts, step), inherited));
-    match (template.pace(), given) {
-        (Pace::Constant, _) => Ok(Rate::Constant),
-        (Pace::Continuous, Some((_, inherited))) => Err(continuous_with_sample_time(node, inherited)),
-        (Pace::Continuous | Pace::Timed, None) => Ok(Rate::Continuous),
+    match (template.sample_time_kind(), given) {
+        (SampleTimeKind::Constant, _) => Ok(Rate::Constant),
+        (SampleTimeKind::Continuous, Some((_, inherited))) => Err(continuous_with_sample_time(node, inherited)),
+        (SampleTimeKind::Continuous | SampleTimeKind::TimeVarying, None) => Ok(Rate::Continuous),
         (_, Some((every, _))) => Ok(Rate::Sampled(every?)),
-        (Pace::Sampled, None) => Ok(Rate::Sampled(1)),
-        (Pace::Any, None) => Ok(inherited(flat, n, rates)),
+        (SampleTimeKind::Discrete, None) => Ok(Rate::Sampled(1)),
+        (SampleTimeKind::Inherited, None) => Ok(inherited(flat, n, rates)),
     }
 }
 
@@ -96,8 +96,10 @@ fn continuous_with_sample_time(node: &FlatNode, inherited: bool) -> Problem {
 }
 
 fn sample_place(node: &FlatNode) -> Place {
-    match &node.place.what {
-        Spot::Entry(name) => Place { diagram: node.place.diagram.clone(), what: Spot::SampleTime(name.clone()) },
+    match &node.place.element {
+        Element::Entry(name) => {
+            Place { diagram: node.place.diagram.clone(), element: Element::SampleTime(name.clone()) }
+        }
         _ => node.place.clone(),
     }
 }

@@ -1,6 +1,6 @@
 //! Units: carried along wires as far as they are known, and compared wherever two meet.
 
-use super::{EARLY, Flat, FlatNode, LATE, Place, Problem, Spot};
+use super::{EARLY, Element, Flat, FlatNode, LATE, Place, Problem};
 use crate::unit::Unit;
 
 /// Units of all outputs, as far as they are known, noted in the nodes.
@@ -61,8 +61,8 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
 }
 
 fn unit_place(node: &FlatNode) -> Place {
-    match &node.place.what {
-        Spot::Entry(name) => Place { diagram: node.place.diagram.clone(), what: Spot::Unit(name.clone()) },
+    match &node.place.element {
+        Element::Entry(name) => Place { diagram: node.place.diagram.clone(), element: Element::Unit(name.clone()) },
         _ => node.place.clone(),
     }
 }

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use serde_json::Value as Json;
-use sincro_blocks::diagram::{Diagram, What, Wire};
+use sincro_blocks::diagram::{Content, Diagram, Wire};
 use sincro_blocks::endpoint::{Endpoint, EndpointError};
-use sincro_blocks::instance::Template;
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::library;
 use sincro_blocks::reader::{Fault, Files, NoFiles, Reader, Value};
 
@@ -209,17 +209,17 @@ impl<'a> DiagramReader<'a> {
 
     /// What a block is: of the library, about the robot, or a diagram of this file.
     #[allow(clippy::type_complexity)]
-    fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((What, Option<f64>), Option<Origin>)> {
+    fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((Content, Option<f64>), Option<Origin>)> {
         if let Some(k) = self.file.diagram.iter().position(|d| d.name == block.kind) {
             let (inner, origin, sample_time) = self.instance(k, block, at, scope)?;
-            let what = What::Diagram(block.kind.clone(), Box::new(inner));
+            let what = Content::Diagram(block.kind.clone(), Box::new(inner));
             return Some(((what, sample_time), Some(origin)));
         }
         let template = self.library_block(block, at, scope)?;
-        Some(((What::Block(template), None), None))
+        Some(((Content::Block(template), None), None))
     }
 
-    fn library_block(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<Box<dyn Template>> {
+    fn library_block(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<Box<dyn DynBlock>> {
         let given: BTreeMap<String, Value> = block
             .parameters
             .iter()

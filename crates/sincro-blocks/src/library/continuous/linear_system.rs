@@ -86,7 +86,7 @@ impl LinearSystem {
 
     /// Whether any output depends at once on an input.
     #[must_use]
-    pub fn feeds_through(&self) -> bool {
+    pub fn has_direct_feedthrough(&self) -> bool {
         self.d.entries.iter().any(|x| *x != 0.0)
     }
 
@@ -109,7 +109,7 @@ impl LinearSystem {
     /// `y = c x + d u`; `u` is read only if it feeds through.
     pub(in crate::library) fn output<R: Real>(&self, at: &At<'_, R>, x: &[R], y: &mut [R]) {
         row_by_row(&self.c, x, y, false);
-        if self.feeds_through() {
+        if self.has_direct_feedthrough() {
             row_by_row(&self.d, at.input(0), y, true);
         }
     }

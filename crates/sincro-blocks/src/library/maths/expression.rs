@@ -6,12 +6,8 @@
 //! - **several** formulas give one component of `y` each, and every input is a scalar: a wire takes it from a vector, as in
 //!   `"arm.q[0]"` to `"torque.q1"`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 use sincro_math::expression::{Expression as Parsed, is_name};
-
-use crate::block::{At, Block, Pace, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::{Formula, Reader};
 
 /// Computes formulas of its inputs, the diagram's parameters and the time `t` `[s]`.
 ///
@@ -100,7 +96,7 @@ fn declared(p: &mut Reader<'_>) -> Vec<String> {
 impl Described for Expression {
     const KIND: &'static Kind = &Kind {
         name: "expression",
-        group: Group::Maths,
+        category: Category::Maths,
         summary: "Computes formulas of its inputs, the diagram's parameters and the time.",
         equation: "y = expression(u1, u2, …, t), component by component; or yᵢ = expressionsᵢ of scalar inputs",
         parameters: &[
@@ -161,8 +157,8 @@ impl Block for Expression {
         }
     }
 
-    fn pace(&self) -> Pace {
-        if self.uses_time() { Pace::Timed } else { Pace::Any }
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        if self.uses_time() { SampleTimeKind::TimeVarying } else { SampleTimeKind::Inherited }
     }
 
     fn work<R: Real>(&self) -> Work<R> {

@@ -1,27 +1,14 @@
-//! What the lookup tables have in common: finding the interval, reading breakpoints.
+//! Interpolation between breakpoints, for the lookup tables.
 
-use crate::kind::{Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// What is taken beyond the ends of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extrapolation {
-    /// The value at the end.
-    Hold,
-    /// The line through the last two points.
-    Linear,
-}
-
-pub(super) const EXTRAPOLATION: Parameter = Parameter::optional(
-    "extrapolation",
-    Takes::Choice(&["hold", "linear"]),
-    "beyond the ends: the value there, or the line through the last two points",
-    "hold",
-);
-
-impl Extrapolation {
-    pub(super) fn read(p: &mut Reader<'_>) -> Self {
-        if p.choice("extrapolation") == 0 { Self::Hold } else { Self::Linear }
+choice! {
+    /// Values beyond the ends of a table.
+    pub enum Extrapolation {
+        /// The value at the end.
+        Hold = "hold",
+        /// The line through the last two points.
+        Linear = "linear",
     }
 }
 

@@ -4,8 +4,7 @@
 
 use sincro_math::{Real, elementary};
 
-use crate::kind::{Parameter, Takes};
-use crate::reader::Reader;
+use crate::choice;
 
 /// w, x, y, z.
 pub(super) type Quaternion<R> = [R; 4];
@@ -14,34 +13,15 @@ pub(super) type Matrix3<R> = [R; 9];
 /// In the order in which the convention names them.
 pub(super) type Angles<R> = [R; 3];
 
-/// What three Euler angles `[rad]` mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Convention {
-    /// Roll, pitch, yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll), as of aircraft and vehicles.
-    #[default]
-    Zyx,
-    /// α, β, γ: R = Rx(α)·Ry(β)·Rz(γ), as in V-REP and CoppeliaSim.
-    Xyz,
-}
-
-pub(super) const CONVENTION: Parameter = Parameter::optional(
-    "convention",
-    Takes::Choice(&["zyx", "xyz"]),
-    "zyx: roll, pitch, yaw with R = Rz(yaw)·Ry(pitch)·Rx(roll); xyz: α, β, γ with R = Rx(α)·Ry(β)·Rz(γ), as in V-REP",
-    "zyx",
-);
-
-impl Convention {
-    pub(super) fn read(p: &mut Reader<'_>) -> Self {
-        if p.choice("convention") == 0 { Self::Zyx } else { Self::Xyz }
-    }
-
-    /// As it stands in a drawing.
-    pub(super) fn text(self) -> &'static str {
-        match self {
-            Self::Zyx => "zyx",
-            Self::Xyz => "xyz",
-        }
+choice! {
+    /// Meaning of three Euler angles `[rad]`.
+    #[derive(Default)]
+    pub enum Convention {
+        /// Roll, pitch, yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll), as of aircraft and vehicles.
+        #[default]
+        Zyx = "zyx",
+        /// α, β, γ: R = Rx(α)·Ry(β)·Rz(γ), as in V-REP and CoppeliaSim.
+        Xyz = "xyz",
     }
 }
 
@@ -104,6 +84,14 @@ pub(super) fn matrix_to_quaternion<R: Real>(m: Matrix3<R>) -> Quaternion<R> {
     };
     let zero = R::zero();
     q.map(|x| q[0].if_less(zero, -x, x))
+}
+
+/// Rate of a quaternion from the angular velocity `[rad/s]`, in the axes of the body or of the world.
+#[inline(always)]
+pub(super) fn quaternion_rate<R: Real>(q: Quaternion<R>, w: [R; 3], is_world: bool) -> Quaternion<R> {
+    let half = R::splat(0.5);
+    let w = [R::zero(), half * w[0], half * w[1], half * w[2]];
+    if is_world { product(w, q) } else { product(q, w) }
 }
 
 /// The quaternion of Euler angles.
