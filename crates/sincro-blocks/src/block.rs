@@ -1,11 +1,12 @@
 //! The trait of all blocks: ports, state and equations, written once over [`Real`].
 //!
-//! Every block has the same verbs. Before a run: [`Block::ports`], [`Block::widths`], [`Block::memory`], [`Block::start`]. In a run:
-//! [`Block::output`] computes the outputs, [`Block::derivatives`] those of the continuous states, [`Block::update`] the discrete states
-//! after a tick. No verb but `update` changes state, and no verb allocates.
+//! Every block has the same verbs. Before a run: [`Block::ports`], [`Block::widths`], [`Block::memory`],
+//! [`Block::start`]. In a run: [`Block::output`] computes the outputs, [`Block::derivatives`] those of the continuous
+//! states, [`Block::update`] the discrete states after a tick. No verb but `update` changes state, and no verb
+//! allocates.
 //!
-//! A block of one's own is a declaration of its parameters ([`declare_block!`](crate::declare_block)) and the verbs that are not the
-//! default:
+//! A block of one's own is a declaration of its parameters ([`declare_block!`](crate::declare_block)) and the verbs
+//! that are not the default:
 //!
 //! ```
 //! use sincro_blocks::block::{At, Block};
@@ -53,7 +54,8 @@ use crate::unit::{Unit, common};
 
 /// A block: an immutable set of parameters with its equations. All that changes is in the state that it is handed.
 pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
-    /// Buffers for intermediate results, such as the stack of a formula; their content never matters. `()` for most blocks.
+    /// Buffers for intermediate results, such as the stack of a formula; their content never matters. `()` for most
+    /// blocks.
     type Work<R: Real>: Clone + Debug + Default + Send + Sync;
 
     /// Sample time, if it is the same for all parameters; see [`Block::sample_time_kind`].
@@ -73,8 +75,8 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
         Ports::single()
     }
 
-    /// Widths of the outputs, as far as they follow from the parameters and the widths of the inputs that are known so far (`None`:
-    /// not yet). By default the block works component by component: see [`elementwise`].
+    /// Widths of the outputs, as far as they follow from the parameters and the widths of the inputs that are known so
+    /// far (`None`: not yet). By default the block works component by component: see [`elementwise`].
     ///
     /// # Errors
     ///
@@ -83,7 +85,8 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
         Ok(vec![elementwise(inputs, &self.parameter_widths())?; self.ports().outputs.len()])
     }
 
-    /// Units of the outputs, as far as they follow from the units of the inputs that are known. By default see [`Block::KEEPS_UNIT`].
+    /// Units of the outputs, as far as they follow from the units of the inputs that are known. By default see
+    /// [`Block::KEEPS_UNIT`].
     ///
     /// # Errors
     ///
@@ -98,8 +101,8 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
         Self::SAMPLE_TIME
     }
 
-    /// Returns true if the outputs depend on the present value of this input (direct feedthrough). An input without direct feedthrough
-    /// breaks algebraic loops.
+    /// Returns true if the outputs depend on the present value of this input (direct feedthrough). An input without
+    /// direct feedthrough breaks algebraic loops.
     fn has_direct_feedthrough(&self, _input: usize) -> bool {
         true
     }
@@ -133,16 +136,16 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
     /// Computes the time derivatives `f(x, u, t)` of the continuous states `x`.
     fn derivatives<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _derivatives: &mut [R]) {}
 
-    /// Diagonal of `−∂f/∂x` [1/s], `f` as in [`Block::derivatives`]: implicit integrators damp the new state by it, and stiffness warnings
-    /// rely on it. Zero where it is left out.
+    /// Diagonal of `−∂f/∂x` [1/s], `f` as in [`Block::derivatives`]: implicit integrators damp the new state by it, and
+    /// stiffness warnings rely on it. Zero where it is left out.
     fn neg_jacobian_diagonal<R: Real>(&self, _at: &At<'_, R>, _diagonal: &mut [R]) {}
 
-    /// Computes the discrete states of the next tick, after all outputs of a tick are known. `memory` holds the present ones; `states`
-    /// the continuous states, which may be set too (a reset); `at.states` is empty here.
+    /// Computes the discrete states of the next tick, after all outputs of a tick are known. `memory` holds the present
+    /// ones; `states` the continuous states, which may be set too (a reset); `at.states` is empty here.
     fn update<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _memory: &mut [R], _states: &mut [R]) {}
 
-    /// Next time event: the first instant after `t` at which the outputs or one of their derivatives jump, if that depends on time alone;
-    /// infinite if there is none.
+    /// Next time event: the first instant after `t` at which the outputs or one of their derivatives jump, if that
+    /// depends on time alone; infinite if there is none.
     fn next_time_event(&self, _t: f64) -> f64 {
         f64::INFINITY
     }
@@ -205,7 +208,8 @@ impl Ports {
 pub enum SampleTimeKind {
     /// Evaluated once, at the start.
     Constant,
-    /// As often as its inputs change; at its sample time if it is given one. Without inputs: as [`SampleTimeKind::TimeVarying`].
+    /// As often as its inputs change; at its sample time if it is given one. Without inputs: as
+    /// [`SampleTimeKind::TimeVarying`].
     Inherited,
     /// Depends on time whatever its inputs: continuous, or at its sample time if it is given one.
     TimeVarying,
@@ -267,7 +271,8 @@ impl Node {
 pub struct At<'a, R> {
     /// Time `[s]`.
     pub t: f64,
-    /// Time event at which the present integration step ends `[s]`, else infinite: functions of time take the value before it.
+    /// Time event at which the present integration step ends `[s]`, else infinite: functions of time take the value
+    /// before it.
     pub time_event: f64,
     /// Base steps since the start, at the last tick.
     pub tick: u64,

@@ -47,7 +47,7 @@ pub struct Entry {
     pub unit: Option<String>,
 }
 
-/// What stands under a name.
+/// Content of an entry.
 #[derive(Clone, Debug)]
 pub enum Content {
     /// A block of the library.
@@ -59,9 +59,9 @@ pub enum Content {
 /// A wire: what it carries, and where to.
 #[derive(Clone, Debug)]
 pub struct Wire {
-    /// Where it comes from; several sources are put one after the other into one vector.
+    /// Sources; several are put one after the other into one vector.
     pub from: Vec<Endpoint>,
-    /// Where it goes.
+    /// Target.
     pub to: Endpoint,
 }
 
@@ -82,8 +82,8 @@ impl Diagram {
         self.add(name, Content::Block(Box::new(block)), Some(sample_time))
     }
 
-    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it that have
-    /// none of their own.
+    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it
+    /// that have none of their own.
     pub fn diagram(&mut self, name: &str, inner: Self, sample_time: Option<f64>) -> &mut Self {
         self.add(name, Content::Diagram(name.to_owned(), Box::new(inner)), sample_time)
     }

@@ -1,4 +1,5 @@
-//! Blocks without their types: what a diagram holds and what a run calls.
+//! Blocks without their types: what a diagram holds and what a run calls. Who writes a block implements [`Block`]; the rest
+//! follows.
 
 use core::fmt::Debug;
 
@@ -8,9 +9,9 @@ use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
 use crate::kind::Kind;
 use crate::unit::Unit;
 
-/// The numbers that a diagram can run on.
+/// The kinds of numbers on which a diagram can run: `f64`, and `Dual<1>` for derivatives.
 pub trait Number: Real {
-    /// A block that runs on them.
+    /// Instance of a block that runs on numbers of this kind.
     fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>>;
 }
 
@@ -26,23 +27,49 @@ impl Number for Dual<1> {
     }
 }
 
-/// A block of any kind, as it stands in a diagram. Implemented for every [`Block`] that is [`Described`].
-#[allow(missing_docs)] // the verbs of `Block`
+/// A block of any type, as it stands in a diagram. Implemented for every [`Block`].
 pub trait DynBlock: Debug + Send + Sync {
+    /// Description of its kind.
     fn kind(&self) -> &'static Kind;
+    /// Names of the inputs and outputs; see [`Block::ports`].
     fn ports(&self) -> Ports;
+    /// Widths of the outputs; see [`Block::widths`].
+    ///
+    /// # Errors
+    ///
+    /// Widths that do not fit each other, in words.
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String>;
+    /// Units of the outputs; see [`Block::units`].
+    ///
+    /// # Errors
+    ///
+    /// Units that do not fit each other, in words.
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String>;
+    /// Sample time, as far as it follows from kind and parameters; see [`Block::sample_time_kind`].
     fn sample_time_kind(&self) -> SampleTimeKind;
+    /// Returns true if the outputs depend on the present value of an input; see [`Block::has_direct_feedthrough`].
     fn has_direct_feedthrough(&self, input: usize) -> bool;
+    /// Number of states; see [`Block::memory`].
     fn memory(&self, node: &Node) -> Memory;
+    /// Checks parameters against the compiled diagram; see [`Block::check`].
+    ///
+    /// # Errors
+    ///
+    /// The error, and a help for it.
     fn check(&self, node: &Node) -> Result<(), (String, String)>;
+    /// Next time event after `t` `[s]`; see [`Block::next_time_event`].
     fn next_time_event(&self, t: f64) -> f64;
+    /// Remark for the end of a run; see [`Block::notice`].
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String>;
+    /// Reason for outputs that are not finite; see [`Block::fault`].
     fn fault(&self) -> Option<String>;
+    /// Text in its box in a drawing; see [`Block::label`].
     fn label(&self) -> String;
+    /// Instance that runs on `f64`.
     fn on_numbers(&self) -> Box<dyn RunningBlock<f64>>;
+    /// Instance that runs on dual numbers.
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;
+    /// A copy.
     fn boxed_clone(&self) -> Box<dyn DynBlock>;
 }
 
@@ -101,13 +128,18 @@ impl<B: Block> DynBlock for B {
 }
 
 /// A block that runs on numbers of type `R`.
-#[allow(missing_docs)] // the verbs of `Block`
 pub trait RunningBlock<R>: Debug + Send + Sync {
+    /// Writes the initial states; see [`Block::start`].
     fn start(&self, node: &Node, states: &mut [R], memory: &mut [R]);
+    /// Computes the outputs; see [`Block::output`].
     fn output(&mut self, at: &At<'_, R>, y: &mut [R]);
+    /// Computes the derivatives of the continuous states; see [`Block::derivatives`].
     fn derivatives(&mut self, at: &At<'_, R>, derivatives: &mut [R]);
+    /// Diagonal of `−∂f/∂x` [1/s]; see [`Block::neg_jacobian_diagonal`].
     fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]);
+    /// Computes the discrete states of the next tick; see [`Block::update`].
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]);
+    /// A copy.
     fn boxed_clone(&self) -> Box<dyn RunningBlock<R>>;
 }
 

@@ -19,7 +19,8 @@ pub trait Described: Sized {
     /// Makes the block from a set of parameters. Errors in them are noted in the reader; the block is then not used.
     fn read(parameters: &mut Reader<'_>) -> Self;
 
-    /// The block with all parameters at their defaults; those without a default are NaN, 1 or empty, and still to be set.
+    /// The block with all parameters at their defaults; those without a default are NaN, 1 or empty, and still to be
+    /// set.
     #[must_use]
     fn with_defaults() -> Self {
         static NOTHING: BTreeMap<String, Value> = BTreeMap::new();
@@ -97,7 +98,8 @@ pub struct Parameter {
     pub default: Option<&'static str>,
 }
 
-/// Type and range of a parameter's value. Wherever a number stands, a formula of the diagram's parameters may stand as text.
+/// Type and range of a parameter's value. Wherever a number stands, a formula of the diagram's parameters may stand as
+/// text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
     /// A number.
@@ -175,10 +177,10 @@ impl Parameter {
 /// assert_eq!((parameter.default, Amplifier::KIND.parameters[1].default), (None, Some("false")));
 /// ```
 ///
-/// After `as` stands the type and range of a parameter, from [`parameter`](crate::parameter); after `=` its default as it would be
-/// written in a file. Without a default a parameter must be given. Parameters are checked against each other in
-/// [`Block::validate`](crate::block::Block::validate), which also computes fields that are derived from them, declared as
-/// `with { name: Type = initial_value, … }` after the parameters.
+/// After `as` stands the type and range of a parameter, from [`parameter`](crate::parameter); after `=` its default as
+/// it would be written in a file. Without a default a parameter must be given. Parameters are checked against each
+/// other in [`Block::validate`](crate::block::Block::validate), which also computes fields that are derived from them,
+/// declared as `with { name: Type = initial_value, … }` after the parameters.
 #[macro_export]
 macro_rules! declare_block {
     (

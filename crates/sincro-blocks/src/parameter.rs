@@ -7,7 +7,7 @@
 //! | [`Positive`] | `f64` | greater than 0 |
 //! | [`Count`], [`PositiveCount`] | `usize` | whole, from 0 or 1 on |
 //! | [`InputCount`], [`PortCount`] | `usize` | whole, from 1 to 1000 or 10 000 |
-//! | [`PerComponent`], [`Limits`], [`Positives`] | `Vec<f64>` | one for all components or one for each; finite, any, greater than 0 |
+//! | [`PerComponent`], [`Limits`], [`Positives`] | `Vec<f64>` | one for all or one for each; finite, any, > 0 |
 //! | [`List`] | `Vec<f64>` | numbers with a meaning of their own, such as coefficients |
 //! | [`Rows`] | [`Matrix`] | rows of numbers |
 //! | [`Flag`] | `bool` | true or false |
@@ -183,7 +183,8 @@ pub trait ParameterSet: Sized {
     fn widths(&self) -> Vec<(&'static str, usize)>;
 }
 
-/// Declares a struct of parameters, as [`declare_block!`](crate::declare_block) does for a block, for several blocks that share them.
+/// Declares a struct of parameters, as [`declare_block!`](crate::declare_block) does for a block, for several blocks
+/// that share them.
 #[macro_export]
 macro_rules! declare_parameters {
     (

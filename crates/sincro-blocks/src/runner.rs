@@ -7,8 +7,8 @@
 //!           slopes(t)     rates of the continuous states
 //! ```
 //!
-//! Measurements are written before `evaluate` and `minor` ([`Runner::signals_mut`]), commands read after them ([`Runner::signals`]). What depends
-//! on the world's accelerations is evaluated apart (`*_late`), when they are known.
+//! Measurements are written before `evaluate` and `minor` ([`Runner::signals_mut`]), commands read after them
+//! ([`Runner::signals`]). What depends on the world's accelerations is evaluated apart (`*_late`), when they are known.
 
 use std::sync::Arc;
 
@@ -34,13 +34,13 @@ pub struct Runner<R: Number> {
     /// All that changes.
     pub state: State<R>,
     instances: Vec<Box<dyn RunningBlock<R>>>,
-    /// Which of the program's periods are due.
+    /// For each of the program's periods: true if it is due.
     due: Vec<bool>,
     /// For each step: its period among the program's.
     period: Vec<usize>,
     new_memory: Vec<R>,
-    /// Steps that are evaluated between ticks (before and after the late measurements), those that have continuous states, those that
-    /// have anything to update.
+    /// Steps that are evaluated between ticks (before and after the late measurements), those that have continuous
+    /// states, those that have anything to update.
     minor: Vec<usize>,
     minor_late: Vec<usize>,
     with_states: Vec<usize>,
@@ -182,8 +182,8 @@ impl<R: Number> Runner<R> {
         core::mem::swap(&mut self.state.memory, &mut self.new_memory);
     }
 
-    /// Outputs of the continuous blocks at time `t` between ticks with the continuous states in `state.continuous`, up to those that
-    /// need accelerations. `time_event`: see [`At::time_event`].
+    /// Outputs of the continuous blocks at time `t` between ticks with the continuous states in `state.continuous`, up
+    /// to those that need accelerations. `time_event`: see [`At::time_event`].
     pub fn minor(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor.len() {
             self.output(self.minor[i], t, time_event, tick);
@@ -197,8 +197,8 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// Outputs of all continuous blocks at time `t`, whether or not the integrator needs them; those that need accelerations if `late`,
-    /// else the others. `perturbed`: a signal and what is added to it as soon as it is known.
+    /// Outputs of all continuous blocks at time `t`, whether or not the integrator needs them; those that need
+    /// accelerations if `late`, else the others. `perturbed`: a signal and what is added to it as soon as it is known.
     pub fn evaluate_continuous(&mut self, tick: u64, t: f64, late: bool, perturbed: Option<(usize, R)>) {
         let steps = if late { self.program.n_early..self.instances.len() } else { 0..self.program.n_early };
         for k in steps {
@@ -252,7 +252,7 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// What blocks have to say of the run so far, each with its path.
+    /// Remarks of the blocks on the run so far, each with the block's path.
     #[must_use]
     pub fn notices(&self) -> Vec<(&str, String)> {
         let of_step = |step: &'_ Step| {

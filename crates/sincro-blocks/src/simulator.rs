@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use crate::block::SAME_INSTANT;
-use crate::compile::{Interface, Problem, compile};
+use crate::compile::{CompileError, Interface, compile};
 use crate::diagram::Diagram;
 use crate::runner::Runner;
 
@@ -25,7 +25,7 @@ impl Simulator {
     /// # Errors
     ///
     /// Everything that is wrong with the diagram.
-    pub fn new(diagram: &Diagram, step: f64) -> Result<Self, Vec<Problem>> {
+    pub fn new(diagram: &Diagram, step: f64) -> Result<Self, CompileError> {
         let program = Arc::new(compile(diagram, &Interface::new(step))?);
         let zero = vec![0.0; program.n_states];
         let derivatives = [zero.clone(), zero.clone(), zero.clone(), zero.clone()];

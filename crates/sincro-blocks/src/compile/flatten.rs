@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::{Element, Flat, FlatNode, Input, Interface, LATE, Place, Problem, Terminal, listed};
+use super::{Diagnostic, Element, Flat, FlatNode, Input, Interface, LATE, Place, Terminal, listed};
 use crate::diagram::{Content, Diagram, Entry};
 use crate::endpoint::{Endpoint, WORLD};
 use crate::instance::DynBlock;
 use crate::library::routing::Mux;
 use crate::suggest;
 
-pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, Vec<Problem>> {
+pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, Vec<Diagnostic>> {
     let world = |n: usize| FlatNode {
         path: WORLD.into(),
         place: Place { diagram: Vec::new(), element: Element::Entry(WORLD.into()) },
@@ -47,7 +47,7 @@ pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, 
 }
 
 /// Most blocks of a diagram with all that is inside it: definitions that use definitions grow fast.
-const MOST_BLOCKS: usize = 100_000;
+const MAX_BLOCKS: usize = 100_000;
 
 /// A diagram in its place.
 struct Scope<'a> {
@@ -73,7 +73,7 @@ struct Flattening<'a> {
     interface: &'a Interface,
     flat: Flat,
     scopes: Vec<Scope<'a>>,
-    problems: Vec<Problem>,
+    problems: Vec<Diagnostic>,
     /// Terminals of the interface by name.
     measurements: BTreeMap<&'a str, usize>,
     commands: BTreeMap<&'a str, usize>,
@@ -84,10 +84,10 @@ struct Flattening<'a> {
 impl<'a> Flattening<'a> {
     fn problem(&mut self, path: &[String], element: Element, message: impl Into<String>, help: impl Into<String>) {
         let place = Place { diagram: path.to_vec(), element };
-        self.problems.push(Problem { place, message: message.into(), help: help.into() });
+        self.problems.push(Diagnostic { place, message: message.into(), help: help.into() });
     }
 
-    /// Whether similar names are still looked for: after many problems that would only take time.
+    /// Returns true while similar names are still looked for: after many problems that would only take time.
     fn helps(&self) -> bool {
         self.problems.len() < 100
     }
@@ -111,8 +111,8 @@ impl<'a> Flattening<'a> {
         self.scopes.push(Scope { diagram, path: path.clone(), parent, members: Vec::new(), entries, wires_into });
         self.check_ports(index);
         for (k, entry) in diagram.entries.iter().enumerate() {
-            if self.flat.nodes.len() > MOST_BLOCKS {
-                let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+            if self.flat.nodes.len() > MAX_BLOCKS {
+                let message = format!("the diagram has more than {MAX_BLOCKS} blocks");
                 // said once, where the limit was passed
                 if self.problems.iter().all(|p| p.message != message) {
                     let help = "count what the definitions inside definitions come to";
@@ -300,7 +300,7 @@ impl<'a> Flattening<'a> {
         [wires.get(&(block, port)), unnamed].into_iter().flatten().min().copied()
     }
 
-    /// What stands under a name.
+    /// Content of an entry.
     fn member(&self, scope: usize, block: &str) -> Option<Member> {
         let scope = &self.scopes[scope];
         scope.entries.get(block).map(|k| scope.members[*k])
@@ -388,7 +388,7 @@ impl<'a> Flattening<'a> {
         }
     }
 
-    /// What may have been meant by a measurement that is not there.
+    /// Help for a measurement that is not there.
     fn measurements_like(&self, name: &str) -> String {
         let of_it = format!("{name}.");
         let names = self.measurements.keys().copied();
@@ -400,7 +400,7 @@ impl<'a> Flattening<'a> {
         }
     }
 
-    /// Whether a wire ends at a port that there is.
+    /// Returns true if a wire ends at a port that there is.
     fn check_target(&mut self, scope: usize, k: usize) -> bool {
         let diagram = self.scopes[scope].diagram;
         let path = self.scopes[scope].path.clone();
@@ -499,15 +499,15 @@ impl<'a> Flattening<'a> {
         self.problem(&path, spot, message, help);
     }
 
-    /// Where a wire's numbers come from; several sources are put together by a block of their own.
+    /// Source of a wire's numbers; several are put together by a block of their own.
     fn gather(&mut self, scope: usize, wire: usize, depth: usize) -> Option<Input> {
         let ends = &self.scopes[scope].diagram.wires[wire].from;
         if let [end] = &ends[..] {
             return self.resolve(scope, wire, end, depth);
         }
         let path = self.scopes[scope].path.clone();
-        if self.flat.nodes.len() > MOST_BLOCKS {
-            let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+        if self.flat.nodes.len() > MAX_BLOCKS {
+            let message = format!("the diagram has more than {MAX_BLOCKS} blocks");
             let help = "each `[a, b]` in a wire is one, also those that lead through ports";
             self.problem(&path, Element::From(wire), message, help);
             return None;
@@ -598,7 +598,7 @@ impl<'a> Flattening<'a> {
     }
 }
 
-/// Why an end of a wire names no port of its block, and what would mend it.
+/// Error of an end of a wire that names no port of its block, and a help.
 fn misnamed_port(end: &Endpoint, ports: &[String], word: &str, helps: bool) -> Option<(String, String)> {
     let block = &end.block;
     if end.port.is_empty() {

@@ -1,8 +1,8 @@
 //! From a drawn diagram to a program: names resolved, sizes and units inferred, sample times settled, order found.
 //!
-//! The passes, each in its file: `flatten` (sub-diagrams dissolve into blocks with paths), `widths`, `rates`, `order` (with the
-//! algebraic loops), `units`. All problems of a pass are reported at once; a pass that needs the one before is not begun after
-//! an error.
+//! The passes, each in its file: `flatten` (sub-diagrams dissolve into blocks with paths), `widths`, `rates`, `order`
+//! (with the algebraic loops), `units`. All problems of a pass are reported at once; a pass that needs the one before
+//! is not begun after an error.
 
 mod flatten;
 mod order;
@@ -16,16 +16,16 @@ use crate::diagram::Diagram;
 use crate::program::Program;
 use crate::unit::Unit;
 
-/// What stands around a diagram: the world's ports and the clock.
+/// Surroundings of a diagram: the world's ports and the clock.
 #[derive(Clone, Debug)]
 pub struct Interface {
     /// Base step `[s]`.
     pub step: f64,
     /// Seed of everything random.
     pub seed: u64,
-    /// What the world gives: measurements.
+    /// Measurements: outputs of the world.
     pub measurements: Vec<Terminal>,
-    /// What the world takes: commands.
+    /// Commands: inputs of the world.
     pub commands: Vec<Terminal>,
 }
 
@@ -42,25 +42,25 @@ impl Interface {
 pub struct Terminal {
     /// Its name, then other names for the same.
     pub names: Vec<String>,
-    /// How many numbers.
+    /// Number of components.
     pub width: usize,
     /// Unit, if it has one.
     pub unit: Option<Unit>,
-    /// Of a measurement: depends at once on the commands, as an acceleration does. Of a command: taken at ticks only and held, as
-    /// the velocity of an ideal motor is.
+    /// For a measurement: depends at once on the commands, as an acceleration does. For a command: taken at ticks only
+    /// and held, as the velocity of an ideal motor is.
     pub is_special: bool,
 }
 
-/// Where a problem is.
+/// Place of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Names of the entries that lead to the diagram; empty for the outermost.
     pub diagram: Vec<String>,
-    /// What of it.
+    /// Element of that diagram.
     pub element: Element,
 }
 
-/// What of a diagram.
+/// Element of a diagram.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
     /// The entry of a name.
@@ -69,26 +69,66 @@ pub enum Element {
     SampleTime(String),
     /// The unit of an entry.
     Unit(String),
-    /// Where the wire of a number comes from.
+    /// Source of the wire with this number.
     From(usize),
-    /// Where the wire of a number goes.
+    /// Target of the wire with this number.
     To(usize),
     /// A port of the diagram.
     Port(String),
 }
 
-/// Something wrong with a diagram.
+/// One error of a diagram, with its place and a help.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
-    /// Where.
+pub struct Diagnostic {
+    /// Place in the diagram.
     pub place: Place,
-    /// What.
+    /// The error.
     pub message: String,
-    /// What would mend it.
+    /// Help: a change that would correct it.
     pub help: String,
 }
 
-impl fmt::Display for Problem {
+/// All errors of a diagram that one pass of the compiler found; never empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CompileError(pub Vec<Diagnostic>);
+
+impl core::ops::Deref for CompileError {
+    type Target = [Diagnostic];
+
+    fn deref(&self) -> &[Diagnostic] {
+        &self.0
+    }
+}
+
+impl IntoIterator for CompileError {
+    type Item = Diagnostic;
+    type IntoIter = std::vec::IntoIter<Diagnostic>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl From<Vec<Diagnostic>> for CompileError {
+    fn from(diagnostics: Vec<Diagnostic>) -> Self {
+        Self(diagnostics)
+    }
+}
+
+impl fmt::Display for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, diagnostic) in self.0.iter().enumerate() {
+            write!(f, "{}{diagnostic}", if k == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for CompileError {}
+
+impl std::error::Error for Diagnostic {}
+
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\nhelp: {}", self.message, self.help)
     }
@@ -98,14 +138,14 @@ impl fmt::Display for Problem {
 ///
 /// # Errors
 ///
-/// Everything that is wrong with it.
-pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, Vec<Problem>> {
+/// Everything that is wrong with it, as far as a pass can tell: names, widths, algebraic loops, sample times, units.
+pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, CompileError> {
     let mut flat = flatten::flatten(diagram, interface)?;
     widths::infer(&mut flat)?;
     let order = order::order(&flat)?;
     let rates = rates::infer(&flat, &order, interface.step)?;
     units::infer(&mut flat, &order)?;
-    Program::assemble(flat, &order, &rates, interface)
+    Ok(Program::assemble(flat, &order, &rates, interface)?)
 }
 
 /// A diagram without inner diagrams. Node 0 is the world's measurements, node 1 those that depend on its commands.
@@ -146,7 +186,7 @@ pub(crate) struct FlatNode {
     pub out_units: Vec<Option<Unit>>,
 }
 
-/// Where an input gets its numbers from.
+/// Source of an input.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
     pub node: usize,

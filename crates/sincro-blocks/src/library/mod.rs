@@ -1,4 +1,4 @@
-//! The blocks, one file each, by shelf.
+//! The blocks, one file each, by category.
 //!
 //! [`all`] lists them with their descriptions; [`find`] gives the one of a name.
 
@@ -34,9 +34,9 @@ pub(crate) const fn item<B: Block + Described>() -> Item {
     Item { kind: B::KIND, read: |reader| Box::new(B::read(reader)) }
 }
 
-/// All blocks, shelf by shelf.
+/// All blocks, category by category.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    let shelves = [
+    let categories = [
         sources::BLOCKS,
         maths::BLOCKS,
         matrices::BLOCKS,
@@ -49,7 +49,7 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
         rotations::BLOCKS,
         sinks::BLOCKS,
     ];
-    shelves.into_iter().flatten()
+    categories.into_iter().flatten()
 }
 
 /// The block of a name.

@@ -119,7 +119,7 @@ impl Controller {
         model: &Arc<Model<f64>>,
         step: f64,
         seed: u64,
-    ) -> Result<Self, Vec<sincro_blocks::compile::Problem>> {
+    ) -> Result<Self, sincro_blocks::compile::CompileError> {
         let measurements = ports::measurements(model);
         let interface = Interface {
             step,

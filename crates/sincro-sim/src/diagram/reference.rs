@@ -26,7 +26,7 @@ pub fn kinds() -> Vec<&'static Kind> {
 pub fn reference() -> String {
     let mut text = String::from(
         "# The blocks\n\nGenerated from the blocks themselves; `sincro blocks NAME` prints the same. How diagrams are written stands in \
-         [diagrams.md](diagrams.md).\n\nEvery block also takes `unit` and, but for those of the continuous shelf, `sample_time`. Wherever a number stands, a formula of the parameters may \
+         [diagrams.md](diagrams.md).\n\nEvery block also takes `unit` and, but for those of the continuous category, `sample_time`. Wherever a number stands, a formula of the parameters may \
          stand in quotes. Most blocks work component by component: their inputs and parameters are single numbers, which then stand for all \
          components, or vectors of one length.\n",
     );

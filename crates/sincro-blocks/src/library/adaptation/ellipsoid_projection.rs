@@ -1,18 +1,17 @@
 //! `y = Π(u)`: the point of an ellipsoid that is nearest to `u` in the metric of the adaptation.
 //!
-//! yᵢ = uᵢ/(1 + μ·Γᵢ·wᵢ) with μ ≥ 0 the root of h(μ) = Σ wᵢ·yᵢ² − bound, μ = 0 inside. h falls and is convex, so that Newton's method
-//! from μ = 0 rises to the root without overshooting it. The map does not expand distances in the metric Γ⁻¹: parameters that lie
-//! inside come nearer, never farther.
+//! yᵢ = uᵢ/(1 + μ·Γᵢ·wᵢ) with μ ≥ 0 the root of h(μ) = Σ wᵢ·yᵢ² − bound, μ = 0 inside. h falls and is convex, so that
+//! Newton's method from μ = 0 rises to the root without overshooting it. The map does not expand distances in the
+//! metric Γ⁻¹: parameters that lie inside come nearer, never farther.
 
 use crate::library::prelude::*;
 
-/// Newton steps at most. Far from the root each one multiplies μ by 1.5 or more: 900 pass through all squares that a double can hold.
+/// Newton steps at most. Far from the root each one multiplies μ by 1.5 or more: 900 pass through all squares that a
+/// double can hold.
 const MAX_STEPS: usize = 1000;
 
 declare_block! {
     /// Keeps a vector inside an ellipsoid: the nearest point of it, measured by Γ⁻¹.
-    ///
-    /// Keeps a vector inside an ellipsoid.
     pub struct EllipsoidProjection("ellipsoid-projection", Adaptation):
         "y = argmin (y − u)ᵀ·Γ⁻¹·(y − u) with Σ weightsᵢ·yᵢ² ≤ bound, Γ = diag(gain)" {
         /// Greatest value of the weighted sum of squares.

@@ -1,17 +1,17 @@
 //! `y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε`: the direction of a normalised gradient law.
 //!
-//! For a plant that is linear in unknown parameters, ε = Φ·(θ* − θ), the law θ ← θ + a·y lets (θ* − θ)ᵀΓ⁻¹(θ* − θ) fall for every
-//! a in (0, 2), however large Γ and Φ are: the normalisation I + ΦΓΦᵀ is what an un-normalised law Γ·Φᵀ·ε lacks.
-//! Source: Goodwin & Sin, *Adaptive Filtering, Prediction and Control*, section 3.3 (projection algorithm), for several outputs.
+//! For a plant that is linear in unknown parameters, ε = Φ·(θ* − θ), the law θ ← θ + a·y lets (θ* − θ)ᵀΓ⁻¹(θ* − θ) fall
+//! for every a in (0, 2), however large Γ and Φ are: the normalisation I + ΦΓΦᵀ is what an un-normalised law Γ·Φᵀ·ε
+//! lacks. Source: Goodwin & Sin, *Adaptive Filtering, Prediction and Control*, section 3.3 (projection algorithm), for
+//! several outputs.
 //!
-//! Notation: Φ — regressor, m × n; ε — error, m; Γ — gain, n positive numbers; S = I + ΦΓΦᵀ — m × m, symmetric, eigenvalues ≥ 1.
+//! Notation: Φ — regressor, m × n; ε — error, m; Γ — gain, n positive numbers; S = I + ΦΓΦᵀ — m × m, symmetric,
+//! eigenvalues ≥ 1.
 
 use crate::library::prelude::*;
 
 declare_block! {
     /// The change of unknown parameters that an error asks for, normalised so that it is stable with every gain.
-    ///
-    /// Change of parameters that an error asks for.
     pub struct NormalizedGradient("normalized-gradient", Adaptation):
         "y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε, Γ = diag(gain), Φ = regressor, row by row" {
         /// Diagonal of Γ, one number for every parameter or one for all, positive.

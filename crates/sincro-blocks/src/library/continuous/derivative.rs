@@ -8,7 +8,7 @@ declare_block! {
     /// A derivative without a lag would need the future. The shorter the time constant, the truer and the noisier it
     /// is.
     pub struct Derivative("derivative", Continuous): "y = (u − x)/time_constant, x' = y, x(0) = initial_input" {
-        /// Of the lag `[s]`: shorter is truer and noisier.
+        /// Time constant of the lag `[s]`: shorter is truer and noisier.
         pub time_constant: Vec<f64> as Positives,
         /// Value that u had before the start.
         pub initial_input: Vec<f64> as PerComponent = "0",
@@ -16,7 +16,7 @@ declare_block! {
 }
 
 impl Derivative {
-    /// Of an input that was zero before the start; `time_constant` in `[s]`.
+    /// For an input that was zero before the start; `time_constant` in `[s]`.
     #[must_use]
     pub fn new(time_constant: f64) -> Self {
         Self { time_constant: vec![time_constant], initial_input: vec![0.0] }

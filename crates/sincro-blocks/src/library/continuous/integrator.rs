@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Integrates its input over time, within limits.
     ///
-    /// Integrates its input over time.  At a limit it stands still as long as the input pushes outwards. With `reset`
+    /// At a limit it stands still as long as the input pushes outwards. With `reset`
     /// it has a second input: while that is greater than zero at a tick, the state is put back to the initial value.
     pub struct Integrator("integrator", Continuous): "y' = u, lower ≤ y ≤ upper; y = initial while reset > 0" {
         /// y at the start.
@@ -14,7 +14,7 @@ declare_block! {
         pub lower: f64 as Limit = "-inf",
         /// Greatest y.
         pub upper: f64 as Limit = "inf",
-        /// Whether there is an input `reset`.
+        /// Adds an input `reset`.
         pub reset: bool as Flag = "false",
     }
 }

@@ -3,9 +3,9 @@
 use crate::library::prelude::*;
 
 declare_block! {
-    /// A first-order lag, which does not feed through at once.
+    /// A first-order lag, without direct feedthrough.
     ///
-    /// A first-order lag. Its output does not depend at once on its input: it breaks algebraic loops.
+    /// It breaks algebraic loops.
     pub struct LowPass("low-pass", Continuous): "y' = (dc_gain·u − y)/time_constant, y(0) = initial" {
         /// Time after which a step is answered to 63 % `[s]`.
         pub time_constant: Vec<f64> as Positives,

@@ -13,7 +13,7 @@ use super::PidLaw;
 use super::pid_law::AntiWindup;
 use crate::library::prelude::*;
 
-/// A PID controller. With an output lag it does not feed through at once.
+/// A PID controller. With an output lag it has no direct feedthrough.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pid {
     /// Its parameters.
@@ -27,7 +27,7 @@ impl Pid {
         Self { law: PidLaw::new(kp, ki, kd) }
     }
 
-    /// Where the filter's and the lag's states begin, for outputs of a width.
+    /// Indices at which the filter's states begin, the lag's begin, and all end, for outputs of a width.
     fn layout(&self, width: usize) -> (usize, usize, usize) {
         let lag = if self.law.has_derivative() { 2 * width } else { width };
         (width, lag, if self.law.has_lag() { lag + width } else { lag })

@@ -1,12 +1,13 @@
-//! Control law shared by the continuous and the discrete PID controller: parameters, ports, and the sum of the three terms.
+//! Control law shared by the continuous and the discrete PID controller: parameters, ports, and the sum of the three
+//! terms.
 //!
 //! ```text
 //! v = kp·(b·r − m) + I + D + feedforward,   output = lower ≤ v ≤ upper
 //! ```
 //!
-//! with the setpoint r, the measurement m, the integral term I of ki·(r − m) and the filtered derivative D of kd·(c·r − m). With one
-//! input, the error e = r − m stands for all three brackets. Source of the form with setpoint weights and back-calculation:
-//! K. J. Åström, T. Hägglund, *Advanced PID Control*, ISA 2006, chapter 3.
+//! with the setpoint r, the measurement m, the integral term I of ki·(r − m) and the filtered derivative D of kd·(c·r −
+//! m). With one input, the error e = r − m stands for all three brackets. Source of the form with setpoint weights and
+//! back-calculation: K. J. Åström, T. Hägglund, *Advanced PID Control*, ISA 2006, chapter 3.
 
 use crate::library::prelude::*;
 
@@ -19,25 +20,25 @@ declare_parameters! {
         pub ki: Vec<f64> as PerComponent = "0",
         /// Derivative gain `[unit of kp · s]`.
         pub kd: Vec<f64> as PerComponent = "0",
-        /// Of the lag in the derivative term `[s]`, 1/N.
+        /// Time constant of the lag in the derivative term `[s]`, 1/N.
         pub filter_time_constant: Vec<f64> as PerComponent = "0.01",
         /// Least output.
         pub lower: Vec<f64> as Limits = "-inf",
         /// Greatest output.
         pub upper: Vec<f64> as Limits = "inf",
-        /// What keeps the integral term from running away at a limit.
+        /// Protection against windup of the integral term at a limit.
         pub anti_windup: AntiWindup as Choice = "back-calculation",
-        /// How fast back-calculation takes the integral term back `[s]`; 0 for kp/ki.
+        /// Time constant of back-calculation `[s]`; 0 for kp/ki.
         pub tracking_time_constant: Vec<f64> as PerComponent = "0",
-        /// Of a first-order lag on the output `[s]`; 0 for none.
+        /// Time constant of a first-order lag on the output `[s]`; 0 for none.
         pub output_time_constant: f64 as Number = "0",
-        /// Whether the inputs are `setpoint` and `measurement` instead of the error `u`.
+        /// Replaces the error `u` by the inputs `setpoint` and `measurement`.
         pub separate: bool as Flag = "false",
         /// Weight b of the setpoint in the proportional term, with separate inputs.
         pub setpoint_weight: Vec<f64> as PerComponent = "1",
         /// Weight c of the setpoint in the derivative term, with separate inputs.
         pub derivative_setpoint_weight: Vec<f64> as PerComponent = "0",
-        /// Whether there is an input `feedforward`, which is added.
+        /// Adds an input `feedforward`, which is added to the output.
         pub feedforward: bool as Flag = "false",
         /// Integral term at the start.
         pub initial: Vec<f64> as PerComponent = "0",
@@ -152,8 +153,8 @@ impl PidLaw {
         v.max(R::splat(of(&self.lower, i))).min(R::splat(of(&self.upper, i)))
     }
 
-    /// Rate of the integral term: `ki·e`, but for what `anti_windup` takes away where `v` is beyond a limit. `tracking`: time
-    /// constant of back-calculation `[s]`.
+    /// Rate of the integral term: `ki·e`, but for what `anti_windup` takes away where `v` is beyond a limit.
+    /// `tracking`: time constant of back-calculation `[s]`.
     #[inline(always)]
     pub(in crate::library) fn integral_rate<R: Real>(&self, error: R, v: R, tracking: f64, i: usize) -> R {
         let ki = of(&self.ki, i);

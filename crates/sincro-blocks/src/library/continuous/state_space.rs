@@ -3,7 +3,7 @@
 use super::LinearSystem;
 use crate::library::prelude::*;
 
-/// A linear system given by its four matrices. It feeds through only where `d` is not zero.
+/// A linear system given by its four matrices. It has direct feedthrough only where `d` is not zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateSpace {
     /// Matrices and initial states; `a` in `[1/s]`.
@@ -28,7 +28,7 @@ impl Described for StateSpace {
             Parameter::required("a", Takes::Matrix, "system matrix, n × n [1/s]"),
             Parameter::required("b", Takes::Matrix, "input matrix, n × inputs; of one input, a list will do"),
             Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
-            Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("d", Takes::Matrix, "feedthrough matrix, outputs × inputs; zero if left out", "[]"),
             Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
         ],
     };

@@ -11,13 +11,13 @@ use crate::library::prelude::*;
 
 /// A linear system given by the polynomials of its transfer function. A vector is taken component by component.
 ///
-/// It feeds through only if numerator and denominator are of the same degree.
+/// It has direct feedthrough only if numerator and denominator are of the same degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferFunction {
     /// Numerator over denominator, powers of s `[1/s]`.
     pub rational: Rational,
-    /// Output at the start: the states rest as after a long time at the input that gives it. One for all components or one for
-    /// each.
+    /// Output at the start: the states rest as after a long time at the input that gives it. One for all components or
+    /// one for each.
     pub initial_output: Vec<f64>,
 }
 

@@ -1,16 +1,16 @@
 //! `y(t) = u(t − delay)`.
 //!
-//! The input is remembered at every tick, in a ring: tick k stands in slot k mod n. In between it is interpolated linearly. With D
-//! steps of delay the output needs the ticks from ⌊k − D⌋ on, k being the last one: n = ⌈D⌉ + 1.
+//! The input is remembered at every tick, in a ring: tick k stands in slot k mod n. In between it is interpolated
+//! linearly. With D steps of delay the output needs the ticks from ⌊k − D⌋ on, k being the last one: n = ⌈D⌉ + 1.
 
 use crate::library::prelude::*;
 
 declare_block! {
     /// The input of some time ago, interpolated between ticks.
     ///
-    /// The input of some time ago, such as of a belt, a pipe or a network. At least one base step long.
+    /// For a belt, a pipe or a network. The delay is at least one base step.
     pub struct TransportDelay("transport-delay", Continuous): "y(t) = u(t − delay), y = initial for t < delay" {
-        /// How long ago `[s]`, at least one base step.
+        /// Delay `[s]`, at least one base step.
         pub delay: f64 as Positive,
         /// y before the first input has arrived.
         pub initial: Vec<f64> as PerComponent = "0",
@@ -53,10 +53,10 @@ impl Block for TransportDelay {
             let message = format!("a delay of {} s is shorter than the base step of {} s", self.delay, node.step);
             return Err((message, format!("delay by {} s or more, or take a smaller `step`", node.step)));
         }
-        if steps > MOST_STEPS {
+        if steps > MAX_STEPS {
             let (delay, steps) = (short(self.delay), short(steps.ceil()));
             let message = format!("a delay of {delay} s is {steps} base steps of {} s", node.step);
-            return Err((message, format!("at most {MOST_STEPS} steps are remembered: take a larger `step`")));
+            return Err((message, format!("at most {MAX_STEPS} steps are remembered: take a larger `step`")));
         }
         Ok(())
     }
@@ -97,5 +97,5 @@ impl Block for TransportDelay {
     }
 }
 
-/// What fits into memory without a thought: a hundred seconds at ten microseconds.
-const MOST_STEPS: f64 = 1e7;
+/// Samples of one delay: a hundred seconds at ten microseconds.
+const MAX_STEPS: f64 = 1e7;

@@ -11,14 +11,13 @@
 //! ζ > 1: c = cosh(ω_d·T), s = sinh(ω_d·T)/ω_d,   ω_d = ω·√(ζ² − 1)
 //! ```
 //!
-//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference (`farrell2009`).
+//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference
+//! (`farrell2009`).
 
 use crate::library::prelude::*;
 
 declare_block! {
     /// Makes a reference smooth and gives its first two derivatives; discretised exactly.
-    ///
-    /// A second-order reference filter at a sample time.
     pub struct CommandFilter("command-filter", Discrete):
         "y'' = −ω²·(y − u) − 2ζω·y', u held over a sample; outputs y, rate = y', acceleration = y''" {
         /// ω `[rad/s]`.

@@ -1,14 +1,14 @@
 //! `y[k] = u[k−samples]`.
 //!
-//! The input of sample k stands in slot k mod `samples` of a ring. With no sample it is a piece of wire, so that a latency can be set to
-//! nothing.
+//! The input of sample k stands in slot k mod `samples` of a ring. With no sample it is a piece of wire, so that a
+//! latency can be set to nothing.
 
 use crate::library::prelude::*;
 
 declare_block! {
     /// The input of some samples before.
     pub struct Delay("delay", Discrete): "y[k] = u[k−samples], y[k] = initial for k < samples" {
-        /// How many samples before; 0 for none, it then feeds through.
+        /// Number of samples; 0 for none, it then has direct feedthrough.
         pub samples: usize as Count,
         /// y until the first input has arrived.
         pub initial: Vec<f64> as PerComponent = "0",

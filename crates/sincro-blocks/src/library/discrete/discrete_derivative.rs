@@ -14,7 +14,7 @@ declare_block! {
 }
 
 impl DiscreteDerivative {
-    /// Of an input that was zero before the start.
+    /// For an input that was zero before the start.
     #[must_use]
     pub fn new(gain: f64) -> Self {
         Self { gain: vec![gain], initial_input: vec![0.0] }

@@ -13,8 +13,8 @@ use crate::library::prelude::*;
 declare_block! {
     /// Sums its input over time, within limits.
     ///
-    /// Only forward Euler has no direct feedthrough. With `reset` it has a second input: while that is greater than zero at a sample, the
-    /// next sample starts from the initial value.
+    /// Only forward Euler has no direct feedthrough. With `reset` it has a second input: while that is greater than
+    /// zero at a sample, the next sample starts from the initial value.
     pub struct DiscreteIntegrator("discrete-integrator", Discrete):
         "y[k+1] = y[k] + gain·Ts·u[k] (forward Euler), lower ≤ y ≤ upper; y = initial after reset > 0" {
         /// Rule of the integral.
@@ -27,7 +27,7 @@ declare_block! {
         pub lower: Vec<f64> as Limits = "-inf",
         /// Greatest y.
         pub upper: Vec<f64> as Limits = "inf",
-        /// Whether there is an input `reset`.
+        /// Adds an input `reset`.
         pub reset: bool as Flag = "false",
     }
 }

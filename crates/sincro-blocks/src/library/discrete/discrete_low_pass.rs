@@ -1,14 +1,14 @@
 //! `y[k] = y[k−1] + (1 − e^(−Ts/T))·(dc_gain·u[k] − y[k−1])`: a first-order lag, exact over one sample.
 //!
-//! The solution of `T·y' = dc_gain·u − y` after the time Ts under a constant input, so it is stable for every T > 0, where forward
-//! Euler needs Ts < 2T.
+//! The solution of `T·y' = dc_gain·u − y` after the time Ts under a constant input, so it is stable for every T > 0,
+//! where forward Euler needs Ts < 2T.
 
 use crate::library::prelude::*;
 
 declare_block! {
     /// A first-order lag, discretised exactly.
     ///
-    /// A first-order lag at a sample time. It feeds through: the input of a sample counts for the whole interval that
+    /// It has direct feedthrough: the input of a sample counts for the whole interval that
     /// ends at it.
     pub struct DiscreteLowPass("discrete-low-pass", Discrete):
         "y[k] = y[k−1] + (1 − e^(−Ts/time_constant))·(dc_gain·u[k] − y[k−1]), y[−1] = initial" {

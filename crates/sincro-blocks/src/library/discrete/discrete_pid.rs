@@ -9,8 +9,9 @@
 //!        α = 0 forward Euler, 1 backward Euler, ½ trapezoidal
 //! ```
 //!
-//! Back-calculation adds `min(Ts/Tt, 1)·(limited(v) − v)` to s; clamping leaves s as it is while the limit is pushed against. An
-//! output lag T is `y[k] = (T·y[k−1] + Ts·limited(v[k]))/(T + Ts)`. Memory, each for all components: s, f, y.
+//! Back-calculation adds `min(Ts/Tt, 1)·(limited(v) − v)` to s; clamping leaves s as it is while the limit is pushed
+//! against. An output lag T is `y[k] = (T·y[k−1] + Ts·limited(v[k]))/(T + Ts)`. Memory, each for all components: s, f,
+//! y.
 
 use super::Method;
 use crate::library::continuous::PidLaw;
@@ -21,7 +22,7 @@ use crate::library::prelude::*;
 pub struct DiscretePid {
     /// Its parameters, those of the continuous `pid`.
     pub law: PidLaw,
-    /// Of the integral term.
+    /// Rule of the integral term.
     pub method: Method,
 }
 

@@ -3,7 +3,7 @@
 use crate::library::continuous::LinearSystem;
 use crate::library::prelude::*;
 
-/// A linear recursion given by its four matrices. It feeds through only where `d` is not zero.
+/// A linear recursion given by its four matrices. It has direct feedthrough only where `d` is not zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscreteStateSpace {
     /// Matrices and initial states.
@@ -28,7 +28,7 @@ impl Described for DiscreteStateSpace {
             Parameter::required("a", Takes::Matrix, "system matrix, n × n"),
             Parameter::required("b", Takes::Matrix, "input matrix, n × inputs; of one input, a list will do"),
             Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
-            Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("d", Takes::Matrix, "feedthrough matrix, outputs × inputs; zero if left out", "[]"),
             Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
         ],
     };

@@ -11,7 +11,7 @@ use crate::library::prelude::*;
 
 /// A linear recursion given by the polynomials of its transfer function. A vector is taken component by component.
 ///
-/// It feeds through only if numerator and denominator are of the same degree.
+/// It has direct feedthrough only if numerator and denominator are of the same degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscreteTransferFunction {
     /// Numerator over denominator, powers of z.
@@ -30,7 +30,7 @@ impl DiscreteTransferFunction {
     }
 }
 
-/// Whether the present input is needed for the present output.
+/// Returns true if the present output depends on the present input.
 pub(super) fn has_direct_feedthrough(g: &Rational) -> bool {
     g.b(0) != 0.0
 }

@@ -1,7 +1,7 @@
 //! `a[0]·y[k] = Σ b[j]·u[k−j] − Σ a[j]·y[k−j]`, or such sections one behind the other.
 //!
-//! Every section is a recursion in direct form II transposed, as in `discrete-transfer-function`; here polynomials are in powers of
-//! z⁻¹, as MATLAB's `filter(b, a, u)` and `sosfilt` take them.
+//! Every section is a recursion in direct form II transposed, as in `discrete-transfer-function`; here polynomials are
+//! in powers of z⁻¹, as MATLAB's `filter(b, a, u)` and `sosfilt` take them.
 
 use crate::library::continuous::Rational;
 use crate::library::prelude::*;
@@ -108,7 +108,7 @@ impl Block for IirFilter {
         let (n, is_read) = (self.n_kept(), Block::has_direct_feedthrough(self, 0));
         for (i, y) in y.iter_mut().enumerate() {
             let mut kept = &at.memory[i * n..(i + 1) * n];
-            // if it does not feed through, some section passes on nothing of it
+            // without direct feedthrough, some section passes on nothing of it
             let mut x = if is_read { at.component(0, i) } else { R::zero() };
             for section in &self.sections {
                 x = present(section, x, kept);

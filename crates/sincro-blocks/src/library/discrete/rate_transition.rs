@@ -1,18 +1,16 @@
 //! `y(t) = u(t_k)`, or `u(t_{k−1})`, for `t_k ≤ t < t_{k+1}`.
 //!
-//! Give it the sample time of the slower side. From fast to slow it takes the latest sample at once and holds it. From slow to fast,
-//! `delayed` hands over what the slow side computed a sample ago: as in a computer whose slow task needs its whole period. A delayed
-//! one does not feed through.
+//! Give it the sample time of the slower side. From fast to slow it takes the latest sample at once and holds it. From
+//! slow to fast, `delayed` hands over what the slow side computed a sample ago: as in a computer whose slow task needs
+//! its whole period. A delayed one has no direct feedthrough.
 
 use crate::library::prelude::*;
 
 declare_block! {
     /// Hands a signal over between two sample times, at once or a sample later.
-    ///
-    /// Hands a signal over between two sample times.
     pub struct RateTransition("rate-transition", Discrete):
         "y[k] = u[k], or y[k] = u[k−1] if delayed, held in between" {
-        /// Whether it hands over the sample before.
+        /// Hands over the sample before.
         pub delayed: bool as Flag = "false",
         /// y in the first sample, if delayed.
         pub initial: Vec<f64> as PerComponent = "0",

@@ -9,7 +9,7 @@ declare_block! {
         "y = 1 if u1 operator u2, else 0; with a constant y = 1 if u operator constant, else 0" {
         /// The comparison.
         pub operator: Comparison as Choice,
-        /// What the input is compared with; if it is left out, there is a second input in its place.
+        /// Constant to compare the input with; if it is left out, there is a second input in its place.
         pub constant: Option<Vec<f64>> as Given<PerComponent> = "none",
     }
 }

@@ -11,7 +11,7 @@ declare_block! {
         "y[k] = y[k−1] + (1 if u[k] and not u[k−1], else 0); y[k] = 0 while reset[k]" {
         /// y before the first sample.
         pub initial: usize as Count = "0",
-        /// Whether there is an input `reset`.
+        /// Adds an input `reset`.
         pub reset: bool as Flag = "false",
     }
 }

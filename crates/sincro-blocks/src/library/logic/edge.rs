@@ -11,7 +11,7 @@ declare_block! {
         "rising: y[k] = u[k] and not u[k−1]; falling: y[k] = not u[k] and u[k−1]; either: y[k] = u[k] xor u[k−1]" {
         /// Becoming true, becoming false, or both.
         pub direction: Direction as Choice = "rising",
-        /// What counts as u before the first sample.
+        /// u before the first sample.
         pub initial: bool as Flag = "false",
     }
 }

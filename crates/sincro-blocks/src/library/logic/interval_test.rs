@@ -4,7 +4,7 @@ use super::truth::test;
 use crate::library::prelude::*;
 
 declare_block! {
-    /// Whether the input is between two bounds, bounds included, component by component.
+    /// Tests if the input is between two bounds, bounds included, component by component.
     pub struct IntervalTest("interval-test", Logic): "y = 1 if lower ≤ u ≤ upper, else 0" {
         /// Lower bound.
         pub lower: f64 as Limit = "-inf",

@@ -11,7 +11,7 @@ declare_block! {
         "y[k] = not reset[k] and (set[k] or y[k−1]); set dominant: y[k] = set[k] or (y[k−1] and not reset[k])" {
         /// y before the first sample.
         pub initial: bool as Flag = "false",
-        /// Which input wins if both are true.
+        /// Input that wins if both are true.
         pub dominant: Dominant as Choice = "reset",
     }
 }

@@ -8,7 +8,7 @@ declare_block! {
     ///
     /// Any number but zero is true; an output that depends on a NaN is NaN.
     pub struct Logic("logic", Logic): "y = u1 operator u2 operator … (1 or 0); not: y = 1 if u = 0, else 0" {
-        /// How they are joined; `xor` is true of an odd number of truths.
+        /// Operator; `xor` is true of an odd number of truths.
         pub operator: Operator as Choice,
         /// Number of inputs; `not` has one.
         pub inputs: usize as InputCount = "2",
@@ -46,7 +46,7 @@ impl Operator {
         }
     }
 
-    /// What joins with any truth without changing it.
+    /// Neutral element of [`Operator::join`].
     fn neutral<R: Real>(self) -> R {
         if matches!(self, And | Nand) { R::one() } else { R::zero() }
     }

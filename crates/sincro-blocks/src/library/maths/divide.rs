@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Divides component by component; a division by zero stops the run and names the block.
     ///
-    /// Divides component by component. A division by zero gives a number that is not finite: the run stops and names
+    /// A division by zero gives a number that is not finite: the run stops and names
     /// this block.
     pub struct Divide("divide", Maths): "y = u1/u2";
 }

@@ -2,16 +2,18 @@
 //!
 //! The language is that of [`sincro_math::expression`]. It has no brackets for components, so:
 //!
-//! - **one** formula is evaluated component by component: its inputs are scalars or vectors of one width, and so is `y`;
-//! - **several** formulas give one component of `y` each, and every input is a scalar: a wire takes it from a vector, as in
-//!   `"arm.q[0]"` to `"torque.q1"`.
+//! - **one** formula is evaluated component by component: its inputs are scalars or vectors of one width, and so is
+//!   `y`;
+//! - **several** formulas give one component of `y` each, and every input is a scalar: a wire takes it from a vector,
+//!   as in `"arm.q[0]"` to `"torque.q1"`.
 
 use crate::library::prelude::*;
 use sincro_math::expression::{Expression as Parsed, is_name};
 
 /// Computes formulas of its inputs, the diagram's parameters and the time `t` `[s]`.
 ///
-/// Where a formula jumps with time, as `if(t < 1, 0, 1)` does, no integrator is told: a `step` into an input does that.
+/// A formula that jumps with time, such as `if(t < 1, 0, 1)`, is no time event for the integrator: a `step` into an
+/// input is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     /// Names of the inputs.

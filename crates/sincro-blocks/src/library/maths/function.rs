@@ -5,10 +5,10 @@ use crate::library::prelude::*;
 declare_block! {
     /// A function of one argument, component by component: exponential, logarithm, rounding and others.
     ///
-    /// A function of one argument, component by component.  Where it has no value (the logarithm of a negative number,
+    /// Where it has no value (the logarithm of a negative number,
     /// the reciprocal of zero) the run stops and names this block.
     pub struct Function("function", Maths): "y = function(u)" {
-        /// Which function; `round` takes halves away from zero.
+        /// Function; `round` takes halves away from zero.
         pub function: Unary as Choice,
     }
 }

@@ -4,8 +4,6 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// Multiplies its inputs component by component, or all components of a single input.
-    ///
-    /// Multiplies its inputs component by component; a single input: all its components with each other.
     pub struct Product("product", Maths): "y = u1·u2·…; of one input y = Π uᵢ" {
         /// Number of inputs.
         pub inputs: usize as InputCount = "2",

@@ -4,9 +4,6 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// Square root, component by component; a negative input stops the run and names the block.
-    ///
-    /// Square root, component by component. Of a negative number it is not a number: the run stops and names this
-    /// block.
     pub struct Sqrt("sqrt", Maths): "y = √u";
 }
 

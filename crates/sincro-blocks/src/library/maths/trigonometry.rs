@@ -5,11 +5,11 @@ use crate::library::prelude::*;
 declare_block! {
     /// A function of angles in radians, component by component.
     ///
-    /// A function of angles, component by component.  `atan2` has two inputs, first that along y; the others have one.
+    /// `atan2` has two inputs, first that along y; the others have one.
     /// Outside [−1, 1] `asin` and `acos` are not numbers: the run stops and names this block.
     pub struct Trigonometry("trigonometry", Maths):
         "y = function(u); y = atan2(u1, u2), the angle in [−π, π] of the point x = u2, y = u1" {
-        /// Which function; angles in `[rad]`.
+        /// Function; angles in `[rad]`.
         pub function: Trigonometric as Choice,
     }
 }

@@ -4,8 +4,6 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// A square matrix with its input on the diagonal, row by row.
-    ///
-    /// A square matrix, row by row, with a vector on its diagonal.
     pub struct Diagonal("diagonal", Matrices): "y = diag(u), n × n";
 }
 

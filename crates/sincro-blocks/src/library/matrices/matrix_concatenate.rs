@@ -4,9 +4,6 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// Puts matrices of as many rows side by side; one below the other is a `mux`.
-    ///
-    /// Puts matrices with the same number of rows side by side. (One below the other is a `mux`: they are held row by
-    /// row.)
     pub struct MatrixConcatenate("matrix-concatenate", Matrices): "y = [U1 U2 …], all row by row" {
         /// Number of rows of every input and of y.
         rows: usize as PositiveCount,

@@ -4,18 +4,16 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// Multiplies a matrix by a matrix or vector, both signals; a matrix comes row by row.
-    ///
-    /// Multiplies two matrices, or a matrix and a vector, that come as signals.
     pub struct MatrixProduct("matrix-product", Matrices): "y = A·B, or y = Aᵀ·B if transposed" {
         /// Number of rows of A as it comes.
         rows: usize as PositiveCount,
-        /// Whether Aᵀ is taken in place of A.
+        /// Takes Aᵀ in place of A.
         transposed: bool as Flag = "false",
     }
 }
 
 impl MatrixProduct {
-    /// Of a first factor with so many rows as it comes, taken transposed or not.
+    /// With so many rows of the first factor as it comes, taken transposed or not.
     ///
     /// # Panics
     ///

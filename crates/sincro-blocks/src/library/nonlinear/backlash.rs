@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Play, as between the teeth of two wheels.
     ///
-    /// : the output moves only when the input has reached an end of the gap. It works at samples, or at every tick if
+    /// The output moves only when the input has reached an end of the gap. It works at samples, or at every tick if
     /// it has no sample time.
     pub struct Backlash("backlash", Nonlinear): "y[k] = min(max(y[k−1], u − width/2), u + width/2)" {
         /// Whole width of the gap.

@@ -5,9 +5,9 @@ use crate::library::prelude::*;
 declare_block! {
     /// Lets small values pass as zero and shortens the others.
     pub struct DeadZone("dead-zone", Nonlinear): "y = u − min(max(u, lower), upper)" {
-        /// Where the zone begins.
+        /// Lower end of the zone.
         pub lower: Vec<f64> as Limits,
-        /// Where the zone ends.
+        /// Upper end of the zone.
         pub upper: Vec<f64> as Limits,
     }
 }

@@ -3,7 +3,8 @@
 use super::table::{Extrapolation, check_breakpoints, interval};
 use crate::library::prelude::*;
 
-/// A function given by points, written down or from two columns of a CSV file. A vector is taken component by component.
+/// A function given by points, written down or from two columns of a CSV file. A vector is taken component by
+/// component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LookupTable {
     /// Arguments of the points, rising.
@@ -77,7 +78,7 @@ impl Described for LookupTable {
             Parameter::optional(
                 "interpolation",
                 Takes::Choice(Interpolation::WORDS),
-                "what is taken between the points",
+                "value between the points",
                 "linear",
             ),
             Parameter::optional(

@@ -5,8 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Rounds to whole multiples of an interval, as an encoder or a converter does.
     ///
-    /// Rounds to whole multiples of an interval, halves away from zero, zero itself never negative: an encoder, a
-    /// converter. Its derivative is zero.
+    /// A zero is never negative. The derivative is zero.
     pub struct Quantizer("quantizer", Nonlinear): "y = interval·round(u/interval), halves away from zero" {
         /// Distance of two values of y.
         pub interval: Vec<f64> as Positives,

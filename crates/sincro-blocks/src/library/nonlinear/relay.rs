@@ -15,7 +15,7 @@ declare_block! {
         pub on: f64 as Number = "1",
         /// y while off.
         pub off: f64 as Number = "0",
-        /// Whether it is on before the start.
+        /// State before the start: on or off.
         pub initially_on: bool as Flag = "false",
     }
 }
@@ -27,7 +27,7 @@ impl Relay {
         Self { on_above, off_below, on: 1.0, off: 0.0, initially_on: false }
     }
 
-    /// Whether component `i` is now on; its memory is 1 while on.
+    /// Returns true if component `i` is now on; its memory is 1 while on.
     #[inline(always)]
     fn is_on<R: Real>(&self, at: &At<'_, R>, i: usize) -> bool {
         let u = at.component(0, i).lane(0);

@@ -1,7 +1,7 @@
 //! `y = u`, between `lower` and `upper`; counts, if asked to, the ticks at which it limits.
 //!
-//! What a controller asks for and an actuator cannot give is lost in silence otherwise: a negative squared speed of a rotor, a
-//! torque beyond the motor's.
+//! Otherwise a command that no actuator can follow is lost in silence: a negative squared speed of a rotor, a torque
+//! beyond the motor's.
 
 use crate::library::prelude::*;
 
@@ -12,12 +12,13 @@ declare_block! {
         pub lower: Vec<f64> as Limits = "-inf",
         /// Greatest y.
         pub upper: Vec<f64> as Limits = "inf",
-        /// Whether the ticks at which it limits are counted and told at the end of the run.
+        /// Counts the ticks at which it limits and reports them at the end of the run.
         pub report: bool as Flag = "false",
     }
 }
 
-/// Its memory for each limit, if it counts: how many ticks, the first, its time, the component that was limited then, and what was asked for.
+/// Its memory for each limit, if it counts: how many ticks, the first, its time, the component that was limited then,
+/// and what was asked for.
 const COUNT: usize = 0;
 const FIRST: usize = 1;
 const COMPONENT: usize = 2;

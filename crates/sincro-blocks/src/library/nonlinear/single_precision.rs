@@ -5,8 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Rounds to single precision, as a wire or a program does that has four bytes for a number.
     ///
-    /// Rounds to single precision (IEEE 754 binary32, ties to even): what is left of a number on a wire that carries
-    /// four bytes, such as that of V-REP's legacy remote API. Its derivative is one.
+    /// IEEE 754 binary32, ties to even: as V-REP's legacy remote API carries numbers. The derivative is taken as one.
     pub struct SinglePrecision("single-precision", Nonlinear):
         "y = the number of binary32 nearest to u, ties to even";
 }

@@ -12,8 +12,8 @@ choice! {
     }
 }
 
-/// Number of the interval that holds `x`, and how far into it `x` is: 0 at its beginning, 1 at its end, with the rate of that by
-/// `x`. Beyond the ends it is below 0 or above 1, or held there. A NaN stays one.
+/// Number of the interval that holds `x`, and how far into it `x` is: 0 at its beginning, 1 at its end, with the rate
+/// of that by `x`. Beyond the ends it is below 0 or above 1, or held there. A NaN stays one.
 pub(super) fn interval(breakpoints: &[f64], x: f64, extrapolation: Extrapolation) -> (usize, f64, f64) {
     let n = breakpoints.len();
     if n == 1 {

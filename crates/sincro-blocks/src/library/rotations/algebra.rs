@@ -25,7 +25,8 @@ choice! {
     }
 }
 
-/// Below this cosine of the middle angle the outer two turn about one axis: the leftmost in the product (yaw; α) is then taken as zero.
+/// Below this cosine of the middle angle the outer two turn about one axis: the leftmost in the product (yaw; α) is
+/// then taken as zero.
 const LOCKED: f64 = 1e-12;
 
 /// p ⊗ q: first q, then p.
@@ -64,7 +65,8 @@ pub(super) fn quaternion_to_matrix<R: Real>(q: Quaternion<R>) -> Matrix3<R> {
     ]
 }
 
-/// The quaternion with w ≥ 0; the component of largest size is found first, so that nothing small is divided by (Shepperd's method).
+/// The quaternion with w ≥ 0; the component of largest size is found first, so that nothing small is divided by
+/// (Shepperd's method).
 #[inline(always)]
 pub(super) fn matrix_to_quaternion<R: Real>(m: Matrix3<R>) -> Quaternion<R> {
     let one = R::one();
@@ -138,8 +140,8 @@ pub(super) fn euler_to_matrix<R: Real>(angles: Angles<R>, convention: Convention
 
 /// Euler angles of a rotation matrix: the middle one in [−π/2, π/2], the others in [−π, π].
 ///
-/// The leftmost rotation is found first and taken away, the rightmost read from what is left: so both fit together however near the
-/// middle angle is to ±π/2.
+/// The leftmost rotation is found first and taken away, the rightmost read from what is left: so both fit together
+/// however near the middle angle is to ±π/2.
 #[inline(always)]
 pub(super) fn matrix_to_euler<R: Real>(m: Matrix3<R>, convention: Convention) -> Angles<R> {
     let angle = |y: R, x: R| y.map2(x, elementary::atan2);
@@ -167,8 +169,8 @@ pub(super) fn rotate<R: Real>(m: Matrix3<R>, v: [R; 3], inverse: bool) -> [R; 3]
     core::array::from_fn(|i| entry(i, 0) * v[0] + entry(i, 1) * v[1] + entry(i, 2) * v[2])
 }
 
-/// Rates of the Euler angles of a body that turns with the angular velocity `w` in its own axes; not finite where the middle angle is
-/// ±π/2.
+/// Rates of the Euler angles of a body that turns with the angular velocity `w` in its own axes; not finite where the
+/// middle angle is ±π/2.
 #[inline(always)]
 pub(super) fn euler_rates<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> Angles<R> {
     let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
@@ -200,8 +202,8 @@ pub(super) fn angular_velocity<R: Real>(angles: Angles<R>, rates: [R; 3], conven
     }
 }
 
-/// E⁻ᵀ(angles)·w: the torque about the axes of the body with the power of torques `w` about the angles' axes; not finite where the
-/// middle angle is ±π/2.
+/// E⁻ᵀ(angles)·w: the torque about the axes of the body with the power of torques `w` about the angles' axes; not
+/// finite where the middle angle is ±π/2.
 #[inline(always)]
 pub(super) fn body_torque<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> [R; 3] {
     let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);

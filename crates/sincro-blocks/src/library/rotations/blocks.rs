@@ -35,8 +35,8 @@ pub enum Map {
 
 /// Quaternion (w, x, y, z) of Euler angles `[rad]`.
 pub type EulerToQuaternion = Rotation<{ Map::EulerToQuaternion as usize }>;
-/// Euler angles `[rad]` of a quaternion (w, x, y, z), which need not be of length 1. Where the middle angle is ±π/2, yaw (or α) is taken as
-/// zero.
+/// Euler angles `[rad]` of a quaternion (w, x, y, z), which need not be of length 1. Where the middle angle is ±π/2,
+/// yaw (or α) is taken as zero.
 pub type QuaternionToEuler = Rotation<{ Map::QuaternionToEuler as usize }>;
 /// Rotation matrix, row by row, of Euler angles `[rad]`.
 pub type EulerToMatrix = Rotation<{ Map::EulerToMatrix as usize }>;
@@ -46,7 +46,8 @@ pub type MatrixToEuler = Rotation<{ Map::MatrixToEuler as usize }>;
 pub type QuaternionToMatrix = Rotation<{ Map::QuaternionToMatrix as usize }>;
 /// Quaternion (w, x, y, z) with w ≥ 0 of a rotation matrix, row by row.
 pub type MatrixToQuaternion = Rotation<{ Map::MatrixToQuaternion as usize }>;
-/// Vector turned by a quaternion (w, x, y, z), which need not be of length 1: with q_wb, from components in B to components in W.
+/// Vector turned by a quaternion (w, x, y, z), which need not be of length 1: with q_wb, from components in B to
+/// components in W.
 pub type RotateVector = Rotation<{ Map::RotateVector as usize }>;
 /// Product of two quaternions (w, x, y, z): first the rotation `u2`, then `u1`, as q_wc = q_wb ⊗ q_bc.
 pub type QuaternionProduct = Rotation<{ Map::QuaternionProduct as usize }>;
@@ -54,10 +55,12 @@ pub type QuaternionProduct = Rotation<{ Map::QuaternionProduct as usize }>;
 pub type QuaternionConjugate = Rotation<{ Map::QuaternionConjugate as usize }>;
 /// Rate of a quaternion (w, x, y, z) from the angular velocity `w` `[rad/s]`, in the axes of the body or of the world.
 pub type AngularVelocityToQuaternionRate = Rotation<{ Map::AngularVelocityToQuaternionRate as usize }>;
-/// Rates of Euler angles `[rad/s]` from the angular velocity `w` `[rad/s]` in the axes of the body, or, transposed, torques about the axes of
-/// the body from torques about the angles' axes, of the same power. They are not finite where the middle angle is ±π/2.
+/// Rates of Euler angles `[rad/s]` from the angular velocity `w` `[rad/s]` in the axes of the body, or, transposed,
+/// torques about the axes of the body from torques about the angles' axes, of the same power. They are not finite where
+/// the middle angle is ±π/2.
 pub type EulerRates = Rotation<{ Map::EulerRates as usize }>;
-/// Angular velocity `[rad/s]` in the axes of the body from rates of Euler angles `[rad/s]`: the inverse of [`EulerRates`].
+/// Angular velocity `[rad/s]` in the axes of the body from rates of Euler angles `[rad/s]`: the inverse of
+/// [`EulerRates`].
 pub type EulerRatesToAngularVelocity = Rotation<{ Map::EulerRatesToAngularVelocity as usize }>;
 
 /// A map as the diagram sees it.
@@ -78,17 +81,13 @@ const CONVENTION: Parameter = Parameter::optional(
     "zyx: roll, pitch, yaw with R = Rz(yaw)·Ry(pitch)·Rx(roll); xyz: α, β, γ with R = Rx(α)·Ry(β)·Rz(γ), as in V-REP",
     "zyx",
 );
-const INVERSE: Parameter = Parameter::optional("inverse", Takes::Flag, "whether it turns back", "false");
-const WORLD: Parameter = Parameter::optional(
-    "world",
-    Takes::Flag,
-    "whether the angular velocity is given in the axes of the world",
-    "false",
-);
+const INVERSE: Parameter = Parameter::optional("inverse", Takes::Flag, "turns back", "false");
+const WORLD: Parameter =
+    Parameter::optional("world", Takes::Flag, "takes the angular velocity in the axes of the world", "false");
 const TRANSPOSED: Parameter = Parameter::optional(
     "transposed",
     Takes::Flag,
-    "whether the matrix is transposed, as it is for torques and in the laws of Lyapunov's method",
+    "transposes the matrix, as for torques and in the laws of Lyapunov's method",
     "false",
 );
 

@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Passes on the input that changed last.
     ///
-    /// : several senders of one command, of which only one is active at a time.  An input has changed if any of its
+    /// For several senders of one command, of which only one is active at a time. An input has changed if any of its
     /// components is another number than in the sample before. If several have changed, the one with the lowest number
     /// counts; before anything changes it is `u1`. It looks at ticks only.
     pub struct Merge("merge", Routing):
@@ -22,8 +22,8 @@ impl Merge {
         Self { inputs }
     }
 
-    /// The number of the input to pass on, from 0. The memory holds it, then 1 from the second sample on, then all inputs of
-    /// the sample before.
+    /// The number of the input to pass on, from 0. The memory holds it, then 1 from the second sample on, then all
+    /// inputs of the sample before.
     fn active<R: Real>(&self, at: &At<'_, R>) -> usize {
         let before = at.memory[0].lane(0) as usize;
         if at.memory[1].lane(0) == 0.0 {

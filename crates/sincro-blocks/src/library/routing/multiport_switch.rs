@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// Passes on the input of a number, from 1 on; any other number stops the run and names the block.
     ///
-    /// Passes on the input of a number, counted from 1 as the inputs are.  A `selector` that is none of 1 … n, or not
+    /// A `selector` that is none of 1 … n, or not
     /// whole, makes NaN: the run stops and names this block. Nothing is rounded or limited: `function = "round"` and a
     /// saturation do that where it is meant.
     pub struct MultiportSwitch("multiport-switch", Routing): "y = u1 if selector = 1, u2 if selector = 2, …" {

@@ -4,8 +4,6 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// Puts its inputs one after the other into one vector, as a wire from `[a, b]` does.
-    ///
-    /// Puts its inputs one after the other into one vector. A wire from `[a, b]` does the same.
     pub struct Mux("mux", Routing): "y = [u1, u2, …]" {
         /// Number of inputs.
         pub inputs: usize as PortCount = "2",

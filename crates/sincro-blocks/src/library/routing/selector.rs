@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 /// Takes components of a vector, in any order and as often as wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selector {
-    /// Which components, counted from 0.
+    /// Components, counted from 0.
     pub indices: Vec<usize>,
 }
 
@@ -23,7 +23,7 @@ impl Described for Selector {
         category: Category::Routing,
         summary: "Takes components of a vector, in any order and as often as wanted.",
         equation: "y = [u[i₀], u[i₁], …], i = indices",
-        parameters: &[Parameter::required("indices", Takes::Numbers, "which components, counted from 0")],
+        parameters: &[Parameter::required("indices", Takes::Numbers, "components, counted from 0")],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {

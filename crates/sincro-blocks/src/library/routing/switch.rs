@@ -7,11 +7,11 @@ use crate::library::prelude::*;
 declare_block! {
     /// Passes on one of two inputs, as a third one says.
     ///
-    /// Passes on one of two inputs, component by component, as a third one says. A `control` that is NaN makes NaN.
+    /// It works component by component. A `control` that is NaN makes NaN.
     pub struct Switch("switch", Routing): "y = on if control criterion threshold, else off" {
-        /// How `control` is compared with the threshold.
+        /// Comparison of `control` with the threshold.
         pub criterion: Comparison as Criterion = ">",
-        /// What `control` is compared with.
+        /// Threshold of `control`.
         pub threshold: f64 as Number = "0",
     }
 }

@@ -7,7 +7,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// A sine whose frequency sweeps linearly from one value to another and then stays.
     ///
-    /// A sine whose frequency sweeps linearly over a duration and then stays; the phase is continuous throughout.
+    /// The phase is continuous throughout.
     pub struct Chirp("chirp", Sources):
         "y = amplitude·sin(2π·c), c = from_hz·t + (to_hz − from_hz)·t²/(2·duration) for t ≤ duration, c = (from_hz + to_hz)/2·duration + to_hz·(t − duration) afterwards" {
         /// Frequency at t = 0 `[Hz]`.
@@ -48,7 +48,7 @@ impl Block for Chirp {
         y[0] = R::splat(self.amplitude * sine);
     }
 
-    /// Where the sweep ends, the second derivative jumps.
+    /// End of the sweep: the second derivative jumps.
     fn next_time_event(&self, t: f64) -> f64 {
         if t + SAME_INSTANT < self.duration { self.duration } else { f64::INFINITY }
     }

@@ -4,8 +4,6 @@ use crate::library::prelude::*;
 
 declare_block! {
     /// The time since the start in seconds.
-    ///
-    /// The time since the start `[s]`.
     pub struct Clock("clock", Sources): "y = t";
 }
 

@@ -5,7 +5,7 @@ use crate::library::prelude::*;
 declare_block! {
     /// The same at all times.
     pub struct Constant("constant", Sources): "y = value" {
-        /// What it gives.
+        /// Constant output.
         pub value: Vec<f64> as PerComponent,
     }
 }

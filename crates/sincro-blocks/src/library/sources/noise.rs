@@ -1,9 +1,9 @@
 //! `y[k] = mean + std·g_k` or `low + (high − low)·r_k`: a new random number in every sample.
 //!
-//! `g_k` is of the normal distribution, `r_k` of the uniform one in (0, 1). Sample `k` is a hash of the run's seed, the block's path,
-//! the component and `k` (SplitMix64 and Box–Muller, see `random.rs`): two blocks are independent of each other, and the samples
-//! are the same in every run with that seed, from wherever it goes on. `std` is that of the samples, whatever the sample time: there
-//! is no scaling to a power density.
+//! `g_k` is of the normal distribution, `r_k` of the uniform one in (0, 1). Sample `k` is a hash of the run's seed, the
+//! block's path, the component and `k` (SplitMix64 and Box–Muller, see `random.rs`): two blocks are independent of each
+//! other, and the samples are the same in every run with that seed, from wherever it goes on. `std` is that of the
+//! samples, whatever the sample time: there is no scaling to a power density.
 
 use super::random::{gaussian, splitmix, uniform};
 use crate::library::prelude::*;

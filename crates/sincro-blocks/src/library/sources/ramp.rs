@@ -7,11 +7,11 @@ declare_block! {
     pub struct Ramp("ramp", Sources): "y = from + slope·(min(t, until) − start) for t ≥ start, else from" {
         /// Rate of y `[1/s]`.
         pub slope: Vec<f64> as PerComponent = "1",
-        /// When it begins to rise `[s]`.
+        /// Start of the rise `[s]`.
         pub start: f64 as Number = "0",
         /// y before the start.
         pub from: Vec<f64> as PerComponent = "0",
-        /// When it ceases to rise `[s]`.
+        /// End of the rise `[s]`.
         pub until: f64 as Limit = "inf",
     }
 }

@@ -13,7 +13,7 @@ declare_block! {
         pub low: Vec<f64> as PerComponent = "0",
         /// y just before a jump.
         pub high: Vec<f64> as PerComponent = "1",
-        /// When it begins to rise `[s]`.
+        /// Start of the rise `[s]`.
         pub start: f64 as Number = "0",
     }
 }

@@ -10,7 +10,7 @@ pub struct Table {
     pub times: Vec<f64>,
     /// For every instant a row of components.
     pub values: Matrix,
-    /// Whether a value is held up to the next instant; else the line between the two is taken.
+    /// Holds a value up to the next instant; else the line between the two is taken.
     pub hold: bool,
     /// After this time, counted from the first instant, it begins anew `[s]`; infinite if never.
     pub repeat: f64,

@@ -1,7 +1,7 @@
 //! A plant written as formulas: `x' = f(x, u, t)`, `q'' = f(q, q', u, t)`, or `mass_matrix(q)·q'' = forces`.
 //!
-//! Formulas know, in this order of slots: the inputs, the states, the time `t` `[s]`, the parameters, and the definitions of `where`,
-//! each of which may use those before it.
+//! Formulas know, in this order of slots: the inputs, the states, the time `t` `[s]`, the parameters, and the
+//! definitions of `where`, each of which may use those before it.
 
 mod read;
 mod solve;
@@ -13,13 +13,14 @@ use sincro_math::expression::Expression;
 
 use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
 use crate::kind::{Category, Described, Kind, Parameter, Takes};
-use crate::reader::{Fault, NoFiles, Reader, Value};
+use crate::reader::{NoFiles, ParameterError, Reader, Value};
 
 /// Differential equations of first and second order, written as text.
 ///
-/// `x' = …` has the state `x`; `q'' = …` has the states `q` and `q'`, and so has every name in `coordinates`. Without `outputs` there is an
-/// output for every state, named as the state, but `q_dot` for `q'`: wires know no primes. Nothing feeds through but the inputs
-/// that a formula of `outputs` uses. A mass matrix that is singular gives accelerations that are not finite.
+/// `x' = …` has the state `x`; `q'' = …` has the states `q` and `q'`, and so has every name in `coordinates`. Without
+/// `outputs` there is an output for every state, named as the state, but `q_dot` for `q'`: wires know no primes. Only
+/// inputs that a formula of `outputs` uses have direct feedthrough. A singular mass matrix gives accelerations that are
+/// not finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations {
     inputs: Vec<String>,
@@ -35,9 +36,9 @@ pub struct Equations {
     /// n.
     forces: Vec<Expression>,
     outputs: Vec<Output>,
-    /// Which definitions the outputs need.
+    /// True for the definitions that the outputs need.
     needed: Vec<bool>,
-    /// Which inputs the outputs need.
+    /// True for the inputs that the outputs need.
     has_direct_feedthrough: Vec<bool>,
 }
 
@@ -49,7 +50,7 @@ struct State {
     rate: Rate,
 }
 
-/// Where the rate of a state comes from.
+/// Source of the derivative of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rate {
     /// It is another state.
@@ -101,7 +102,7 @@ impl Equations {
     /// let pendulum = Equations::new(given.map(|(key, texts)| (key, texts.into()))).unwrap();
     /// # let _ = pendulum;
     /// ```
-    pub fn new<'a>(parameters: impl IntoIterator<Item = (&'a str, Value)>) -> Result<Self, Vec<Fault>> {
+    pub fn new<'a>(parameters: impl IntoIterator<Item = (&'a str, Value)>) -> Result<Self, Vec<ParameterError>> {
         let given: BTreeMap<String, Value> = parameters.into_iter().map(|(key, x)| (key.to_owned(), x)).collect();
         let scope = BTreeMap::new();
         let mut reader = Reader::new(Self::KIND, &given, &scope, &NoFiles);
@@ -115,7 +116,8 @@ impl Equations {
         self.inputs.len() + self.states.len() + 1 + self.constants.len()
     }
 
-    /// Puts the values of all names into their slots. `is_read` tells the inputs that are known, `is_needed` the definitions.
+    /// Puts the values of all names into their slots. `is_read` tells the inputs that are known, `is_needed` the
+    /// definitions.
     fn fill<R: Real>(
         &self,
         at: &At<'_, R>,

@@ -41,7 +41,7 @@ impl Names {
     }
 }
 
-/// What stands for a formula that does not parse.
+/// Stand-in for a formula that does not parse.
 fn nothing() -> Expression {
     Expression::parse("0", &[]).expect("a number is a formula")
 }
@@ -275,7 +275,7 @@ fn check_port(p: &mut Reader<'_>, key: &str, name: &str) {
     }
 }
 
-/// Which definitions and inputs the outputs depend on.
+/// Finds the definitions and inputs that the outputs depend on.
 fn find_needed(new: &mut Equations) {
     let first = new.first_definition();
     let formulas: Vec<Expression> = new.outputs.iter().filter_map(|y| formula(&y.source)).cloned().collect();

@@ -1,8 +1,9 @@
-//! Rotations: closed forms on the axes, round trips and identities on random ones. A few products of numbers up to 1: 1e-14.
+//! Rotations: closed forms on the axes, round trips and identities on random ones. A few products of numbers up to 1:
+//! 1e-14.
 
-mod b_common;
+mod common;
 
-use b_common::{Random, add, block, faults, value};
+use common::{Random, add, block, faults, value};
 use sincro_blocks::block::Block;
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::instance::DynBlock;
@@ -186,7 +187,7 @@ fn the_matrices_of_euler_rates_are_inverse_and_transposed_to_each_other() {
 
 #[test]
 fn a_vector_of_the_wrong_size_is_told() {
-    let found = Simulator::new(&b_common::driven(&[1.0, 2.0], block("quaternion-conjugate", &[])), 0.01).unwrap_err();
+    let found = Simulator::new(&common::driven(&[1.0, 2.0], block("quaternion-conjugate", &[])), 0.01).unwrap_err();
     assert!(found[0].message.contains("`u` has 4 components here, it gets 2"), "{}", found[0]);
     assert!(faults("euler-to-matrix", &[("convention", "zxz".into())]).contains("zyx, xyz"));
     assert_eq!(Block::label(&EulerToQuaternion::new(Convention::Xyz)), "xyz → q");

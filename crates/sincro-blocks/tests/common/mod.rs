@@ -1,4 +1,4 @@
-//! What the tests of the library share: blocks from parameters, given samples, a generator of numbers.
+//! Helpers of the library's tests: blocks from parameters, given samples, a generator of numbers.
 #![allow(dead_code)] // every test file takes what it needs
 
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::{Category, Described, Kind};
 use sincro_blocks::library;
 use sincro_blocks::library::sources::Constant;
-use sincro_blocks::reader::{Fault, Files, Reader, Value};
+use sincro_blocks::reader::{Files, ParameterError, Reader, Value};
 use sincro_blocks::simulator::Simulator;
 use sincro_math::Real;
 
@@ -27,7 +27,7 @@ impl Files for OneFile {
 }
 
 /// A block of the library, made from parameters as a file gives them.
-pub fn made(kind: &str, parameters: &[(&str, Value)]) -> Result<Box<dyn DynBlock>, Vec<Fault>> {
+pub fn made(kind: &str, parameters: &[(&str, Value)]) -> Result<Box<dyn DynBlock>, Vec<ParameterError>> {
     let item = library::find(kind).unwrap_or_else(|| panic!("no block `{kind}`"));
     let given: BTreeMap<String, Value> = parameters.iter().map(|(key, x)| ((*key).to_owned(), x.clone())).collect();
     let scope = BTreeMap::new();
@@ -77,7 +77,7 @@ pub fn driven(u: &[f64], block: Box<dyn DynBlock>) -> Diagram {
     d
 }
 
-/// What a block gives for samples of its only input, one a tick of `step` `[s]`; the first component.
+/// Outputs of a block for samples of its only input, one a tick of `step` `[s]`; the first component.
 pub fn answer(samples: &[f64], step: f64, block: Box<dyn DynBlock>) -> Vec<f64> {
     let mut d = Diagram::new();
     d.block("u", Samples { values: samples.to_vec() });
@@ -86,7 +86,7 @@ pub fn answer(samples: &[f64], step: f64, block: Box<dyn DynBlock>) -> Vec<f64> 
     Simulator::new(&d, step).unwrap().record("y", samples.len() - 1)
 }
 
-/// What a block gives at once for a constant vector.
+/// Output of a block for a constant vector.
 pub fn value(u: &[f64], block: Box<dyn DynBlock>) -> Vec<f64> {
     Simulator::new(&driven(u, block), 0.01).unwrap().output("y").to_vec()
 }

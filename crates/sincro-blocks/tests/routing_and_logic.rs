@@ -4,7 +4,7 @@ use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::instance::DynBlock;
 use sincro_blocks::library::logic::{
-    Compare, Comparison, Counter, Direction, Edge, IntervalTest, Dominant, Latch, Logic, Operator,
+    Compare, Comparison, Counter, Direction, Dominant, Edge, IntervalTest, Latch, Logic, Operator,
 };
 use sincro_blocks::library::routing::{Demux, Merge, MultiportSwitch, Selector, Switch};
 use sincro_blocks::library::sinks::{Scope, Terminator};
@@ -132,11 +132,11 @@ fn a_counter_counts_rises_until_it_is_reset() {
 
 #[test]
 fn a_vector_is_cut_and_rearranged() {
-    let solo = Simulator::new(&fed(Demux::new(&[1, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
-    assert_eq!((solo.output("block.y1"), solo.output("block.y2")), (&[1.0][..], &[2.0, 3.0][..]));
+    let simulator = Simulator::new(&fed(Demux::new(&[1, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
+    assert_eq!((simulator.output("block.y1"), simulator.output("block.y2")), (&[1.0][..], &[2.0, 3.0][..]));
     assert!(refusal(&fed(Demux::new(&[1, 1]), &[&[1.0, 2.0, 3.0]])).contains("the sizes add up to 2"));
-    let solo = Simulator::new(&fed(Selector::new(&[2, 0, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
-    assert_eq!(solo.output("block"), [3.0, 1.0, 3.0]);
+    let simulator = Simulator::new(&fed(Selector::new(&[2, 0, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
+    assert_eq!(simulator.output("block"), [3.0, 1.0, 3.0]);
     assert!(refusal(&fed(Selector::new(&[3]), &[&[1.0, 2.0, 3.0]])).contains("there is no component 3"));
 }
 
@@ -156,8 +156,8 @@ fn a_selector_beyond_the_inputs_stops_the_run_at_its_switch() {
     same(&over_time(MultiportSwitch::new(2), &inputs), &[10., 20., NAN, NAN, NAN, NAN]);
     let mut d = fed(MultiportSwitch::new(2), &[&[3.0], &[1.0], &[2.0]]);
     d.block("end", Terminator).wire("block", "end");
-    let solo = Simulator::new(&d, STEP).unwrap();
-    assert_eq!(solo.runner.not_finite().unwrap().0.path, "block");
+    let simulator = Simulator::new(&d, STEP).unwrap();
+    assert_eq!(simulator.runner.not_finite().unwrap().0.path, "block");
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn sinks_take_anything_and_change_nothing() {
     d.block("a", Constant::new(1.0)).block("b", Constant { value: vec![2.0, 3.0] });
     d.block("scope", Scope::new(2)).wire("a", "scope.u1").wire("b", "scope.u2");
     d.block("end", Terminator).wire("b", "end");
-    let mut solo = Simulator::new(&d, STEP).unwrap();
-    solo.record("a", 3);
-    assert_eq!((solo.output("a"), solo.output("b")), (&[1.0][..], &[2.0, 3.0][..]));
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("a", 3);
+    assert_eq!((simulator.output("a"), simulator.output("b")), (&[1.0][..], &[2.0, 3.0][..]));
 }

@@ -1,9 +1,9 @@
-//! Continuous blocks against their closed forms. The method between ticks is Runge–Kutta of order 4: with a step of 1 ms and time
-//! constants of 0.1 s its error is far below 1e-9, the tolerance wherever no other is given.
+//! Continuous blocks against their closed forms. The method between ticks is Runge–Kutta of order 4: with a step of 1
+//! ms and time constants of 0.1 s its error is far below 1e-9, the tolerance wherever no other is given.
 
-mod b_common;
+mod common;
 
-use b_common::{Samples, add, answer, block, driven, faults, list, made, rows, table};
+use common::{Samples, add, answer, block, driven, faults, list, made, rows, table};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::continuous::{Equations, Integrator, LowPass, Pid, TransferFunction, TransportDelay};
@@ -78,9 +78,9 @@ impl<T: sincro_blocks::instance::DynBlock> FeedThrough for T {
 #[test]
 fn a_transfer_function_takes_vectors_component_by_component() {
     let g = Box::new(TransferFunction::new(&[1.0], &[0.01, 0.2, 1.0]));
-    let mut solo = Simulator::new(&driven(&[1.0, -3.0], g), STEP).unwrap();
-    solo.record("y", 100);
-    let y = solo.output("y");
+    let mut simulator = Simulator::new(&driven(&[1.0, -3.0], g), STEP).unwrap();
+    simulator.record("y", 100);
+    let y = simulator.output("y");
     assert!(close(y[1], -3.0 * y[0]) && y[0] > 0.1);
 }
 
@@ -220,17 +220,18 @@ fn separate_inputs_with_weights_of_one_are_the_error() {
     d.wire("slope", "m").wire("r", "error.u1").wire("m", "error.u2").wire("error", "one");
     d.wire("r", "two.setpoint").wire("m", "two.measurement");
     d.wire("r", "no_kick.setpoint").wire("m", "no_kick.measurement").wire("r", "no_kick.feedforward");
-    let mut solo = Simulator::new(&d, STEP).unwrap();
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
     // −kp·m − kd·m/Tf + feedforward
-    assert!(close(solo.output("no_kick")[0], -2.0 * 0.2 - 0.1 * 0.2 / 0.01 + 1.0));
-    solo.record("one", 100);
-    assert!(close(solo.output("one")[0], solo.output("two")[0]));
+    assert!(close(simulator.output("no_kick")[0], -2.0 * 0.2 - 0.1 * 0.2 / 0.01 + 1.0));
+    simulator.record("one", 100);
+    assert!(close(simulator.output("one")[0], simulator.output("two")[0]));
 }
 
 #[test]
 fn an_output_lag_is_the_law_of_the_thesis() {
     // τ_f·y' = kp·e + ki·∫e − y, written out as equations
-    let law = [("kp", 5.0.into()), ("ki", 8.0.into()), ("output_time_constant", 0.02.into())];
+    // the integral term starts at 0.7, and the lag with it
+    let law = [("kp", 5.0.into()), ("ki", 8.0.into()), ("output_time_constant", 0.02.into()), ("initial", 0.7.into())];
     let mut d = Diagram::new();
     d.block("e", Constant::new(0.3));
     let pid = block("pid", &law);
@@ -240,13 +241,15 @@ fn an_output_lag_is_the_law_of_the_thesis() {
         ("inputs", Value::from(vec!["e"])),
         ("equations", vec!["i' = e", "y' = (5*e + 8*i - y)/0.02"].into()),
         ("outputs", table(&[("y", "y".into())])),
+        ("initial", table(&[("i", (0.7 / 8.0).into()), ("y", 0.7.into())])),
     ];
     d.block("law", Equations::new(parameters).unwrap());
     d.wire("e", "pid").wire("e", "law");
-    let mut solo = Simulator::new(&d, STEP).unwrap();
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    assert_eq!(simulator.output("pid"), [0.7]);
     for _ in 0..100 {
-        assert!(close(solo.output("pid")[0], solo.output("law")[0]));
-        solo.advance();
+        assert!(close(simulator.output("pid")[0], simulator.output("law")[0]));
+        simulator.advance();
     }
 }
 
@@ -268,7 +271,7 @@ fn a_pid_takes_vectors_with_a_gain_for_each() {
 
 #[test]
 fn a_transport_delay_gives_back_every_sample_to_the_bit() {
-    let samples = b_common::Random(3).list(60);
+    let samples = common::Random(3).list(60);
     let y = answer(&samples, STEP, Box::new(TransportDelay { delay: 0.007, initial: vec![9.0] }));
     for k in 0..60 {
         assert_eq!(y[k], if k < 7 { 9.0 } else { samples[k - 7] });
@@ -311,11 +314,11 @@ fn equations_of_second_order_swing_as_their_closed_form() {
     ];
     let mut d = Diagram::new();
     d.block("u", Constant::new(5.0)).block("plant", Equations::new(parameters).unwrap()).wire("u", "plant.u");
-    let mut solo = Simulator::new(&d, STEP).unwrap();
-    solo.record("plant.q", 400);
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("plant.q", 400);
     let (s, c) = sin_cos(5.0 * 0.4);
-    assert!(close(solo.output("plant.q")[0], 0.2 + 0.2 * c - 0.2 * s));
-    assert!(close(solo.output("plant.q_dot")[0], -s - c));
+    assert!(close(simulator.output("plant.q")[0], 0.2 + 0.2 * c - 0.2 * s));
+    assert!(close(simulator.output("plant.q_dot")[0], -s - c));
 }
 
 #[test]
@@ -352,13 +355,13 @@ fn a_mass_matrix_gives_the_accelerations_of_its_inverse() {
     for end in ["solved.u1", "solved.u2", "written.u1", "written.u2"] {
         d.wire("u", end);
     }
-    let mut solo = Simulator::new(&d, STEP).unwrap();
-    solo.record("solved.q1", 500);
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("solved.q1", 500);
     for port in ["q1", "q2", "q1_dot", "q2_dot"] {
-        let (a, b) = (solo.output(&format!("solved.{port}"))[0], solo.output(&format!("written.{port}"))[0]);
+        let (a, b) = (simulator.output(&format!("solved.{port}"))[0], simulator.output(&format!("written.{port}"))[0]);
         assert!(close(a, b), "{port} {a} {b}");
     }
-    assert!((solo.output("solved.q1")[0] - 0.3).abs() > 0.01);
+    assert!((simulator.output("solved.q1")[0] - 0.3).abs() > 0.01);
 }
 
 #[test]
@@ -377,9 +380,9 @@ fn outputs_feed_through_exactly_the_inputs_that_they_use() {
     // `a` and `c` are fed back at once: no loop
     d.block("gain", Gain::new(0.0)).wire("plant.y", "gain").wire("gain", "plant.a").wire("gain", "plant.c");
     d.wire("u", "plant.b");
-    let mut solo = Simulator::new(&d, STEP).unwrap();
-    solo.record("plant.y", 100);
-    assert!(close(solo.output("plant.y")[0], 3.15) && close(solo.output("plant.time")[0], 0.1));
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("plant.y", 100);
+    assert!(close(simulator.output("plant.y")[0], 3.15) && close(simulator.output("plant.time")[0], 0.1));
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Matrices as signals, and adaptation.
 
-mod b_common;
+mod common;
 
-use b_common::{Random, add, block, faults, list};
+use common::{Random, add, block, faults, list};
 use sincro_blocks::block::Block;
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::adaptation::EllipsoidProjection;
@@ -10,7 +10,7 @@ use sincro_blocks::library::sources::Constant;
 use sincro_blocks::reader::Value;
 use sincro_blocks::simulator::Simulator;
 
-/// What a block gives for constants at its inputs.
+/// Output of a block for constants at its inputs.
 fn given(inputs: &[(&str, &[f64])], kind: &str, parameters: &[(&str, Value)]) -> Vec<f64> {
     let mut d = Diagram::new();
     add(&mut d, "block", block(kind, parameters));

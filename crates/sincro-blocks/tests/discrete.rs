@@ -1,8 +1,8 @@
 //! Discrete blocks against recursions written out here: equal to the bit.
 
-mod b_common;
+mod common;
 
-use b_common::{Random, Samples, add, answer, block, driven, faults, list, rows};
+use common::{Random, Samples, add, answer, block, driven, faults, list, rows};
 use sincro_blocks::diagram::{Content, Diagram};
 use sincro_blocks::instance::DynBlock;
 use sincro_blocks::reader::Value;
@@ -105,11 +105,12 @@ fn a_saturated_discrete_pid_does_not_wind_up() {
 
 #[test]
 fn an_output_lag_is_a_backward_euler_step() {
-    let parameters = [("kp", Value::from(2.0)), ("output_time_constant", 0.03.into())];
+    // the integral term is 0.5 throughout, and the lag starts there
+    let parameters = [("kp", Value::from(2.0)), ("output_time_constant", 0.03.into()), ("initial", 0.5.into())];
     let y = answer(&[1.0; 10], STEP, block("discrete-pid", &parameters));
-    let mut expected = 0.0;
+    let mut expected = 0.5;
     for y in y {
-        expected = (0.03 * expected + STEP * 2.0) / 0.04;
+        expected = (0.03 * expected + STEP * 2.5) / 0.04;
         assert!((y - expected).abs() < 1e-15);
     }
 }
@@ -230,12 +231,12 @@ fn vectors_keep_their_components_apart() {
         d.block("alone", Samples { values: vec![-2.0] });
         add(&mut d, "second", block(kind, &parameters));
         d.wire("alone", "second");
-        let mut solo = Simulator::new(&d, STEP).unwrap();
+        let mut simulator = Simulator::new(&d, STEP).unwrap();
         for _ in 0..10 {
-            let y = solo.output("y");
+            let y = simulator.output("y");
             // a factor of −2 is exact
-            assert!(y[1] == solo.output("second")[0] && y[1] == -2.0 * y[0] && y[2] == 0.0, "{kind}");
-            solo.advance();
+            assert!(y[1] == simulator.output("second")[0] && y[1] == -2.0 * y[0] && y[2] == 0.0, "{kind}");
+            simulator.advance();
         }
     }
 }
@@ -261,11 +262,11 @@ fn commanded(damping_ratio: f64, n: usize) -> [f64; 3] {
     let mut d = driven(&[1.0], block("command-filter", &parameters));
     add(&mut d, "all", block("mux", &[("inputs", 3.0.into())]));
     d.wire("y.y", "all.u1").wire("y.rate", "all.u2").wire("y.acceleration", "all.u3");
-    let mut solo = Simulator::new(&d, STEP).unwrap();
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
     for _ in 0..n {
-        solo.advance();
+        simulator.advance();
     }
-    let found = solo.output("all");
+    let found = simulator.output("all");
     [found[0], found[1], found[2]]
 }
 

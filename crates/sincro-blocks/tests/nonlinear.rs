@@ -1,10 +1,10 @@
 //! Nonlinear blocks against what their words say, at and beside their corners.
 
-mod b_common;
+mod common;
 
 use std::sync::Arc;
 
-use b_common::{Samples, add, answer, block, faults, list, rows, value};
+use common::{Samples, add, answer, block, faults, list, rows, value};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::nonlinear::LookupTable;

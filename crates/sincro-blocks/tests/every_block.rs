@@ -1,4 +1,4 @@
-//! What holds for every block of the library: its description, its parameters, its values on dual numbers.
+//! Properties of every block of the library: its description, its parameters, its values on dual numbers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::{Kind, Takes};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::library::{Item, all};
-use sincro_blocks::reader::{Fault, Files, Reader, Value};
+use sincro_blocks::reader::{Files, ParameterError, Reader, Value};
 use sincro_blocks::runner::Runner;
 use sincro_math::Dual;
 
@@ -22,7 +22,7 @@ impl Files for AnyFile {
     }
 }
 
-/// What a parameter may look like that takes this.
+/// A plausible value of a parameter.
 fn plausible(takes: Takes) -> Value {
     match takes {
         Takes::Number | Takes::Positive | Takes::Numbers | Takes::Matrix => Value::Number(0.5),
@@ -36,7 +36,7 @@ fn plausible(takes: Takes) -> Value {
     }
 }
 
-/// What a block needs beside its required parameters: one of several that exclude each other, or a special number.
+/// Parameters that a block needs beside the required ones: one of several that exclude each other, or a special number.
 fn beside(name: &str) -> Vec<(&'static str, Value)> {
     match name {
         "sine" => vec![("frequency_hz", 2.0.into())],
@@ -55,14 +55,14 @@ fn required(kind: &Kind) -> BTreeMap<String, Value> {
     given
 }
 
-fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn DynBlock>, Vec<Fault>) {
+fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn DynBlock>, Vec<ParameterError>) {
     let scope = BTreeMap::new();
     let mut reader = Reader::new(item.kind, given, &scope, &AnyFile);
     let block = (item.read)(&mut reader);
     (block, reader.finish())
 }
 
-/// The shelves whose blocks this file knows how to feed.
+/// The categories whose blocks this file knows how to feed.
 fn is_own(kind: &Kind) -> bool {
     use sincro_blocks::kind::Category::{Logic, Maths, Routing, Sinks, Sources};
     matches!(kind.category, Sources | Maths | Routing | Logic | Sinks)
@@ -158,7 +158,7 @@ fn fed(item: &Item, width: usize) -> Option<(Diagram, Vec<String>)> {
 fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
     for item in all().filter(|item| is_own(item.kind)) {
         let Some((d, outputs)) = [1, 3].iter().find_map(|width| fed(item, *width)) else {
-            // the matrix of one by one takes a scalar: everything of these shelves can be fed
+            // the matrix of one by one takes a scalar: everything of these categories can be fed
             panic!("{} cannot be fed", item.kind.name);
         };
         let program =

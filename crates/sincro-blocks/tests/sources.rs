@@ -23,8 +23,8 @@ fn samples(source: impl DynBlock + 'static, step: f64, n: usize) -> Vec<f64> {
     Simulator::new(&d, step).unwrap().record("source", n)
 }
 
-/// The integral of a source over `n` steps of the method of order 4, which is exact for polynomials of degree 3 only where it is told
-/// of every corner.
+/// The integral of a source over `n` steps of the method of order 4, which is exact for polynomials of degree 3 only
+/// where it is told of every corner.
 fn integral(source: impl DynBlock + 'static, step: f64, n: usize) -> f64 {
     let mut d = Diagram::new();
     d.block("source", source).block("x", Integrator::new(0.0)).wire("source", "x");
@@ -41,10 +41,10 @@ fn a_step_has_its_new_value_at_its_instant() {
 fn a_vector_may_jump_from_one_number_to_several() {
     let mut d = Diagram::new();
     d.block("step", Step { time: 0.1, from: vec![1.0], to: vec![2.0, 3.0] });
-    let mut solo = Simulator::new(&d, 0.1).unwrap();
-    assert_eq!(solo.output("step"), [1.0, 1.0]);
-    solo.advance();
-    assert_eq!(solo.output("step"), [2.0, 3.0]);
+    let mut simulator = Simulator::new(&d, 0.1).unwrap();
+    assert_eq!(simulator.output("step"), [1.0, 1.0]);
+    simulator.advance();
+    assert_eq!(simulator.output("step"), [2.0, 3.0]);
 }
 
 #[test]
@@ -148,14 +148,14 @@ fn noise_is_new_in_every_sample_and_the_same_again_from_anywhere() {
     let mut d = Diagram::new();
     d.sampled("a", 0.02, Noise::new(1.0)).sampled("b", 0.02, Noise::new(1.0));
     d.block("wide", Noise { mean: vec![0.0, 0.0], ..Noise::new(1.0) });
-    let mut solo = Simulator::new(&d, 0.01).unwrap();
-    let a = solo.record("a", 9);
+    let mut simulator = Simulator::new(&d, 0.01).unwrap();
+    let a = simulator.record("a", 9);
     assert!(a.chunks(2).all(|pair| pair[0] == pair[1]), "held between samples");
     assert!(a.chunks(2).zip(a.chunks(2).skip(1)).all(|(now, next)| now[0] != next[0]));
-    assert_ne!(solo.output("a"), solo.output("b"));
-    assert_ne!(solo.output("wide")[0], solo.output("wide")[1]);
+    assert_ne!(simulator.output("a"), simulator.output("b"));
+    assert_ne!(simulator.output("wide")[0], simulator.output("wide")[1]);
     // evaluated at one tick alone
-    let mut runner = Runner::<f64>::new(solo.runner.program().clone());
+    let mut runner = Runner::<f64>::new(simulator.runner.program().clone());
     runner.evaluate(8, 0.08);
     let place = runner.program().outputs().find(|(name, ..)| name == "a").unwrap().1;
     assert_eq!(runner.signals()[place][0], a[8]);
