@@ -1,54 +1,34 @@
-//! What a block is: ports, state and equations, written once over [`Real`].
+//! The trait of all blocks: ports, state and equations, written once over [`Real`].
 //!
-//! Every block has the same verbs. Before a run: [`Block::ports`], [`Block::widths`], [`Block::memory`], [`Block::start`]. In a
-//! run: [`Block::output`] gives the outputs, [`Block::slope`] the rates of the continuous states, [`Block::update`] the memory
-//! after a tick. No verb but `update` changes state, and no verb allocates.
+//! Every block has the same verbs. Before a run: [`Block::ports`], [`Block::widths`], [`Block::memory`],
+//! [`Block::start`]. In a run: [`Block::output`] computes the outputs, [`Block::derivatives`] those of the continuous
+//! states, [`Block::update`] the discrete states after a tick. No verb but `update` changes state, and no verb
+//! allocates.
 //!
-//! A block of one's own needs a struct of its parameters, a description, and the verbs that are not the default:
+//! A block of one's own is a declaration of its parameters ([`declare_block!`](crate::declare_block)) and the verbs
+//! that are not the default:
 //!
 //! ```
-//! use sincro_blocks::block::{At, Block, Ports, elementwise};
+//! use sincro_blocks::block::{At, Block};
 //! use sincro_blocks::compile::{Interface, compile};
+//! use sincro_blocks::declare_block;
 //! use sincro_blocks::diagram::Diagram;
-//! use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
 //! use sincro_blocks::library::sources::Constant;
-//! use sincro_blocks::reader::Reader;
+//! use sincro_blocks::parameter::Number;
 //! use sincro_math::Real;
 //!
-//! /// A spring that hardens: y = stiffness·u + cubic·u³.
-//! #[derive(Clone, Debug)]
-//! struct HardSpring {
-//!     stiffness: f64,
-//!     cubic: f64,
-//! }
-//!
-//! impl Described for HardSpring {
-//!     const KIND: &'static Kind = &Kind {
-//!         name: "hard-spring",
-//!         group: Group::Nonlinear,
-//!         summary: "A spring that hardens.",
-//!         equation: "y = stiffness·u + cubic·u³",
-//!         parameters: &[
-//!             Parameter::required("stiffness", Takes::Number, "[N·m/rad]"),
-//!             Parameter::optional("cubic", Takes::Number, "[N·m/rad³]", "0"),
-//!         ],
-//!     };
-//!
-//!     fn read(p: &mut Reader<'_>) -> Self {
-//!         Self { stiffness: p.number("stiffness"), cubic: p.number("cubic") }
+//! declare_block! {
+//!     /// A spring that hardens.
+//!     pub struct HardSpring("hard-spring", Nonlinear): "y = stiffness·u + cubic·u³" {
+//!         /// Stiffness at rest `[N·m/rad]`.
+//!         pub stiffness: f64 as Number,
+//!         /// Coefficient of the cubic term `[N·m/rad³]`.
+//!         pub cubic: f64 as Number = "0",
 //!     }
 //! }
 //!
 //! impl Block for HardSpring {
 //!     type Work<R: Real> = ();
-//!
-//!     fn ports(&self) -> Ports {
-//!         Ports::single()
-//!     }
-//!
-//!     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-//!         Ok(vec![elementwise(inputs, &[])?])
-//!     }
 //!
 //!     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
 //!         for (i, y) in y.iter_mut().enumerate() {
@@ -68,53 +48,76 @@ use core::fmt::Debug;
 
 use sincro_math::Real;
 
-use crate::unit::Unit;
+use crate::kind::Described;
+use crate::reader::Reader;
+use crate::unit::{Unit, common};
 
 /// A block: an immutable set of parameters with its equations. All that changes is in the state that it is handed.
-pub trait Block: Clone + Debug + Send + Sync + 'static {
-    /// Memory for intermediate results, such as the stack of a formula; its content never matters. `()` for most blocks.
+pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
+    /// Buffers for intermediate results, such as the stack of a formula; their content never matters. `()` for most
+    /// blocks.
     type Work<R: Real>: Clone + Debug + Default + Send + Sync;
 
-    /// Names of the inputs and outputs.
-    fn ports(&self) -> Ports;
+    /// Sample time, if it is the same for all parameters; see [`Block::sample_time_kind`].
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Inherited;
 
-    /// Widths of the outputs, as far as they follow from the parameters and the widths of the inputs that are known so far (`None`:
-    /// not yet).
+    /// State for each component of the outputs, if it does not depend on the parameters; see [`Block::memory`].
+    const STATE: Memory = Memory::NONE;
+
+    /// True if all inputs have one unit and the outputs have it too: for blocks that pass a signal on, add or compare.
+    const KEEPS_UNIT: bool = false;
+
+    /// Checks parameters against each other, notes the errors in the reader, and computes what is derived from them.
+    fn validate(&mut self, _parameters: &mut Reader<'_>) {}
+
+    /// Names of the inputs and outputs: by default, the input `u` and the output `y`.
+    fn ports(&self) -> Ports {
+        Ports::single()
+    }
+
+    /// Widths of the outputs, as far as they follow from the parameters and the widths of the inputs that are known so
+    /// far (`None`: not yet). By default the block works component by component: see [`elementwise`].
     ///
     /// # Errors
     ///
     /// Widths that do not fit each other, in words.
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String>;
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        Ok(vec![elementwise(inputs, &self.parameter_widths())?; self.ports().outputs.len()])
+    }
 
-    /// Units of the outputs, as far as they follow from the units of the inputs that are known.
+    /// Units of the outputs, as far as they follow from the units of the inputs that are known. By default see
+    /// [`Block::KEEPS_UNIT`].
     ///
     /// # Errors
     ///
     /// Units that do not fit each other, in words.
-    fn units(&self, _inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(vec![None; self.ports().outputs.len()])
+    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
+        let unit = if Self::KEEPS_UNIT { common(inputs)? } else { None };
+        Ok(vec![unit; self.ports().outputs.len()])
     }
 
-    /// When it is evaluated.
-    fn pace(&self) -> Pace {
-        Pace::Any
+    /// Sample time of the block, as far as it follows from its kind and its parameters.
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        Self::SAMPLE_TIME
     }
 
-    /// Whether the outputs depend at once on this input. An input that does not feed through breaks algebraic loops.
-    fn feeds_through(&self, _input: usize) -> bool {
+    /// Returns true if the outputs depend on the present value of this input (direct feedthrough). An input without
+    /// direct feedthrough breaks algebraic loops.
+    fn has_direct_feedthrough(&self, _input: usize) -> bool {
         true
     }
 
-    /// How many numbers it keeps.
-    fn memory(&self, _node: &Node) -> Memory {
-        Memory::default()
+    /// Number of continuous and discrete states. By default [`Block::STATE`] for each component of the outputs.
+    fn memory(&self, node: &Node) -> Memory {
+        let n = node.n_out();
+        Memory { continuous: n * Self::STATE.continuous, discrete: n * Self::STATE.discrete }
     }
 
-    /// Checks what only the compiled diagram tells, such as a delay against the base step.
+    /// Checks parameters against what only the compiled diagram tells, such as a delay against the base step.
     ///
     /// # Errors
     ///
-    /// What is wrong and what would mend it.
+    /// The error, and a help for it.
     fn check(&self, _node: &Node) -> Result<(), (String, String)> {
         Ok(())
     }
@@ -122,41 +125,42 @@ pub trait Block: Clone + Debug + Send + Sync + 'static {
     /// Writes the initial continuous states and memory (both zero before).
     fn start<R: Real>(&self, _node: &Node, _states: &mut [R], _memory: &mut [R]) {}
 
-    /// Memory for intermediate results.
+    /// Buffers for intermediate results.
     fn work<R: Real>(&self) -> Self::Work<R> {
         Self::Work::default()
     }
 
-    /// The outputs, one after the other in `y`. May read only inputs that feed through.
+    /// Computes the outputs, one after the other in `y`. May read only inputs with direct feedthrough.
     fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Self::Work<R>, y: &mut [R]);
 
-    /// Rates of the continuous states.
-    fn slope<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _slope: &mut [R]) {}
+    /// Computes the time derivatives `f(x, u, t)` of the continuous states `x`.
+    fn derivatives<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _derivatives: &mut [R]) {}
 
-    /// −∂slopeᵢ/∂stateᵢ, the rate at which each state decays by itself [1/s]: implicit methods take it at the new state, and
-    /// what is too fast for an explicit method is told by it.
-    fn decay<R: Real>(&self, _at: &At<'_, R>, _decay: &mut [R]) {}
+    /// Diagonal of `−∂f/∂x` [1/s], `f` as in [`Block::derivatives`]: implicit integrators damp the new state by it, and
+    /// stiffness warnings rely on it. Zero where it is left out.
+    fn neg_jacobian_diagonal<R: Real>(&self, _at: &At<'_, R>, _diagonal: &mut [R]) {}
 
-    /// After all outputs of a tick are known: the memory for the next one. `memory` holds the present one, `states` the continuous
-    /// states, which may be set too (a reset); `at.states` is empty here.
+    /// Computes the discrete states of the next tick, after all outputs of a tick are known. `memory` holds the present
+    /// ones; `states` the continuous states, which may be set too (a reset); `at.states` is empty here.
     fn update<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _memory: &mut [R], _states: &mut [R]) {}
 
-    /// The first instant after `t` at which the outputs jump or have a corner, if that depends on time alone.
-    fn next_corner(&self, _t: f64) -> f64 {
+    /// Next time event: the first instant after `t` at which the outputs or one of their derivatives jump, if that
+    /// depends on time alone; infinite if there is none.
+    fn next_time_event(&self, _t: f64) -> f64 {
         f64::INFINITY
     }
 
-    /// What there is to say of it at the end of a run, from its memory: that it limited a signal, and when first.
+    /// Remark for the end of a run, from the memory: that the block limited a signal, and when first.
     fn notice(&self, _node: &Node, _memory: &[f64]) -> Option<String> {
         None
     }
 
-    /// Why its outputs are not finite, if it knows more than they tell.
+    /// Reason for outputs that are not finite, if the block knows more than they tell.
     fn fault(&self) -> Option<String> {
         None
     }
 
-    /// What stands in its box in a drawing, such as `2.5` or `1/s`; empty for the name of its kind.
+    /// Text in its box in a drawing, such as `2.5` or `1/s`; empty for the name of its kind.
     fn label(&self) -> String {
         String::new()
     }
@@ -165,14 +169,14 @@ pub trait Block: Clone + Debug + Send + Sync + 'static {
 /// Names of ports, in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ports {
-    /// Of the inputs.
+    /// Names of the inputs.
     pub inputs: Vec<String>,
-    /// Of the outputs.
+    /// Names of the outputs.
     pub outputs: Vec<String>,
 }
 
 impl Ports {
-    /// From names.
+    /// Ports with these names.
     #[must_use]
     pub fn new(inputs: &[&str], outputs: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect();
@@ -199,19 +203,20 @@ impl Ports {
     }
 }
 
-/// When a block is evaluated.
+/// Sample time of a block, as far as its kind determines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pace {
-    /// Once, at the start.
+pub enum SampleTimeKind {
+    /// Evaluated once, at the start.
     Constant,
-    /// As often as its inputs change; at its sample time if it is given one. Without inputs: as [`Pace::Timed`].
-    Any,
+    /// As often as its inputs change; at its sample time if it is given one. Without inputs: as
+    /// [`SampleTimeKind::TimeVarying`].
+    Inherited,
     /// Depends on time whatever its inputs: continuous, or at its sample time if it is given one.
-    Timed,
+    TimeVarying,
     /// Has continuous states: cannot have a sample time.
     Continuous,
     /// At ticks only: at its sample time, or every tick.
-    Sampled,
+    Discrete,
 }
 
 /// Lengths of the vectors of a block's state.
@@ -223,7 +228,16 @@ pub struct Memory {
     pub discrete: usize,
 }
 
-/// What the compiled diagram knows of a block.
+impl Memory {
+    /// No state.
+    pub const NONE: Self = Self { continuous: 0, discrete: 0 };
+    /// One continuous state.
+    pub const CONTINUOUS: Self = Self { continuous: 1, discrete: 0 };
+    /// One discrete state.
+    pub const DISCRETE: Self = Self { continuous: 0, discrete: 1 };
+}
+
+/// Sizes and sample time of a block in a compiled diagram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// Widths of the inputs.
@@ -234,7 +248,7 @@ pub struct Node {
     pub step: f64,
     /// Base steps between two updates: 1 for continuous blocks.
     pub every: u64,
-    /// For random numbers: of the run and the block's path.
+    /// Seed of its random numbers, made from that of the run and the block's path.
     pub seed: u64,
 }
 
@@ -252,16 +266,17 @@ impl Node {
     }
 }
 
-/// The present as a block sees it.
+/// Time, inputs and state of a block at the instant of evaluation.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a, R> {
     /// Time `[s]`.
     pub t: f64,
-    /// A corner that the present integration step ends at, else infinite: functions of time take the value before it.
-    pub corner: f64,
+    /// Time event at which the present integration step ends `[s]`, else infinite: functions of time take the value
+    /// before it.
+    pub time_event: f64,
     /// Base steps since the start, at the last tick.
     pub tick: u64,
-    /// What is known of the block.
+    /// Sizes and sample time of the block.
     pub node: &'a Node,
     /// Its continuous states.
     pub states: &'a [R],
@@ -272,7 +287,7 @@ pub struct At<'a, R> {
 }
 
 impl<'a, R: Real> At<'a, R> {
-    /// An input.
+    /// Components of input `k`.
     #[must_use]
     #[inline(always)]
     pub fn input(&self, k: usize) -> &'a [R] {
@@ -280,14 +295,14 @@ impl<'a, R: Real> At<'a, R> {
         &self.signals[start as usize..(start + len) as usize]
     }
 
-    /// The first component of an input.
+    /// First component of input `k`.
     #[must_use]
     #[inline(always)]
     pub fn scalar(&self, k: usize) -> R {
         self.signals[self.ports[k].0 as usize]
     }
 
-    /// Component `i` of an input; a scalar stands for a vector of equal components.
+    /// Component `i` of input `k`; a scalar stands for a vector of equal components.
     #[must_use]
     #[inline(always)]
     pub fn component(&self, k: usize, i: usize) -> R {
@@ -296,10 +311,18 @@ impl<'a, R: Real> At<'a, R> {
         self.signals[start as usize + i]
     }
 
-    /// Time, for functions of time alone: just before the corner that an integration step ends at.
+    /// Copies input `k` component by component; a scalar stands for a vector of equal components.
+    #[inline(always)]
+    pub fn copy_input(&self, k: usize, to: &mut [R]) {
+        for (i, x) in to.iter_mut().enumerate() {
+            *x = self.component(k, i);
+        }
+    }
+
+    /// Time `[s]` for functions of time alone: just before the time event at which an integration step ends.
     #[must_use]
     pub fn time(&self) -> f64 {
-        if self.t >= self.corner - 2.0 * SAME_INSTANT { self.corner - 2.0 * SAME_INSTANT } else { self.t }
+        if self.t >= self.time_event - 2.0 * SAME_INSTANT { self.time_event - 2.0 * SAME_INSTANT } else { self.t }
     }
 }
 
@@ -313,7 +336,14 @@ pub fn of(parameter: &[f64], i: usize) -> f64 {
     if parameter.len() == 1 { parameter[0] } else { parameter[i] }
 }
 
-/// The width of an elementwise block: all inputs and parameters are scalars or have one width in common.
+/// Writes component `i` of a parameter into entry `i`; one number stands for all.
+pub fn fill<R: Real>(to: &mut [R], parameter: &[f64]) {
+    for (i, x) in to.iter_mut().enumerate() {
+        *x = R::splat(of(parameter, i));
+    }
+}
+
+/// Width of an elementwise block: all inputs and parameters are scalars or have one width in common.
 ///
 /// # Errors
 ///

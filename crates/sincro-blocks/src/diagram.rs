@@ -19,7 +19,7 @@
 //! ```
 
 use crate::endpoint::Endpoint;
-use crate::instance::Template;
+use crate::instance::DynBlock;
 
 /// Blocks and wires; on its own or inside another diagram.
 #[derive(Clone, Debug, Default)]
@@ -40,18 +40,18 @@ pub struct Entry {
     /// Letters, digits, `_` and `-`; unique in the diagram.
     pub name: String,
     /// The block.
-    pub what: What,
+    pub content: Content,
     /// Sample time `[s]` of the block, or of all blocks in a diagram that have none of their own.
     pub sample_time: Option<f64>,
     /// Unit of the output, if it is declared.
     pub unit: Option<String>,
 }
 
-/// What stands under a name.
+/// Content of an entry.
 #[derive(Clone, Debug)]
-pub enum What {
+pub enum Content {
     /// A block of the library.
-    Block(Box<dyn Template>),
+    Block(Box<dyn DynBlock>),
     /// A diagram of its own: the name of its definition, and its content.
     Diagram(String, Box<Diagram>),
 }
@@ -59,9 +59,9 @@ pub enum What {
 /// A wire: what it carries, and where to.
 #[derive(Clone, Debug)]
 pub struct Wire {
-    /// Where it comes from; several sources are put one after the other into one vector.
+    /// Sources; several are put one after the other into one vector.
     pub from: Vec<Endpoint>,
-    /// Where it goes.
+    /// Target.
     pub to: Endpoint,
 }
 
@@ -73,24 +73,24 @@ impl Diagram {
     }
 
     /// Adds a block.
-    pub fn block(&mut self, name: &str, block: impl Template + 'static) -> &mut Self {
-        self.add(name, What::Block(Box::new(block)), None)
+    pub fn block(&mut self, name: &str, block: impl DynBlock + 'static) -> &mut Self {
+        self.add(name, Content::Block(Box::new(block)), None)
     }
 
     /// Adds a block with a sample time `[s]`.
-    pub fn sampled(&mut self, name: &str, sample_time: f64, block: impl Template + 'static) -> &mut Self {
-        self.add(name, What::Block(Box::new(block)), Some(sample_time))
+    pub fn sampled(&mut self, name: &str, sample_time: f64, block: impl DynBlock + 'static) -> &mut Self {
+        self.add(name, Content::Block(Box::new(block)), Some(sample_time))
     }
 
-    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it that have
-    /// none of their own.
+    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it
+    /// that have none of their own.
     pub fn diagram(&mut self, name: &str, inner: Self, sample_time: Option<f64>) -> &mut Self {
-        self.add(name, What::Diagram(name.to_owned(), Box::new(inner)), sample_time)
+        self.add(name, Content::Diagram(name.to_owned(), Box::new(inner)), sample_time)
     }
 
     /// Adds anything.
-    pub fn add(&mut self, name: &str, what: What, sample_time: Option<f64>) -> &mut Self {
-        self.entries.push(Entry { name: name.to_owned(), what, sample_time, unit: None });
+    pub fn add(&mut self, name: &str, content: Content, sample_time: Option<f64>) -> &mut Self {
+        self.entries.push(Entry { name: name.to_owned(), content, sample_time, unit: None });
         self
     }
 

@@ -14,14 +14,22 @@ pub struct Endpoint {
     pub range: Option<Range<usize>>,
 }
 
-/// Why a text is not an endpoint.
+/// Error of a text that is not an endpoint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EndpointError {
-    /// Where in the text.
+    /// Byte range in the text.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// The error.
     pub message: String,
 }
+
+impl fmt::Display for EndpointError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for EndpointError {}
 
 /// The block that stands for the world.
 pub const WORLD: &str = "world";

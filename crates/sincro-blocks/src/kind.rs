@@ -1,35 +1,53 @@
-//! What can be said of a kind of block: for schemas, for the reference in the documentation, for messages.
+//! Descriptions of kinds of blocks: what schemas, the reference in the documentation and messages are derived from.
 
-use crate::reader::Reader;
+use std::collections::BTreeMap;
 
-/// A block that says what it is and can be made from named parameters.
+use crate::reader::{NoFiles, Reader, Value};
+
+/// A block with a description, that can be made from named parameters.
+///
+/// [`declare_block!`](crate::declare_block) implements it.
 pub trait Described: Sized {
-    /// Its description.
+    /// Description of the kind of block.
     const KIND: &'static Kind;
 
-    /// The block for a set of parameters. What is wrong with them is noted in the reader; the block is then not used.
+    /// Names and lengths of the parameters that are one number for all components or one for each.
+    fn parameter_widths(&self) -> Vec<(&'static str, usize)> {
+        Vec::new()
+    }
+
+    /// Makes the block from a set of parameters. Errors in them are noted in the reader; the block is then not used.
     fn read(parameters: &mut Reader<'_>) -> Self;
+
+    /// The block with all parameters at their defaults; those without a default are NaN, 1 or empty, and still to be
+    /// set.
+    #[must_use]
+    fn with_defaults() -> Self {
+        static NOTHING: BTreeMap<String, Value> = BTreeMap::new();
+        static NO_SCOPE: BTreeMap<String, f64> = BTreeMap::new();
+        Self::read(&mut Reader::new(Self::KIND, &NOTHING, &NO_SCOPE, &NoFiles))
+    }
 }
 
 /// Description of a kind of block.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Kind {
-    /// Its name in files, such as `transfer-function`.
+    /// Name in files, such as `transfer-function`.
     pub name: &'static str,
-    /// The shelf of the library it stands on.
-    pub group: Group,
+    /// Category of the library.
+    pub category: Category,
     /// One sentence, in the user's words.
     pub summary: &'static str,
-    /// Its equation, with the names of ports and parameters.
+    /// Equation, with the names of ports and parameters.
     pub equation: &'static str,
-    /// What can be given.
+    /// Parameters, in the order of the reference.
     pub parameters: &'static [Parameter],
 }
 
-/// Shelves of the library.
+/// Categories of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs)]
-pub enum Group {
+pub enum Category {
     Sources,
     Maths,
     Matrices,
@@ -45,8 +63,8 @@ pub enum Group {
     Sinks,
 }
 
-impl Group {
-    /// As a heading.
+impl Category {
+    /// Title for headings, such as `Logic and comparison`.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -67,20 +85,21 @@ impl Group {
     }
 }
 
-/// A parameter of a kind of block.
-#[derive(Debug, PartialEq, Eq)]
+/// Description of a parameter of a kind of block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parameter {
-    /// Its key.
+    /// Key in files.
     pub name: &'static str,
-    /// What it takes.
+    /// Type and range of the value.
     pub takes: Takes,
-    /// What it means, with its unit in brackets.
-    pub meaning: &'static str,
-    /// As it would be written; `None` if it must be given.
+    /// Meaning, with its unit in brackets, as a phrase or as the sentence of a doc comment; see [`Parameter::meaning`].
+    pub doc: &'static str,
+    /// Default as it would be written; `None` if the parameter must be given.
     pub default: Option<&'static str>,
 }
 
-/// What a parameter takes. Wherever a number stands, a formula of the diagram's parameters may stand as text.
+/// Type and range of a parameter's value. Wherever a number stands, a formula of the diagram's parameters may stand as
+/// text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
     /// A number.
@@ -108,15 +127,121 @@ pub enum Takes {
 }
 
 impl Parameter {
-    /// One that must be given.
+    /// A parameter that must be given.
     #[must_use]
-    pub const fn required(name: &'static str, takes: Takes, meaning: &'static str) -> Self {
-        Self { name, takes, meaning, default: None }
+    pub const fn required(name: &'static str, takes: Takes, doc: &'static str) -> Self {
+        Self { name, takes, doc, default: None }
     }
 
-    /// One with a default.
+    /// A parameter with a default.
     #[must_use]
-    pub const fn optional(name: &'static str, takes: Takes, meaning: &'static str, default: &'static str) -> Self {
-        Self { name, takes, meaning, default: Some(default) }
+    pub const fn optional(name: &'static str, takes: Takes, doc: &'static str, default: &'static str) -> Self {
+        Self { name, takes, doc, default: Some(default) }
     }
+
+    /// Meaning as a phrase for tables and messages: `Instant of the jump [s].` is `instant of the jump [s]`.
+    #[must_use]
+    pub fn meaning(&self) -> String {
+        let phrase = self.doc.trim().trim_end_matches('.').replace("`[", "[").replace("]`", "]");
+        let mut letters = phrase.chars();
+        match (letters.next(), letters.next()) {
+            (Some(first), second) if first.is_ascii_uppercase() && !second.is_some_and(char::is_uppercase) => {
+                first.to_ascii_lowercase().to_string() + &phrase[1..]
+            }
+            _ => phrase,
+        }
+    }
+}
+
+/// Declares a block: its struct, its description, and how it is read from parameters, each parameter in one place.
+///
+/// ```
+/// # use sincro_blocks::{block::Block, declare_block, kind::Described, parameter::{Flag, PerComponent}};
+/// declare_block! {
+///     /// Multiplies by a constant.
+///     ///
+///     /// The first line is the summary in the reference of all blocks.
+///     pub struct Amplifier("amplifier", Maths): "y = gain·u" {
+///         /// Factor `[unit of y / unit of u]`, one for all components or one for each.
+///         pub gain: Vec<f64> as PerComponent,
+///         /// Changes the sign.
+///         pub inverting: bool as Flag = "false",
+///     }
+/// }
+/// # impl Block for Amplifier {
+/// #     type Work<R: sincro_math::Real> = ();
+/// #     fn output<R: sincro_math::Real>(&self, _: &sincro_blocks::block::At<'_, R>, (): &mut (), _: &mut [R]) {}
+/// # }
+/// let parameter = &Amplifier::KIND.parameters[0];
+/// assert_eq!(parameter.meaning(), "factor [unit of y / unit of u], one for all components or one for each");
+/// assert_eq!((parameter.default, Amplifier::KIND.parameters[1].default), (None, Some("false")));
+/// ```
+///
+/// After `as` stands the type and range of a parameter, from [`parameter`](crate::parameter); after `=` its default as
+/// it would be written in a file. Without a default a parameter must be given. Parameters are checked against each
+/// other in [`Block::validate`](crate::block::Block::validate), which also computes fields that are derived from them,
+/// declared as `with { name: Type = initial_value, … }` after the parameters.
+#[macro_export]
+macro_rules! declare_block {
+    (
+        #[doc = $summary:literal] $(#[$attribute:meta])*
+        $visibility:vis struct $block:ident($name:literal, $category:ident): $equation:literal;
+    ) => {
+        #[doc = $summary] $(#[$attribute])*
+        ///
+        #[doc = concat!("`", $equation, "`")]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        $visibility struct $block;
+
+        impl $crate::kind::Described for $block {
+            const KIND: &'static $crate::kind::Kind = &$crate::kind::Kind {
+                name: $name,
+                category: $crate::kind::Category::$category,
+                summary: ($summary as &str).trim_ascii(),
+                equation: $equation,
+                parameters: &[],
+            };
+
+            fn read(_: &mut $crate::reader::Reader<'_>) -> Self {
+                Self
+            }
+        }
+    };
+    (
+        #[doc = $summary:literal] $(#[$attribute:meta])*
+        $visibility:vis struct $block:ident($name:literal, $category:ident): $equation:literal {
+            $($(#[doc = $doc:literal])+ $parameter_visibility:vis $parameter:ident: $type:ty as $takes:ty $(= $default:literal)?),* $(,)?
+        }
+        $(with { $($(#[$field_attribute:meta])* $field_visibility:vis $field:ident: $field_type:ty = $initial:expr),* $(,)? })?
+    ) => {
+        $crate::declare_parameters! {
+            #[doc = $summary] $(#[$attribute])*
+            #[doc = ""]
+            #[doc = concat!("`", $equation, "`")]
+            $visibility struct $block {
+                $($(#[doc = $doc])+ $parameter_visibility $parameter: $type as $takes $(= $default)?),*
+            }
+            $(with { $($(#[$field_attribute])* $field_visibility $field: $field_type = $initial),* })?
+        }
+
+        impl $crate::kind::Described for $block {
+            const KIND: &'static $crate::kind::Kind = &$crate::kind::Kind {
+                name: $name,
+                category: $crate::kind::Category::$category,
+                summary: ($summary as &str).trim_ascii(),
+                equation: $equation,
+                parameters: <Self as $crate::parameter::ParameterSet>::PARAMETERS,
+            };
+
+            fn parameter_widths(&self) -> Vec<(&'static str, usize)> {
+                $crate::parameter::ParameterSet::widths(self)
+            }
+
+            fn read(reader: &mut $crate::reader::Reader<'_>) -> Self {
+                let mut new = <Self as $crate::parameter::ParameterSet>::read(reader);
+                $crate::block::Block::validate(&mut new, reader);
+                new
+            }
+        }
+    };
 }

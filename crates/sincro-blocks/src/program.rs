@@ -1,16 +1,16 @@
 //! A compiled diagram: what is evaluated, in which order, where its numbers stand.
 //!
-//! The signals stand in one vector, in the order of evaluation: what a block needs at once is always to the left of what
-//! it gives, so that inputs can be read while outputs are written, without a copy.
+//! The signals stand in one vector, in the order of evaluation: what a block needs at once is always to the left of
+//! what it gives, so that inputs can be read while outputs are written, without a copy.
 
 use core::ops::Range;
 
 use crate::block::{Memory, Node};
-use crate::compile::{EARLY, Flat, Interface, LATE, Problem};
-use crate::instance::Template;
+use crate::compile::{Diagnostic, EARLY, Flat, Interface, LATE};
+use crate::instance::DynBlock;
 use crate::unit::Unit;
 
-/// When a block is evaluated.
+/// Rate at which a compiled block is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rate {
     /// Once.
@@ -27,10 +27,10 @@ pub struct Step {
     /// Names of the entries that lead to it, with `/` between them.
     pub path: String,
     /// The block.
-    pub template: Box<dyn Template>,
+    pub template: Box<dyn DynBlock>,
     /// Its sizes.
     pub node: Node,
-    /// When it is evaluated.
+    /// Rate of evaluation.
     pub rate: Rate,
     /// Start and length of every input among the signals.
     pub ports: Vec<(u32, u32)>,
@@ -44,7 +44,7 @@ pub struct Step {
     pub output_names: Vec<String>,
     /// Their units, as far as they are known.
     pub units: Vec<Option<Unit>>,
-    /// Whether continuous states or continuous commands depend on it: it is then evaluated between ticks too.
+    /// True if continuous states or continuous commands depend on it: it is then evaluated in minor steps too.
     pub is_minor: bool,
 }
 
@@ -53,9 +53,9 @@ pub struct Step {
 pub struct Measured {
     /// Number of the terminal in the [`Interface`].
     pub terminal: usize,
-    /// Where its numbers go among the signals.
+    /// Its place among the signals.
     pub out: Range<usize>,
-    /// Whether blocks that are evaluated between ticks read it.
+    /// True if blocks that are evaluated in minor steps read it.
     pub is_minor: bool,
 }
 
@@ -64,9 +64,9 @@ pub struct Measured {
 pub struct Commanded {
     /// Number of the terminal in the [`Interface`].
     pub terminal: usize,
-    /// Where its numbers stand among the signals.
+    /// Its place among the signals.
     pub signal: Range<usize>,
-    /// Whether it changes between ticks.
+    /// True if it changes between ticks.
     pub is_continuous: bool,
 }
 
@@ -75,7 +75,7 @@ pub struct Commanded {
 pub struct Program {
     /// All blocks in the order of evaluation.
     pub steps: Vec<Step>,
-    /// How many of them come before the world's late measurements.
+    /// Number of steps before the world's late measurements.
     pub n_early: usize,
     /// Measurements that depend on the world's state alone.
     pub early: Vec<Measured>,
@@ -104,7 +104,7 @@ impl Program {
         order: &[usize],
         rates: &[Rate],
         interface: &Interface,
-    ) -> Result<Self, Vec<Problem>> {
+    ) -> Result<Self, Vec<Diagnostic>> {
         let minor = between_ticks(&flat, order, rates);
         // where the outputs of every node begin, port by port
         let mut begins: Vec<Vec<usize>> = vec![Vec::new(); flat.nodes.len()];
@@ -164,13 +164,13 @@ impl Program {
             n_memory: 0,
             step: interface.step,
         };
-        if n_signals > MOST_NUMBERS {
+        if n_signals > MAX_NUMBERS {
             let widest =
                 (LATE + 1..flat.nodes.len()).max_by_key(|&n| flat.nodes[n].out_widths.iter().flatten().sum::<usize>());
             let node = &flat.nodes[widest.unwrap_or(LATE)];
-            let message = format!("all signals together have {n_signals} components; {MOST_NUMBERS} are possible");
+            let message = format!("all signals together have {n_signals} components; {MAX_NUMBERS} are possible");
             let help = format!("the widest is that of `{}`", node.path);
-            return Err(vec![Problem { place: node.place.clone(), message, help }]);
+            return Err(vec![Diagnostic { place: node.place.clone(), message, help }]);
         }
         let mut problems = Vec::new();
         let mut nodes: Vec<Option<crate::compile::FlatNode>> = flat.nodes.into_iter().map(Some).collect();
@@ -188,16 +188,16 @@ impl Program {
             };
             if let Err((message, help)) = template.check(&node) {
                 let message = format!("`{}`: {message}", flat_node.path);
-                problems.push(Problem { place: flat_node.place, message, help });
+                problems.push(Diagnostic { place: flat_node.place, message, help });
                 continue;
             }
             let Memory { continuous, discrete } = template.memory(&node);
             let numbers = n_signals + program.n_states + program.n_memory;
-            if continuous.saturating_add(discrete).saturating_add(numbers) > MOST_NUMBERS {
+            if continuous.saturating_add(discrete).saturating_add(numbers) > MAX_NUMBERS {
                 let own = continuous.saturating_add(discrete);
-                let message = format!("`{}` keeps {own} numbers; a diagram may have {MOST_NUMBERS}", flat_node.path);
+                let message = format!("`{}` keeps {own} numbers; a diagram may have {MAX_NUMBERS}", flat_node.path);
                 let help = "delay by fewer samples, or a narrower signal".to_owned();
-                problems.push(Problem { place: flat_node.place, message, help });
+                problems.push(Diagnostic { place: flat_node.place, message, help });
                 continue;
             }
             let start = begins[n].first().copied().unwrap_or(0);
@@ -229,8 +229,8 @@ impl Program {
         self.steps.iter().map(|step| step.path.as_str()).collect()
     }
 
-    /// The outputs of all blocks, then those of inner diagrams: name (`block`, or `block.port` where there are several), place among the
-    /// signals, unit.
+    /// The outputs of all blocks, then those of inner diagrams: name (`block`, or `block.port` where there are
+    /// several), place among the signals, unit.
     pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, Option<&Unit>)> {
         let of_diagrams = self.aliases.iter().map(|(name, range, unit)| (name.clone(), range.clone(), unit.as_ref()));
         let of_blocks = self.steps.iter().flat_map(|step| {
@@ -249,14 +249,15 @@ impl Program {
         of_blocks.chain(of_diagrams)
     }
 
-    /// The first instant after `t` at which a function of time that is evaluated between ticks has a corner; infinite if none.
+    /// The first instant after `t` at which a function of time that is evaluated between ticks has a time event;
+    /// infinite if none.
     #[must_use]
-    pub fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_time_event(&self, t: f64) -> f64 {
         let minor = self.steps.iter().filter(|step| step.is_minor);
-        minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_corner(t)))
+        minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_time_event(t)))
     }
 
-    /// Whether anything happens between ticks.
+    /// Returns true if anything changes between ticks.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
         self.n_states > 0 || self.commands.iter().any(|c| c.is_continuous)
@@ -264,19 +265,21 @@ impl Program {
 }
 
 /// Signals, states and memory of a diagram together: 400 MB.
-const MOST_NUMBERS: usize = 50_000_000;
+const MAX_NUMBERS: usize = 50_000_000;
 
-/// Whether any node that `reads` is evaluated between ticks, has continuous states, or is the world that takes commands.
+/// Returns true if a node that `reads` is evaluated in minor steps, has continuous states, or is the world that takes
+/// commands.
 fn minor_reads(flat: &Flat, minor: &[bool], rates: &[Rate], reads: impl Fn(&usize) -> bool) -> bool {
     (0..flat.nodes.len()).filter(|n| reads(n)).any(|n| n == LATE || minor[n] || has_states(flat, rates, n))
 }
 
 fn has_states(flat: &Flat, rates: &[Rate], n: usize) -> bool {
     let template = flat.nodes[n].template.as_ref();
-    rates[n] == Rate::Continuous && template.is_some_and(|t| t.pace() == crate::block::Pace::Continuous)
+    rates[n] == Rate::Continuous
+        && template.is_some_and(|t| t.sample_time_kind() == crate::block::SampleTimeKind::Continuous)
 }
 
-/// Which nodes the integrator needs: continuous ones that continuous states or the world's commands depend on.
+/// Nodes that the integrator needs: continuous ones that continuous states or the world's commands depend on.
 fn between_ticks(flat: &Flat, order: &[usize], rates: &[Rate]) -> Vec<bool> {
     let mut needed = vec![false; flat.nodes.len()];
     for n in 0..flat.nodes.len() {
@@ -289,7 +292,7 @@ fn between_ticks(flat: &Flat, order: &[usize], rates: &[Rate]) -> Vec<bool> {
     for &n in order.iter().rev() {
         if needed[n] && rates[n] == Rate::Continuous && n != LATE {
             for (k, input) in flat.nodes[n].inputs.iter().enumerate() {
-                needed[input.node] |= flat.feeds_through(n, k);
+                needed[input.node] |= flat.has_direct_feedthrough(n, k);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Parameters by name: from neutral values to the fields of a block.
 //!
-//! A [`Reader`] hands out parameters with the type that a block wants and notes everything that is wrong with them, so that
-//! all problems are reported at once.
+//! A [`Reader`] hands out parameters with the type that a block wants and notes everything that is wrong with them, so
+//! that all problems are reported at once.
 
 use std::collections::BTreeMap;
 
@@ -51,16 +51,24 @@ impl<T: Into<Value>> From<Vec<T>> for Value {
 
 /// Something wrong with a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct ParameterError {
     /// Steps to the value: the parameter's key, then indices and names inside it.
     pub path: Vec<String>,
     /// Byte range in the text of the value, if it is a formula that does not parse.
     pub span: Option<core::ops::Range<usize>>,
-    /// What is wrong.
+    /// The error.
     pub message: String,
-    /// What would mend it.
+    /// Help: a change that would correct it.
     pub help: String,
 }
+
+impl core::fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{}\nhelp: {}", self.message, self.help)
+    }
+}
+
+impl std::error::Error for ParameterError {}
 
 /// Columns of the scene folder's CSV files, given by whoever may read files.
 pub trait Files {
@@ -68,14 +76,14 @@ pub trait Files {
     ///
     /// # Errors
     ///
-    /// Why there are none, in words.
+    /// The reason, in words.
     fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String>;
 
     /// The whole text.
     ///
     /// # Errors
     ///
-    /// Why there is none, in words.
+    /// The reason, in words.
     fn text(&self, file: &str) -> Result<String, String> {
         Err(format!("the file `{file}` cannot be read here"))
     }
@@ -92,7 +100,7 @@ impl Files for NoFiles {
 }
 
 /// Ports of one block.
-pub const MOST_PORTS: usize = 10_000;
+pub const MAX_PORTS: usize = 10_000;
 
 /// Reads the parameters of one block.
 pub struct Reader<'a> {
@@ -100,7 +108,7 @@ pub struct Reader<'a> {
     given: &'a BTreeMap<String, Value>,
     scope: &'a BTreeMap<String, f64>,
     files: &'a dyn Files,
-    faults: Vec<Fault>,
+    faults: Vec<ParameterError>,
 }
 
 impl<'a> Reader<'a> {
@@ -129,13 +137,13 @@ impl<'a> Reader<'a> {
                 None => all,
             };
             let message = format!("`{}` has no parameter `{key}`", self.kind.name);
-            self.faults.push(Fault { path: vec![key.clone()], span: None, message, help });
+            self.faults.push(ParameterError { path: vec![key.clone()], span: None, message, help });
         }
     }
 
     /// Everything that was wrong.
     #[must_use]
-    pub fn finish(self) -> Vec<Fault> {
+    pub fn finish(self) -> Vec<ParameterError> {
         self.faults
     }
 
@@ -145,7 +153,7 @@ impl<'a> Reader<'a> {
         self.scope
     }
 
-    /// Whether the parameter is given.
+    /// Returns true if the parameter is given.
     #[must_use]
     pub fn has(&self, key: &str) -> bool {
         self.given.contains_key(key)
@@ -171,7 +179,7 @@ impl<'a> Reader<'a> {
         help: impl Into<String>,
     ) {
         let path = path.iter().map(|step| (*step).to_owned()).collect();
-        self.faults.push(Fault { path, span, message: message.into(), help: help.into() });
+        self.faults.push(ParameterError { path, span, message: message.into(), help: help.into() });
     }
 
     /// The parameter or its default; none, with a fault, if it must be given.
@@ -184,8 +192,13 @@ impl<'a> Reader<'a> {
         match parameter.default {
             Some(text) => Some(default_value(text, parameter.takes)),
             None => {
-                let message = format!("`{}` needs the parameter `{key}`: {}", self.kind.name, parameter.meaning);
-                self.faults.push(Fault { path: Vec::new(), span: None, message, help: format!("give {key} = …") });
+                let message = format!("`{}` needs the parameter `{key}`: {}", self.kind.name, parameter.meaning());
+                self.faults.push(ParameterError {
+                    path: Vec::new(),
+                    span: None,
+                    message,
+                    help: format!("give {key} = …"),
+                });
                 None
             }
         }
@@ -251,13 +264,26 @@ impl<'a> Reader<'a> {
         if is_whole { x as usize } else { 1 }
     }
 
-    /// A whole number of ports, up to [`MOST_PORTS`] (1 if it is greater, 0 after other faults).
-    pub fn port_count(&mut self, key: &str) -> usize {
+    /// Number of ports, from 1 to [`MAX_PORTS`]; of those that are possible the nearest to 1000 after an error.
+    pub fn positive_port_count(&mut self, key: &str) -> usize {
         let n = self.count(key);
-        if n > MOST_PORTS {
-            self.fault(key, format!("`{key}` is {n}"), format!("a block has at most {MOST_PORTS}"));
+        if n > MAX_PORTS {
+            self.fault(key, format!("`{key}` is {n}"), format!("a block has at most {MAX_PORTS}"));
+            return 1;
         }
-        if n > MOST_PORTS { 1 } else { n }
+        if n == 0 {
+            self.fault(key, format!("`{key}` is 0"), "it must be 1 or more");
+        }
+        n.clamp(1, 1000)
+    }
+
+    /// Number of inputs of a block with as many of them as one likes: from 1 to 1000.
+    pub fn input_count(&mut self, key: &str) -> usize {
+        let n = self.count(key);
+        if !(1..=1000).contains(&n) {
+            self.fault(key, format!("`{key}` is {n}"), "it must be from 1 to 1000");
+        }
+        n.clamp(1, 1000)
     }
 
     /// One number, or one for each component; never empty.
@@ -273,6 +299,15 @@ impl<'a> Reader<'a> {
             Some(value) => vec![self.numeric(&value, &[key])],
             None => vec![f64::NAN],
         }
+    }
+
+    /// A list of whole numbers from `least` on and below a million.
+    pub fn counts(&mut self, key: &str, least: usize) -> Vec<usize> {
+        let list = self.numbers(key);
+        if let Some(bad) = list.iter().find(|x| x.fract() != 0.0 || !(least as f64..1e6).contains(*x)) {
+            self.fault(key, format!("`{key}` has {}", plain(*bad)), format!("{key} are whole numbers from {least} on"));
+        }
+        list.iter().map(|x| *x as usize).collect()
     }
 
     /// As [`Reader::numbers`], each greater than zero.
@@ -513,7 +548,7 @@ impl<'a> Reader<'a> {
 pub struct Formula {
     /// The formula; its first `n_names` names are the caller's, the others have the values of `constants`.
     pub expression: Expression,
-    /// How many names the caller gives values for.
+    /// Number of names that the caller gives values for.
     pub n_names: usize,
     /// Values of the other names.
     pub constants: Vec<f64>,

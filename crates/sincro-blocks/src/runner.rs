@@ -7,13 +7,13 @@
 //!           slopes(t)     rates of the continuous states
 //! ```
 //!
-//! Measurements are written before `evaluate` and `minor` ([`Runner::signals_mut`]), commands read after them ([`Runner::signals`]). What depends
-//! on the world's accelerations is evaluated apart (`*_late`), when they are known.
+//! Measurements are written before `evaluate` and `minor` ([`Runner::signals_mut`]), commands read after them
+//! ([`Runner::signals`]). What depends on the world's accelerations is evaluated apart (`*_late`), when they are known.
 
 use std::sync::Arc;
 
 use crate::block::At;
-use crate::instance::{Instance, Number};
+use crate::instance::{Number, RunningBlock};
 use crate::program::{Program, Rate, Step};
 
 /// All that changes in a diagram.
@@ -33,14 +33,14 @@ pub struct Runner<R: Number> {
     program: Arc<Program>,
     /// All that changes.
     pub state: State<R>,
-    instances: Vec<Box<dyn Instance<R>>>,
-    /// Which of the program's periods are due.
+    instances: Vec<Box<dyn RunningBlock<R>>>,
+    /// For each of the program's periods: true if it is due.
     due: Vec<bool>,
     /// For each step: its period among the program's.
     period: Vec<usize>,
     new_memory: Vec<R>,
-    /// Steps that are evaluated between ticks (before and after the late measurements), those that have continuous states, those that
-    /// have anything to update.
+    /// Steps that are evaluated between ticks (before and after the late measurements), those that have continuous
+    /// states, those that have anything to update.
     minor: Vec<usize>,
     minor_late: Vec<usize>,
     with_states: Vec<usize>,
@@ -137,12 +137,12 @@ impl<R: Number> Runner<R> {
     }
 
     #[inline(always)]
-    fn output(&mut self, k: usize, t: f64, corner: f64, tick: u64) {
+    fn output(&mut self, k: usize, t: f64, time_event: f64, tick: u64) {
         let step = &self.program.steps[k];
         let (before, out) = self.state.signals.split_at_mut(step.out.start);
         let at = At {
             t,
-            corner,
+            time_event,
             tick,
             node: &step.node,
             states: &self.state.continuous[step.states.clone()],
@@ -168,7 +168,7 @@ impl<R: Number> Runner<R> {
             let states = &mut self.state.continuous[step.states.clone()];
             let at = At {
                 t,
-                corner: f64::INFINITY,
+                time_event: f64::INFINITY,
                 tick,
                 node: &step.node,
                 // handed over to be set
@@ -182,23 +182,23 @@ impl<R: Number> Runner<R> {
         core::mem::swap(&mut self.state.memory, &mut self.new_memory);
     }
 
-    /// Outputs of the continuous blocks at time `t` between ticks with the continuous states in `state.continuous`, up to those that
-    /// need accelerations. `corner`: see [`At::corner`].
-    pub fn minor(&mut self, tick: u64, t: f64, corner: f64) {
+    /// Outputs of the continuous blocks at time `t` between ticks with the continuous states in `state.continuous`, up
+    /// to those that need accelerations. `time_event`: see [`At::time_event`].
+    pub fn minor(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor.len() {
-            self.output(self.minor[i], t, corner, tick);
+            self.output(self.minor[i], t, time_event, tick);
         }
     }
 
     /// The rest of the outputs between ticks.
-    pub fn minor_late(&mut self, tick: u64, t: f64, corner: f64) {
+    pub fn minor_late(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor_late.len() {
-            self.output(self.minor_late[i], t, corner, tick);
+            self.output(self.minor_late[i], t, time_event, tick);
         }
     }
 
-    /// Outputs of all continuous blocks at time `t`, whether or not the integrator needs them; those that need accelerations if `late`,
-    /// else the others. `perturbed`: a signal and what is added to it as soon as it is known.
+    /// Outputs of all continuous blocks at time `t`, whether or not the integrator needs them; those that need
+    /// accelerations if `late`, else the others. `perturbed`: a signal and what is added to it as soon as it is known.
     pub fn evaluate_continuous(&mut self, tick: u64, t: f64, late: bool, perturbed: Option<(usize, R)>) {
         let steps = if late { self.program.n_early..self.instances.len() } else { 0..self.program.n_early };
         for k in steps {
@@ -214,14 +214,18 @@ impl<R: Number> Runner<R> {
     }
 
     /// Rates of the continuous states, from the signals as they now are.
-    pub fn slopes(&mut self, tick: u64, t: f64, corner: f64, slope: &mut [R]) {
-        self.with_each_state(tick, t, corner, |instance, at, states| instance.slope(at, &mut slope[states]));
+    pub fn derivatives(&mut self, tick: u64, t: f64, time_event: f64, derivatives: &mut [R]) {
+        self.with_each_state(tick, t, time_event, |instance, at, states| {
+            instance.derivatives(at, &mut derivatives[states])
+        });
     }
 
-    /// Decay of the continuous states: see [`crate::block::Block::decay`].
-    pub fn decays(&mut self, tick: u64, t: f64, decay: &mut [R]) {
-        decay.fill(R::zero());
-        self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| instance.decay(at, &mut decay[states]));
+    /// Decay of the continuous states: see [`crate::block::Block::neg_jacobian_diagonal`].
+    pub fn neg_jacobian_diagonal(&mut self, tick: u64, t: f64, diagonal: &mut [R]) {
+        diagonal.fill(R::zero());
+        self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| {
+            instance.neg_jacobian_diagonal(at, &mut diagonal[states])
+        });
     }
 
     #[inline(always)]
@@ -229,14 +233,14 @@ impl<R: Number> Runner<R> {
         &mut self,
         tick: u64,
         t: f64,
-        corner: f64,
-        mut visit: impl FnMut(&mut dyn Instance<R>, &At<'_, R>, core::ops::Range<usize>),
+        time_event: f64,
+        mut visit: impl FnMut(&mut dyn RunningBlock<R>, &At<'_, R>, core::ops::Range<usize>),
     ) {
         for &k in &self.with_states {
             let step = &self.program.steps[k];
             let at = At {
                 t,
-                corner,
+                time_event,
                 tick,
                 node: &step.node,
                 states: &self.state.continuous[step.states.clone()],
@@ -248,7 +252,7 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// What blocks have to say of the run so far, each with its path.
+    /// Remarks of the blocks on the run so far, each with the block's path.
     #[must_use]
     pub fn notices(&self) -> Vec<(&str, String)> {
         let of_step = |step: &'_ Step| {

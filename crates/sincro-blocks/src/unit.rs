@@ -1,7 +1,7 @@
 //! Units of signals: products of symbols with whole exponents, compared by what they measure and how large they are.
 //!
-//! `N·m`, `N*m` and `J` are the same; `rad` and `deg` are not: the radian is kept as a base of its own, so that an angle is not taken
-//! for a number.
+//! `N·m`, `N*m` and `J` are the same; `rad` and `deg` are not: the radian is kept as a base of its own, so that an
+//! angle is not taken for a number.
 
 use core::fmt;
 
@@ -13,7 +13,7 @@ const N_BASES: usize = 6;
 pub struct Unit {
     /// As it was written.
     text: String,
-    /// How many of the coherent unit it is.
+    /// Size in coherent units.
     factor: f64,
     exponents: [i8; N_BASES],
 }
@@ -93,7 +93,7 @@ impl Unit {
         Ok(())
     }
 
-    /// Whether numbers in both mean the same.
+    /// Returns true if a number means the same in both.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
         self.exponents == other.exponents && (self.factor - other.factor).abs() <= 1e-9 * self.factor.abs()

@@ -140,7 +140,7 @@ impl<R: Number> DiagramController<R> {
             self.read_response(seen, response, false);
             self.runner.evaluate_continuous(self.tick, seen.t, true, perturbed);
         }
-        self.runner.slopes(self.tick, seen.t, f64::INFINITY, slope);
+        self.runner.derivatives(self.tick, seen.t, f64::INFINITY, slope);
     }
 }
 
@@ -299,7 +299,7 @@ impl<R: Number + Real> Attachment<R> for DiagramController<R> {
     }
 
     fn next_corner(&self, t: f64) -> f64 {
-        self.wiring.program().next_corner(t)
+        self.wiring.program().next_time_event(t)
     }
 
     fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
@@ -318,10 +318,10 @@ impl<R: Number + Real> Attachment<R> for DiagramController<R> {
         }
         // also what depends on a held sample of a late measurement and on something that moves
         self.runner.minor_late(self.tick, seen.t, self.corner);
-        self.runner.slopes(self.tick, seen.t, self.corner, slope);
+        self.runner.derivatives(self.tick, seen.t, self.corner, slope);
     }
 
     fn decay(&mut self, decay: &mut [R]) {
-        self.runner.decays(self.tick, 0.0, decay);
+        self.runner.neg_jacobian_diagonal(self.tick, 0.0, decay);
     }
 }

@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use super::{Flat, FlatNode, Input, Interface, LATE, Place, Problem, Spot, Terminal, listed};
-use crate::diagram::{Diagram, Entry, What};
+use super::{Diagnostic, Element, Flat, FlatNode, Input, Interface, LATE, Place, Terminal, listed};
+use crate::diagram::{Content, Diagram, Entry};
 use crate::endpoint::{Endpoint, WORLD};
-use crate::instance::Template;
+use crate::instance::DynBlock;
 use crate::library::routing::Mux;
 use crate::suggest;
 
-pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, Vec<Problem>> {
+pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, Vec<Diagnostic>> {
     let world = |n: usize| FlatNode {
         path: WORLD.into(),
-        place: Place { diagram: Vec::new(), what: Spot::Entry(WORLD.into()) },
+        place: Place { diagram: Vec::new(), element: Element::Entry(WORLD.into()) },
         template: None,
         sample_time: None,
         unit: None,
@@ -47,7 +47,7 @@ pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, 
 }
 
 /// Most blocks of a diagram with all that is inside it: definitions that use definitions grow fast.
-const MOST_BLOCKS: usize = 100_000;
+const MAX_BLOCKS: usize = 100_000;
 
 /// A diagram in its place.
 struct Scope<'a> {
@@ -73,7 +73,7 @@ struct Flattening<'a> {
     interface: &'a Interface,
     flat: Flat,
     scopes: Vec<Scope<'a>>,
-    problems: Vec<Problem>,
+    problems: Vec<Diagnostic>,
     /// Terminals of the interface by name.
     measurements: BTreeMap<&'a str, usize>,
     commands: BTreeMap<&'a str, usize>,
@@ -82,12 +82,12 @@ struct Flattening<'a> {
 }
 
 impl<'a> Flattening<'a> {
-    fn problem(&mut self, path: &[String], what: Spot, message: impl Into<String>, help: impl Into<String>) {
-        let place = Place { diagram: path.to_vec(), what };
-        self.problems.push(Problem { place, message: message.into(), help: help.into() });
+    fn problem(&mut self, path: &[String], element: Element, message: impl Into<String>, help: impl Into<String>) {
+        let place = Place { diagram: path.to_vec(), element };
+        self.problems.push(Diagnostic { place, message: message.into(), help: help.into() });
     }
 
-    /// Whether similar names are still looked for: after many problems that would only take time.
+    /// Returns true while similar names are still looked for: after many problems that would only take time.
     fn helps(&self) -> bool {
         self.problems.len() < 100
     }
@@ -111,23 +111,23 @@ impl<'a> Flattening<'a> {
         self.scopes.push(Scope { diagram, path: path.clone(), parent, members: Vec::new(), entries, wires_into });
         self.check_ports(index);
         for (k, entry) in diagram.entries.iter().enumerate() {
-            if self.flat.nodes.len() > MOST_BLOCKS {
-                let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+            if self.flat.nodes.len() > MAX_BLOCKS {
+                let message = format!("the diagram has more than {MAX_BLOCKS} blocks");
                 // said once, where the limit was passed
                 if self.problems.iter().all(|p| p.message != message) {
                     let help = "count what the definitions inside definitions come to";
-                    self.problem(&path, Spot::Entry(entry.name.clone()), message, help);
+                    self.problem(&path, Element::Entry(entry.name.clone()), message, help);
                 }
                 break;
             }
             self.check_name(index, entry, k);
             let (own, inherited) = (entry.sample_time.map(|ts| (ts, false)), sample_time.map(|ts| (ts, true)));
-            let member = match &entry.what {
-                What::Block(template) => {
-                    let place = Place { diagram: path.clone(), what: Spot::Entry(entry.name.clone()) };
+            let member = match &entry.content {
+                Content::Block(template) => {
+                    let place = Place { diagram: path.clone(), element: Element::Entry(entry.name.clone()) };
                     Member::Node(self.node(&path, entry, template.as_ref(), own.or(inherited), place))
                 }
-                What::Diagram(_, inner) => {
+                Content::Diagram(_, inner) => {
                     let mut deeper = path.clone();
                     deeper.push(entry.name.clone());
                     let around = Some((index, entry.name.clone()));
@@ -145,7 +145,7 @@ impl<'a> Flattening<'a> {
         let path = self.scopes[scope].path.clone();
         for (list, word) in [(&diagram.inputs, "inputs"), (&diagram.outputs, "outputs")] {
             for (k, port) in list.iter().enumerate() {
-                let spot = Spot::Port(port.clone());
+                let spot = Element::Port(port.clone());
                 if !is_name(port) || port == WORLD {
                     let message = format!("`{port}` is no name of a port");
                     self.problem(
@@ -165,7 +165,7 @@ impl<'a> Flattening<'a> {
         let diagram = self.scopes[scope].diagram;
         let path = &self.scopes[scope].path.clone();
         let name = &entry.name;
-        let spot = || Spot::Entry(name.clone());
+        let spot = || Element::Entry(name.clone());
         if !is_name(name) {
             let help = "names have letters, digits, `_`, `-`";
             self.problem(path, spot(), format!("`{name}` is no name of a block"), help);
@@ -186,7 +186,7 @@ impl<'a> Flattening<'a> {
         &mut self,
         path: &[String],
         entry: &Entry,
-        template: &dyn Template,
+        template: &dyn DynBlock,
         sample_time: Option<(f64, bool)>,
         place: Place,
     ) -> usize {
@@ -268,7 +268,7 @@ impl<'a> Flattening<'a> {
                     };
                     let target = self.flat.input_name(node, port);
                     let short = target.rsplit('/').next().unwrap_or(&target).to_owned();
-                    self.problem(&path, Spot::Entry(name.clone()), whole, format!("add a wire \"… -> {short}\""));
+                    self.problem(&path, Element::Entry(name.clone()), whole, format!("add a wire \"… -> {short}\""));
                 }
             }
         }
@@ -300,7 +300,7 @@ impl<'a> Flattening<'a> {
         [wires.get(&(block, port)), unnamed].into_iter().flatten().min().copied()
     }
 
-    /// What stands under a name.
+    /// Content of an entry.
     fn member(&self, scope: usize, block: &str) -> Option<Member> {
         let scope = &self.scopes[scope];
         scope.entries.get(block).map(|k| scope.members[*k])
@@ -338,16 +338,16 @@ impl<'a> Flattening<'a> {
         for port in &diagram.outputs {
             if !self.scopes[scope].wires_into.contains_key(&(port.as_str(), "")) {
                 let message = format!("the output `{port}` of the diagram is not connected");
-                self.problem(&path, Spot::Port(port.clone()), message, format!("add a wire \"… -> {port}\""));
+                self.problem(&path, Element::Port(port.clone()), message, format!("add a wire \"… -> {port}\""));
             }
         }
         // an inner diagram's inputs are connected in the diagram around it
-        for entry in diagram.entries.iter().filter(|e| matches!(e.what, What::Diagram(..))) {
+        for entry in diagram.entries.iter().filter(|e| matches!(e.content, Content::Diagram(..))) {
             for port in self.target_ports(scope, &entry.name).unwrap_or_default().to_vec() {
                 if self.wire_into(scope, &entry.name, &port).is_none() {
                     let message = format!("the input `{port}` of `{}` is not connected", entry.name);
                     let help = format!("add a wire \"… -> {}.{port}\"", entry.name);
-                    self.problem(&path, Spot::Entry(entry.name.clone()), message, help);
+                    self.problem(&path, Element::Entry(entry.name.clone()), message, help);
                 }
             }
         }
@@ -356,7 +356,7 @@ impl<'a> Flattening<'a> {
     fn check_source(&mut self, scope: usize, wire: usize, end: &Endpoint) {
         let diagram = self.scopes[scope].diagram;
         let path = self.scopes[scope].path.clone();
-        let spot = Spot::From(wire);
+        let spot = Element::From(wire);
         if end.block == WORLD {
             if !path.is_empty() {
                 let help = "bring the signal in through a port: inputs = [\"…\"]";
@@ -388,7 +388,7 @@ impl<'a> Flattening<'a> {
         }
     }
 
-    /// What may have been meant by a measurement that is not there.
+    /// Help for a measurement that is not there.
     fn measurements_like(&self, name: &str) -> String {
         let of_it = format!("{name}.");
         let names = self.measurements.keys().copied();
@@ -400,12 +400,12 @@ impl<'a> Flattening<'a> {
         }
     }
 
-    /// Whether a wire ends at a port that there is.
+    /// Returns true if a wire ends at a port that there is.
     fn check_target(&mut self, scope: usize, k: usize) -> bool {
         let diagram = self.scopes[scope].diagram;
         let path = self.scopes[scope].path.clone();
         let end = &diagram.wires[k].to;
-        let spot = Spot::To(k);
+        let spot = Element::To(k);
         let before = self.problems.len();
         if end.range.is_some() {
             let help = "a wire fills a whole port; choose components where it begins";
@@ -427,7 +427,7 @@ impl<'a> Flattening<'a> {
         self.problems.len() == before
     }
 
-    fn check_command(&mut self, path: &[String], spot: Spot, end: &Endpoint) {
+    fn check_command(&mut self, path: &[String], spot: Element, end: &Endpoint) {
         if !path.is_empty() {
             let help = "lead the signal out through a port: outputs = [\"…\"]";
             self.problem(path, spot, format!("`{end}`: an inner diagram does not see the world"), help);
@@ -471,18 +471,18 @@ impl<'a> Flattening<'a> {
             let ends = diagram.wires[first].from.iter().map(ToString::to_string).collect::<Vec<_>>();
             let path = self.scopes[scope].path.clone();
             let message = format!("two wires go into `{end}`; the other comes from `{}`", ends.join(", "));
-            self.problem(&path, Spot::To(k), message, "add the signals in a `sum`, or choose in a `switch`");
+            self.problem(&path, Element::To(k), message, "add the signals in a `sum`, or choose in a `switch`");
         }
     }
 
     /// `ports` are those of the diagram that a wire may have here, `others` those at its other side.
-    fn unknown_block(&mut self, scope: usize, spot: Spot, end: &Endpoint, ports: &[String], others: &[String]) {
+    fn unknown_block(&mut self, scope: usize, spot: Element, end: &Endpoint, ports: &[String], others: &[String]) {
         let (path, name) = (self.scopes[scope].path.clone(), &end.block);
         let (message, help) = if ports.contains(name) {
             let message = format!("`{name}` is a port of the diagram and has no port `{}` of its own", end.port);
             (message, format!("write `{name}`"))
         } else if others.contains(name) {
-            let is_source = matches!(spot, Spot::From(_));
+            let is_source = matches!(spot, Element::From(_));
             let (what, does) = if is_source { ("output", "ends") } else { ("input", "begins") };
             (format!("`{name}` is an {what} of the diagram"), format!("a wire {does} there: turn it round"))
         } else {
@@ -499,24 +499,24 @@ impl<'a> Flattening<'a> {
         self.problem(&path, spot, message, help);
     }
 
-    /// Where a wire's numbers come from; several sources are put together by a block of their own.
+    /// Source of a wire's numbers; several are put together by a block of their own.
     fn gather(&mut self, scope: usize, wire: usize, depth: usize) -> Option<Input> {
         let ends = &self.scopes[scope].diagram.wires[wire].from;
         if let [end] = &ends[..] {
             return self.resolve(scope, wire, end, depth);
         }
         let path = self.scopes[scope].path.clone();
-        if self.flat.nodes.len() > MOST_BLOCKS {
-            let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+        if self.flat.nodes.len() > MAX_BLOCKS {
+            let message = format!("the diagram has more than {MAX_BLOCKS} blocks");
             let help = "each `[a, b]` in a wire is one, also those that lead through ports";
-            self.problem(&path, Spot::From(wire), message, help);
+            self.problem(&path, Element::From(wire), message, help);
             return None;
         }
         let target = self.scopes[scope].diagram.wires[wire].to.to_string();
         let mux = Mux::new(ends.len());
         let name = format!("[{target}]");
-        let entry = Entry { name, what: What::Block(Box::new(mux.clone())), sample_time: None, unit: None };
-        let place = Place { diagram: path.clone(), what: Spot::From(wire) };
+        let entry = Entry { name, content: Content::Block(Box::new(mux.clone())), sample_time: None, unit: None };
+        let place = Place { diagram: path.clone(), element: Element::From(wire) };
         let node = self.node(&path, &entry, &mux, None, place.clone());
         for end in ends {
             let input = self.resolve(scope, wire, end, depth)?;
@@ -528,10 +528,10 @@ impl<'a> Flattening<'a> {
     /// The output that an endpoint stands for, through however many ports of diagrams.
     fn resolve(&mut self, scope: usize, wire: usize, end: &Endpoint, depth: usize) -> Option<Input> {
         let path = self.scopes[scope].path.clone();
-        let place = Place { diagram: path.clone(), what: Spot::From(wire) };
+        let place = Place { diagram: path.clone(), element: Element::From(wire) };
         if depth > 1000 {
             let help = "put a block between the ports";
-            self.problem(&path, Spot::From(wire), "ports lead from one to the next in a circle", help);
+            self.problem(&path, Element::From(wire), "ports lead from one to the next in a circle", help);
             return None;
         }
         if end.block == WORLD {
@@ -542,7 +542,7 @@ impl<'a> Flattening<'a> {
         if diagram.inputs.contains(&end.block) && end.port.is_empty() {
             let Some((around, name)) = self.scopes[scope].parent.clone() else {
                 let message = format!("`{}` is an input of the outermost diagram", end.block);
-                self.problem(&path, Spot::From(wire), message, "only inner diagrams have ports");
+                self.problem(&path, Element::From(wire), message, "only inner diagrams have ports");
                 return None;
             };
             let outer = self.wire_into(around, &name, &end.block)?;
@@ -598,7 +598,7 @@ impl<'a> Flattening<'a> {
     }
 }
 
-/// Why an end of a wire names no port of its block, and what would mend it.
+/// Error of an end of a wire that names no port of its block, and a help.
 fn misnamed_port(end: &Endpoint, ports: &[String], word: &str, helps: bool) -> Option<(String, String)> {
     let block = &end.block;
     if end.port.is_empty() {

@@ -1,8 +1,8 @@
 //! From a drawn diagram to a program: names resolved, sizes and units inferred, sample times settled, order found.
 //!
-//! The passes, each in its file: `flatten` (sub-diagrams dissolve into blocks with paths), `widths`, `rates`, `order` (with the
-//! algebraic loops), `units`. All problems of a pass are reported at once; a pass that needs the one before is not begun after
-//! an error.
+//! The passes, each in its file: `flatten` (sub-diagrams dissolve into blocks with paths), `widths`, `rates`, `order`
+//! (with the algebraic loops), `units`. All problems of a pass are reported at once; a pass that needs the one before
+//! is not begun after an error.
 
 mod flatten;
 mod order;
@@ -16,16 +16,16 @@ use crate::diagram::Diagram;
 use crate::program::Program;
 use crate::unit::Unit;
 
-/// What stands around a diagram: the world's ports and the clock.
+/// Surroundings of a diagram: the world's ports and the clock.
 #[derive(Clone, Debug)]
 pub struct Interface {
     /// Base step `[s]`.
     pub step: f64,
     /// Seed of everything random.
     pub seed: u64,
-    /// What the world gives: measurements.
+    /// Measurements: outputs of the world.
     pub measurements: Vec<Terminal>,
-    /// What the world takes: commands.
+    /// Commands: inputs of the world.
     pub commands: Vec<Terminal>,
 }
 
@@ -42,53 +42,93 @@ impl Interface {
 pub struct Terminal {
     /// Its name, then other names for the same.
     pub names: Vec<String>,
-    /// How many numbers.
+    /// Number of components.
     pub width: usize,
     /// Unit, if it has one.
     pub unit: Option<Unit>,
-    /// Of a measurement: depends at once on the commands, as an acceleration does. Of a command: taken at ticks only and held, as
-    /// the velocity of an ideal motor is.
+    /// For a measurement: depends at once on the commands, as an acceleration does. For a command: taken at ticks only
+    /// and held, as the velocity of an ideal motor is.
     pub is_special: bool,
 }
 
-/// Where a problem is.
+/// Place of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Names of the entries that lead to the diagram; empty for the outermost.
     pub diagram: Vec<String>,
-    /// What of it.
-    pub what: Spot,
+    /// Element of that diagram.
+    pub element: Element,
 }
 
-/// What of a diagram.
+/// Element of a diagram.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Spot {
+pub enum Element {
     /// The entry of a name.
     Entry(String),
     /// The sample time of an entry.
     SampleTime(String),
     /// The unit of an entry.
     Unit(String),
-    /// Where the wire of a number comes from.
+    /// Source of the wire with this number.
     From(usize),
-    /// Where the wire of a number goes.
+    /// Target of the wire with this number.
     To(usize),
     /// A port of the diagram.
     Port(String),
 }
 
-/// Something wrong with a diagram.
+/// One error of a diagram, with its place and a help.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
-    /// Where.
+pub struct Diagnostic {
+    /// Place in the diagram.
     pub place: Place,
-    /// What.
+    /// The error.
     pub message: String,
-    /// What would mend it.
+    /// Help: a change that would correct it.
     pub help: String,
 }
 
-impl fmt::Display for Problem {
+/// All errors of a diagram that one pass of the compiler found; never empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CompileError(pub Vec<Diagnostic>);
+
+impl core::ops::Deref for CompileError {
+    type Target = [Diagnostic];
+
+    fn deref(&self) -> &[Diagnostic] {
+        &self.0
+    }
+}
+
+impl IntoIterator for CompileError {
+    type Item = Diagnostic;
+    type IntoIter = std::vec::IntoIter<Diagnostic>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl From<Vec<Diagnostic>> for CompileError {
+    fn from(diagnostics: Vec<Diagnostic>) -> Self {
+        Self(diagnostics)
+    }
+}
+
+impl fmt::Display for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, diagnostic) in self.0.iter().enumerate() {
+            write!(f, "{}{diagnostic}", if k == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for CompileError {}
+
+impl std::error::Error for Diagnostic {}
+
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\nhelp: {}", self.message, self.help)
     }
@@ -98,14 +138,14 @@ impl fmt::Display for Problem {
 ///
 /// # Errors
 ///
-/// Everything that is wrong with it.
-pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, Vec<Problem>> {
+/// Everything that is wrong with it, as far as a pass can tell: names, widths, algebraic loops, sample times, units.
+pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, CompileError> {
     let mut flat = flatten::flatten(diagram, interface)?;
     widths::infer(&mut flat)?;
     let order = order::order(&flat)?;
     let rates = rates::infer(&flat, &order, interface.step)?;
     units::infer(&mut flat, &order)?;
-    Program::assemble(flat, &order, &rates, interface)
+    Ok(Program::assemble(flat, &order, &rates, interface)?)
 }
 
 /// A diagram without inner diagrams. Node 0 is the world's measurements, node 1 those that depend on its commands.
@@ -131,7 +171,7 @@ pub(crate) struct FlatNode {
     pub path: String,
     pub place: Place,
     /// None for the world.
-    pub template: Option<Box<dyn crate::instance::Template>>,
+    pub template: Option<Box<dyn crate::instance::DynBlock>>,
     /// With whether it is inherited from a diagram around it.
     pub sample_time: Option<(f64, bool)>,
     pub unit: Option<String>,
@@ -146,7 +186,7 @@ pub(crate) struct FlatNode {
     pub out_units: Vec<Option<Unit>>,
 }
 
-/// Where an input gets its numbers from.
+/// Source of an input.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
     pub node: usize,
@@ -178,8 +218,8 @@ impl Flat {
         }
     }
 
-    pub fn feeds_through(&self, node: usize, input: usize) -> bool {
-        self.nodes[node].template.as_ref().is_none_or(|t| t.feeds_through(input))
+    pub fn has_direct_feedthrough(&self, node: usize, input: usize) -> bool {
+        self.nodes[node].template.as_ref().is_none_or(|t| t.has_direct_feedthrough(input))
     }
 }
 
@@ -206,7 +246,7 @@ mod tests {
     use crate::library::discrete::UnitDelay;
     use crate::library::maths::{Gain, Sum};
     use crate::library::sources::Constant;
-    use crate::solo::Solo;
+    use crate::simulator::Simulator;
 
     fn problems(diagram: &Diagram) -> Vec<String> {
         compile(diagram, &Interface::new(0.001)).unwrap_err().iter().map(ToString::to_string).collect()
@@ -222,8 +262,8 @@ mod tests {
 
     #[test]
     fn first_order_lag_follows_its_exponential() {
-        let mut solo = Solo::new(&decay(), 0.01).unwrap();
-        let x = solo.record("x", 100);
+        let mut simulator = Simulator::new(&decay(), 0.01).unwrap();
+        let x = simulator.record("x", 100);
         let exact = 1.0 - sincro_math::elementary::exp(-2.0).0;
         assert!((x[100] - exact).abs() < 1e-9, "{} {exact}", x[100]);
     }
@@ -304,15 +344,15 @@ mod tests {
         d.diagram("first", lag.clone(), None).diagram("second", lag, None);
         d.block("both", Gain::new(1.0));
         d.wire("one[1]", "first").wire("first", "second").wire("[first, second.out]", "both");
-        let mut solo = Solo::new(&d, 0.01).unwrap();
+        let mut simulator = Simulator::new(&d, 0.01).unwrap();
         assert_eq!(
-            solo.runner.program().order(),
+            simulator.runner.program().order(),
             ["one", "first/x", "first/error", "second/x", "second/error", "[both]", "both"]
         );
-        solo.record("both", 2000);
-        assert!((solo.output("both")[1] - 3.0).abs() < 1e-6);
+        simulator.record("both", 2000);
+        assert!((simulator.output("both")[1] - 3.0).abs() < 1e-6);
         // an inner diagram's output goes by its own name too
-        assert_eq!(solo.output("second"), solo.output("second/x"));
+        assert_eq!(simulator.output("second"), simulator.output("second/x"));
     }
 
     #[test]
@@ -320,7 +360,7 @@ mod tests {
         let mut d = Diagram::new();
         d.block("one", Constant::new(1.0)).block("x", Integrator::new(0.0)).sampled("held", 0.004, Gain::new(1.0));
         d.wire("one", "x").wire("x", "held");
-        let held = Solo::new(&d, 0.001).unwrap().record("held", 8);
+        let held = Simulator::new(&d, 0.001).unwrap().record("held", 8);
         assert_eq!(held.iter().map(|x| (x * 1000.0).round()).collect::<Vec<_>>(), [0., 0., 0., 0., 4., 4., 4., 4., 8.]);
     }
 

@@ -1,12 +1,13 @@
-//! The order of evaluation: every block after those whose outputs it needs at once; otherwise as written. A circle of such
-//! needs is an algebraic loop.
+//! The order of evaluation: every block after those whose outputs it needs at once; otherwise as written. A circle of
+//! such needs is an algebraic loop.
 
 use std::collections::BTreeSet;
 
-use super::{EARLY, Flat, LATE, Problem};
+use super::{Diagnostic, EARLY, Flat, LATE};
 
-/// Numbers of all nodes in the order of evaluation, the world's late measurements (if there are any) as late as possible.
-pub(super) fn order(flat: &Flat) -> Result<Vec<usize>, Vec<Problem>> {
+/// Numbers of all nodes in the order of evaluation, the world's late measurements (if there are any) as late as
+/// possible.
+pub(super) fn order(flat: &Flat) -> Result<Vec<usize>, Vec<Diagnostic>> {
     let n = flat.nodes.len();
     let needs: Vec<Vec<usize>> = (0..n).map(|node| needed(flat, node)).collect();
     let mut needed_by: Vec<Vec<usize>> = vec![Vec::new(); n];
@@ -39,11 +40,11 @@ fn needed(flat: &Flat, node: usize) -> Vec<usize> {
         return Vec::new();
     }
     let inputs = flat.nodes[node].inputs.iter().enumerate();
-    inputs.filter(|(k, _)| flat.feeds_through(node, *k)).map(|(_, input)| input.node).collect()
+    inputs.filter(|(k, _)| flat.has_direct_feedthrough(node, *k)).map(|(_, input)| input.node).collect()
 }
 
 /// One loop for each knot of blocks that wait for each other.
-fn loops(flat: &Flat, needs: &[Vec<usize>], mut done: Vec<bool>) -> Vec<Problem> {
+fn loops(flat: &Flat, needs: &[Vec<usize>], mut done: Vec<bool>) -> Vec<Diagnostic> {
     leave_out_followers(needs, &mut done);
     let done = &done[..];
     let mut seen = done.to_vec();
@@ -62,7 +63,7 @@ fn loops(flat: &Flat, needs: &[Vec<usize>], mut done: Vec<bool>) -> Vec<Problem>
     problems
 }
 
-/// What only waits for a loop is in none: leaves out whatever nobody who waits needs, again and again.
+/// Removes nodes that only wait for a loop: again and again those that no waiting node needs.
 fn leave_out_followers(needs: &[Vec<usize>], done: &mut [bool]) {
     let mut n_users = vec![0; needs.len()];
     let waiting = (0..needs.len()).filter(|&k| !done[k]);
@@ -103,7 +104,7 @@ fn shortest_circle(start: usize, needs: &[Vec<usize>], done: &[bool]) -> Option<
     None
 }
 
-fn describe(flat: &Flat, circle: &[usize]) -> Problem {
+fn describe(flat: &Flat, circle: &[usize]) -> Diagnostic {
     let first = circle.iter().copied().min_by_key(|&k| if k == LATE { usize::MAX } else { k }).unwrap_or(circle[0]);
     let turn = circle.iter().position(|&k| k == first).unwrap_or(0);
     let names = circle[turn..]
@@ -114,5 +115,5 @@ fn describe(flat: &Flat, circle: &[usize]) -> Problem {
     let message = format!("algebraic loop: {}", names.join(" -> "));
     let help = "each of these needs the output of the one before it at the same instant. Break the loop with a block that does not \
                 pass its input on at once: `unit-delay` (one sample), or `low-pass` or `integrator` (continuous)";
-    Problem { place: flat.nodes[first].place.clone(), message, help: help.into() }
+    Diagnostic { place: flat.nodes[first].place.clone(), message, help: help.into() }
 }

@@ -1,13 +1,13 @@
 //! Sample times: who is evaluated when.
 //!
-//! A block with a sample time runs at its ticks. One without takes the pace of its inputs: continuous if any of them is, constant if
-//! all are, else at every tick at which one of them may change.
+//! A block with a sample time runs at its ticks. One without takes the pace of its inputs: continuous if any of them
+//! is, constant if all are, else at every tick at which one of them may change.
 
-use super::{EARLY, Flat, FlatNode, LATE, Place, Problem, Spot};
-use crate::block::Pace;
+use super::{Diagnostic, EARLY, Element, Flat, FlatNode, LATE, Place};
+use crate::block::SampleTimeKind;
 use crate::program::Rate;
 
-pub(super) fn infer(flat: &Flat, order: &[usize], step: f64) -> Result<Vec<Rate>, Vec<Problem>> {
+pub(super) fn infer(flat: &Flat, order: &[usize], step: f64) -> Result<Vec<Rate>, Vec<Diagnostic>> {
     let mut rates = vec![Rate::Continuous; flat.nodes.len()];
     let mut problems = Vec::new();
     for &n in order {
@@ -22,17 +22,17 @@ pub(super) fn infer(flat: &Flat, order: &[usize], step: f64) -> Result<Vec<Rate>
     if problems.is_empty() { Ok(rates) } else { Err(problems) }
 }
 
-fn rate(flat: &Flat, n: usize, rates: &[Rate], step: f64) -> Result<Rate, Problem> {
+fn rate(flat: &Flat, n: usize, rates: &[Rate], step: f64) -> Result<Rate, Diagnostic> {
     let node = &flat.nodes[n];
     let template = node.template.as_ref().expect("a block, not the world");
     let given = node.sample_time.map(|(ts, inherited)| (multiple(node, ts, step), inherited));
-    match (template.pace(), given) {
-        (Pace::Constant, _) => Ok(Rate::Constant),
-        (Pace::Continuous, Some((_, inherited))) => Err(continuous_with_sample_time(node, inherited)),
-        (Pace::Continuous | Pace::Timed, None) => Ok(Rate::Continuous),
+    match (template.sample_time_kind(), given) {
+        (SampleTimeKind::Constant, _) => Ok(Rate::Constant),
+        (SampleTimeKind::Continuous, Some((_, inherited))) => Err(continuous_with_sample_time(node, inherited)),
+        (SampleTimeKind::Continuous | SampleTimeKind::TimeVarying, None) => Ok(Rate::Continuous),
         (_, Some((every, _))) => Ok(Rate::Sampled(every?)),
-        (Pace::Sampled, None) => Ok(Rate::Sampled(1)),
-        (Pace::Any, None) => Ok(inherited(flat, n, rates)),
+        (SampleTimeKind::Discrete, None) => Ok(Rate::Sampled(1)),
+        (SampleTimeKind::Inherited, None) => Ok(inherited(flat, n, rates)),
     }
 }
 
@@ -58,11 +58,11 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
 }
 
 /// The sample time in base steps.
-fn multiple(node: &FlatNode, ts: f64, step: f64) -> Result<u64, Problem> {
+fn multiple(node: &FlatNode, ts: f64, step: f64) -> Result<u64, Diagnostic> {
     if ts <= 0.0 {
         let message = format!("the sample time {ts} s of `{}` is not greater than 0", node.path);
         let help = format!("use a multiple of the base step {step} s, or leave it out");
-        return Err(Problem { place: sample_place(node), message, help });
+        return Err(Diagnostic { place: sample_place(node), message, help });
     }
     let n = (ts / step).round();
     if n >= 1.0 && (n * step - ts).abs() <= 1e-9 * ts && n < 1e15 {
@@ -75,7 +75,7 @@ fn multiple(node: &FlatNode, ts: f64, step: f64) -> Result<u64, Problem> {
     } else {
         format!("use {step} s or more, or a smaller `step` in the experiment")
     };
-    Err(Problem { place: sample_place(node), message, help })
+    Err(Diagnostic { place: sample_place(node), message, help })
 }
 
 /// A number without the last digits, which are rounding.
@@ -84,20 +84,22 @@ fn short(x: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn continuous_with_sample_time(node: &FlatNode, inherited: bool) -> Problem {
+fn continuous_with_sample_time(node: &FlatNode, inherited: bool) -> Diagnostic {
     let kind = node.template.as_ref().map_or("", |t| t.kind().name);
     let message = format!("`{}` is a continuous block ({kind}) and cannot have a sample time", node.path);
     let help = if inherited {
-        "its diagram has one: leave the diagram's sample time out, or use a block of the discrete shelf"
+        "its diagram has one: leave the diagram's sample time out, or use a block of the discrete category"
     } else {
-        "leave `sample_time` out, or use a block of the discrete shelf"
+        "leave `sample_time` out, or use a block of the discrete category"
     };
-    Problem { place: sample_place(node), message, help: help.into() }
+    Diagnostic { place: sample_place(node), message, help: help.into() }
 }
 
 fn sample_place(node: &FlatNode) -> Place {
-    match &node.place.what {
-        Spot::Entry(name) => Place { diagram: node.place.diagram.clone(), what: Spot::SampleTime(name.clone()) },
+    match &node.place.element {
+        Element::Entry(name) => {
+            Place { diagram: node.place.diagram.clone(), element: Element::SampleTime(name.clone()) }
+        }
         _ => node.place.clone(),
     }
 }

@@ -1,10 +1,10 @@
 //! Units: carried along wires as far as they are known, and compared wherever two meet.
 
-use super::{EARLY, Flat, FlatNode, LATE, Place, Problem, Spot};
+use super::{Diagnostic, EARLY, Element, Flat, FlatNode, LATE, Place};
 use crate::unit::Unit;
 
 /// Units of all outputs, as far as they are known, noted in the nodes.
-pub(super) fn infer(flat: &mut Flat, order: &[usize]) -> Result<(), Vec<Problem>> {
+pub(super) fn infer(flat: &mut Flat, order: &[usize]) -> Result<(), Vec<Diagnostic>> {
     let mut units: Vec<Vec<Option<Unit>>> = flat.nodes.iter().map(|n| vec![None; n.output_names.len()]).collect();
     units[EARLY].clone_from(&flat.nodes[EARLY].out_units);
     units[LATE].clone_from(&flat.nodes[LATE].out_units);
@@ -18,7 +18,7 @@ pub(super) fn infer(flat: &mut Flat, order: &[usize]) -> Result<(), Vec<Problem>
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Problem> {
+fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     for &n in order.iter().filter(|&&n| n != EARLY && n != LATE) {
         let node = &flat.nodes[n];
@@ -34,14 +34,14 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
                 let ends = ends.collect::<Vec<_>>().join(", ");
                 let message = format!("units do not fit in `{}`: {words} ({ends})", node.path);
                 let help = "convert one of them with a `gain` and declare its `unit`".to_owned();
-                problems.push(Problem { place: node.place.clone(), message, help });
+                problems.push(Diagnostic { place: node.place.clone(), message, help });
             }
         }
         let Some(text) = &node.unit else { continue };
         match Unit::parse(text) {
             Err(message) => {
                 let help = "units are products such as N·m/rad, m/s^2, kg·m²".to_owned();
-                problems.push(Problem { place: unit_place(node), message, help });
+                problems.push(Diagnostic { place: unit_place(node), message, help });
             }
             Ok(declared) => {
                 for unit in &mut units[n] {
@@ -50,7 +50,7 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
                     {
                         let message = format!("`{}` is declared in {declared}, its signal is in {found}", node.path);
                         let help = format!("declare unit = \"{found}\", or leave it out");
-                        problems.push(Problem { place: unit_place(node), message, help });
+                        problems.push(Diagnostic { place: unit_place(node), message, help });
                     }
                     *unit = Some(declared.clone());
                 }
@@ -61,14 +61,14 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Pr
 }
 
 fn unit_place(node: &FlatNode) -> Place {
-    match &node.place.what {
-        Spot::Entry(name) => Place { diagram: node.place.diagram.clone(), what: Spot::Unit(name.clone()) },
+    match &node.place.element {
+        Element::Entry(name) => Place { diagram: node.place.diagram.clone(), element: Element::Unit(name.clone()) },
         _ => node.place.clone(),
     }
 }
 
-/// What goes to the world is in the unit that the world takes.
-fn commands(flat: &Flat, units: &[Vec<Option<Unit>>]) -> Vec<Problem> {
+/// Checks that commands are in the unit that the world takes.
+fn commands(flat: &Flat, units: &[Vec<Option<Unit>>]) -> Vec<Diagnostic> {
     let world = &flat.nodes[LATE];
     let mut problems = Vec::new();
     for (k, input) in world.inputs.iter().enumerate() {
@@ -78,7 +78,7 @@ fn commands(flat: &Flat, units: &[Vec<Option<Unit>>]) -> Vec<Problem> {
             let (from, to) = (flat.output_name(input.node, input.port), flat.input_name(LATE, k));
             let message = format!("`{from}` is in {given}, `{to}` takes {taken}");
             let help = "convert it with a `gain` and declare its `unit`".to_owned();
-            problems.push(Problem { place: input.place.clone(), message, help });
+            problems.push(Diagnostic { place: input.place.clone(), message, help });
         }
     }
     problems

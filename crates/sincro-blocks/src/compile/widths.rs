@@ -3,12 +3,12 @@
 use core::ops::Range;
 use std::collections::BTreeSet;
 
-use super::{EARLY, Flat, Input, LATE, Place, Problem};
+use super::{Diagnostic, EARLY, Flat, Input, LATE, Place};
 
 /// Most components of a signal: more is a mistake, such as vectors put together of themselves.
-const MOST_COMPONENTS: usize = 1_000_000;
+const MAX_COMPONENTS: usize = 1_000_000;
 
-pub(super) fn infer(flat: &mut Flat) -> Result<(), Vec<Problem>> {
+pub(super) fn infer(flat: &mut Flat) -> Result<(), Vec<Diagnostic>> {
     let mut users: Vec<Vec<usize>> = vec![Vec::new(); flat.nodes.len()];
     for n in LATE + 1..flat.nodes.len() {
         flat.nodes[n].inputs.iter().for_each(|input| users[input.node].push(n));
@@ -27,16 +27,16 @@ pub(super) fn infer(flat: &mut Flat) -> Result<(), Vec<Problem>> {
         due.extend(&users[n]);
         open = n;
     }
-    let problems: Vec<Problem> = (0..flat.nodes.len()).flat_map(|n| ranges(flat, n)).collect();
+    let problems: Vec<Diagnostic> = (0..flat.nodes.len()).flat_map(|n| ranges(flat, n)).collect();
     if !problems.is_empty() {
         return Err(problems);
     }
-    let problems: Vec<Problem> = commands(flat);
+    let problems: Vec<Diagnostic> = commands(flat);
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
 /// One pass over the blocks that are due, in their order; those that are due in the next one.
-fn sweep(flat: &mut Flat, mut due: BTreeSet<usize>, users: &[Vec<usize>]) -> Result<BTreeSet<usize>, Vec<Problem>> {
+fn sweep(flat: &mut Flat, mut due: BTreeSet<usize>, users: &[Vec<usize>]) -> Result<BTreeSet<usize>, Vec<Diagnostic>> {
     let (mut next, mut problems) = (BTreeSet::new(), Vec::new());
     while let Some(n) = due.pop_first() {
         match visit(flat, n) {
@@ -55,8 +55,8 @@ fn sweep(flat: &mut Flat, mut due: BTreeSet<usize>, users: &[Vec<usize>]) -> Res
 }
 
 /// The widths of a block as far as they follow; whether anything became known.
-fn visit(flat: &mut Flat, n: usize) -> Result<bool, Vec<Problem>> {
-    let found: Vec<Problem> = ranges(flat, n);
+fn visit(flat: &mut Flat, n: usize) -> Result<bool, Vec<Diagnostic>> {
+    let found: Vec<Diagnostic> = ranges(flat, n);
     if !found.is_empty() {
         return Err(found);
     }
@@ -67,10 +67,10 @@ fn visit(flat: &mut Flat, n: usize) -> Result<bool, Vec<Problem>> {
     let node = &mut flat.nodes[n];
     for (old, new) in node.out_widths.iter_mut().zip(outputs) {
         let wrong = match (*old, new) {
-            (_, Some(w)) if w > MOST_COMPONENTS => {
+            (_, Some(w)) if w > MAX_COMPONENTS => {
                 let help =
                     "look for a vector that is put together of itself again and again, or a number that is too large";
-                Some((format!("`{}` gives {w} components; at most {MOST_COMPONENTS} are possible", node.path), help))
+                Some((format!("`{}` gives {w} components; at most {MAX_COMPONENTS} are possible", node.path), help))
             }
             (None, Some(w)) => {
                 (*old, changed) = (Some(w), true);
@@ -83,7 +83,7 @@ fn visit(flat: &mut Flat, n: usize) -> Result<bool, Vec<Problem>> {
             _ => None,
         };
         if let Some((message, help)) = wrong {
-            problems.push(Problem { place: node.place.clone(), message, help: help.to_owned() });
+            problems.push(Diagnostic { place: node.place.clone(), message, help: help.to_owned() });
         }
     }
     node.in_widths = inputs;
@@ -98,7 +98,7 @@ fn width(flat: &Flat, input: &Input) -> Option<usize> {
 }
 
 /// Components that are chosen of a signal that does not have them.
-fn ranges(flat: &Flat, n: usize) -> Vec<Problem> {
+fn ranges(flat: &Flat, n: usize) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     for input in &flat.nodes[n].inputs {
         let whole = flat.nodes[input.node].out_widths[input.port];
@@ -113,18 +113,18 @@ fn ranges(flat: &Flat, n: usize) -> Vec<Problem> {
 }
 
 /// The problem of components `range` that a signal of `width` components does not have.
-pub(super) fn beyond(name: &str, width: usize, range: &Range<usize>, place: Place) -> Problem {
+pub(super) fn beyond(name: &str, width: usize, range: &Range<usize>, place: Place) -> Diagnostic {
     let components = if width == 1 { "1 component" } else { &format!("{width} components") };
     let message = format!("`{name}` has {components}: there is no [{}]", range.end - 1);
     let help = match width {
         0 | 1 => format!("write `{name}`"),
         _ => format!("components are counted from 0 to {}", width - 1),
     };
-    Problem { place, message, help }
+    Diagnostic { place, message, help }
 }
 
 /// Inputs that do not fit each other: every one with its size and where it comes from.
-fn misfit(flat: &Flat, n: usize, inputs: &[Option<usize>], words: &str) -> Problem {
+fn misfit(flat: &Flat, n: usize, inputs: &[Option<usize>], words: &str) -> Diagnostic {
     let node = &flat.nodes[n];
     let ends = node.inputs.iter().zip(inputs).enumerate().filter_map(|(k, (input, width))| {
         let from = flat.output_name(input.node, input.port);
@@ -132,11 +132,11 @@ fn misfit(flat: &Flat, n: usize, inputs: &[Option<usize>], words: &str) -> Probl
     });
     let message = format!("sizes do not fit in `{}`: {words} ({})", node.path, ends.collect::<Vec<_>>().join(", "));
     let help = "choose components with `[i]` or `[i:j]`, put signals together with `[a, b]`, or change the parameters";
-    Problem { place: node.place.clone(), message, help: help.into() }
+    Diagnostic { place: node.place.clone(), message, help: help.into() }
 }
 
-/// What goes to the world has the width that the world takes.
-fn commands(flat: &Flat) -> Vec<Problem> {
+/// Checks that commands have the width that the world takes.
+fn commands(flat: &Flat) -> Vec<Diagnostic> {
     let world = &flat.nodes[LATE];
     let mut problems = Vec::new();
     for (k, input) in world.inputs.iter().enumerate() {
@@ -146,7 +146,7 @@ fn commands(flat: &Flat) -> Vec<Problem> {
             let (given, taken) = (given.unwrap_or(0), taken.unwrap_or(0));
             let message = format!("`{name}` has {given} components, `{}` takes {taken}", flat.input_name(LATE, k));
             let help = format!("choose one: `{name}[0]`");
-            problems.push(Problem { place: input.place.clone(), message, help });
+            problems.push(Diagnostic { place: input.place.clone(), message, help });
         }
     }
     debug_assert!(flat.nodes[EARLY].inputs.is_empty(), "measurements of the state have no inputs");

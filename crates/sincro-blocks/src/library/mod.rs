@@ -1,4 +1,4 @@
-//! The blocks, one file each, by shelf.
+//! The blocks, one file each, by category.
 //!
 //! [`all`] lists them with their descriptions; [`find`] gives the one of a name.
 
@@ -9,13 +9,14 @@ pub mod logic;
 pub mod maths;
 pub mod matrices;
 pub mod nonlinear;
+mod prelude;
 pub mod rotations;
 pub mod routing;
 pub mod sinks;
 pub mod sources;
 
 use crate::block::Block;
-use crate::instance::Template;
+use crate::instance::DynBlock;
 use crate::kind::{Described, Kind};
 use crate::reader::Reader;
 
@@ -25,7 +26,7 @@ pub struct Item {
     /// Its description.
     pub kind: &'static Kind,
     /// Makes one.
-    pub read: fn(&mut Reader<'_>) -> Box<dyn Template>,
+    pub read: fn(&mut Reader<'_>) -> Box<dyn DynBlock>,
 }
 
 /// The item of a block type.
@@ -33,22 +34,22 @@ pub(crate) const fn item<B: Block + Described>() -> Item {
     Item { kind: B::KIND, read: |reader| Box::new(B::read(reader)) }
 }
 
-/// All blocks, shelf by shelf.
+/// All blocks, category by category.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    let shelves = [
-        sources::SHELF,
-        maths::SHELF,
-        matrices::SHELF,
-        nonlinear::SHELF,
-        continuous::SHELF,
-        discrete::SHELF,
-        adaptation::SHELF,
-        routing::SHELF,
-        logic::SHELF,
-        rotations::SHELF,
-        sinks::SHELF,
+    let categories = [
+        sources::BLOCKS,
+        maths::BLOCKS,
+        matrices::BLOCKS,
+        nonlinear::BLOCKS,
+        continuous::BLOCKS,
+        discrete::BLOCKS,
+        adaptation::BLOCKS,
+        routing::BLOCKS,
+        logic::BLOCKS,
+        rotations::BLOCKS,
+        sinks::BLOCKS,
     ];
-    shelves.into_iter().flatten()
+    categories.into_iter().flatten()
 }
 
 /// The block of a name.

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use sincro_blocks::diagram::{Diagram, Entry, What};
+use sincro_blocks::diagram::{Content, Diagram, Entry};
 use sincro_blocks::endpoint::{Endpoint, WORLD};
 
 /// Nodes and nets of one diagram.
@@ -136,13 +136,13 @@ impl Node {
 
     fn of(entry: &Entry) -> Self {
         let ports = |names: Vec<String>| names.into_iter().map(|name| Port { name, range: None }).collect();
-        match &entry.what {
-            What::Diagram(definition, inner) => Self {
+        match &entry.content {
+            Content::Diagram(definition, inner) => Self {
                 inputs: ports(inner.inputs.clone()),
                 outputs: ports(inner.outputs.clone()),
                 ..Self::new(Shape::Inner, definition, &entry.name)
             },
-            What::Block(block) => {
+            Content::Block(block) => {
                 let (kind, label, found) = (block.kind().name, block.label(), block.ports());
                 let label = if label.is_empty() { kind } else { &label };
                 Self {

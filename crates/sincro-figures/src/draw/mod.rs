@@ -24,7 +24,7 @@ mod wire;
 
 use std::collections::BTreeMap;
 
-use sincro_blocks::diagram::{Diagram, What};
+use sincro_blocks::diagram::{Content, Diagram};
 
 use self::canvas::Canvas;
 use self::graph::Graph;
@@ -104,7 +104,7 @@ fn figures<'a>(diagram: &'a Diagram, options: &Options) -> Vec<Figure<'a>> {
     while next < all.len() {
         let (outer, path) = (all[next].diagram, all[next].path.clone());
         for entry in &outer.entries {
-            if let What::Diagram(definition, inner) = &entry.what
+            if let Content::Diagram(definition, inner) = &entry.content
                 && !seen.contains(&definition.as_str())
             {
                 seen.push(definition);

@@ -1,8 +1,8 @@
 //! Claims about whole drawings, on textbook diagrams and on random ones.
 
-use sincro_blocks::block::{Memory, Node, Pace, Ports};
-use sincro_blocks::instance::{Instance, Template};
-use sincro_blocks::kind::{Group, Kind};
+use sincro_blocks::block::{Memory, Node, Ports, SampleTimeKind};
+use sincro_blocks::instance::{DynBlock, RunningBlock};
+use sincro_blocks::kind::{Category, Kind};
 use sincro_blocks::library::continuous::Integrator;
 use sincro_blocks::library::discrete::UnitDelay;
 use sincro_blocks::library::maths::{Gain, Sum};
@@ -21,7 +21,7 @@ struct Sham {
     ports: Ports,
 }
 
-impl Template for Sham {
+impl DynBlock for Sham {
     fn kind(&self) -> &'static Kind {
         self.kind
     }
@@ -34,10 +34,10 @@ impl Template for Sham {
     fn units(&self, _: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
         unimplemented!("never compiled")
     }
-    fn pace(&self) -> Pace {
-        Pace::Any
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        SampleTimeKind::Inherited
     }
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         true
     }
     fn memory(&self, _: &Node) -> Memory {
@@ -46,7 +46,7 @@ impl Template for Sham {
     fn check(&self, _: &Node) -> Result<(), (String, String)> {
         Ok(())
     }
-    fn next_corner(&self, _: f64) -> f64 {
+    fn next_time_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
     fn notice(&self, _: &Node, _: &[f64]) -> Option<String> {
@@ -58,20 +58,20 @@ impl Template for Sham {
     fn label(&self) -> String {
         self.label.into()
     }
-    fn on_numbers(&self) -> Box<dyn Instance<f64>> {
+    fn on_numbers(&self) -> Box<dyn RunningBlock<f64>> {
         unimplemented!("never run")
     }
-    fn on_duals(&self) -> Box<dyn Instance<Dual<1>>> {
+    fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>> {
         unimplemented!("never run")
     }
-    fn boxed_clone(&self) -> Box<dyn Template> {
+    fn boxed_clone(&self) -> Box<dyn DynBlock> {
         Box::new(self.clone())
     }
 }
 
-fn sham(name: &'static str, label: &'static str, inputs: &[&str], outputs: &[&str]) -> What {
-    let kind = Kind { name, group: Group::Sources, summary: "", equation: "", parameters: &[] };
-    What::Block(Box::new(Sham { kind: Box::leak(Box::new(kind)), label, ports: Ports::new(inputs, outputs) }))
+fn sham(name: &'static str, label: &'static str, inputs: &[&str], outputs: &[&str]) -> Content {
+    let kind = Kind { name, category: Category::Sources, summary: "", equation: "", parameters: &[] };
+    Content::Block(Box::new(Sham { kind: Box::leak(Box::new(kind)), label, ports: Ports::new(inputs, outputs) }))
 }
 
 /// Two motors under proportional control.
@@ -118,7 +118,7 @@ fn velocity_control() -> Diagram {
     d.block("half", Gain::new(0.5));
     for k in 1..=2 {
         let name = format!("loop{k}");
-        d.add(&name, What::Diagram("velocity-pi".into(), Box::new(pid())), None);
+        d.add(&name, Content::Diagram("velocity-pi".into(), Box::new(pid())), None);
         d.wire(if k == 1 { "profile" } else { "half" }, &format!("loop{k}.target"));
         d.wire(&format!("/wheel{k}.velocity"), &format!("loop{k}.speed")).wire(&name, &format!("/wheel{k}"));
     }
@@ -175,7 +175,7 @@ fn random(n: usize, seed: u64) -> Diagram {
         };
     }
     for k in 1..n {
-        let What::Block(block) = &d.entries[k].what else { continue };
+        let Content::Block(block) = &d.entries[k].content else { continue };
         for port in block.ports().inputs {
             let is_back = draw(10) == 0;
             let from = if is_back { draw(n) } else { k - 1 - draw(k.min(8)) };

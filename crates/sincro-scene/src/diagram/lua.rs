@@ -5,8 +5,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use sincro_blocks::block::{At, Block, Memory, Node, Pace, Ports};
-use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
+use sincro_blocks::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
 use sincro_blocks::reader::Reader;
 use sincro_math::Real;
 
@@ -29,7 +29,7 @@ pub(super) const ITEM: Item =
 impl Described for LuaBlock {
     const KIND: &'static Kind = &Kind {
         name: "lua",
-        group: Group::Scripts,
+        category: Category::Scripts,
         summary: "A law written in Lua, evaluated at ticks.",
         equation: "y = output(t, u, memory), then update(t, u, memory) changes memory",
         parameters: &[
@@ -180,8 +180,8 @@ impl Block for LuaBlock {
         Ok(self.spec.outputs.iter().map(|(_, width)| Some(*width)).collect())
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Sampled
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        SampleTimeKind::Discrete
     }
 
     fn memory(&self, _: &Node) -> Memory {

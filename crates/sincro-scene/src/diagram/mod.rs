@@ -15,8 +15,8 @@ mod wiring;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use sincro_blocks::compile::{Interface, Place, Spot, compile};
-use sincro_blocks::diagram::{Diagram, What};
+use sincro_blocks::compile::{Element, Interface, Place, compile};
+use sincro_blocks::diagram::{Content, Diagram};
 use sincro_blocks::program::Program;
 use sincro_blocks::runner::Runner;
 use sincro_dynamics::model::Model;
@@ -124,7 +124,7 @@ impl ControlDiagram {
         model: &Arc<Model<f64>>,
         step: f64,
         seed: u64,
-    ) -> Result<Self, Vec<sincro_blocks::compile::Problem>> {
+    ) -> Result<Self, sincro_blocks::compile::CompileError> {
         let measurements = ports::measurements(model);
         let interface = Interface {
             step,
@@ -143,7 +143,7 @@ impl ControlDiagram {
         let program = self.wiring.program();
         let mut runner = Runner::<f64>::new(program.clone());
         let mut decay = vec![0.0; program.n_states];
-        runner.decays(0, 0.0, &mut decay);
+        runner.neg_jacobian_diagonal(0, 0.0, &mut decay);
         let k = (0..decay.len()).max_by(|a, b| decay[*a].total_cmp(&decay[*b]))?;
         let step = program.steps.iter().find(|s| s.states.contains(&k))?;
         (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
@@ -224,7 +224,7 @@ fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place
             times.push(format!("{}/block/{k}/sample_time", origin.pointer));
         }
         origin = inner;
-        if let Some(What::Diagram(_, content)) = diagram.entry(name).map(|e| &e.what) {
+        if let Some(Content::Diagram(_, content)) = diagram.entry(name).map(|e| &e.content) {
             diagram = content;
         }
     }
@@ -233,9 +233,9 @@ fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place
         let k = diagram.entries.iter().rposition(|e| e.name == *name)?;
         Some(format!("{pointer}/block/{k}"))
     };
-    match &place.what {
-        Spot::Entry(name) => block(name).map_or_else(|| document.at(pointer), |p| document.title_at(&p)),
-        Spot::SampleTime(name) => {
+    match &place.element {
+        Element::Entry(name) => block(name).map_or_else(|| document.at(pointer), |p| document.title_at(&p)),
+        Element::SampleTime(name) => {
             times.extend(block(name).map(|p| format!("{p}/sample_time")));
             let found = times.into_iter().rev().find(|p| document.get(p).is_some());
             found.map_or_else(
@@ -243,20 +243,20 @@ fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place
                 |p| document.at(&p),
             )
         }
-        Spot::Unit(name) => block(name).map_or_else(
+        Element::Unit(name) => block(name).map_or_else(
             || document.at(pointer),
             |p| {
                 let unit = format!("{p}/unit");
                 if document.get(&unit).is_some() { document.at(&unit) } else { document.title_at(&p) }
             },
         ),
-        Spot::From(k) | Spot::To(k) => match origin.wires.get(*k) {
+        Element::From(k) | Element::To(k) => match origin.wires.get(*k) {
             Some((text, from, to)) => {
-                let span = if matches!(place.what, Spot::From(_)) { from } else { to };
+                let span = if matches!(place.element, Element::From(_)) { from } else { to };
                 read::within(&document.at(&format!("{pointer}/wires/{text}")), span)
             }
             None => document.at(&format!("{pointer}/wires")),
         },
-        Spot::Port(_) => document.at(&format!("{pointer}/outputs")),
+        Element::Port(_) => document.at(&format!("{pointer}/outputs")),
     }
 }

@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use serde_json::Value as Json;
-use sincro_blocks::diagram::{Diagram, What, Wire};
+use sincro_blocks::diagram::{Content, Diagram, Wire};
 use sincro_blocks::endpoint::{Endpoint, EndpointError};
-use sincro_blocks::instance::Template;
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::library;
-use sincro_blocks::reader::{Fault, Files, NoFiles, Reader, Value};
+use sincro_blocks::reader::{Files, NoFiles, ParameterError, Reader, Value};
 
 use super::file::{BlockFile, DefinitionFile, DiagramFile};
 use super::robot;
@@ -150,7 +150,7 @@ impl<'a> DiagramReader<'a> {
         let key = pointer.rsplit('/').next().unwrap_or("");
         for fault in reader.finish() {
             let message = fault.message.replacen("`gain`", &format!("`{key}`"), 1);
-            self.fault_at(pointer, Fault { path: Vec::new(), message, ..fault }, None);
+            self.fault_at(pointer, ParameterError { path: Vec::new(), message, ..fault }, None);
         }
         // what has been noted is not noted again wherever it is used
         (x.is_finite() || self.problems.0.len() > n_problems).then_some(if x.is_finite() { x } else { 1.0 })
@@ -209,17 +209,17 @@ impl<'a> DiagramReader<'a> {
 
     /// What a block is: of the library, about the robot, or a diagram of this file.
     #[allow(clippy::type_complexity)]
-    fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((What, Option<f64>), Option<Origin>)> {
+    fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((Content, Option<f64>), Option<Origin>)> {
         if let Some(k) = self.file.diagram.iter().position(|d| d.name == block.kind) {
             let (inner, origin, sample_time) = self.instance(k, block, at, scope)?;
-            let what = What::Diagram(block.kind.clone(), Box::new(inner));
+            let what = Content::Diagram(block.kind.clone(), Box::new(inner));
             return Some(((what, sample_time), Some(origin)));
         }
         let template = self.library_block(block, at, scope)?;
-        Some(((What::Block(template), None), None))
+        Some(((Content::Block(template), None), None))
     }
 
-    fn library_block(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<Box<dyn Template>> {
+    fn library_block(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<Box<dyn DynBlock>> {
         let given: BTreeMap<String, Value> = block
             .parameters
             .iter()
@@ -236,7 +236,7 @@ impl<'a> DiagramReader<'a> {
             self.unknown_kind(block, at);
             return None;
         };
-        let is_given = |fault: &Fault| fault.path.first().is_some_and(|key| given.contains_key(key));
+        let is_given = |fault: &ParameterError| fault.path.first().is_some_and(|key| given.contains_key(key));
         for (k, fault) in faults.iter().enumerate() {
             // the same of two parameters, such as a file that is not there: said where something is written
             let mut others = faults.iter().enumerate().filter(|(i, other)| *i != k && other.message == fault.message);
@@ -386,7 +386,7 @@ impl<'a> DiagramReader<'a> {
         }
     }
 
-    fn fault_at(&mut self, pointer: &str, fault: Fault, block: Option<&str>) {
+    fn fault_at(&mut self, pointer: &str, fault: ParameterError, block: Option<&str>) {
         let inner = fault.path.iter().fold(pointer.to_owned(), |p, step| format!("{p}/{}", escape(step)));
         let is_unknown = fault.message.contains("has no parameter");
         let at = match (fault.path.is_empty(), is_unknown) {

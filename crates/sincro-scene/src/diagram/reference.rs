@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use sincro_blocks::instance::Template;
-use sincro_blocks::kind::{Group, Kind, Parameter, Takes};
+use sincro_blocks::instance::DynBlock;
+use sincro_blocks::kind::{Category, Kind, Parameter, Takes};
 use sincro_blocks::library;
 use sincro_blocks::reader::{NoFiles, Reader, Value};
 use sincro_dynamics::model::Model;
@@ -17,7 +17,7 @@ use super::robot;
 pub fn kinds() -> Vec<&'static Kind> {
     let of_library = library::all().map(|item| item.kind);
     let mut kinds: Vec<&'static Kind> = of_library.chain(robot::all().map(|item| item.kind)).collect();
-    kinds.sort_by_key(|kind| kind.group);
+    kinds.sort_by_key(|kind| kind.category);
     kinds
 }
 
@@ -26,15 +26,15 @@ pub fn kinds() -> Vec<&'static Kind> {
 pub fn reference() -> String {
     let mut text = String::from(
         "# The blocks\n\nGenerated from the blocks themselves; `sincro blocks NAME` prints the same. How diagrams are written stands in \
-         [diagrams.md](diagrams.md).\n\nEvery block also takes `unit` and, but for those of the continuous shelf, `sample_time`. Wherever a number stands, a formula of the parameters may \
+         [diagrams.md](diagrams.md).\n\nEvery block also takes `unit` and, but for those of the continuous category, `sample_time`. Wherever a number stands, a formula of the parameters may \
          stand in quotes. Most blocks work component by component: their inputs and parameters are single numbers, which then stand for all \
          components, or vectors of one length.\n",
     );
-    let mut shelf: Option<Group> = None;
+    let mut shelf: Option<Category> = None;
     for kind in kinds() {
-        if shelf != Some(kind.group) {
-            shelf = Some(kind.group);
-            let _ = write!(text, "\n## {}\n", kind.group.title());
+        if shelf != Some(kind.category) {
+            shelf = Some(kind.category);
+            let _ = write!(text, "\n## {}\n", kind.category.title());
         }
         text.push_str(&section(kind));
     }
@@ -51,7 +51,7 @@ fn section(kind: &'static Kind) -> String {
         for p in kind.parameters {
             let default = default(p)
                 .map_or_else(|| "must be given".into(), |d| if d.is_empty() { "—".into() } else { format!("`{d}`") });
-            let meaning = p.meaning.replace('|', "\\|");
+            let meaning = p.meaning().replace('|', "\\|");
             let _ = writeln!(text, "| `{}` | {} | {meaning} | {default} |", p.name, takes(p.takes));
         }
     }
@@ -61,7 +61,7 @@ fn section(kind: &'static Kind) -> String {
 /// A block as it is printed on a terminal, with an example for a diagram file.
 #[must_use]
 pub fn page(kind: &'static Kind) -> String {
-    let mut text = format!("{} ({})\n  {}\n  {}\n", kind.name, kind.group.title(), kind.summary, kind.equation);
+    let mut text = format!("{} ({})\n  {}\n  {}\n", kind.name, kind.category.title(), kind.summary, kind.equation);
     if let Some((inputs, outputs)) = ports(kind) {
         let _ = write!(text, "ports\n  inputs: {}\n  outputs: {}\n", inputs.replace('`', ""), outputs.replace('`', ""));
     }
@@ -73,9 +73,9 @@ pub fn page(kind: &'static Kind) -> String {
             Some("") => String::new(),
             Some(default) => format!(", default {default}"),
         };
-        let _ = writeln!(text, "  {:<width$}  {}: {}{default}", p.name, takes(p.takes), p.meaning);
+        let _ = writeln!(text, "  {:<width$}  {}: {}{default}", p.name, takes(p.takes), p.meaning());
     }
-    if kind.group != Group::Continuous {
+    if kind.category != Category::Continuous {
         let _ =
             writeln!(text, "  {:<width$}  number: time between two samples, a multiple of the step [s]", "sample_time");
     }
@@ -120,7 +120,7 @@ fn ports(kind: &'static Kind) -> Option<(String, String)> {
 }
 
 /// The block with as few parameters as it needs.
-fn least(kind: &'static Kind) -> Option<Box<dyn Template>> {
+fn least(kind: &'static Kind) -> Option<Box<dyn DynBlock>> {
     let value = |p: &Parameter| match p.takes {
         Takes::Choice(words) => Value::from(words[0]),
         Takes::Flag => Value::Flag(true),
@@ -153,7 +153,7 @@ fn least(kind: &'static Kind) -> Option<Box<dyn Template>> {
         }
     };
     // a frame that is not there does not change the ports; anything else may
-    (reader.finish().is_empty() || matches!(kind.group, Group::Robot | Group::Scripts)).then_some(template)
+    (reader.finish().is_empty() || matches!(kind.category, Category::Robot | Category::Scripts)).then_some(template)
 }
 
 /// A model for blocks that need one.

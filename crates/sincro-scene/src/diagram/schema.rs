@@ -52,8 +52,8 @@ fn schema_of(parameter: &Parameter) -> Value {
         Takes::Choice(words) => json!({"enum": words}),
     };
     let description = match parameter.default {
-        Some(default) => format!("{} (default {default})", parameter.meaning),
-        None => parameter.meaning.to_owned(),
+        Some(default) => format!("{} (default {default})", parameter.meaning()),
+        None => parameter.meaning().to_owned(),
     };
     schema["description"] = description.into();
     schema

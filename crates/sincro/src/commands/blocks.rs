@@ -1,7 +1,7 @@
 //! `sincro blocks`: the library of blocks, as a list or one by one.
 
 use clap::Args;
-use sincro_blocks::kind::Group;
+use sincro_blocks::kind::Category;
 use sincro_blocks::suggest;
 use sincro_scene::diagram::reference::{kinds, page};
 
@@ -19,11 +19,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let kinds = kinds();
     let Some(name) = &arguments.name else {
         let width = kinds.iter().map(|kind| kind.name.len()).max().unwrap_or(0);
-        let mut category: Option<Group> = None;
+        let mut category: Option<Category> = None;
         for kind in kinds {
-            if category != Some(kind.group) {
-                say!("{}", kind.group.title());
-                category = Some(kind.group);
+            if category != Some(kind.category) {
+                say!("{}", kind.category.title());
+                category = Some(kind.category);
             }
             say!("  {:<width$}  {}", kind.name, kind.summary);
         }

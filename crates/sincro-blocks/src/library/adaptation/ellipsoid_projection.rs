@@ -1,28 +1,26 @@
 //! `y = Π(u)`: the point of an ellipsoid that is nearest to `u` in the metric of the adaptation.
 //!
-//! yᵢ = uᵢ/(1 + μ·Γᵢ·wᵢ) with μ ≥ 0 the root of h(μ) = Σ wᵢ·yᵢ² − bound, μ = 0 inside. h falls and is convex, so that Newton's method
-//! from μ = 0 rises to the root without overshooting it. The map does not expand distances in the metric Γ⁻¹: parameters that lie
-//! inside come nearer, never farther.
+//! yᵢ = uᵢ/(1 + μ·Γᵢ·wᵢ) with μ ≥ 0 the root of h(μ) = Σ wᵢ·yᵢ² − bound, μ = 0 inside. h falls and is convex, so that
+//! Newton's method from μ = 0 rises to the root without overshooting it. The map does not expand distances in the
+//! metric Γ⁻¹: parameters that lie inside come nearer, never farther.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short;
-use crate::reader::Reader;
-
-/// Newton steps at most. Far from the root each one multiplies μ by 1.5 or more: 900 pass through all squares that a double can hold.
+/// Newton steps at most. Far from the root each one multiplies μ by 1.5 or more: 900 pass through all squares that a
+/// double can hold.
 const MAX_STEPS: usize = 1000;
 
-/// Keeps a vector inside an ellipsoid.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EllipsoidProjection {
-    /// Positive.
-    bound: f64,
-    /// wᵢ, positive.
-    weights: Vec<f64>,
-    /// Γᵢ, positive.
-    gain: Vec<f64>,
+declare_block! {
+    /// Keeps a vector inside an ellipsoid: the nearest point of it, measured by Γ⁻¹.
+    pub struct EllipsoidProjection("ellipsoid-projection", Adaptation):
+        "y = argmin (y − u)ᵀ·Γ⁻¹·(y − u) with Σ weightsᵢ·yᵢ² ≤ bound, Γ = diag(gain)" {
+        /// Greatest value of the weighted sum of squares.
+        bound: f64 as Positive,
+        /// Weights of the squares, positive.
+        weights: Vec<f64> as Positives = "1",
+        /// Diagonal of Γ, as in the adaptation, positive.
+        gain: Vec<f64> as Positives = "1",
+    }
 }
 
 impl EllipsoidProjection {
@@ -52,30 +50,8 @@ impl EllipsoidProjection {
     }
 }
 
-impl Described for EllipsoidProjection {
-    const KIND: &'static Kind = &Kind {
-        name: "ellipsoid-projection",
-        group: Group::Adaptation,
-        summary: "Keeps a vector inside an ellipsoid: the nearest point of it, measured by Γ⁻¹.",
-        equation: "y = argmin (y − u)ᵀ·Γ⁻¹·(y − u) with Σ weightsᵢ·yᵢ² ≤ bound, Γ = diag(gain)",
-        parameters: &[
-            Parameter::required("bound", Takes::Positive, "greatest value of the weighted sum of squares"),
-            Parameter::optional("weights", Takes::Numbers, "weights of the squares, positive", "1"),
-            Parameter::optional("gain", Takes::Numbers, "diagonal of Γ, as in the adaptation, positive", "1"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { bound: p.positive("bound"), weights: p.positives("weights"), gain: p.positives("gain") }
-    }
-}
-
 impl Block for EllipsoidProjection {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         let lists = [("weights", &self.weights), ("gain", &self.gain)];

@@ -1,22 +1,22 @@
 //! `y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε`: the direction of a normalised gradient law.
 //!
-//! For a plant that is linear in unknown parameters, ε = Φ·(θ* − θ), the law θ ← θ + a·y lets (θ* − θ)ᵀΓ⁻¹(θ* − θ) fall for every
-//! a in (0, 2), however large Γ and Φ are: the normalisation I + ΦΓΦᵀ is what an un-normalised law Γ·Φᵀ·ε lacks.
-//! Source: Goodwin & Sin, *Adaptive Filtering, Prediction and Control*, section 3.3 (projection algorithm), for several outputs.
+//! For a plant that is linear in unknown parameters, ε = Φ·(θ* − θ), the law θ ← θ + a·y lets (θ* − θ)ᵀΓ⁻¹(θ* − θ) fall
+//! for every a in (0, 2), however large Γ and Φ are: the normalisation I + ΦΓΦᵀ is what an un-normalised law Γ·Φᵀ·ε
+//! lacks. Source: Goodwin & Sin, *Adaptive Filtering, Prediction and Control*, section 3.3 (projection algorithm), for
+//! several outputs.
 //!
-//! Notation: Φ — regressor, m × n; ε — error, m; Γ — gain, n positive numbers; S = I + ΦΓΦᵀ — m × m, symmetric, eigenvalues ≥ 1.
+//! Notation: Φ — regressor, m × n; ε — error, m; Γ — gain, n positive numbers; S = I + ΦΓΦᵀ — m × m, symmetric,
+//! eigenvalues ≥ 1.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short_list;
-use crate::reader::Reader;
-
-/// Change of parameters that an error asks for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NormalizedGradient {
-    gain: Vec<f64>,
+declare_block! {
+    /// The change of unknown parameters that an error asks for, normalised so that it is stable with every gain.
+    pub struct NormalizedGradient("normalized-gradient", Adaptation):
+        "y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε, Γ = diag(gain), Φ = regressor, row by row" {
+        /// Diagonal of Γ, one number for every parameter or one for all, positive.
+        gain: Vec<f64> as Positives,
+    }
 }
 
 impl NormalizedGradient {
@@ -29,24 +29,6 @@ impl NormalizedGradient {
     pub fn new(gain: &[f64]) -> Self {
         assert!(!gain.is_empty() && gain.iter().all(|g| *g > 0.0), "gains are positive");
         Self { gain: gain.to_vec() }
-    }
-}
-
-impl Described for NormalizedGradient {
-    const KIND: &'static Kind = &Kind {
-        name: "normalized-gradient",
-        group: Group::Adaptation,
-        summary: "The change of unknown parameters that an error asks for, normalised so that it is stable with every gain.",
-        equation: "y = Γ·Φᵀ·(I + Φ·Γ·Φᵀ)⁻¹·ε, Γ = diag(gain), Φ = regressor, row by row",
-        parameters: &[Parameter::required(
-            "gain",
-            Takes::Numbers,
-            "diagonal of Γ, one number for every parameter or one for all, positive",
-        )],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { gain: p.positives("gain") }
     }
 }
 

@@ -84,9 +84,9 @@ impl LinearSystem {
         self.a.rows
     }
 
-    /// Whether any output depends at once on an input.
+    /// Returns true if an output depends on the present input (`d` is not zero).
     #[must_use]
-    pub fn feeds_through(&self) -> bool {
+    pub fn has_direct_feedthrough(&self) -> bool {
         self.d.entries.iter().any(|x| *x != 0.0)
     }
 
@@ -106,10 +106,10 @@ impl LinearSystem {
         }
     }
 
-    /// `y = c x + d u`; `u` is read only if it feeds through.
+    /// `y = c x + d u`; `u` is read only with direct feedthrough.
     pub(in crate::library) fn output<R: Real>(&self, at: &At<'_, R>, x: &[R], y: &mut [R]) {
         row_by_row(&self.c, x, y, false);
-        if self.feeds_through() {
+        if self.has_direct_feedthrough() {
             row_by_row(&self.d, at.input(0), y, true);
         }
     }

@@ -27,7 +27,7 @@ pub use transport_delay::TransportDelay;
 
 use super::{Item, item};
 
-pub(super) const SHELF: &[Item] = &[
+pub(super) const BLOCKS: &[Item] = &[
     item::<Integrator>(),
     item::<TransferFunction>(),
     item::<StateSpace>(),

@@ -9,15 +9,11 @@
 //!
 //! States, each for all components: I, then f (if there is a derivative term), then y (if there is an output lag).
 
-use sincro_math::Real;
-
 use super::PidLaw;
-use super::pid_law::{AntiWindup, PARAMETERS};
-use crate::block::{At, Block, Memory, Node, Pace, Ports, of};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
+use super::pid_law::AntiWindup;
+use crate::library::prelude::*;
 
-/// A PID controller. With an output lag it does not feed through at once.
+/// A PID controller. With an output lag it has no direct feedthrough.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pid {
     /// Its parameters.
@@ -31,7 +27,7 @@ impl Pid {
         Self { law: PidLaw::new(kp, ki, kd) }
     }
 
-    /// Where the filter's and the lag's states begin, for outputs of a width.
+    /// Indices at which the filter's states begin, the lag's begin, and all end, for outputs of a width.
     fn layout(&self, width: usize) -> (usize, usize, usize) {
         let lag = if self.law.has_derivative() { 2 * width } else { width };
         (width, lag, if self.law.has_lag() { lag + width } else { lag })
@@ -59,33 +55,32 @@ impl Pid {
 impl Described for Pid {
     const KIND: &'static Kind = &Kind {
         name: "pid",
-        group: Group::Continuous,
+        category: Category::Continuous,
         summary: "A PID controller with filtered derivative, output limits and anti-windup.",
         equation: "y = kp·u + ki·∫u dt + kd·s/(filter_time_constant·s + 1)·u, lower ≤ y ≤ upper",
-        parameters: &PARAMETERS,
+        parameters: PidLaw::PARAMETERS,
     };
 
+    fn parameter_widths(&self) -> Vec<(&'static str, usize)> {
+        self.law.widths()
+    }
+
     fn read(p: &mut Reader<'_>) -> Self {
-        Self { law: PidLaw::read(p, true) }
+        let law = PidLaw::read(p);
+        law.validate(p, true);
+        Self { law }
     }
 }
 
 impl Block for Pid {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
 
     fn ports(&self) -> Ports {
         self.law.ports()
     }
 
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        self.law.widths(inputs)
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Continuous
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         !self.law.has_lag()
     }
 
@@ -117,22 +112,22 @@ impl Block for Pid {
         }
     }
 
-    fn slope<R: Real>(&self, at: &At<'_, R>, (): &mut (), slope: &mut [R]) {
+    fn derivatives<R: Real>(&self, at: &At<'_, R>, (): &mut (), derivatives: &mut [R]) {
         let (filter, lag, end) = self.layout(at.node.n_out());
         for i in 0..at.node.n_out() {
             let (errors, v) = (self.law.errors(at, i), self.unlimited(at, i));
-            slope[i] = self.law.integral_rate(errors.plain, v, self.law.tracking(i), i);
+            derivatives[i] = self.law.integral_rate(errors.plain, v, self.law.tracking(i), i);
             if lag > filter {
-                slope[filter + i] = self.filter_rate(errors.differentiated, at.states[filter + i], i);
+                derivatives[filter + i] = self.filter_rate(errors.differentiated, at.states[filter + i], i);
             }
             if end > lag {
                 let behind = self.law.limited(v, i) - at.states[lag + i];
-                slope[lag + i] = behind / R::splat(self.law.output_time_constant);
+                derivatives[lag + i] = behind / R::splat(self.law.output_time_constant);
             }
         }
     }
 
-    fn decay<R: Real>(&self, at: &At<'_, R>, decay: &mut [R]) {
+    fn neg_jacobian_diagonal<R: Real>(&self, at: &At<'_, R>, diagonal: &mut [R]) {
         let (filter, lag, end) = self.layout(at.node.n_out());
         for i in 0..at.node.n_out() {
             let tracking = self.law.tracking(i);
@@ -140,13 +135,13 @@ impl Block for Pid {
                 // only beyond a limit
                 let v = self.unlimited(at, i).lane(0);
                 let is_limited = v < of(&self.law.lower, i) || v > of(&self.law.upper, i);
-                decay[i] = R::splat(if is_limited { 1.0 / tracking } else { 0.0 });
+                diagonal[i] = R::splat(if is_limited { 1.0 / tracking } else { 0.0 });
             }
             if lag > filter {
-                decay[filter + i] = R::splat(1.0 / of(&self.law.filter_time_constant, i));
+                diagonal[filter + i] = R::splat(1.0 / of(&self.law.filter_time_constant, i));
             }
             if end > lag {
-                decay[lag + i] = R::splat(1.0 / self.law.output_time_constant);
+                diagonal[lag + i] = R::splat(1.0 / self.law.output_time_constant);
             }
         }
     }

@@ -1,129 +1,71 @@
-//! What the continuous and the discrete PID controller have in common: parameters, ports, and the sum of the three terms.
+//! Control law shared by the continuous and the discrete PID controller: parameters, ports, and the sum of the three
+//! terms.
 //!
 //! ```text
 //! v = kp·(b·r − m) + I + D + feedforward,   output = lower ≤ v ≤ upper
 //! ```
 //!
-//! with the setpoint r, the measurement m, the integral term I of ki·(r − m) and the filtered derivative D of kd·(c·r − m). With one
-//! input, the error e = r − m stands for all three brackets. Source of the form with setpoint weights and back-calculation:
-//! K. J. Åström, T. Hägglund, *Advanced PID Control*, ISA 2006, chapter 3.
+//! with the setpoint r, the measurement m, the integral term I of ki·(r − m) and the filtered derivative D of kd·(c·r −
+//! m). With one input, the error e = r − m stands for all three brackets. Source of the form with setpoint weights and
+//! back-calculation: K. J. Åström, T. Hägglund, *Advanced PID Control*, ISA 2006, chapter 3.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Ports, elementwise, of};
-use crate::kind::{Parameter, Takes};
-use crate::reader::Reader;
-
-/// Parameters of a PID controller: each one number for all components, or one for each.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PidLaw {
-    /// Proportional gain.
-    pub kp: Vec<f64>,
-    /// Integral gain `[1/s]` times the unit of `kp`.
-    pub ki: Vec<f64>,
-    /// Derivative gain `[s]` times the unit of `kp`.
-    pub kd: Vec<f64>,
-    /// Of the lag in the derivative term `[s]`.
-    pub filter_time_constant: Vec<f64>,
-    /// Least value before the output lag.
-    pub lower: Vec<f64>,
-    /// Greatest value before the output lag.
-    pub upper: Vec<f64>,
-    /// What keeps the integral term from running away at a limit.
-    pub anti_windup: AntiWindup,
-    /// How fast back-calculation takes the integral term back `[s]`; 0 stands for `kp/ki`.
-    pub tracking_time_constant: Vec<f64>,
-    /// Of a first-order lag behind the limits `[s]`; 0 for none.
-    pub output_time_constant: f64,
-    /// Whether there are inputs `setpoint` and `measurement` instead of the error.
-    pub separate: bool,
-    /// Weight of the setpoint in the proportional term, with separate inputs.
-    pub setpoint_weight: Vec<f64>,
-    /// Weight of the setpoint in the derivative term, with separate inputs.
-    pub derivative_setpoint_weight: Vec<f64>,
-    /// Whether there is an input `feedforward`, which is added.
-    pub feedforward: bool,
-    /// Integral term at the start; the output lag starts there too.
-    pub initial: Vec<f64>,
-    /// What the derivative's filter has settled on before the start.
-    pub initial_input: Vec<f64>,
+declare_parameters! {
+    /// Parameters of a PID controller: each one number for all components, or one for each.
+    pub struct PidLaw {
+        /// Proportional gain.
+        pub kp: Vec<f64> as PerComponent = "0",
+        /// Integral gain `[unit of kp / s]`.
+        pub ki: Vec<f64> as PerComponent = "0",
+        /// Derivative gain `[unit of kp · s]`.
+        pub kd: Vec<f64> as PerComponent = "0",
+        /// Time constant of the lag in the derivative term `[s]`, 1/N.
+        pub filter_time_constant: Vec<f64> as PerComponent = "0.01",
+        /// Least output.
+        pub lower: Vec<f64> as Limits = "-inf",
+        /// Greatest output.
+        pub upper: Vec<f64> as Limits = "inf",
+        /// Protection against windup of the integral term at a limit.
+        pub anti_windup: AntiWindup as Choice = "back-calculation",
+        /// Time constant of back-calculation `[s]`; 0 for kp/ki.
+        pub tracking_time_constant: Vec<f64> as PerComponent = "0",
+        /// Time constant of a first-order lag on the output `[s]`; 0 for none.
+        pub output_time_constant: f64 as Number = "0",
+        /// Replaces the error `u` by the inputs `setpoint` and `measurement`.
+        pub separate: bool as Flag = "false",
+        /// Weight b of the setpoint in the proportional term, with separate inputs.
+        pub setpoint_weight: Vec<f64> as PerComponent = "1",
+        /// Weight c of the setpoint in the derivative term, with separate inputs.
+        pub derivative_setpoint_weight: Vec<f64> as PerComponent = "0",
+        /// Adds an input `feedforward`, which is added to the output.
+        pub feedforward: bool as Flag = "false",
+        /// Integral term at the start.
+        pub initial: Vec<f64> as PerComponent = "0",
+        /// Value that the derivative's filter has settled on before the start.
+        pub initial_input: Vec<f64> as PerComponent = "0",
+    }
 }
 
-/// What keeps the integral term from running away while the output is limited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AntiWindup {
-    /// What the limit cuts off is fed back into the integral term.
-    BackCalculation,
-    /// The integral term does not go on in the direction in which the output is limited.
-    Clamping,
-    /// Nothing.
-    None,
+choice! {
+    /// Protection of the integral term against windup while the output is limited.
+    pub enum AntiWindup {
+        /// The part that the limit cuts off is fed back into the integral term.
+        BackCalculation = "back-calculation",
+        /// The integral term does not go on in the direction in which the output is limited.
+        Clamping = "clamping",
+        /// No protection.
+        None = "none",
+    }
 }
 
-/// Number of parameters.
-pub(in crate::library) const N_PARAMETERS: usize = 15;
-
-/// Descriptions of the parameters.
-pub(in crate::library) const PARAMETERS: [Parameter; N_PARAMETERS] = [
-    Parameter::optional("kp", Takes::Numbers, "proportional gain", "0"),
-    Parameter::optional("ki", Takes::Numbers, "integral gain [unit of kp / s]", "0"),
-    Parameter::optional("kd", Takes::Numbers, "derivative gain [unit of kp · s]", "0"),
-    Parameter::optional("filter_time_constant", Takes::Numbers, "of the lag in the derivative term [s], 1/N", "0.01"),
-    Parameter::optional("lower", Takes::Numbers, "least output", "-inf"),
-    Parameter::optional("upper", Takes::Numbers, "greatest output", "inf"),
-    Parameter::optional(
-        "anti_windup",
-        Takes::Choice(&["back-calculation", "clamping", "none"]),
-        "what keeps the integral term from running away at a limit",
-        "back-calculation",
-    ),
-    Parameter::optional(
-        "tracking_time_constant",
-        Takes::Numbers,
-        "how fast back-calculation takes the integral term back [s]; 0 for kp/ki",
-        "0",
-    ),
-    Parameter::optional(
-        "output_time_constant",
-        Takes::Number,
-        "of a first-order lag on the output [s]; 0 for none",
-        "0",
-    ),
-    Parameter::optional(
-        "separate",
-        Takes::Flag,
-        "whether the inputs are `setpoint` and `measurement` instead of the error `u`",
-        "false",
-    ),
-    Parameter::optional(
-        "setpoint_weight",
-        Takes::Numbers,
-        "weight b of the setpoint in the proportional term, with separate inputs",
-        "1",
-    ),
-    Parameter::optional(
-        "derivative_setpoint_weight",
-        Takes::Numbers,
-        "weight c of the setpoint in the derivative term, with separate inputs",
-        "0",
-    ),
-    Parameter::optional("feedforward", Takes::Flag, "whether there is an input `feedforward`, which is added", "false"),
-    Parameter::optional("initial", Takes::Numbers, "integral term at the start", "0"),
-    Parameter::optional(
-        "initial_input",
-        Takes::Numbers,
-        "value that the derivative's filter has settled on before the start",
-        "0",
-    ),
-];
-
-/// What the terms are made from, for one component.
+/// Errors that the three terms are made from, for one component.
 pub(in crate::library) struct Errors<R> {
-    /// Of the proportional term: b·r − m.
+    /// Proportional term: b·r − m.
     pub weighted: R,
-    /// Of the integral term: r − m.
+    /// Integral term: r − m.
     pub plain: R,
-    /// Of the derivative term: c·r − m.
+    /// Derivative term: c·r − m.
     pub differentiated: R,
 }
 
@@ -131,53 +73,11 @@ impl PidLaw {
     /// Gains alone: no limits, the error as its only input.
     #[must_use]
     pub fn new(kp: f64, ki: f64, kd: f64) -> Self {
-        Self {
-            kp: vec![kp],
-            ki: vec![ki],
-            kd: vec![kd],
-            filter_time_constant: vec![0.01],
-            lower: vec![f64::NEG_INFINITY],
-            upper: vec![f64::INFINITY],
-            anti_windup: AntiWindup::BackCalculation,
-            tracking_time_constant: vec![0.0],
-            output_time_constant: 0.0,
-            separate: false,
-            setpoint_weight: vec![1.0],
-            derivative_setpoint_weight: vec![0.0],
-            feedforward: false,
-            initial: vec![0.0],
-            initial_input: vec![0.0],
-        }
+        Self { kp: vec![kp], ki: vec![ki], kd: vec![kd], ..super::Pid::with_defaults().law }
     }
 
-    /// From the parameters. `needs_filter`: whether the derivative cannot do without a lag.
-    pub(in crate::library) fn read(p: &mut Reader<'_>, needs_filter: bool) -> Self {
-        let new = Self {
-            kp: p.numbers("kp"),
-            ki: p.numbers("ki"),
-            kd: p.numbers("kd"),
-            filter_time_constant: p.numbers("filter_time_constant"),
-            lower: p.limits("lower"),
-            upper: p.limits("upper"),
-            anti_windup: match p.choice("anti_windup") {
-                0 => AntiWindup::BackCalculation,
-                1 => AntiWindup::Clamping,
-                _ => AntiWindup::None,
-            },
-            tracking_time_constant: p.numbers("tracking_time_constant"),
-            output_time_constant: p.number("output_time_constant"),
-            separate: p.flag("separate"),
-            setpoint_weight: p.numbers("setpoint_weight"),
-            derivative_setpoint_weight: p.numbers("derivative_setpoint_weight"),
-            feedforward: p.flag("feedforward"),
-            initial: p.numbers("initial"),
-            initial_input: p.numbers("initial_input"),
-        };
-        new.report(p, needs_filter);
-        new
-    }
-
-    fn report(&self, p: &mut Reader<'_>, needs_filter: bool) {
+    /// Checks the parameters against each other. `needs_filter`: the derivative cannot do without a lag.
+    pub(in crate::library) fn validate(&self, p: &mut Reader<'_>, needs_filter: bool) {
         let times = [
             ("filter_time_constant", &self.filter_time_constant[..]),
             ("tracking_time_constant", &self.tracking_time_constant[..]),
@@ -204,7 +104,7 @@ impl PidLaw {
         }
     }
 
-    /// Of component `i` `[s]`.
+    /// Time constant of back-calculation for component `i` `[s]`.
     pub(in crate::library) fn tracking(&self, i: usize) -> f64 {
         let given = of(&self.tracking_time_constant, i);
         if given > 0.0 { given } else { (of(&self.kp, i) / of(&self.ki, i)).abs() }
@@ -224,23 +124,6 @@ impl PidLaw {
             ports.inputs.push("feedforward".into());
         }
         ports
-    }
-
-    pub(in crate::library) fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        let parameters = [
-            ("kp", self.kp.len()),
-            ("ki", self.ki.len()),
-            ("kd", self.kd.len()),
-            ("filter_time_constant", self.filter_time_constant.len()),
-            ("lower", self.lower.len()),
-            ("upper", self.upper.len()),
-            ("tracking_time_constant", self.tracking_time_constant.len()),
-            ("setpoint_weight", self.setpoint_weight.len()),
-            ("derivative_setpoint_weight", self.derivative_setpoint_weight.len()),
-            ("initial", self.initial.len()),
-            ("initial_input", self.initial_input.len()),
-        ];
-        Ok(vec![elementwise(inputs, &parameters)?])
     }
 
     /// Component `i` of the errors.
@@ -270,8 +153,8 @@ impl PidLaw {
         v.max(R::splat(of(&self.lower, i))).min(R::splat(of(&self.upper, i)))
     }
 
-    /// Rate of the integral term: `ki·e`, but for what `anti_windup` takes away where `v` is beyond a limit. `tracking`: time
-    /// constant of back-calculation `[s]`.
+    /// Rate of the integral term: `ki·e`, but for what `anti_windup` takes away where `v` is beyond a limit.
+    /// `tracking`: time constant of back-calculation `[s]`.
     #[inline(always)]
     pub(in crate::library) fn integral_rate<R: Real>(&self, error: R, v: R, tracking: f64, i: usize) -> R {
         let ki = of(&self.ki, i);
@@ -291,7 +174,7 @@ impl PidLaw {
         }
     }
 
-    /// Such as `PI` or `PID`.
+    /// Terms in use, such as `PI` or `PID`.
     pub(in crate::library) fn label(&self) -> String {
         let has = |gain: &[f64]| gain.iter().any(|k| *k != 0.0);
         let terms = [('P', &self.kp), ('I', &self.ki), ('D', &self.kd)];

@@ -1,13 +1,9 @@
 //! `x' = a x + b u`, `y = c x + d u`.
 
-use sincro_math::Real;
-
 use super::LinearSystem;
-use crate::block::{At, Block, Memory, Node, Pace, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// A linear system given by its four matrices. It feeds through only where `d` is not zero.
+/// A linear system given by its four matrices. It has direct feedthrough only where `d` is not zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateSpace {
     /// Matrices and initial states; `a` in `[1/s]`.
@@ -25,14 +21,14 @@ impl StateSpace {
 impl Described for StateSpace {
     const KIND: &'static Kind = &Kind {
         name: "state-space",
-        group: Group::Continuous,
+        category: Category::Continuous,
         summary: "A linear system given by its four matrices.",
         equation: "x' = a x + b u, y = c x + d u, x(0) = initial",
         parameters: &[
             Parameter::required("a", Takes::Matrix, "system matrix, n × n [1/s]"),
             Parameter::required("b", Takes::Matrix, "input matrix, n × inputs; of one input, a list will do"),
             Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
-            Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("d", Takes::Matrix, "feedthrough matrix, outputs × inputs; zero if left out", "[]"),
             Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
         ],
     };
@@ -44,21 +40,14 @@ impl Described for StateSpace {
 
 impl Block for StateSpace {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         self.system.width(inputs[0])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Continuous
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
-        self.system.feeds_through()
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
+        self.system.has_direct_feedthrough()
     }
 
     fn memory(&self, _: &Node) -> Memory {
@@ -73,13 +62,13 @@ impl Block for StateSpace {
         self.system.output(at, at.states, y);
     }
 
-    fn slope<R: Real>(&self, at: &At<'_, R>, (): &mut (), slope: &mut [R]) {
-        self.system.next(at, at.states, slope);
+    fn derivatives<R: Real>(&self, at: &At<'_, R>, (): &mut (), derivatives: &mut [R]) {
+        self.system.next(at, at.states, derivatives);
     }
 
-    fn decay<R: Real>(&self, _: &At<'_, R>, decay: &mut [R]) {
-        for (i, decay) in decay.iter_mut().enumerate() {
-            *decay = R::splat(-self.system.a.at(i, i));
+    fn neg_jacobian_diagonal<R: Real>(&self, _: &At<'_, R>, diagonal: &mut [R]) {
+        for (i, entry) in diagonal.iter_mut().enumerate() {
+            *entry = R::splat(-self.system.a.at(i, i));
         }
     }
 

@@ -6,22 +6,18 @@
 //! x₁' = u − a₁ x₁ − … − aₙ xₙ,   xₖ₊₁' = xₖ,   y = Σ (bₖ − b₀ aₖ) xₖ + b₀ u
 //! ```
 
-use sincro_math::Real;
-
 use super::Rational;
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
 /// A linear system given by the polynomials of its transfer function. A vector is taken component by component.
 ///
-/// It feeds through only if numerator and denominator are of the same degree.
+/// It has direct feedthrough only if numerator and denominator are of the same degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferFunction {
     /// Numerator over denominator, powers of s `[1/s]`.
     pub rational: Rational,
-    /// Output at the start: the states rest as after a long time at the input that gives it. One for all components or one for
-    /// each.
+    /// Output at the start: the states rest as after a long time at the input that gives it. One for all components or
+    /// one for each.
     pub initial_output: Vec<f64>,
 }
 
@@ -41,7 +37,7 @@ impl TransferFunction {
 impl Described for TransferFunction {
     const KIND: &'static Kind = &Kind {
         name: "transfer-function",
-        group: Group::Continuous,
+        category: Category::Continuous,
         summary: "A linear system given by the polynomials of its transfer function.",
         equation: "y = numerator(s)/denominator(s)·u",
         parameters: &[
@@ -66,20 +62,13 @@ impl Described for TransferFunction {
 
 impl Block for TransferFunction {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         Ok(vec![elementwise(inputs, &[("initial_output", self.initial_output.len())])?])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Continuous
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         self.rational.b(0) != 0.0
     }
 
@@ -109,25 +98,25 @@ impl Block for TransferFunction {
         }
     }
 
-    fn slope<R: Real>(&self, at: &At<'_, R>, (): &mut (), slope: &mut [R]) {
+    fn derivatives<R: Real>(&self, at: &At<'_, R>, (): &mut (), derivatives: &mut [R]) {
         let n = self.rational.order();
         if n == 0 {
             return;
         }
-        for (i, (slope, x)) in slope.chunks_exact_mut(n).zip(at.states.chunks_exact(n)).enumerate() {
+        for (i, (derivatives, x)) in derivatives.chunks_exact_mut(n).zip(at.states.chunks_exact(n)).enumerate() {
             let mut first = at.component(0, i);
             for k in 0..n {
                 first -= R::splat(self.rational.a(k + 1)) * x[k];
             }
-            slope[0] = first;
-            slope[1..].copy_from_slice(&x[..n - 1]);
+            derivatives[0] = first;
+            derivatives[1..].copy_from_slice(&x[..n - 1]);
         }
     }
 
-    fn decay<R: Real>(&self, _: &At<'_, R>, decay: &mut [R]) {
+    fn neg_jacobian_diagonal<R: Real>(&self, _: &At<'_, R>, diagonal: &mut [R]) {
         let n = self.rational.order();
         if n > 0 {
-            decay.chunks_exact_mut(n).for_each(|decay| decay[0] = R::splat(self.rational.a(1)));
+            diagonal.chunks_exact_mut(n).for_each(|diagonal| diagonal[0] = R::splat(self.rational.a(1)));
         }
     }
 

@@ -1,23 +1,20 @@
 //! `y(t) = u(t − delay)`.
 //!
-//! The input is remembered at every tick, in a ring: tick k stands in slot k mod n. In between it is interpolated linearly. With D
-//! steps of delay the output needs the ticks from ⌊k − D⌋ on, k being the last one: n = ⌈D⌉ + 1.
+//! The input is remembered at every tick, in a ring: tick k stands in slot k mod n. In between it is interpolated
+//! linearly. With D steps of delay the output needs the ticks from ⌊k − D⌋ on, k being the last one: n = ⌈D⌉ + 1.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short;
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// The input of some time ago, such as of a belt, a pipe or a network. At least one base step long.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TransportDelay {
-    /// How long ago `[s]`.
-    pub delay: f64,
-    /// Output before the first input has arrived, one for all components or one for each.
-    pub initial: Vec<f64>,
+declare_block! {
+    /// The input of some time ago, interpolated between ticks.
+    ///
+    /// For a belt, a pipe or a network. The delay is at least one base step.
+    pub struct TransportDelay("transport-delay", Continuous): "y(t) = u(t − delay), y = initial for t < delay" {
+        /// Delay `[s]`, at least one base step.
+        pub delay: f64 as Positive,
+        /// y before the first input has arrived.
+        pub initial: Vec<f64> as PerComponent = "0",
+    }
 }
 
 impl TransportDelay {
@@ -37,43 +34,12 @@ impl TransportDelay {
 /// Parts of a step that are taken for rounding.
 const SAME_TICK: f64 = 1e-9;
 
-impl Described for TransportDelay {
-    const KIND: &'static Kind = &Kind {
-        name: "transport-delay",
-        group: Group::Continuous,
-        summary: "The input of some time ago, interpolated between ticks.",
-        equation: "y(t) = u(t − delay), y = initial for t < delay",
-        parameters: &[
-            Parameter::required("delay", Takes::Positive, "how long ago [s], at least one base step"),
-            Parameter::optional("initial", Takes::Numbers, "y before the first input has arrived", "0"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { delay: p.positive("delay"), initial: p.numbers("initial") }
-    }
-}
-
 impl Block for TransportDelay {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("initial", self.initial.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Continuous
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         false
     }
 
@@ -87,10 +53,10 @@ impl Block for TransportDelay {
             let message = format!("a delay of {} s is shorter than the base step of {} s", self.delay, node.step);
             return Err((message, format!("delay by {} s or more, or take a smaller `step`", node.step)));
         }
-        if steps > MOST_STEPS {
+        if steps > MAX_STEPS {
             let (delay, steps) = (short(self.delay), short(steps.ceil()));
             let message = format!("a delay of {delay} s is {steps} base steps of {} s", node.step);
-            return Err((message, format!("at most {MOST_STEPS} steps are remembered: take a larger `step`")));
+            return Err((message, format!("at most {MAX_STEPS} steps are remembered: take a larger `step`")));
         }
         Ok(())
     }
@@ -131,5 +97,5 @@ impl Block for TransportDelay {
     }
 }
 
-/// What fits into memory without a thought: a hundred seconds at ten microseconds.
-const MOST_STEPS: f64 = 1e7;
+/// Samples of one delay: a hundred seconds at ten microseconds.
+const MAX_STEPS: f64 = 1e7;

@@ -11,23 +11,22 @@
 //! ζ > 1: c = cosh(ω_d·T), s = sinh(ω_d·T)/ω_d,   ω_d = ω·√(ζ² − 1)
 //! ```
 //!
-//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference (`farrell2009`).
+//! Such filters stand before backstepping and inversion controllers, which need derivatives of the reference
+//! (`farrell2009`).
 
-use sincro_math::{Real, elementary};
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// A second-order reference filter at a sample time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CommandFilter {
-    /// ω `[rad/s]`, one for all components or one for each.
-    pub natural_frequency: Vec<f64>,
-    /// ζ.
-    pub damping_ratio: Vec<f64>,
-    /// Output at the start, at rest.
-    pub initial: Vec<f64>,
+declare_block! {
+    /// Makes a reference smooth and gives its first two derivatives; discretised exactly.
+    pub struct CommandFilter("command-filter", Discrete):
+        "y'' = −ω²·(y − u) − 2ζω·y', u held over a sample; outputs y, rate = y', acceleration = y''" {
+        /// ω `[rad/s]`.
+        pub natural_frequency: Vec<f64> as PerComponent,
+        /// ζ; at 1 or more nothing overshoots.
+        pub damping_ratio: Vec<f64> as PerComponent = "1",
+        /// y at the start, at rest.
+        pub initial: Vec<f64> as PerComponent = "0",
+    }
 }
 
 impl CommandFilter {
@@ -56,50 +55,21 @@ impl CommandFilter {
     }
 }
 
-impl Described for CommandFilter {
-    const KIND: &'static Kind = &Kind {
-        name: "command-filter",
-        group: Group::Discrete,
-        summary: "Makes a reference smooth and gives its first two derivatives; discretised exactly.",
-        equation: "y'' = −ω²·(y − u) − 2ζω·y', u held over a sample; outputs y, rate = y', acceleration = y''",
-        parameters: &[
-            Parameter::required("natural_frequency", Takes::Numbers, "ω [rad/s]"),
-            Parameter::optional("damping_ratio", Takes::Numbers, "ζ; at 1 or more nothing overshoots", "1"),
-            Parameter::optional("initial", Takes::Numbers, "y at the start, at rest", "0"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let natural_frequency = p.numbers("natural_frequency");
-        let damping_ratio = p.numbers("damping_ratio");
-        if natural_frequency.iter().any(|w| *w <= 0.0) {
-            p.fault("natural_frequency", "a natural frequency is not positive", "it must be greater than 0");
-        }
-        if damping_ratio.iter().any(|z| *z < 0.0) {
-            p.fault("damping_ratio", "a damping ratio is negative", "it must be 0 or more; 1 is critically damped");
-        }
-        Self { natural_frequency, damping_ratio, initial: p.numbers("initial") }
-    }
-}
-
 impl Block for CommandFilter {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
+
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        if self.natural_frequency.iter().any(|w| *w <= 0.0) {
+            p.fault("natural_frequency", "a natural frequency is not positive", "it must be greater than 0");
+        }
+        if self.damping_ratio.iter().any(|z| *z < 0.0) {
+            p.fault("damping_ratio", "a damping ratio is negative", "it must be 0 or more; 1 is critically damped");
+        }
+    }
 
     fn ports(&self) -> Ports {
         Ports::new(&["u"], &["y", "rate", "acceleration"])
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        let parameters = [
-            ("natural_frequency", self.natural_frequency.len()),
-            ("damping_ratio", self.damping_ratio.len()),
-            ("initial", self.initial.len()),
-        ];
-        Ok(vec![elementwise(inputs, &parameters)?; 3])
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
     }
 
     fn memory(&self, node: &Node) -> Memory {

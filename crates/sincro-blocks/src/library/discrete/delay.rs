@@ -1,22 +1,18 @@
 //! `y[k] = u[k−samples]`.
 //!
-//! The input of sample k stands in slot k mod `samples` of a ring. With no sample it is a piece of wire, so that a latency can be set to
-//! nothing.
+//! The input of sample k stands in slot k mod `samples` of a ring. With no sample it is a piece of wire, so that a
+//! latency can be set to nothing.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// The input of some samples before.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Delay {
-    /// How many; with 0 it feeds through.
-    pub samples: usize,
-    /// Output until the first input has arrived, one for all components or one for each.
-    pub initial: Vec<f64>,
+declare_block! {
+    /// The input of some samples before.
+    pub struct Delay("delay", Discrete): "y[k] = u[k−samples], y[k] = initial for k < samples" {
+        /// Number of samples; 0 for none, it then has direct feedthrough.
+        pub samples: usize as Count,
+        /// y until the first input has arrived.
+        pub initial: Vec<f64> as PerComponent = "0",
+    }
 }
 
 impl Delay {
@@ -31,44 +27,12 @@ impl Delay {
     }
 }
 
-impl Described for Delay {
-    const KIND: &'static Kind = &Kind {
-        name: "delay",
-        group: Group::Discrete,
-        summary: "The input of some samples before.",
-        equation: "y[k] = u[k−samples], y[k] = initial for k < samples",
-        parameters: &[
-            Parameter::required("samples", Takes::Count, "how many samples before; 0 for none, it then feeds through"),
-            Parameter::optional("initial", Takes::Numbers, "y until the first input has arrived", "0"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let samples = p.count("samples");
-        Self { samples, initial: p.numbers("initial") }
-    }
-}
-
 impl Block for Delay {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("initial", self.initial.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         self.samples == 0
     }
 

@@ -7,30 +7,29 @@
 //! α = 0 forward Euler, 1 backward Euler, ½ trapezoidal
 //! ```
 
-use sincro_math::Real;
-
 use super::Method;
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// Sums its input over time.
-///
-/// With `reset` it has a second input: while that is greater than zero at a sample, the next sample starts from the initial value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DiscreteIntegrator {
-    /// Rule of the integral. Only forward Euler does not feed through.
-    pub method: Method,
-    /// Factor, one for all components or one for each.
-    pub gain: Vec<f64>,
-    /// Value at the start.
-    pub initial: Vec<f64>,
-    /// Least value.
-    pub lower: Vec<f64>,
-    /// Greatest value.
-    pub upper: Vec<f64>,
-    /// Whether there is an input `reset`.
-    pub reset: bool,
+declare_block! {
+    /// Sums its input over time, within limits.
+    ///
+    /// Only forward Euler has no direct feedthrough. With `reset` it has a second input: while that is greater than
+    /// zero at a sample, the next sample starts from the initial value.
+    pub struct DiscreteIntegrator("discrete-integrator", Discrete):
+        "y[k+1] = y[k] + gain·Ts·u[k] (forward Euler), lower ≤ y ≤ upper; y = initial after reset > 0" {
+        /// Rule of the integral.
+        pub method: Method as Choice = "forward-euler",
+        /// Factor.
+        pub gain: Vec<f64> as PerComponent = "1",
+        /// y at the start.
+        pub initial: Vec<f64> as PerComponent = "0",
+        /// Least y.
+        pub lower: Vec<f64> as Limits = "-inf",
+        /// Greatest y.
+        pub upper: Vec<f64> as Limits = "inf",
+        /// Adds an input `reset`.
+        pub reset: bool as Flag = "false",
+    }
 }
 
 impl DiscreteIntegrator {
@@ -60,64 +59,29 @@ impl DiscreteIntegrator {
     }
 }
 
-impl Described for DiscreteIntegrator {
-    const KIND: &'static Kind = &Kind {
-        name: "discrete-integrator",
-        group: Group::Discrete,
-        summary: "Sums its input over time, within limits.",
-        equation: "y[k+1] = y[k] + gain·Ts·u[k] (forward Euler), lower ≤ y ≤ upper; y = initial after reset > 0",
-        parameters: &[
-            super::METHOD,
-            Parameter::optional("gain", Takes::Numbers, "factor", "1"),
-            Parameter::optional("initial", Takes::Numbers, "y at the start", "0"),
-            Parameter::optional("lower", Takes::Numbers, "least y", "-inf"),
-            Parameter::optional("upper", Takes::Numbers, "greatest y", "inf"),
-            Parameter::optional("reset", Takes::Flag, "whether there is an input `reset`", "false"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let method = Method::read(p);
-        let (gain, initial) = (p.numbers("gain"), p.numbers("initial"));
-        let (lower, upper) = (p.limits("lower"), p.limits("upper"));
-        crate::library::nonlinear::check_limits(p, &lower, &upper);
-        Self { method, gain, initial, lower, upper, reset: p.flag("reset") }
-    }
-}
-
 impl Block for DiscreteIntegrator {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
+    const STATE: Memory = Memory::DISCRETE;
+
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        crate::library::nonlinear::check_limits(p, &self.lower, &self.upper);
+    }
 
     fn ports(&self) -> Ports {
         Ports::new(if self.reset { &["u", "reset"] } else { &["u"] }, &["y"])
     }
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        let parameters = [
-            ("gain", self.gain.len()),
-            ("initial", self.initial.len()),
-            ("lower", self.lower.len()),
-            ("upper", self.upper.len()),
-        ];
-        Ok(vec![elementwise(&inputs[..1], &parameters)?])
+        Ok(vec![elementwise(&inputs[..1], &self.parameter_widths())?])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, input: usize) -> bool {
+    fn has_direct_feedthrough(&self, input: usize) -> bool {
         input == 0 && self.method != Method::ForwardEuler
     }
 
-    fn memory(&self, node: &Node) -> Memory {
-        Memory { continuous: 0, discrete: node.n_out() }
-    }
-
     fn start<R: Real>(&self, _: &Node, _: &mut [R], memory: &mut [R]) {
-        for (i, x) in memory.iter_mut().enumerate() {
-            *x = R::splat(of(&self.initial, i));
-        }
+        fill(memory, &self.initial);
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

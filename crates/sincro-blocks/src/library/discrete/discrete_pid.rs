@@ -9,24 +9,20 @@
 //!        α = 0 forward Euler, 1 backward Euler, ½ trapezoidal
 //! ```
 //!
-//! Back-calculation adds `min(Ts/Tt, 1)·(limited(v) − v)` to s; clamping leaves s as it is while the limit is pushed against. An
-//! output lag T is `y[k] = (T·y[k−1] + Ts·limited(v[k]))/(T + Ts)`. Memory, each for all components: s, f, y.
-
-use sincro_math::Real;
+//! Back-calculation adds `min(Ts/Tt, 1)·(limited(v) − v)` to s; clamping leaves s as it is while the limit is pushed
+//! against. An output lag T is `y[k] = (T·y[k−1] + Ts·limited(v[k]))/(T + Ts)`. Memory, each for all components: s, f,
+//! y.
 
 use super::Method;
-use crate::block::{At, Block, Memory, Node, Pace, Ports, of};
-use crate::kind::{Described, Group, Kind, Parameter};
 use crate::library::continuous::PidLaw;
-use crate::library::continuous::pid_law::{N_PARAMETERS, PARAMETERS};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
 /// A PID controller that is evaluated at its sample time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscretePid {
     /// Its parameters, those of the continuous `pid`.
     pub law: PidLaw,
-    /// Of the integral term.
+    /// Rule of the integral term.
     pub method: Method,
 }
 
@@ -73,13 +69,13 @@ impl DiscretePid {
     }
 }
 
-/// Those of the continuous controller, and the method.
-const WITH_METHOD: [Parameter; N_PARAMETERS + 1] = {
-    let mut all = [const { super::METHOD }; N_PARAMETERS + 1];
+/// Parameters of the continuous controller, and the method.
+const PARAMETERS: [Parameter; PidLaw::PARAMETERS.len() + 1] = {
+    let doc = "rule of the integral";
+    let mut all = [Parameter::optional("method", Takes::Choice(Method::WORDS), doc, "forward-euler"); _];
     let mut k = 0;
-    while k < N_PARAMETERS {
-        let Parameter { name, takes, meaning, default } = PARAMETERS[k];
-        all[k] = Parameter { name, takes, meaning, default };
+    while k < PidLaw::PARAMETERS.len() {
+        all[k] = PidLaw::PARAMETERS[k];
         k += 1;
     }
     all
@@ -88,30 +84,29 @@ const WITH_METHOD: [Parameter; N_PARAMETERS + 1] = {
 impl Described for DiscretePid {
     const KIND: &'static Kind = &Kind {
         name: "discrete-pid",
-        group: Group::Discrete,
+        category: Category::Discrete,
         summary: "A PID controller at its sample time, with filtered derivative, output limits and anti-windup.",
         equation: "y[k] = kp·u[k] + ki·Σ u·Ts + kd·(u[k] − f[k−1])/(filter_time_constant + Ts), lower ≤ y ≤ upper",
-        parameters: &WITH_METHOD,
+        parameters: &PARAMETERS,
     };
 
+    fn parameter_widths(&self) -> Vec<(&'static str, usize)> {
+        self.law.widths()
+    }
+
     fn read(p: &mut Reader<'_>) -> Self {
-        Self { law: PidLaw::read(p, false), method: Method::read(p) }
+        let law = PidLaw::read(p);
+        law.validate(p, false);
+        Self { law, method: <Choice as ParameterType<Method>>::read(p, "method") }
     }
 }
 
 impl Block for DiscretePid {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
     fn ports(&self) -> Ports {
         self.law.ports()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        self.law.widths(inputs)
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
     }
 
     fn memory(&self, node: &Node) -> Memory {

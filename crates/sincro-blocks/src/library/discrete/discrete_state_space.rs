@@ -1,13 +1,9 @@
 //! `x[k+1] = a x[k] + b u[k]`, `y[k] = c x[k] + d u[k]`.
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Memory, Node, Pace, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
 use crate::library::continuous::LinearSystem;
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// A linear recursion given by its four matrices. It feeds through only where `d` is not zero.
+/// A linear recursion given by its four matrices. It has direct feedthrough only where `d` is not zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscreteStateSpace {
     /// Matrices and initial states.
@@ -25,14 +21,14 @@ impl DiscreteStateSpace {
 impl Described for DiscreteStateSpace {
     const KIND: &'static Kind = &Kind {
         name: "discrete-state-space",
-        group: Group::Discrete,
+        category: Category::Discrete,
         summary: "A linear recursion given by its four matrices.",
         equation: "x[k+1] = a x[k] + b u[k], y[k] = c x[k] + d u[k], x[0] = initial",
         parameters: &[
             Parameter::required("a", Takes::Matrix, "system matrix, n × n"),
             Parameter::required("b", Takes::Matrix, "input matrix, n × inputs; of one input, a list will do"),
             Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
-            Parameter::optional("d", Takes::Matrix, "feed-through matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("d", Takes::Matrix, "feedthrough matrix, outputs × inputs; zero if left out", "[]"),
             Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
         ],
     };
@@ -44,21 +40,14 @@ impl Described for DiscreteStateSpace {
 
 impl Block for DiscreteStateSpace {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         self.system.width(inputs[0])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
-        self.system.feeds_through()
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
+        self.system.has_direct_feedthrough()
     }
 
     fn memory(&self, _: &Node) -> Memory {

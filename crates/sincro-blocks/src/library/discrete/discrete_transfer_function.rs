@@ -6,16 +6,12 @@
 //! y[k] = b₀ u[k] + w₁,   wⱼ ← bⱼ u[k] − aⱼ y[k] + wⱼ₊₁,   wₙ₊₁ = 0
 //! ```
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
 use crate::library::continuous::Rational;
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
 /// A linear recursion given by the polynomials of its transfer function. A vector is taken component by component.
 ///
-/// It feeds through only if numerator and denominator are of the same degree.
+/// It has direct feedthrough only if numerator and denominator are of the same degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscreteTransferFunction {
     /// Numerator over denominator, powers of z.
@@ -34,8 +30,8 @@ impl DiscreteTransferFunction {
     }
 }
 
-/// Whether the present input is needed for the present output.
-pub(super) fn feeds_through(g: &Rational) -> bool {
+/// Returns true if the present output depends on the present input.
+pub(super) fn has_direct_feedthrough(g: &Rational) -> bool {
     g.b(0) != 0.0
 }
 
@@ -44,7 +40,7 @@ pub(super) fn output<R: Real>(g: &Rational, at: &At<'_, R>, y: &mut [R]) {
     let n = g.order();
     for (i, y) in y.iter_mut().enumerate() {
         let kept = if n == 0 { R::zero() } else { at.memory[i * n] };
-        *y = if feeds_through(g) { R::splat(g.b(0)) * at.component(0, i) + kept } else { kept };
+        *y = if has_direct_feedthrough(g) { R::splat(g.b(0)) * at.component(0, i) + kept } else { kept };
     }
 }
 
@@ -56,7 +52,7 @@ pub(super) fn update<R: Real>(g: &Rational, at: &At<'_, R>, memory: &mut [R]) {
     }
     for (i, (new, old)) in memory.chunks_exact_mut(n).zip(at.memory.chunks_exact(n)).enumerate() {
         let u = at.component(0, i);
-        let y = if feeds_through(g) { R::splat(g.b(0)) * u + old[0] } else { old[0] };
+        let y = if has_direct_feedthrough(g) { R::splat(g.b(0)) * u + old[0] } else { old[0] };
         for j in 0..n {
             let own = R::splat(g.b(j + 1)) * u - R::splat(g.a(j + 1)) * y;
             new[j] = if j + 1 < n { own + old[j + 1] } else { own };
@@ -67,7 +63,7 @@ pub(super) fn update<R: Real>(g: &Rational, at: &At<'_, R>, memory: &mut [R]) {
 impl Described for DiscreteTransferFunction {
     const KIND: &'static Kind = &Kind {
         name: "discrete-transfer-function",
-        group: Group::Discrete,
+        category: Category::Discrete,
         summary: "A linear recursion given by the polynomials in z of its transfer function.",
         equation: "y = numerator(z)/denominator(z)·u",
         parameters: &[
@@ -83,21 +79,10 @@ impl Described for DiscreteTransferFunction {
 
 impl Block for DiscreteTransferFunction {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
-        feeds_through(&self.rational)
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
+        has_direct_feedthrough(&self.rational)
     }
 
     fn memory(&self, node: &Node) -> Memory {

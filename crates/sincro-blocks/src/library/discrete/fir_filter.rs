@@ -1,17 +1,15 @@
-//! `y[k] = Σ coefficients[j]·u[k−j]`.
+//! Block `fir-filter`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// A weighted sum of the last samples. A vector is taken component by component. Samples before the start are zero.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FirFilter {
-    /// Weights, that of the present sample first.
-    pub coefficients: Vec<f64>,
+declare_block! {
+    /// A weighted sum of the last samples.
+    ///
+    /// A vector is taken component by component. Samples before the start are zero.
+    pub struct FirFilter("fir-filter", Discrete): "y[k] = Σ coefficients[j]·u[k−j]" {
+        /// Weights, of the present sample first.
+        pub coefficients: Vec<f64> as List,
+    }
 }
 
 impl FirFilter {
@@ -31,30 +29,9 @@ impl FirFilter {
     }
 }
 
-impl Described for FirFilter {
-    const KIND: &'static Kind = &Kind {
-        name: "fir-filter",
-        group: Group::Discrete,
-        summary: "A weighted sum of the last samples.",
-        equation: "y[k] = Σ coefficients[j]·u[k−j]",
-        parameters: &[Parameter::required("coefficients", Takes::Numbers, "weights, of the present sample first")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { coefficients: p.numbers("coefficients") }
-    }
-}
-
 impl Block for FirFilter {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
         // an average keeps the unit, other weights may have one
@@ -62,11 +39,7 @@ impl Block for FirFilter {
         Ok(vec![inputs[0].clone().filter(|_| (sum - 1.0).abs() < 1e-9)])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         self.coefficients[0] != 0.0
     }
 

@@ -1,14 +1,10 @@
 //! `a[0]·y[k] = Σ b[j]·u[k−j] − Σ a[j]·y[k−j]`, or such sections one behind the other.
 //!
-//! Every section is a recursion in direct form II transposed, as in `discrete-transfer-function`; here polynomials are in powers of
-//! z⁻¹, as MATLAB's `filter(b, a, u)` and `sosfilt` take them.
+//! Every section is a recursion in direct form II transposed, as in `discrete-transfer-function`; here polynomials are
+//! in powers of z⁻¹, as MATLAB's `filter(b, a, u)` and `sosfilt` take them.
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
 use crate::library::continuous::Rational;
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
 /// A recursive filter. A vector is taken component by component.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +46,7 @@ fn section(b: &[f64], a: &[f64]) -> Result<Rational, String> {
 impl Described for IirFilter {
     const KIND: &'static Kind = &Kind {
         name: "iir-filter",
-        group: Group::Discrete,
+        category: Category::Discrete,
         summary: "A recursive filter, given by its coefficients or by sections of second order.",
         equation: "a[0]·y[k] = Σ b[j]·u[k−j] − Σ a[j]·y[k−j]",
         parameters: &[
@@ -98,20 +94,9 @@ impl Described for IirFilter {
 
 impl Block for IirFilter {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         self.sections.iter().all(|section| section.b(0) != 0.0)
     }
 
@@ -120,10 +105,10 @@ impl Block for IirFilter {
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
-        let (n, is_read) = (self.n_kept(), Block::feeds_through(self, 0));
+        let (n, is_read) = (self.n_kept(), Block::has_direct_feedthrough(self, 0));
         for (i, y) in y.iter_mut().enumerate() {
             let mut kept = &at.memory[i * n..(i + 1) * n];
-            // if it does not feed through, some section passes on nothing of it
+            // without direct feedthrough, some section passes on nothing of it
             let mut x = if is_read { at.component(0, i) } else { R::zero() };
             for section in &self.sections {
                 x = present(section, x, kept);

@@ -31,9 +31,8 @@ pub use unit_delay::UnitDelay;
 pub use zero_order_hold::ZeroOrderHold;
 
 use super::{Item, item};
-use method::METHOD;
 
-pub(super) const SHELF: &[Item] = &[
+pub(super) const BLOCKS: &[Item] = &[
     item::<UnitDelay>(),
     item::<Delay>(),
     item::<ZeroOrderHold>(),

@@ -1,23 +1,20 @@
 //! `y(t) = u(t_k)`, or `u(t_{k−1})`, for `t_k ≤ t < t_{k+1}`.
 //!
-//! Give it the sample time of the slower side. From fast to slow it takes the latest sample at once and holds it. From slow to fast,
-//! `delayed` hands over what the slow side computed a sample ago: as in a computer whose slow task needs its whole period. A delayed
-//! one does not feed through.
+//! Give it the sample time of the slower side. From fast to slow it takes the latest sample at once and holds it. From
+//! slow to fast, `delayed` hands over what the slow side computed a sample ago: as in a computer whose slow task needs
+//! its whole period. A delayed one has no direct feedthrough.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// Hands a signal over between two sample times.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RateTransition {
-    /// Whether it hands over the sample before.
-    pub delayed: bool,
-    /// Output in the first sample, if delayed.
-    pub initial: Vec<f64>,
+declare_block! {
+    /// Hands a signal over between two sample times, at once or a sample later.
+    pub struct RateTransition("rate-transition", Discrete):
+        "y[k] = u[k], or y[k] = u[k−1] if delayed, held in between" {
+        /// Hands over the sample before.
+        pub delayed: bool as Flag = "false",
+        /// y in the first sample, if delayed.
+        pub initial: Vec<f64> as PerComponent = "0",
+    }
 }
 
 impl RateTransition {
@@ -28,43 +25,12 @@ impl RateTransition {
     }
 }
 
-impl Described for RateTransition {
-    const KIND: &'static Kind = &Kind {
-        name: "rate-transition",
-        group: Group::Discrete,
-        summary: "Hands a signal over between two sample times, at once or a sample later.",
-        equation: "y[k] = u[k], or y[k] = u[k−1] if delayed, held in between",
-        parameters: &[
-            Parameter::optional("delayed", Takes::Flag, "whether it hands over the sample before", "false"),
-            Parameter::optional("initial", Takes::Numbers, "y in the first sample, if delayed", "0"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { delayed: p.flag("delayed"), initial: p.numbers("initial") }
-    }
-}
-
 impl Block for RateTransition {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("initial", self.initial.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn feeds_through(&self, _: usize) -> bool {
+    fn has_direct_feedthrough(&self, _: usize) -> bool {
         !self.delayed
     }
 
@@ -73,9 +39,7 @@ impl Block for RateTransition {
     }
 
     fn start<R: Real>(&self, _: &Node, _: &mut [R], memory: &mut [R]) {
-        for (i, x) in memory.iter_mut().enumerate() {
-            *x = R::splat(of(&self.initial, i));
-        }
+        fill(memory, &self.initial);
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
@@ -85,9 +49,7 @@ impl Block for RateTransition {
     }
 
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
-        for (i, x) in memory.iter_mut().enumerate() {
-            *x = at.component(0, i);
-        }
+        at.copy_input(0, memory);
     }
 
     fn label(&self) -> String {

@@ -1,40 +1,33 @@
-//! `y = u1 < u2` or another comparison: 1 if it holds, else 0.
-
-use sincro_math::Real;
+//! Block `compare`.
 
 use super::truth::test;
-use crate::block::{At, Block, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short_list;
-use crate::reader::Reader;
-use crate::unit::{Unit, common};
+use crate::library::prelude::*;
 
-/// Compares two inputs, or one with a constant, component by component.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Compare {
-    /// How.
-    pub operator: Comparison,
-    /// What the input is compared with, one for all components or one for each; none if there is a second input.
-    pub constant: Option<Vec<f64>>,
+declare_block! {
+    /// Compares two inputs, or one with a constant, component by component.
+    pub struct Compare("compare", Logic):
+        "y = 1 if u1 operator u2, else 0; with a constant y = 1 if u operator constant, else 0" {
+        /// The comparison.
+        pub operator: Comparison as Choice,
+        /// Constant to compare the input with; if it is left out, there is a second input in its place.
+        pub constant: Option<Vec<f64>> as Given<PerComponent> = "none",
+    }
 }
 
-/// A comparison of two numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Comparison {
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Equal,
-    NotEqual,
+choice! {
+    /// Comparison of two numbers.
+    #[allow(missing_docs)]
+    pub enum Comparison {
+        Less = "<",
+        LessEqual = "<=",
+        Greater = ">",
+        GreaterEqual = ">=",
+        Equal = "==",
+        NotEqual = "!=",
+    }
 }
 
 use Comparison::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
-
-/// By sign.
-const OPERATORS: [(&str, Comparison); 6] =
-    [("<", Less), ("<=", LessEqual), (">", Greater), (">=", GreaterEqual), ("==", Equal), ("!=", NotEqual)];
 
 impl Comparison {
     /// 1 where it holds, else 0; NaN where one of the two is.
@@ -79,39 +72,11 @@ impl Compare {
     }
 }
 
-impl Described for Compare {
-    const KIND: &'static Kind = &Kind {
-        name: "compare",
-        group: Group::Logic,
-        summary: "Compares two inputs, or one with a constant, component by component.",
-        equation: "y = 1 if u1 operator u2, else 0; with a constant y = 1 if u operator constant, else 0",
-        parameters: &[
-            Parameter::required("operator", Takes::Choice(&["<", "<=", ">", ">=", "==", "!="]), "the comparison"),
-            Parameter::optional(
-                "constant",
-                Takes::Numbers,
-                "what the input is compared with; if it is left out, there is a second input in its place",
-                "none",
-            ),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let operator = OPERATORS[p.choice("operator")].1;
-        Self { operator, constant: p.has("constant").then(|| p.numbers("constant")) }
-    }
-}
-
 impl Block for Compare {
     type Work<R: Real> = ();
 
     fn ports(&self) -> Ports {
         Ports::numbered(if self.constant.is_some() { 1 } else { 2 })
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        let own = self.constant.as_ref().map_or(1, Vec::len);
-        Ok(vec![elementwise(inputs, &[("constant", own)])?])
     }
 
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {

@@ -1,48 +1,38 @@
-//! `y[k] = y[k−1] + 1` at a rising edge of `u`, 0 while `reset` is true.
-
-use sincro_math::Real;
+//! Block `counter`.
 
 use super::truth::is_true;
-use crate::block::{At, Block, Memory, Node, Pace, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// Counts how often its input became true. Zero is false, any other number true.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counter {
-    /// Count before the first sample.
-    pub initial: usize,
-    /// Whether there is an input `reset`, which puts the count back to 0 while it is true.
-    pub reset: bool,
+declare_block! {
+    /// Counts how often its input became true.
+    ///
+    /// Zero is false, any other number true.
+    pub struct Counter("counter", Logic):
+        "y[k] = y[k−1] + (1 if u[k] and not u[k−1], else 0); y[k] = 0 while reset[k]" {
+        /// y before the first sample.
+        pub initial: usize as Count = "0",
+        /// Adds an input `reset`.
+        pub reset: bool as Flag = "false",
+    }
 }
 
 impl Counter {
     /// From 0 on, without reset.
     #[must_use]
     pub fn new() -> Self {
-        Self::default()
+        Self { initial: 0, reset: false }
     }
 }
 
-impl Described for Counter {
-    const KIND: &'static Kind = &Kind {
-        name: "counter",
-        group: Group::Logic,
-        summary: "Counts how often its input became true.",
-        equation: "y[k] = y[k−1] + (1 if u[k] and not u[k−1], else 0); y[k] = 0 while reset[k]",
-        parameters: &[
-            Parameter::optional("initial", Takes::Count, "y before the first sample", "0"),
-            Parameter::optional("reset", Takes::Flag, "whether there is an input `reset`", "false"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { initial: p.count("initial"), reset: p.flag("reset") }
+impl Default for Counter {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
 impl Block for Counter {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
     fn ports(&self) -> Ports {
         Ports::new(if self.reset { &["u", "reset"] } else { &["u"] }, &["y"])
@@ -53,10 +43,6 @@ impl Block for Counter {
             Some(k) => Err(format!("input {} has {} components instead of 1", k + 1, inputs[k].unwrap_or(0))),
             None => Ok(vec![Some(1)]),
         }
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
     }
 
     /// The count and the input of the sample before.

@@ -1,26 +1,36 @@
-//! `y[k] = not reset[k] and (set[k] or y[k−1])`; if `set` wins, `set[k] or (y[k−1] and not reset[k])`.
-
-use sincro_math::Real;
+//! Block `latch`.
 
 use super::truth::number;
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// Set–reset flip-flop: remembers that it was set until it is reset, component by component. Zero is false, any other number true.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Latch {
-    /// Output before the first sample.
-    pub initial: bool,
-    /// Whether `set` wins if both inputs are true; else `reset` does.
-    pub set_wins: bool,
+declare_block! {
+    /// Set–reset flip-flop: remembers that it was set until it is reset.
+    ///
+    /// It works component by component. Zero is false, any other number true.
+    pub struct Latch("latch", Logic):
+        "y[k] = not reset[k] and (set[k] or y[k−1]); set dominant: y[k] = set[k] or (y[k−1] and not reset[k])" {
+        /// y before the first sample.
+        pub initial: bool as Flag = "false",
+        /// Input that wins if both are true.
+        pub dominant: Dominant as Choice = "reset",
+    }
+}
+
+choice! {
+    /// Input of a latch that wins if both are true.
+    pub enum Dominant {
+        /// `reset`.
+        Reset = "reset",
+        /// `set`.
+        Set = "set",
+    }
 }
 
 impl Latch {
     /// Not set at first; `reset` wins.
     #[must_use]
     pub fn new() -> Self {
-        Self { initial: false, set_wins: false }
+        Self { initial: false, dominant: Dominant::Reset }
     }
 
     /// The output for inputs and the output before; NaN where one of them is.
@@ -29,7 +39,7 @@ impl Latch {
             return f64::NAN;
         }
         let (set, reset, before) = (set != 0.0, reset != 0.0, before != 0.0);
-        number(if self.set_wins { set || (before && !reset) } else { !reset && (set || before) })
+        number(if self.dominant == Dominant::Set { set || (before && !reset) } else { !reset && (set || before) })
     }
 }
 
@@ -39,45 +49,13 @@ impl Default for Latch {
     }
 }
 
-impl Described for Latch {
-    const KIND: &'static Kind = &Kind {
-        name: "latch",
-        group: Group::Logic,
-        summary: "Set–reset flip-flop: remembers that it was set until it is reset.",
-        equation: "y[k] = not reset[k] and (set[k] or y[k−1]); set dominant: y[k] = set[k] or (y[k−1] and not reset[k])",
-        parameters: &[
-            Parameter::optional("initial", Takes::Flag, "y before the first sample", "false"),
-            Parameter::optional(
-                "dominant",
-                Takes::Choice(&["reset", "set"]),
-                "which input wins if both are true",
-                "reset",
-            ),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { initial: p.flag("initial"), set_wins: p.choice("dominant") == 1 }
-    }
-}
-
 impl Block for Latch {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
+    const STATE: Memory = Memory::DISCRETE;
 
     fn ports(&self) -> Ports {
         Ports::new(&["set", "reset"], &["y"])
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn memory(&self, node: &Node) -> Memory {
-        Memory { continuous: 0, discrete: node.n_out() }
     }
 
     fn start<R: Real>(&self, _: &Node, _: &mut [R], memory: &mut [R]) {

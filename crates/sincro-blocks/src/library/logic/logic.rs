@@ -1,45 +1,39 @@
-//! `y = u1 and u2 and …`, or, not, xor, nand, nor: 1 if it holds, else 0.
-
-use sincro_math::Real;
+//! Block `logic`.
 
 use super::truth::test;
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// Joins truths component by component; with a single input, all its components with each other.
-///
-/// Zero is false, any other number true; what depends on a NaN is NaN.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Logic {
-    /// How.
-    pub operator: Operator,
-    /// Number of inputs; 1 for `Not`.
-    pub inputs: usize,
+declare_block! {
+    /// Joins truths component by component, or all components of a single input; zero is false.
+    ///
+    /// Any number but zero is true; an output that depends on a NaN is NaN.
+    pub struct Logic("logic", Logic): "y = u1 operator u2 operator … (1 or 0); not: y = 1 if u = 0, else 0" {
+        /// Operator; `xor` is true of an odd number of truths.
+        pub operator: Operator as Choice,
+        /// Number of inputs; `not` has one.
+        pub inputs: usize as InputCount = "2",
+    }
 }
 
-/// How truths are joined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Operator {
-    /// All are true.
-    And,
-    /// At least one is true.
-    Or,
-    /// The only one is false.
-    Not,
-    /// An odd number is true.
-    Xor,
-    /// Not all are true.
-    Nand,
-    /// None is true.
-    Nor,
+choice! {
+    /// Operator that joins truths.
+    pub enum Operator {
+        /// All are true.
+        And = "and",
+        /// At least one is true.
+        Or = "or",
+        /// The only one is false.
+        Not = "not",
+        /// An odd number is true.
+        Xor = "xor",
+        /// Not all are true.
+        Nand = "nand",
+        /// None is true.
+        Nor = "nor",
+    }
 }
 
 use Operator::{And, Nand, Nor, Not, Or, Xor};
-
-/// By name.
-const OPERATORS: [(&str, Operator); 6] =
-    [("and", And), ("or", Or), ("not", Not), ("xor", Xor), ("nand", Nand), ("nor", Nor)];
 
 impl Operator {
     /// The truth of two, before the negation of `Not`, `Nand` and `Nor`.
@@ -52,7 +46,7 @@ impl Operator {
         }
     }
 
-    /// What joins with any truth without changing it.
+    /// Neutral element of [`Operator::join`].
     fn neutral<R: Real>(self) -> R {
         if matches!(self, And | Nand) { R::one() } else { R::zero() }
     }
@@ -71,37 +65,17 @@ impl Logic {
     }
 }
 
-impl Described for Logic {
-    const KIND: &'static Kind = &Kind {
-        name: "logic",
-        group: Group::Logic,
-        summary: "Joins truths component by component, or all components of a single input; zero is false.",
-        equation: "y = u1 operator u2 operator … (1 or 0); not: y = 1 if u = 0, else 0",
-        parameters: &[
-            Parameter::required(
-                "operator",
-                Takes::Choice(&["and", "or", "not", "xor", "nand", "nor"]),
-                "how they are joined; `xor` is true of an odd number of truths",
-            ),
-            Parameter::optional("inputs", Takes::Count, "number of inputs; `not` has one", "2"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let operator = OPERATORS[p.choice("operator")].1;
-        if operator == Not && !p.has("inputs") {
-            return Self::new(Not);
-        }
-        let inputs = crate::library::maths::n_inputs(p);
-        if operator == Not && inputs != 1 {
-            p.fault("inputs", format!("`not` with {inputs} inputs"), "it has one; leave `inputs` out");
-        }
-        Self { operator, inputs }
-    }
-}
-
 impl Block for Logic {
     type Work<R: Real> = ();
+
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        if self.operator == Not && !p.has("inputs") {
+            self.inputs = 1;
+        }
+        if self.operator == Not && self.inputs != 1 {
+            p.fault("inputs", format!("`not` with {} inputs", self.inputs), "it has one; leave `inputs` out");
+        }
+    }
 
     fn ports(&self) -> Ports {
         Ports::numbered(self.inputs)
@@ -125,6 +99,6 @@ impl Block for Logic {
     }
 
     fn label(&self) -> String {
-        OPERATORS.iter().find(|o| o.1 == self.operator).map_or_else(String::new, |o| o.0.to_uppercase())
+        self.operator.word().to_uppercase()
     }
 }

@@ -13,10 +13,10 @@ pub use compare::{Compare, Comparison};
 pub use counter::Counter;
 pub use edge::{Direction, Edge};
 pub use interval_test::IntervalTest;
-pub use latch::Latch;
+pub use latch::{Dominant, Latch};
 pub use logic::{Logic, Operator};
 
 use super::{Item, item};
 
-pub(super) const SHELF: &[Item] =
+pub(super) const BLOCKS: &[Item] =
     &[item::<Compare>(), item::<IntervalTest>(), item::<Logic>(), item::<Edge>(), item::<Latch>(), item::<Counter>()];

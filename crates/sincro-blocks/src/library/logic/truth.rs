@@ -1,4 +1,5 @@
-//! True and false as numbers: 1 and 0; any number but zero is true. A NaN is neither, and whatever depends on it is NaN.
+//! True and false as numbers: 1 and 0; any number but zero is true. A NaN is neither, and whatever depends on it is
+//! NaN.
 
 use sincro_math::Real;
 
@@ -25,7 +26,7 @@ pub(crate) fn number(is_true: bool) -> f64 {
     if is_true { 1.0 } else { 0.0 }
 }
 
-/// Whether a number is true.
+/// Returns true for any number but zero.
 #[inline(always)]
 pub(crate) fn is_true<R: Real>(x: R) -> bool {
     x.lane(0) != 0.0

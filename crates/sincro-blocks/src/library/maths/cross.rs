@@ -1,35 +1,10 @@
-//! `y = u1 × u2`.
+//! Block `cross`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
-
-/// Cross product of two vectors of three components.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cross;
-
-impl Cross {
-    /// The one there is.
-    #[must_use]
-    pub fn new() -> Self {
-        Self
-    }
-}
-
-impl Described for Cross {
-    const KIND: &'static Kind = &Kind {
-        name: "cross",
-        group: Group::Maths,
-        summary: "Cross product of two vectors of three components.",
-        equation: "y = u1 × u2",
-        parameters: &[],
-    };
-
-    fn read(_: &mut Reader<'_>) -> Self {
-        Self
-    }
+declare_block! {
+    /// Cross product of two vectors of three components.
+    pub struct Cross("cross", Maths): "y = u1 × u2";
 }
 
 impl Block for Cross {

@@ -1,35 +1,10 @@
-//! `y = Σ u1ᵢ·u2ᵢ`.
+//! Block `dot`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
-
-/// Dot product of two vectors.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Dot;
-
-impl Dot {
-    /// The one there is.
-    #[must_use]
-    pub fn new() -> Self {
-        Self
-    }
-}
-
-impl Described for Dot {
-    const KIND: &'static Kind = &Kind {
-        name: "dot",
-        group: Group::Maths,
-        summary: "Dot product of two vectors.",
-        equation: "y = Σ u1ᵢ·u2ᵢ",
-        parameters: &[],
-    };
-
-    fn read(_: &mut Reader<'_>) -> Self {
-        Self
-    }
+declare_block! {
+    /// Dot product of two vectors.
+    pub struct Dot("dot", Maths): "y = Σ u1ᵢ·u2ᵢ";
 }
 
 impl Block for Dot {

@@ -2,20 +2,18 @@
 //!
 //! The language is that of [`sincro_math::expression`]. It has no brackets for components, so:
 //!
-//! - **one** formula is evaluated component by component: its inputs are scalars or vectors of one width, and so is `y`;
-//! - **several** formulas give one component of `y` each, and every input is a scalar: a wire takes it from a vector, as in
-//!   `"arm.q[0]"` to `"torque.q1"`.
+//! - **one** formula is evaluated component by component: its inputs are scalars or vectors of one width, and so is
+//!   `y`;
+//! - **several** formulas give one component of `y` each, and every input is a scalar: a wire takes it from a vector,
+//!   as in `"arm.q[0]"` to `"torque.q1"`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 use sincro_math::expression::{Expression as Parsed, is_name};
-
-use crate::block::{At, Block, Pace, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::{Formula, Reader};
 
 /// Computes formulas of its inputs, the diagram's parameters and the time `t` `[s]`.
 ///
-/// Where a formula jumps with time, as `if(t < 1, 0, 1)` does, no integrator is told: a `step` into an input does that.
+/// A formula that jumps with time, such as `if(t < 1, 0, 1)`, is no time event for the integrator: a `step` into an
+/// input is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     /// Names of the inputs.
@@ -100,7 +98,7 @@ fn declared(p: &mut Reader<'_>) -> Vec<String> {
 impl Described for Expression {
     const KIND: &'static Kind = &Kind {
         name: "expression",
-        group: Group::Maths,
+        category: Category::Maths,
         summary: "Computes formulas of its inputs, the diagram's parameters and the time.",
         equation: "y = expression(u1, u2, …, t), component by component; or yᵢ = expressionsᵢ of scalar inputs",
         parameters: &[
@@ -161,8 +159,8 @@ impl Block for Expression {
         }
     }
 
-    fn pace(&self) -> Pace {
-        if self.uses_time() { Pace::Timed } else { Pace::Any }
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        if self.uses_time() { SampleTimeKind::TimeVarying } else { SampleTimeKind::Inherited }
     }
 
     fn work<R: Real>(&self) -> Work<R> {

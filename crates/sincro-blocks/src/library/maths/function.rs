@@ -1,56 +1,40 @@
-//! `y = exp(u)`, `ln(u)` …: growth and rounding.
+//! Block `function`.
 
-use sincro_math::{Real, elementary};
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// A function of one argument, component by component.
-///
-/// Where it has no value (the logarithm of a negative number, the reciprocal of zero) the run stops and names this block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Function {
-    /// Which one.
-    pub function: Unary,
+declare_block! {
+    /// A function of one argument, component by component: exponential, logarithm, rounding and others.
+    ///
+    /// Where it has no value (the logarithm of a negative number,
+    /// the reciprocal of zero) the run stops and names this block.
+    pub struct Function("function", Maths): "y = function(u)" {
+        /// Function; `round` takes halves away from zero.
+        pub function: Unary as Choice,
+    }
 }
 
-/// A function of one argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Unary {
-    Exp,
-    Ln,
-    Log10,
-    Sinh,
-    Cosh,
-    Tanh,
-    Square,
-    Reciprocal,
-    /// The next whole number below.
-    Floor,
-    /// The next whole number above.
-    Ceil,
-    /// The nearest whole number; halves away from zero.
-    Round,
+choice! {
+    /// A function of one argument.
+    #[allow(missing_docs)]
+    pub enum Unary {
+        Exp = "exp",
+        Ln = "ln",
+        Log10 = "log10",
+        Sinh = "sinh",
+        Cosh = "cosh",
+        Tanh = "tanh",
+        Square = "square",
+        Reciprocal = "reciprocal",
+        /// The next whole number below.
+        Floor = "floor",
+        /// The next whole number above.
+        Ceil = "ceil",
+        /// The nearest whole number; halves away from zero.
+        Round = "round",
+    }
 }
 
 use Unary::{Ceil, Cosh, Exp, Floor, Ln, Log10, Reciprocal, Round, Sinh, Square, Tanh};
-
-/// By name.
-const FUNCTIONS: [(&str, Unary); 11] = [
-    ("exp", Exp),
-    ("ln", Ln),
-    ("log10", Log10),
-    ("sinh", Sinh),
-    ("cosh", Cosh),
-    ("tanh", Tanh),
-    ("square", Square),
-    ("reciprocal", Reciprocal),
-    ("floor", Floor),
-    ("ceil", Ceil),
-    ("round", Round),
-];
 
 impl Function {
     /// The block of a function.
@@ -60,46 +44,8 @@ impl Function {
     }
 }
 
-impl Described for Function {
-    const KIND: &'static Kind = &Kind {
-        name: "function",
-        group: Group::Maths,
-        summary: "A function of one argument, component by component: exponential, logarithm, rounding and others.",
-        equation: "y = function(u)",
-        parameters: &[Parameter::required(
-            "function",
-            Takes::Choice(&[
-                "exp",
-                "ln",
-                "log10",
-                "sinh",
-                "cosh",
-                "tanh",
-                "square",
-                "reciprocal",
-                "floor",
-                "ceil",
-                "round",
-            ]),
-            "which function; `round` takes halves away from zero",
-        )],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self::new(FUNCTIONS[p.choice("function")].1)
-    }
-}
-
 impl Block for Function {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(inputs.to_vec())
-    }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {
@@ -124,7 +70,7 @@ impl Block for Function {
             Square => "u²".into(),
             Reciprocal => "1/u".into(),
             Exp => "eᵘ".into(),
-            _ => FUNCTIONS.iter().find(|f| f.1 == self.function).map_or_else(String::new, |f| f.0.to_owned()),
+            _ => self.function.word().into(),
         }
     }
 }

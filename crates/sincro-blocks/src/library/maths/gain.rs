@@ -1,16 +1,13 @@
-//! `y = gain·u`.
+//! Block `gain`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// Multiplies by a constant.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Gain {
-    /// One factor for all components, or one for each.
-    pub gain: Vec<f64>,
+declare_block! {
+    /// Multiplies by a constant.
+    pub struct Gain("gain", Maths): "y = gain·u" {
+        /// Factor, one for all components or one for each.
+        pub gain: Vec<f64> as PerComponent,
+    }
 }
 
 impl Gain {
@@ -21,30 +18,8 @@ impl Gain {
     }
 }
 
-impl Described for Gain {
-    const KIND: &'static Kind = &Kind {
-        name: "gain",
-        group: Group::Maths,
-        summary: "Multiplies by a constant.",
-        equation: "y = gain·u",
-        parameters: &[Parameter::required("gain", Takes::Numbers, "factor, one for all components or one for each")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { gain: p.numbers("gain") }
-    }
-}
-
 impl Block for Gain {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("gain", self.gain.len())])?])
-    }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
@@ -53,6 +28,6 @@ impl Block for Gain {
     }
 
     fn label(&self) -> String {
-        crate::library::short_list(&self.gain)
+        short_list(&self.gain)
     }
 }

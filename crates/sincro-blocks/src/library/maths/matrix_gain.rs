@@ -1,16 +1,13 @@
-//! `y = K·u`.
+//! Block `matrix-gain`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::{Matrix, Reader};
-
-/// Multiplies a vector by a constant matrix.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MatrixGain {
-    /// A row for every output component, a column for every input component.
-    pub gain: Matrix,
+declare_block! {
+    /// Multiplies a vector by a constant matrix.
+    pub struct MatrixGain("matrix-gain", Maths): "y = K·u, K = gain" {
+        /// Matrix: a row for every component of y, a column for every component of u; one list of numbers is one row.
+        pub gain: Matrix as Rows,
+    }
 }
 
 impl MatrixGain {
@@ -25,33 +22,13 @@ impl MatrixGain {
     }
 }
 
-impl Described for MatrixGain {
-    const KIND: &'static Kind = &Kind {
-        name: "matrix-gain",
-        group: Group::Maths,
-        summary: "Multiplies a vector by a constant matrix.",
-        equation: "y = K·u, K = gain",
-        parameters: &[Parameter::required(
-            "gain",
-            Takes::Matrix,
-            "matrix: a row for every component of y, a column for every component of u; one list of numbers is one row",
-        )],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let gain = p.matrix("gain");
-        if gain.columns == 0 {
-            p.fault("gain", "the matrix is empty", "give rows such as [[1, 0], [0, 1]]");
-        }
-        Self { gain }
-    }
-}
-
 impl Block for MatrixGain {
     type Work<R: Real> = ();
 
-    fn ports(&self) -> Ports {
-        Ports::single()
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        if self.gain.columns == 0 {
+            p.fault("gain", "the matrix is empty", "give rows such as [[1, 0], [0, 1]]");
+        }
     }
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {

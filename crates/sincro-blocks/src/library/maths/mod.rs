@@ -9,8 +9,6 @@ mod extremum;
 mod function;
 mod gain;
 mod matrix_gain;
-mod max;
-mod min;
 mod norm;
 mod polynomial;
 mod power;
@@ -25,11 +23,10 @@ pub use cross::Cross;
 pub use divide::Divide;
 pub use dot::Dot;
 pub use expression::Expression;
+pub use extremum::{Extremum, Max, Min};
 pub use function::{Function, Unary};
 pub use gain::Gain;
 pub use matrix_gain::MatrixGain;
-pub use max::Max;
-pub use min::Min;
 pub use norm::Norm;
 pub use polynomial::Polynomial;
 pub use power::Power;
@@ -40,9 +37,8 @@ pub use sum::Sum;
 pub use trigonometry::{Trigonometric, Trigonometry};
 
 use super::{Item, item};
-use crate::reader::Reader;
 
-pub(super) const SHELF: &[Item] = &[
+pub(super) const BLOCKS: &[Item] = &[
     item::<Sum>(),
     item::<Gain>(),
     item::<MatrixGain>(),
@@ -62,12 +58,3 @@ pub(super) const SHELF: &[Item] = &[
     item::<Function>(),
     item::<Expression>(),
 ];
-
-/// The parameter `inputs` of a block with as many of them as one likes: at least 1.
-pub(crate) fn n_inputs(p: &mut Reader<'_>) -> usize {
-    let n = p.count("inputs");
-    if !(1..=1000).contains(&n) {
-        p.fault("inputs", format!("`inputs` is {n}"), "it must be from 1 to 1000");
-    }
-    n.clamp(1, 1000)
-}

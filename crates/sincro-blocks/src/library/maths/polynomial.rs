@@ -1,16 +1,13 @@
-//! `y = c₀·uⁿ + c₁·uⁿ⁻¹ + … + cₙ`.
+//! Block `polynomial`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// A polynomial of its input, component by component.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Polynomial {
-    /// Coefficients, that of the highest power first.
-    pub coefficients: Vec<f64>,
+declare_block! {
+    /// A polynomial of its input, component by component.
+    pub struct Polynomial("polynomial", Maths): "y = c₀·uⁿ + c₁·uⁿ⁻¹ + … + cₙ, c = coefficients" {
+        /// Coefficients, that of the highest power first.
+        pub coefficients: Vec<f64> as List,
+    }
 }
 
 impl Polynomial {
@@ -21,34 +18,8 @@ impl Polynomial {
     }
 }
 
-impl Described for Polynomial {
-    const KIND: &'static Kind = &Kind {
-        name: "polynomial",
-        group: Group::Maths,
-        summary: "A polynomial of its input, component by component.",
-        equation: "y = c₀·uⁿ + c₁·uⁿ⁻¹ + … + cₙ, c = coefficients",
-        parameters: &[Parameter::required(
-            "coefficients",
-            Takes::Numbers,
-            "coefficients, that of the highest power first",
-        )],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { coefficients: p.numbers("coefficients") }
-    }
-}
-
 impl Block for Polynomial {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(inputs.to_vec())
-    }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {

@@ -1,19 +1,15 @@
-//! `y = u^exponent` or `y = u1^u2`.
+//! Block `power`.
 
-use sincro_math::{Real, elementary};
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short_list;
-use crate::reader::Reader;
-
-/// Raises to a power, component by component.
-///
-/// A negative number to a power that is not whole is not a number: the run stops and names this block.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Power {
-    /// The exponent, one for all components or one for each; none if it is the second input.
-    pub exponent: Option<Vec<f64>>,
+declare_block! {
+    /// Raises to a power, component by component.
+    ///
+    /// A negative number to a power that is not whole is not a number: the run stops and names this block.
+    pub struct Power("power", Maths): "y = u^exponent; without the parameter y = u1^u2" {
+        /// Exponent; if it is left out, there is a second input in its place.
+        pub exponent: Option<Vec<f64>> as Given<PerComponent> = "none",
+    }
 }
 
 impl Power {
@@ -24,35 +20,11 @@ impl Power {
     }
 }
 
-impl Described for Power {
-    const KIND: &'static Kind = &Kind {
-        name: "power",
-        group: Group::Maths,
-        summary: "Raises to a power, component by component.",
-        equation: "y = u^exponent; without the parameter y = u1^u2",
-        parameters: &[Parameter::optional(
-            "exponent",
-            Takes::Numbers,
-            "exponent; if it is left out, there is a second input in its place",
-            "none",
-        )],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { exponent: p.has("exponent").then(|| p.numbers("exponent")) }
-    }
-}
-
 impl Block for Power {
     type Work<R: Real> = ();
 
     fn ports(&self) -> Ports {
         Ports::numbered(if self.exponent.is_some() { 1 } else { 2 })
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        let own = self.exponent.as_ref().map_or(1, Vec::len);
-        Ok(vec![elementwise(inputs, &[("exponent", own)])?])
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

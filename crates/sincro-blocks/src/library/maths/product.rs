@@ -1,17 +1,13 @@
-//! `y = u1·u2·…`.
+//! Block `product`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use super::n_inputs;
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// Multiplies its inputs component by component; a single input: all its components with each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Product {
-    /// Number of inputs.
-    pub inputs: usize,
+declare_block! {
+    /// Multiplies its inputs component by component, or all components of a single input.
+    pub struct Product("product", Maths): "y = u1·u2·…; of one input y = Π uᵢ" {
+        /// Number of inputs.
+        pub inputs: usize as InputCount = "2",
+    }
 }
 
 impl Product {
@@ -19,20 +15,6 @@ impl Product {
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }
-    }
-}
-
-impl Described for Product {
-    const KIND: &'static Kind = &Kind {
-        name: "product",
-        group: Group::Maths,
-        summary: "Multiplies its inputs component by component, or all components of a single input.",
-        equation: "y = u1·u2·…; of one input y = Π uᵢ",
-        parameters: &[Parameter::optional("inputs", Takes::Count, "number of inputs", "2")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self::new(n_inputs(p))
     }
 }
 

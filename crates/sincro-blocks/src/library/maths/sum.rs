@@ -1,17 +1,16 @@
 //! `y = ±u1 ±u2 …`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::{Unit, common};
-
-/// Adds and subtracts its inputs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sum {
-    /// A sign for every input: whether it is subtracted.
-    pub minus: Vec<bool>,
+declare_block! {
+    /// Adds and subtracts its inputs.
+    pub struct Sum("sum", Maths): "y = ±u1 ±u2 …" {
+        /// A `+` or `-` for every input.
+        pub signs: String as Text = "++",
+    } with {
+        /// True for the inputs that are subtracted.
+        minus: Vec<bool> = Vec::new(),
+    }
 }
 
 impl Sum {
@@ -22,54 +21,34 @@ impl Sum {
     /// If there is anything but `+` and `-`, or nothing.
     #[must_use]
     pub fn new(signs: &str) -> Self {
-        let minus: Vec<bool> = signs
-            .chars()
-            .map(|c| {
-                if c == '+' {
-                    false
-                } else {
-                    assert!(c == '-');
-                    true
-                }
-            })
-            .collect();
-        assert!(!minus.is_empty(), "a sum has at least one sign");
-        Self { minus }
+        assert!(are_signs(signs), "a sum has a `+` or `-` for every input");
+        Self { signs: signs.into(), minus: minus(signs) }
     }
 }
 
-impl Described for Sum {
-    const KIND: &'static Kind = &Kind {
-        name: "sum",
-        group: Group::Maths,
-        summary: "Adds and subtracts its inputs.",
-        equation: "y = ±u1 ±u2 …",
-        parameters: &[Parameter::optional("signs", Takes::Text, "a `+` or `-` for every input", "++")],
-    };
+fn are_signs(signs: &str) -> bool {
+    !signs.is_empty() && signs.chars().all(|c| matches!(c, '+' | '-'))
+}
 
-    fn read(p: &mut Reader<'_>) -> Self {
-        let signs = p.text("signs");
-        if signs.is_empty() || !signs.chars().all(|c| matches!(c, '+' | '-')) {
-            p.fault("signs", format!("`{signs}` are no signs"), "write a `+` or `-` for every input, such as \"+-\"");
-            return Self::new("+");
-        }
-        Self::new(&signs)
-    }
+fn minus(signs: &str) -> Vec<bool> {
+    signs.chars().map(|c| c == '-').collect()
 }
 
 impl Block for Sum {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
+
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        if !are_signs(&self.signs) {
+            let message = format!("`{}` are no signs", self.signs);
+            p.fault("signs", message, "write a `+` or `-` for every input, such as \"+-\"");
+            self.signs = "+".into();
+        }
+        self.minus = minus(&self.signs);
+    }
 
     fn ports(&self) -> Ports {
         Ports::numbered(self.minus.len())
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(vec![common(inputs)?])
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

@@ -1,39 +1,34 @@
-//! `y = sin(u)`, `cos(u)` …, angles in radians.
+//! Block `trigonometry`.
 
-use sincro_math::{Real, elementary};
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// A function of angles, component by component.
-///
-/// `atan2` has two inputs, first that along y; the others have one. Outside [−1, 1] `asin` and `acos` are not numbers: the run stops and names
-/// this block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Trigonometry {
-    /// Which one.
-    pub function: Trigonometric,
+declare_block! {
+    /// A function of angles in radians, component by component.
+    ///
+    /// `atan2` has two inputs, first that along y; the others have one.
+    /// Outside [−1, 1] `asin` and `acos` are not numbers: the run stops and names this block.
+    pub struct Trigonometry("trigonometry", Maths):
+        "y = function(u); y = atan2(u1, u2), the angle in [−π, π] of the point x = u2, y = u1" {
+        /// Function; angles in `[rad]`.
+        pub function: Trigonometric as Choice,
+    }
 }
 
-/// A trigonometric function or the inverse of one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Trigonometric {
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Atan2,
+choice! {
+    /// A trigonometric function or the inverse of one.
+    #[allow(missing_docs)]
+    pub enum Trigonometric {
+        Sin = "sin",
+        Cos = "cos",
+        Tan = "tan",
+        Asin = "asin",
+        Acos = "acos",
+        Atan = "atan",
+        Atan2 = "atan2",
+    }
 }
 
 use Trigonometric::{Acos, Asin, Atan, Atan2, Cos, Sin, Tan};
-
-/// By name.
-const FUNCTIONS: [(&str, Trigonometric); 7] =
-    [("sin", Sin), ("cos", Cos), ("tan", Tan), ("asin", Asin), ("acos", Acos), ("atan", Atan), ("atan2", Atan2)];
 
 impl Trigonometry {
     /// The block of a function.
@@ -43,33 +38,11 @@ impl Trigonometry {
     }
 }
 
-impl Described for Trigonometry {
-    const KIND: &'static Kind = &Kind {
-        name: "trigonometry",
-        group: Group::Maths,
-        summary: "A function of angles in radians, component by component.",
-        equation: "y = function(u); y = atan2(u1, u2), the angle in [−π, π] of the point x = u2, y = u1",
-        parameters: &[Parameter::required(
-            "function",
-            Takes::Choice(&["sin", "cos", "tan", "asin", "acos", "atan", "atan2"]),
-            "which function; angles in [rad]",
-        )],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self::new(FUNCTIONS[p.choice("function")].1)
-    }
-}
-
 impl Block for Trigonometry {
     type Work<R: Real> = ();
 
     fn ports(&self) -> Ports {
         Ports::numbered(if self.function == Atan2 { 2 } else { 1 })
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
@@ -88,6 +61,6 @@ impl Block for Trigonometry {
     }
 
     fn label(&self) -> String {
-        FUNCTIONS.iter().find(|f| f.1 == self.function).map_or_else(String::new, |f| f.0.to_owned())
+        self.function.word().into()
     }
 }

@@ -1,43 +1,14 @@
-//! `y = diag(u)`.
+//! Block `diagonal`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
-
-/// A square matrix, row by row, with a vector on its diagonal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Diagonal;
-
-impl Diagonal {
-    /// The one there is.
-    #[must_use]
-    pub fn new() -> Self {
-        Self
-    }
-}
-
-impl Described for Diagonal {
-    const KIND: &'static Kind = &Kind {
-        name: "diagonal",
-        group: Group::Matrices,
-        summary: "A square matrix with its input on the diagonal, row by row.",
-        equation: "y = diag(u), n × n",
-        parameters: &[],
-    };
-
-    fn read(_: &mut Reader<'_>) -> Self {
-        Self
-    }
+declare_block! {
+    /// A square matrix with its input on the diagonal, row by row.
+    pub struct Diagonal("diagonal", Matrices): "y = diag(u), n × n";
 }
 
 impl Block for Diagonal {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         Ok(vec![inputs[0].map(|n| n * n)])

@@ -1,17 +1,15 @@
-//! `y = [U1 U2 …]`: matrices side by side.
+//! Block `matrix-concatenate`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::maths::n_inputs;
-use crate::reader::Reader;
-
-/// Puts matrices with the same number of rows side by side. (One below the other is a `mux`: they are held row by row.)
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MatrixConcatenate {
-    rows: usize,
-    n_inputs: usize,
+declare_block! {
+    /// Puts matrices of as many rows side by side; one below the other is a `mux`.
+    pub struct MatrixConcatenate("matrix-concatenate", Matrices): "y = [U1 U2 …], all row by row" {
+        /// Number of rows of every input and of y.
+        rows: usize as PositiveCount,
+        /// Number of inputs.
+        pub inputs: usize as InputCount = "2",
+    }
 }
 
 impl MatrixConcatenate {
@@ -21,26 +19,9 @@ impl MatrixConcatenate {
     ///
     /// If either is 0.
     #[must_use]
-    pub fn new(rows: usize, n_inputs: usize) -> Self {
-        assert!(rows > 0 && n_inputs > 0, "nothing to put side by side");
-        Self { rows, n_inputs }
-    }
-}
-
-impl Described for MatrixConcatenate {
-    const KIND: &'static Kind = &Kind {
-        name: "matrix-concatenate",
-        group: Group::Matrices,
-        summary: "Puts matrices of as many rows side by side; one below the other is a `mux`.",
-        equation: "y = [U1 U2 …], all row by row",
-        parameters: &[
-            Parameter::required("rows", Takes::Count, "number of rows of every input and of y"),
-            Parameter::optional("inputs", Takes::Count, "number of inputs", "2"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { rows: p.positive_count("rows"), n_inputs: n_inputs(p) }
+    pub fn new(rows: usize, inputs: usize) -> Self {
+        assert!(rows > 0 && inputs > 0, "nothing to put side by side");
+        Self { rows, inputs }
     }
 }
 
@@ -48,7 +29,7 @@ impl Block for MatrixConcatenate {
     type Work<R: Real> = ();
 
     fn ports(&self) -> Ports {
-        Ports::numbered(self.n_inputs)
+        Ports::numbered(self.inputs)
     }
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
@@ -66,7 +47,7 @@ impl Block for MatrixConcatenate {
         let columns = y.len() / self.rows;
         for (i, row) in y.chunks_exact_mut(columns).enumerate() {
             let mut rest = row;
-            for k in 0..self.n_inputs {
+            for k in 0..self.inputs {
                 let width = at.node.inputs[k] / self.rows;
                 let (piece, after) = rest.split_at_mut(width);
                 piece.copy_from_slice(&at.input(k)[i * width..(i + 1) * width]);

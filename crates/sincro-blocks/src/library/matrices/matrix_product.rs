@@ -1,20 +1,19 @@
-//! `y = A·B` or `y = Aᵀ·B` of two signals.
+//! Block `matrix-product`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// Multiplies two matrices, or a matrix and a vector, that come as signals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MatrixProduct {
-    rows: usize,
-    transposed: bool,
+declare_block! {
+    /// Multiplies a matrix by a matrix or vector, both signals; a matrix comes row by row.
+    pub struct MatrixProduct("matrix-product", Matrices): "y = A·B, or y = Aᵀ·B if transposed" {
+        /// Number of rows of A as it comes.
+        rows: usize as PositiveCount,
+        /// Takes Aᵀ in place of A.
+        transposed: bool as Flag = "false",
+    }
 }
 
 impl MatrixProduct {
-    /// Of a first factor with so many rows as it comes, taken transposed or not.
+    /// With so many rows of the first factor as it comes, taken transposed or not.
     ///
     /// # Panics
     ///
@@ -26,26 +25,9 @@ impl MatrixProduct {
     }
 
     /// Rows and columns of the first factor as it is multiplied.
-    fn shape(self, width: usize) -> (usize, usize) {
+    fn shape(&self, width: usize) -> (usize, usize) {
         let columns = width / self.rows;
         if self.transposed { (columns, self.rows) } else { (self.rows, columns) }
-    }
-}
-
-impl Described for MatrixProduct {
-    const KIND: &'static Kind = &Kind {
-        name: "matrix-product",
-        group: Group::Matrices,
-        summary: "Multiplies a matrix by a matrix or vector, both signals; a matrix comes row by row.",
-        equation: "y = A·B, or y = Aᵀ·B if transposed",
-        parameters: &[
-            Parameter::required("rows", Takes::Count, "number of rows of A as it comes"),
-            Parameter::optional("transposed", Takes::Flag, "whether Aᵀ is taken in place of A", "false"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { rows: p.positive_count("rows"), transposed: p.flag("transposed") }
     }
 }
 

@@ -1,20 +1,18 @@
-//! `y` is dragged along by `u` with a play of `width`.
+//! Block `backlash`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// Play, as between the teeth of two wheels: the output moves only when the input has reached an end of the gap. It works at
-/// samples, or at every tick if it has no sample time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Backlash {
-    /// Whole width of the gap, one for all components or one for each.
-    pub width: Vec<f64>,
-    /// Output before the start.
-    pub initial: Vec<f64>,
+declare_block! {
+    /// Play, as between the teeth of two wheels.
+    ///
+    /// The output moves only when the input has reached an end of the gap. It works at samples, or at every tick if
+    /// it has no sample time.
+    pub struct Backlash("backlash", Nonlinear): "y[k] = min(max(y[k−1], u − width/2), u + width/2)" {
+        /// Whole width of the gap.
+        pub width: Vec<f64> as Positives,
+        /// y before the start.
+        pub initial: Vec<f64> as PerComponent = "0",
+    }
 }
 
 impl Backlash {
@@ -32,50 +30,14 @@ impl Backlash {
     }
 }
 
-impl Described for Backlash {
-    const KIND: &'static Kind = &Kind {
-        name: "backlash",
-        group: Group::Nonlinear,
-        summary: "Play, as between the teeth of two wheels.",
-        equation: "y[k] = min(max(y[k−1], u − width/2), u + width/2)",
-        parameters: &[
-            Parameter::required("width", Takes::Numbers, "whole width of the gap"),
-            Parameter::optional("initial", Takes::Numbers, "y before the start", "0"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { width: p.positives("width"), initial: p.numbers("initial") }
-    }
-}
-
 impl Block for Backlash {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("width", self.width.len()), ("initial", self.initial.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
-    }
-
-    fn memory(&self, node: &Node) -> Memory {
-        Memory { continuous: 0, discrete: node.n_out() }
-    }
+    const KEEPS_UNIT: bool = true;
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
+    const STATE: Memory = Memory::DISCRETE;
 
     fn start<R: Real>(&self, _: &Node, _: &mut [R], memory: &mut [R]) {
-        for (i, x) in memory.iter_mut().enumerate() {
-            *x = R::splat(of(&self.initial, i));
-        }
+        fill(memory, &self.initial);
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
@@ -91,6 +53,6 @@ impl Block for Backlash {
     }
 
     fn label(&self) -> String {
-        crate::library::short_list(&self.width)
+        short_list(&self.width)
     }
 }

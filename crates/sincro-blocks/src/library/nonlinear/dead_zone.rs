@@ -1,20 +1,15 @@
-//! `y = 0` between `lower` and `upper`; beyond, what is left over.
+//! Block `dead-zone`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short_list;
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// Lets small values pass as zero and shortens the others.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DeadZone {
-    /// Where the zone begins, one for all components or one for each.
-    pub lower: Vec<f64>,
-    /// Where it ends, one for all components or one for each.
-    pub upper: Vec<f64>,
+declare_block! {
+    /// Lets small values pass as zero and shortens the others.
+    pub struct DeadZone("dead-zone", Nonlinear): "y = u − min(max(u, lower), upper)" {
+        /// Lower end of the zone.
+        pub lower: Vec<f64> as Limits,
+        /// Upper end of the zone.
+        pub upper: Vec<f64> as Limits,
+    }
 }
 
 impl DeadZone {
@@ -25,38 +20,12 @@ impl DeadZone {
     }
 }
 
-impl Described for DeadZone {
-    const KIND: &'static Kind = &Kind {
-        name: "dead-zone",
-        group: Group::Nonlinear,
-        summary: "Lets small values pass as zero and shortens the others.",
-        equation: "y = u − min(max(u, lower), upper)",
-        parameters: &[
-            Parameter::required("lower", Takes::Numbers, "where the zone begins"),
-            Parameter::required("upper", Takes::Numbers, "where the zone ends"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let (lower, upper) = (p.limits("lower"), p.limits("upper"));
-        super::check_limits(p, &lower, &upper);
-        Self { lower, upper }
-    }
-}
-
 impl Block for DeadZone {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("lower", self.lower.len()), ("upper", self.upper.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        super::check_limits(p, &self.lower, &self.upper);
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

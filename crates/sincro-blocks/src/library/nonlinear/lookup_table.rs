@@ -1,13 +1,10 @@
 //! `y = values(u)`, interpolated between breakpoints.
 
-use sincro_math::Real;
+use super::table::{Extrapolation, check_breakpoints, interval};
+use crate::library::prelude::*;
 
-use super::table::{EXTRAPOLATION, Extrapolation, check_breakpoints, interval};
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// A function given by points, written down or from two columns of a CSV file. A vector is taken component by component.
+/// A function given by points, written down or from two columns of a CSV file. A vector is taken component by
+/// component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LookupTable {
     /// Arguments of the points, rising.
@@ -20,15 +17,16 @@ pub struct LookupTable {
     pub extrapolation: Extrapolation,
 }
 
-/// What is taken between the points of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The line between both.
-    Linear,
-    /// The value of the nearer one; in the middle, of the upper one.
-    Nearest,
-    /// The value of the lower one.
-    Previous,
+choice! {
+    /// Values between the points of a table.
+    pub enum Interpolation {
+        /// The line between both.
+        Linear = "linear",
+        /// The value of the nearer one; in the middle, of the upper one.
+        Nearest = "nearest",
+        /// The value of the lower one.
+        Previous = "previous",
+    }
 }
 
 impl LookupTable {
@@ -68,7 +66,7 @@ impl LookupTable {
 impl Described for LookupTable {
     const KIND: &'static Kind = &Kind {
         name: "lookup-table",
-        group: Group::Nonlinear,
+        category: Category::Nonlinear,
         summary: "A function given by points, written down or from a CSV file.",
         equation: "y = values(u), interpolated between breakpoints",
         parameters: &[
@@ -79,21 +77,22 @@ impl Described for LookupTable {
             Parameter::optional("values_column", Takes::Text, "column of the file with the values", "y"),
             Parameter::optional(
                 "interpolation",
-                Takes::Choice(&["linear", "nearest", "previous"]),
-                "what is taken between the points",
+                Takes::Choice(Interpolation::WORDS),
+                "value between the points",
                 "linear",
             ),
-            EXTRAPOLATION,
+            Parameter::optional(
+                "extrapolation",
+                Takes::Choice(Extrapolation::WORDS),
+                "beyond the ends: the value there, or the line through the last two points",
+                "hold",
+            ),
         ],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
-        let interpolation = match p.choice("interpolation") {
-            0 => Interpolation::Linear,
-            1 => Interpolation::Nearest,
-            _ => Interpolation::Previous,
-        };
-        let extrapolation = Extrapolation::read(p);
+        let interpolation = <Choice as ParameterType<Interpolation>>::read(p, "interpolation");
+        let extrapolation = <Choice as ParameterType<Extrapolation>>::read(p, "extrapolation");
         let (breakpoints, values) = points(p);
         if breakpoints.len() != values.len() {
             let message = format!("there are {} breakpoints and {} values", breakpoints.len(), values.len());
@@ -121,14 +120,6 @@ fn points(p: &mut Reader<'_>) -> (Vec<f64>, Vec<f64>) {
 
 impl Block for LookupTable {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {

@@ -1,23 +1,22 @@
-//! `y = values(u1, u2)`, interpolated between breakpoints of both.
+//! Block `lookup-table-2d`.
 
-use sincro_math::Real;
+use super::table::{Extrapolation, check_breakpoints, interval};
+use crate::library::prelude::*;
 
-use super::table::{EXTRAPOLATION, Extrapolation, check_breakpoints, interval};
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::{Matrix, Reader};
-
-/// A function of two arguments given by points on a grid, bilinear in between. Vectors are taken component by component.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LookupTable2d {
-    /// Values of `u1` for the rows, rising.
-    pub row_breakpoints: Vec<f64>,
-    /// Values of `u2` for the columns, rising.
-    pub column_breakpoints: Vec<f64>,
-    /// Values at the points of the grid.
-    pub values: Matrix,
-    /// Beyond the ends.
-    pub extrapolation: Extrapolation,
+declare_block! {
+    /// A function of two arguments given by points on a grid, bilinear in between.
+    ///
+    /// Vectors are taken component by component.
+    pub struct LookupTable2d("lookup-table-2d", Nonlinear): "y = values(u1, u2), bilinear between breakpoints" {
+        /// Values of u1 for the rows, rising.
+        pub row_breakpoints: Vec<f64> as List,
+        /// Values of u2 for the columns, rising.
+        pub column_breakpoints: Vec<f64> as List,
+        /// A row for every row breakpoint.
+        pub values: Matrix as Rows,
+        /// Beyond the ends: the value there, or the line through the last two points.
+        pub extrapolation: Extrapolation as Choice = "hold",
+    }
 }
 
 impl LookupTable2d {
@@ -34,51 +33,28 @@ impl LookupTable2d {
     }
 }
 
-impl Described for LookupTable2d {
-    const KIND: &'static Kind = &Kind {
-        name: "lookup-table-2d",
-        group: Group::Nonlinear,
-        summary: "A function of two arguments given by points on a grid, bilinear in between.",
-        equation: "y = values(u1, u2), bilinear between breakpoints",
-        parameters: &[
-            Parameter::required("row_breakpoints", Takes::Numbers, "values of u1 for the rows, rising"),
-            Parameter::required("column_breakpoints", Takes::Numbers, "values of u2 for the columns, rising"),
-            Parameter::required("values", Takes::Matrix, "a row for every row breakpoint"),
-            EXTRAPOLATION,
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let (rows, columns) = (p.numbers("row_breakpoints"), p.numbers("column_breakpoints"));
-        let values = p.matrix("values");
-        let extrapolation = Extrapolation::read(p);
-        let rises =
-            check_breakpoints(p, "row_breakpoints", &rows) & check_breakpoints(p, "column_breakpoints", &columns);
-        if (values.rows, values.columns) != (rows.len(), columns.len()) {
-            let (r, c) = (values.rows, values.columns);
-            let message = format!("`values` is {r} × {c}, the breakpoints are {} × {}", rows.len(), columns.len());
-            p.fault(
-                "values",
-                message,
-                "give a row for every row breakpoint, with a number for every column breakpoint",
-            );
-        } else if rises {
-            return Self { row_breakpoints: rows, column_breakpoints: columns, values, extrapolation };
-        }
-        let values = Matrix::from_rows(&[&[0.0]]);
-        Self { row_breakpoints: vec![0.0], column_breakpoints: vec![0.0], values, extrapolation }
-    }
-}
-
 impl Block for LookupTable2d {
     type Work<R: Real> = ();
 
-    fn ports(&self) -> Ports {
-        Ports::numbered(2)
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        let (rows, columns) = (&self.row_breakpoints, &self.column_breakpoints);
+        let is_rising =
+            check_breakpoints(p, "row_breakpoints", rows) & check_breakpoints(p, "column_breakpoints", columns);
+        let (r, c) = (self.values.rows, self.values.columns);
+        if (r, c) != (rows.len(), columns.len()) {
+            let message = format!("`values` is {r} × {c}, the breakpoints are {} × {}", rows.len(), columns.len());
+            let help = "give a row for every row breakpoint, with a number for every column breakpoint";
+            p.fault("values", message, help);
+        } else if is_rising {
+            return;
+        }
+        // what stands for a table with errors
+        self.values = Matrix::from_rows(&[&[0.0]]);
+        (self.row_breakpoints, self.column_breakpoints) = (vec![0.0], vec![0.0]);
     }
 
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
+    fn ports(&self) -> Ports {
+        Ports::numbered(2)
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

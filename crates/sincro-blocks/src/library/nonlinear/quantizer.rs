@@ -1,17 +1,15 @@
-//! `y = interval·round(u/interval)`.
+//! Block `quantizer`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// Rounds to whole multiples of an interval, halves away from zero, zero itself never negative: an encoder, a converter. Its derivative is zero.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Quantizer {
-    /// Distance of two values, one for all components or one for each.
-    pub interval: Vec<f64>,
+declare_block! {
+    /// Rounds to whole multiples of an interval, as an encoder or a converter does.
+    ///
+    /// A zero is never negative. The derivative is zero.
+    pub struct Quantizer("quantizer", Nonlinear): "y = interval·round(u/interval), halves away from zero" {
+        /// Distance of two values of y.
+        pub interval: Vec<f64> as Positives,
+    }
 }
 
 impl Quantizer {
@@ -22,34 +20,9 @@ impl Quantizer {
     }
 }
 
-impl Described for Quantizer {
-    const KIND: &'static Kind = &Kind {
-        name: "quantizer",
-        group: Group::Nonlinear,
-        summary: "Rounds to whole multiples of an interval, as an encoder or a converter does.",
-        equation: "y = interval·round(u/interval), halves away from zero",
-        parameters: &[Parameter::required("interval", Takes::Numbers, "distance of two values of y")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { interval: p.positives("interval") }
-    }
-}
-
 impl Block for Quantizer {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("interval", self.interval.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
-    }
+    const KEEPS_UNIT: bool = true;
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
@@ -60,6 +33,6 @@ impl Block for Quantizer {
     }
 
     fn label(&self) -> String {
-        crate::library::short_list(&self.interval)
+        short_list(&self.interval)
     }
 }

@@ -1,28 +1,24 @@
 //! `y = u`, between `lower` and `upper`; counts, if asked to, the ticks at which it limits.
 //!
-//! What a controller asks for and an actuator cannot give is lost in silence otherwise: a negative squared speed of a rotor, a
-//! torque beyond the motor's.
+//! Otherwise a command that no actuator can follow is lost in silence: a negative squared speed of a rotor, a torque
+//! beyond the motor's.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Ports, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::{short, short_list};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// Limits a signal.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Saturation {
-    /// Least value, one for all components or one for each.
-    pub lower: Vec<f64>,
-    /// Greatest value, one for all components or one for each.
-    pub upper: Vec<f64>,
-    /// Whether it counts the ticks at which it limits and says so at the end of the run.
-    pub report: bool,
+declare_block! {
+    /// Limits a signal.
+    pub struct Saturation("saturation", Nonlinear): "y = min(max(u, lower), upper)" {
+        /// Least y.
+        pub lower: Vec<f64> as Limits = "-inf",
+        /// Greatest y.
+        pub upper: Vec<f64> as Limits = "inf",
+        /// Counts the ticks at which it limits and reports them at the end of the run.
+        pub report: bool as Flag = "false",
+    }
 }
 
-/// Its memory for each limit, if it counts: how many ticks, the first, its time, the component that was limited then, and what was asked for.
+/// Its memory for each limit, if it counts: how many ticks, the first, its time, the component that was limited then,
+/// and what was asked for.
 const COUNT: usize = 0;
 const FIRST: usize = 1;
 const COMPONENT: usize = 2;
@@ -59,44 +55,12 @@ fn one_side(node: &Node, memory: &[f64], word: &str, bound: &[f64]) -> Option<St
     })
 }
 
-impl Described for Saturation {
-    const KIND: &'static Kind = &Kind {
-        name: "saturation",
-        group: Group::Nonlinear,
-        summary: "Limits a signal.",
-        equation: "y = min(max(u, lower), upper)",
-        parameters: &[
-            Parameter::optional("lower", Takes::Numbers, "least y", "-inf"),
-            Parameter::optional("upper", Takes::Numbers, "greatest y", "inf"),
-            Parameter::optional(
-                "report",
-                Takes::Flag,
-                "whether the ticks at which it limits are counted and told at the end of the run",
-                "false",
-            ),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let (lower, upper) = (p.limits("lower"), p.limits("upper"));
-        super::check_limits(p, &lower, &upper);
-        Self { lower, upper, report: p.flag("report") }
-    }
-}
-
 impl Block for Saturation {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
 
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[("lower", self.lower.len()), ("upper", self.upper.len())])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        super::check_limits(p, &self.lower, &self.upper);
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

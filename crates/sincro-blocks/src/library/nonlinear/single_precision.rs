@@ -1,45 +1,18 @@
-//! `y` = the nearest number of single precision.
+//! Block `single-precision`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// Rounds to single precision (IEEE 754 binary32, ties to even): what is left of a number on a wire that carries four bytes, such as that of V-REP's
-/// legacy remote API. Its derivative is one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SinglePrecision;
-
-impl Described for SinglePrecision {
-    const KIND: &'static Kind = &Kind {
-        name: "single-precision",
-        group: Group::Nonlinear,
-        summary: "Rounds to single precision, as a wire or a program does that has four bytes for a number.",
-        equation: "y = the number of binary32 nearest to u, ties to even",
-        parameters: &[],
-    };
-
-    fn read(_: &mut Reader<'_>) -> Self {
-        Self
-    }
+declare_block! {
+    /// Rounds to single precision, as a wire or a program does that has four bytes for a number.
+    ///
+    /// IEEE 754 binary32, ties to even: as V-REP's legacy remote API carries numbers. The derivative is taken as one.
+    pub struct SinglePrecision("single-precision", Nonlinear):
+        "y = the number of binary32 nearest to u, ties to even";
 }
 
 impl Block for SinglePrecision {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
-    }
+    const KEEPS_UNIT: bool = true;
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {

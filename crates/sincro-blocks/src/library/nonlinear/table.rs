@@ -1,32 +1,19 @@
-//! What the lookup tables have in common: finding the interval, reading breakpoints.
+//! Interpolation between breakpoints, for the lookup tables.
 
-use crate::kind::{Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
-/// What is taken beyond the ends of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extrapolation {
-    /// The value at the end.
-    Hold,
-    /// The line through the last two points.
-    Linear,
-}
-
-pub(super) const EXTRAPOLATION: Parameter = Parameter::optional(
-    "extrapolation",
-    Takes::Choice(&["hold", "linear"]),
-    "beyond the ends: the value there, or the line through the last two points",
-    "hold",
-);
-
-impl Extrapolation {
-    pub(super) fn read(p: &mut Reader<'_>) -> Self {
-        if p.choice("extrapolation") == 0 { Self::Hold } else { Self::Linear }
+choice! {
+    /// Values beyond the ends of a table.
+    pub enum Extrapolation {
+        /// The value at the end.
+        Hold = "hold",
+        /// The line through the last two points.
+        Linear = "linear",
     }
 }
 
-/// Number of the interval that holds `x`, and how far into it `x` is: 0 at its beginning, 1 at its end, with the rate of that by
-/// `x`. Beyond the ends it is below 0 or above 1, or held there. A NaN stays one.
+/// Number of the interval that holds `x`, and how far into it `x` is: 0 at its beginning, 1 at its end, with the rate
+/// of that by `x`. Beyond the ends it is below 0 or above 1, or held there. A NaN stays one.
 pub(super) fn interval(breakpoints: &[f64], x: f64, extrapolation: Extrapolation) -> (usize, f64, f64) {
     let n = breakpoints.len();
     if n == 1 {

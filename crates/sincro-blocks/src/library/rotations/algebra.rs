@@ -4,8 +4,7 @@
 
 use sincro_math::{Real, elementary};
 
-use crate::kind::{Parameter, Takes};
-use crate::reader::Reader;
+use crate::choice;
 
 /// w, x, y, z.
 pub(super) type Quaternion<R> = [R; 4];
@@ -14,38 +13,20 @@ pub(super) type Matrix3<R> = [R; 9];
 /// In the order in which the convention names them.
 pub(super) type Angles<R> = [R; 3];
 
-/// What three Euler angles `[rad]` mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Convention {
-    /// Roll, pitch, yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll), as of aircraft and vehicles.
-    #[default]
-    Zyx,
-    /// α, β, γ: R = Rx(α)·Ry(β)·Rz(γ), as in V-REP and CoppeliaSim.
-    Xyz,
-}
-
-pub(super) const CONVENTION: Parameter = Parameter::optional(
-    "convention",
-    Takes::Choice(&["zyx", "xyz"]),
-    "zyx: roll, pitch, yaw with R = Rz(yaw)·Ry(pitch)·Rx(roll); xyz: α, β, γ with R = Rx(α)·Ry(β)·Rz(γ), as in V-REP",
-    "zyx",
-);
-
-impl Convention {
-    pub(super) fn read(p: &mut Reader<'_>) -> Self {
-        if p.choice("convention") == 0 { Self::Zyx } else { Self::Xyz }
-    }
-
-    /// As it stands in a drawing.
-    pub(super) fn text(self) -> &'static str {
-        match self {
-            Self::Zyx => "zyx",
-            Self::Xyz => "xyz",
-        }
+choice! {
+    /// Meaning of three Euler angles `[rad]`.
+    #[derive(Default)]
+    pub enum Convention {
+        /// Roll, pitch, yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll), as of aircraft and vehicles.
+        #[default]
+        Zyx = "zyx",
+        /// α, β, γ: R = Rx(α)·Ry(β)·Rz(γ), as in V-REP and CoppeliaSim.
+        Xyz = "xyz",
     }
 }
 
-/// Below this cosine of the middle angle the outer two turn about one axis: the leftmost in the product (yaw; α) is then taken as zero.
+/// Below this cosine of the middle angle the outer two turn about one axis: the leftmost in the product (yaw; α) is
+/// then taken as zero.
 const LOCKED: f64 = 1e-12;
 
 /// p ⊗ q: first q, then p.
@@ -84,7 +65,8 @@ pub(super) fn quaternion_to_matrix<R: Real>(q: Quaternion<R>) -> Matrix3<R> {
     ]
 }
 
-/// The quaternion with w ≥ 0; the component of largest size is found first, so that nothing small is divided by (Shepperd's method).
+/// The quaternion with w ≥ 0; the component of largest size is found first, so that nothing small is divided by
+/// (Shepperd's method).
 #[inline(always)]
 pub(super) fn matrix_to_quaternion<R: Real>(m: Matrix3<R>) -> Quaternion<R> {
     let one = R::one();
@@ -104,6 +86,14 @@ pub(super) fn matrix_to_quaternion<R: Real>(m: Matrix3<R>) -> Quaternion<R> {
     };
     let zero = R::zero();
     q.map(|x| q[0].if_less(zero, -x, x))
+}
+
+/// Rate of a quaternion from the angular velocity `[rad/s]`, in the axes of the body or of the world.
+#[inline(always)]
+pub(super) fn quaternion_rate<R: Real>(q: Quaternion<R>, w: [R; 3], is_world: bool) -> Quaternion<R> {
+    let half = R::splat(0.5);
+    let w = [R::zero(), half * w[0], half * w[1], half * w[2]];
+    if is_world { product(w, q) } else { product(q, w) }
 }
 
 /// The quaternion of Euler angles.
@@ -150,8 +140,8 @@ pub(super) fn euler_to_matrix<R: Real>(angles: Angles<R>, convention: Convention
 
 /// Euler angles of a rotation matrix: the middle one in [−π/2, π/2], the others in [−π, π].
 ///
-/// The leftmost rotation is found first and taken away, the rightmost read from what is left: so both fit together however near the
-/// middle angle is to ±π/2.
+/// The leftmost rotation is found first and taken away, the rightmost read from what is left: so both fit together
+/// however near the middle angle is to ±π/2.
 #[inline(always)]
 pub(super) fn matrix_to_euler<R: Real>(m: Matrix3<R>, convention: Convention) -> Angles<R> {
     let angle = |y: R, x: R| y.map2(x, elementary::atan2);
@@ -179,8 +169,8 @@ pub(super) fn rotate<R: Real>(m: Matrix3<R>, v: [R; 3], inverse: bool) -> [R; 3]
     core::array::from_fn(|i| entry(i, 0) * v[0] + entry(i, 1) * v[1] + entry(i, 2) * v[2])
 }
 
-/// Rates of the Euler angles of a body that turns with the angular velocity `w` in its own axes; not finite where the middle angle is
-/// ±π/2.
+/// Rates of the Euler angles of a body that turns with the angular velocity `w` in its own axes; not finite where the
+/// middle angle is ±π/2.
 #[inline(always)]
 pub(super) fn euler_rates<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> Angles<R> {
     let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
@@ -212,8 +202,8 @@ pub(super) fn angular_velocity<R: Real>(angles: Angles<R>, rates: [R; 3], conven
     }
 }
 
-/// E⁻ᵀ(angles)·w: the torque about the axes of the body with the power of torques `w` about the angles' axes; not finite where the
-/// middle angle is ±π/2.
+/// E⁻ᵀ(angles)·w: the torque about the axes of the body with the power of torques `w` about the angles' axes; not
+/// finite where the middle angle is ±π/2.
 #[inline(always)]
 pub(super) fn body_torque<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> [R; 3] {
     let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);

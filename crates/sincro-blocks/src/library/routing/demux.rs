@@ -1,11 +1,6 @@
 //! `y1 = u[0 … n₁−1]`, `y2` = the next `n₂` …
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
+use crate::library::prelude::*;
 
 /// Cuts a vector into pieces. A wire from `a[0:2]` takes one piece without a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,22 +20,14 @@ impl Demux {
 impl Described for Demux {
     const KIND: &'static Kind = &Kind {
         name: "demux",
-        group: Group::Routing,
+        category: Category::Routing,
         summary: "Cuts a vector into pieces.",
         equation: "[y1, y2, …] = u",
         parameters: &[Parameter::required("sizes", Takes::Numbers, "number of components of y1, y2 …")],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
-        let sizes = p.numbers("sizes");
-        if let Some(bad) = sizes.iter().find(|x| x.fract() != 0.0 || !(1.0..1e6).contains(*x)) {
-            p.fault(
-                "sizes",
-                format!("`sizes` has {}", crate::library::short(*bad)),
-                "sizes are whole numbers from 1 on",
-            );
-        }
-        Self { sizes: sizes.iter().map(|x| *x as usize).collect() }
+        Self { sizes: p.counts("sizes", 1) }
     }
 }
 

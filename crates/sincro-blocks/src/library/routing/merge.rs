@@ -1,21 +1,18 @@
-//! `y` = the input that changed last.
+//! Block `merge`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::maths::n_inputs;
-use crate::reader::Reader;
-use crate::unit::{Unit, common};
-
-/// Passes on the input that changed last: several senders of one command, of which only one is active at a time.
-///
-/// An input has changed if any of its components is another number than in the sample before. If several have changed, the one with the
-/// lowest number counts; before anything changes it is `u1`. It looks at ticks only.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Merge {
-    /// Number of inputs.
-    pub inputs: usize,
+declare_block! {
+    /// Passes on the input that changed last.
+    ///
+    /// For several senders of one command, of which only one is active at a time. An input has changed if any of its
+    /// components is another number than in the sample before. If several have changed, the one with the lowest number
+    /// counts; before anything changes it is `u1`. It looks at ticks only.
+    pub struct Merge("merge", Routing):
+        "y[k] = u_j[k], j the lowest number with u_j[k] ≠ u_j[k−1], else j as before; at first 1" {
+        /// Number of inputs.
+        pub inputs: usize as InputCount = "2",
+    }
 }
 
 impl Merge {
@@ -25,8 +22,8 @@ impl Merge {
         Self { inputs }
     }
 
-    /// The number of the input to pass on, from 0. The memory holds it, then 1 from the second sample on, then all inputs of
-    /// the sample before.
+    /// The number of the input to pass on, from 0. The memory holds it, then 1 from the second sample on, then all
+    /// inputs of the sample before.
     fn active<R: Real>(&self, at: &At<'_, R>) -> usize {
         let before = at.memory[0].lane(0) as usize;
         if at.memory[1].lane(0) == 0.0 {
@@ -41,22 +38,10 @@ impl Merge {
     }
 }
 
-impl Described for Merge {
-    const KIND: &'static Kind = &Kind {
-        name: "merge",
-        group: Group::Routing,
-        summary: "Passes on the input that changed last.",
-        equation: "y[k] = u_j[k], j the lowest number with u_j[k] ≠ u_j[k−1], else j as before; at first 1",
-        parameters: &[Parameter::optional("inputs", Takes::Count, "number of inputs", "2")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self::new(n_inputs(p))
-    }
-}
-
 impl Block for Merge {
     type Work<R: Real> = ();
+    const KEEPS_UNIT: bool = true;
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
     fn ports(&self) -> Ports {
         Ports::numbered(self.inputs)
@@ -69,14 +54,6 @@ impl Block for Merge {
             Some(other) => Err(format!("all inputs have the same size, not {} and {other}", first.unwrap_or(other))),
             None => Ok(vec![first.copied()]),
         }
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(vec![common(inputs)?])
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Sampled
     }
 
     fn memory(&self, node: &Node) -> Memory {

@@ -1,21 +1,17 @@
-//! `y = u1` if `selector` is 1, `u2` if it is 2 …
+//! Block `multiport-switch`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::maths::n_inputs;
-use crate::reader::Reader;
-use crate::unit::{Unit, common};
-
-/// Passes on the input of a number, counted from 1 as the inputs are.
-///
-/// A `selector` that is none of 1 … n, or not whole, makes NaN: the run stops and names this block. Nothing is rounded or limited:
-/// `function = "round"` and a saturation do that where it is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MultiportSwitch {
-    /// How many inputs it chooses from.
-    pub inputs: usize,
+declare_block! {
+    /// Passes on the input of a number, from 1 on; any other number stops the run and names the block.
+    ///
+    /// A `selector` that is none of 1 … n, or not
+    /// whole, makes NaN: the run stops and names this block. Nothing is rounded or limited: `function = "round"` and a
+    /// saturation do that where it is meant.
+    pub struct MultiportSwitch("multiport-switch", Routing): "y = u1 if selector = 1, u2 if selector = 2, …" {
+        /// Number of inputs to choose from.
+        pub inputs: usize as InputCount = "2",
+    }
 }
 
 impl MultiportSwitch {
@@ -23,20 +19,6 @@ impl MultiportSwitch {
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }
-    }
-}
-
-impl Described for MultiportSwitch {
-    const KIND: &'static Kind = &Kind {
-        name: "multiport-switch",
-        group: Group::Routing,
-        summary: "Passes on the input of a number, from 1 on; any other number stops the run and names the block.",
-        equation: "y = u1 if selector = 1, u2 if selector = 2, …",
-        parameters: &[Parameter::optional("inputs", Takes::Count, "number of inputs to choose from", "2")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self::new(n_inputs(p))
     }
 }
 

@@ -1,17 +1,13 @@
-//! `y = [u1, u2, …]`.
+//! Block `mux`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::{Unit, common};
-
-/// Puts its inputs one after the other into one vector. A wire from `[a, b]` does the same.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mux {
-    /// Number of inputs.
-    pub inputs: usize,
+declare_block! {
+    /// Puts its inputs one after the other into one vector, as a wire from `[a, b]` does.
+    pub struct Mux("mux", Routing): "y = [u1, u2, …]" {
+        /// Number of inputs.
+        pub inputs: usize as PortCount = "2",
+    }
 }
 
 impl Mux {
@@ -19,24 +15,6 @@ impl Mux {
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }
-    }
-}
-
-impl Described for Mux {
-    const KIND: &'static Kind = &Kind {
-        name: "mux",
-        group: Group::Routing,
-        summary: "Puts its inputs one after the other into one vector, as a wire from `[a, b]` does.",
-        equation: "y = [u1, u2, …]",
-        parameters: &[Parameter::optional("inputs", Takes::Count, "number of inputs", "2")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let inputs = p.port_count("inputs");
-        if inputs == 0 {
-            p.fault("inputs", "`inputs` is 0", "it must be 1 or more");
-        }
-        Self::new(inputs.clamp(1, 1000))
     }
 }
 

@@ -1,16 +1,11 @@
 //! `y = [u[i₀], u[i₁], …]`.
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-use crate::unit::Unit;
+use crate::library::prelude::*;
 
 /// Takes components of a vector, in any order and as often as wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selector {
-    /// Which components, counted from 0.
+    /// Components, counted from 0.
     pub indices: Vec<usize>,
 }
 
@@ -25,27 +20,20 @@ impl Selector {
 impl Described for Selector {
     const KIND: &'static Kind = &Kind {
         name: "selector",
-        group: Group::Routing,
+        category: Category::Routing,
         summary: "Takes components of a vector, in any order and as often as wanted.",
         equation: "y = [u[i₀], u[i₁], …], i = indices",
-        parameters: &[Parameter::required("indices", Takes::Numbers, "which components, counted from 0")],
+        parameters: &[Parameter::required("indices", Takes::Numbers, "components, counted from 0")],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {
-        let indices = p.numbers("indices");
-        if let Some(bad) = indices.iter().find(|x| x.fract() != 0.0 || !(0.0..1e6).contains(*x)) {
-            p.fault("indices", format!("`indices` has {bad}"), "indices are whole numbers from 0 on");
-        }
-        Self { indices: indices.iter().map(|x| *x as usize).collect() }
+        Self { indices: p.counts("indices", 0) }
     }
 }
 
 impl Block for Selector {
     type Work<R: Real> = ();
-
-    fn ports(&self) -> Ports {
-        Ports::single()
-    }
+    const KEEPS_UNIT: bool = true;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         let beyond = |width: usize| self.indices.iter().find(|index| **index >= width);
@@ -55,10 +43,6 @@ impl Block for Selector {
             }
             None => Ok(vec![Some(self.indices.len())]),
         }
-    }
-
-    fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        Ok(inputs.to_vec())
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

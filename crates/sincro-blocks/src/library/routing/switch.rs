@@ -1,22 +1,30 @@
-//! `y = on` where `control > threshold`, else `off`.
+//! Block `switch`.
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Ports, elementwise};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
 use crate::library::logic::Comparison;
 use crate::library::logic::truth::choose;
-use crate::library::short;
-use crate::reader::Reader;
-use crate::unit::{Unit, common};
+use crate::library::prelude::*;
 
-/// Passes on one of two inputs, component by component, as a third one says. A `control` that is NaN makes NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Switch {
-    /// How `control` is compared with the threshold.
-    pub criterion: Comparison,
-    /// What `control` is compared with.
-    pub threshold: f64,
+declare_block! {
+    /// Passes on one of two inputs, as a third one says.
+    ///
+    /// It works component by component. A `control` that is NaN makes NaN.
+    pub struct Switch("switch", Routing): "y = on if control criterion threshold, else off" {
+        /// Comparison of `control` with the threshold.
+        pub criterion: Comparison as Criterion = ">",
+        /// Threshold of `control`.
+        pub threshold: f64 as Number = "0",
+    }
+}
+
+/// The comparisons that a switch knows.
+enum Criterion {}
+
+impl ParameterType<Comparison> for Criterion {
+    const TAKES: Takes = Takes::Choice(&[">", ">=", "!="]);
+
+    fn read(reader: &mut Reader<'_>, key: &str) -> Comparison {
+        [Comparison::Greater, Comparison::GreaterEqual, Comparison::NotEqual][reader.choice(key)]
+    }
 }
 
 impl Switch {
@@ -27,38 +35,11 @@ impl Switch {
     }
 }
 
-impl Described for Switch {
-    const KIND: &'static Kind = &Kind {
-        name: "switch",
-        group: Group::Routing,
-        summary: "Passes on one of two inputs, as a third one says.",
-        equation: "y = on if control criterion threshold, else off",
-        parameters: &[
-            Parameter::optional(
-                "criterion",
-                Takes::Choice(&[">", ">=", "!="]),
-                "how `control` is compared with the threshold",
-                ">",
-            ),
-            Parameter::optional("threshold", Takes::Number, "what `control` is compared with", "0"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let criteria = [Comparison::Greater, Comparison::GreaterEqual, Comparison::NotEqual];
-        Self { criterion: criteria[p.choice("criterion")], threshold: p.number("threshold") }
-    }
-}
-
 impl Block for Switch {
     type Work<R: Real> = ();
 
     fn ports(&self) -> Ports {
         Ports::new(&["on", "control", "off"], &["y"])
-    }
-
-    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(inputs, &[])?])
     }
 
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {

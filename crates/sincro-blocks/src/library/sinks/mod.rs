@@ -8,4 +8,4 @@ pub use terminator::Terminator;
 
 use super::{Item, item};
 
-pub(super) const SHELF: &[Item] = &[item::<Scope>(), item::<Terminator>()];
+pub(super) const BLOCKS: &[Item] = &[item::<Scope>(), item::<Terminator>()];

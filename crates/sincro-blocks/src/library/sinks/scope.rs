@@ -1,10 +1,6 @@
 //! Names signals that are to be recorded and plotted together.
 
-use sincro_math::Real;
-
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
+use crate::library::prelude::*;
 
 /// A plot of its inputs over time. It computes nothing: whoever runs the diagram records what its wires come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,7 +22,7 @@ impl Scope {
 impl Described for Scope {
     const KIND: &'static Kind = &Kind {
         name: "scope",
-        group: Group::Sinks,
+        category: Category::Sinks,
         summary: "A plot of its inputs over time.",
         equation: "u1, u2, … are recorded and plotted",
         parameters: &[
@@ -39,7 +35,7 @@ impl Described for Scope {
     fn read(p: &mut Reader<'_>) -> Self {
         let title = p.text("title");
         if !p.has("names") {
-            return Self { title, ..Self::new(crate::library::maths::n_inputs(p)) };
+            return Self { title, ..Self::new(p.input_count("inputs")) };
         }
         if p.has("inputs") {
             p.fault("inputs", "`inputs` is given beside `names`", "there are as many inputs as names: leave it out");

@@ -1,35 +1,10 @@
 //! Takes a signal that nobody needs.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
-
-/// Takes a signal that nobody needs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Terminator;
-
-impl Terminator {
-    /// The one there is.
-    #[must_use]
-    pub fn new() -> Self {
-        Self
-    }
-}
-
-impl Described for Terminator {
-    const KIND: &'static Kind = &Kind {
-        name: "terminator",
-        group: Group::Sinks,
-        summary: "Takes a signal that nobody needs.",
-        equation: "u goes nowhere",
-        parameters: &[],
-    };
-
-    fn read(_: &mut Reader<'_>) -> Self {
-        Self
-    }
+declare_block! {
+    /// Takes a signal that nobody needs.
+    pub struct Terminator("terminator", Sinks): "u goes nowhere";
 }
 
 impl Block for Terminator {

@@ -1,25 +1,24 @@
-//! `y = amplitude·sin(2π·c(t))`, `dc/dt` rising linearly from `from_hz` to `to_hz`.
+//! Block `chirp`.
 
 use core::f64::consts::TAU;
 
-use sincro_math::{Real, elementary};
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, SAME_INSTANT};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short;
-use crate::reader::Reader;
-
-/// A sine whose frequency sweeps linearly over a duration and then stays; the phase is continuous throughout.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chirp {
-    /// Frequency at time 0 `[Hz]`.
-    pub from_hz: f64,
-    /// Frequency at the end of the sweep and afterwards `[Hz]`.
-    pub to_hz: f64,
-    /// How long the sweep takes `[s]`.
-    pub duration: f64,
-    /// Amplitude.
-    pub amplitude: f64,
+declare_block! {
+    /// A sine whose frequency sweeps linearly from one value to another and then stays.
+    ///
+    /// The phase is continuous throughout.
+    pub struct Chirp("chirp", Sources):
+        "y = amplitude·sin(2π·c), c = from_hz·t + (to_hz − from_hz)·t²/(2·duration) for t ≤ duration, c = (from_hz + to_hz)/2·duration + to_hz·(t − duration) afterwards" {
+        /// Frequency at t = 0 `[Hz]`.
+        pub from_hz: f64 as Number,
+        /// Frequency from t = duration on `[Hz]`.
+        pub to_hz: f64 as Number,
+        /// Length of the sweep `[s]`.
+        pub duration: f64 as Positive,
+        /// Amplitude of y.
+        pub amplitude: f64 as Number = "1",
+    }
 }
 
 impl Chirp {
@@ -37,31 +36,6 @@ impl Chirp {
     }
 }
 
-impl Described for Chirp {
-    const KIND: &'static Kind = &Kind {
-        name: "chirp",
-        group: Group::Sources,
-        summary: "A sine whose frequency sweeps linearly from one value to another and then stays.",
-        equation: "y = amplitude·sin(2π·c), c = from_hz·t + (to_hz − from_hz)·t²/(2·duration) for t ≤ duration, \
-                   c = (from_hz + to_hz)/2·duration + to_hz·(t − duration) afterwards",
-        parameters: &[
-            Parameter::required("from_hz", Takes::Number, "frequency at t = 0 [Hz]"),
-            Parameter::required("to_hz", Takes::Number, "frequency from t = duration on [Hz]"),
-            Parameter::required("duration", Takes::Positive, "length of the sweep [s]"),
-            Parameter::optional("amplitude", Takes::Number, "amplitude of y", "1"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self {
-            from_hz: p.number("from_hz"),
-            to_hz: p.number("to_hz"),
-            duration: p.positive("duration"),
-            amplitude: p.number("amplitude"),
-        }
-    }
-}
-
 impl Block for Chirp {
     type Work<R: Real> = ();
 
@@ -69,17 +43,13 @@ impl Block for Chirp {
         Ports::source()
     }
 
-    fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![Some(1)])
-    }
-
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (sine, _) = elementary::sin_cos(TAU * self.cycles(at.t));
         y[0] = R::splat(self.amplitude * sine);
     }
 
-    /// Where the sweep ends, the second derivative jumps.
-    fn next_corner(&self, t: f64) -> f64 {
+    /// End of the sweep: the second derivative jumps.
+    fn next_time_event(&self, t: f64) -> f64 {
         if t + SAME_INSTANT < self.duration { self.duration } else { f64::INFINITY }
     }
 

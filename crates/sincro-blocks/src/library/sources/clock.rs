@@ -1,36 +1,10 @@
-//! `y = t`.
+//! Block `clock`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports};
-use crate::kind::{Described, Group, Kind};
-use crate::reader::Reader;
-use crate::unit::Unit;
-
-/// The time since the start `[s]`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Clock;
-
-impl Clock {
-    /// The one there is.
-    #[must_use]
-    pub fn new() -> Self {
-        Self
-    }
-}
-
-impl Described for Clock {
-    const KIND: &'static Kind = &Kind {
-        name: "clock",
-        group: Group::Sources,
-        summary: "The time since the start in seconds.",
-        equation: "y = t",
-        parameters: &[],
-    };
-
-    fn read(_: &mut Reader<'_>) -> Self {
-        Self
-    }
+declare_block! {
+    /// The time since the start in seconds.
+    pub struct Clock("clock", Sources): "y = t";
 }
 
 impl Block for Clock {
@@ -38,10 +12,6 @@ impl Block for Clock {
 
     fn ports(&self) -> Ports {
         Ports::source()
-    }
-
-    fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![Some(1)])
     }
 
     fn units(&self, _: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {

@@ -1,16 +1,13 @@
-//! `y = value`.
+//! Block `constant`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Pace, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::Reader;
-
-/// The same at all times.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Constant {
-    /// One number a component.
-    pub value: Vec<f64>,
+declare_block! {
+    /// The same at all times.
+    pub struct Constant("constant", Sources): "y = value" {
+        /// Constant output.
+        pub value: Vec<f64> as PerComponent,
+    }
 }
 
 impl Constant {
@@ -21,33 +18,12 @@ impl Constant {
     }
 }
 
-impl Described for Constant {
-    const KIND: &'static Kind = &Kind {
-        name: "constant",
-        group: Group::Sources,
-        summary: "The same at all times.",
-        equation: "y = value",
-        parameters: &[Parameter::required("value", Takes::Numbers, "what it gives")],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { value: p.numbers("value") }
-    }
-}
-
 impl Block for Constant {
     type Work<R: Real> = ();
+    const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Constant;
 
     fn ports(&self) -> Ports {
         Ports::source()
-    }
-
-    fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![Some(self.value.len())])
-    }
-
-    fn pace(&self) -> Pace {
-        Pace::Constant
     }
 
     fn output<R: Real>(&self, _: &At<'_, R>, (): &mut (), y: &mut [R]) {
@@ -57,6 +33,6 @@ impl Block for Constant {
     }
 
     fn label(&self) -> String {
-        crate::library::short_list(&self.value)
+        short_list(&self.value)
     }
 }

@@ -1,23 +1,19 @@
-//! `y = from + slope·(min(t, until) − start)` for `t ≥ start`, else `from`.
+//! Block `ramp`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, SAME_INSTANT, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short_list;
-use crate::reader::Reader;
-
-/// Rises at a constant rate between two instants.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ramp {
-    /// When it begins to rise `[s]`.
-    pub start: f64,
-    /// Rate, in units of the output per second; one for all components or one for each.
-    pub slope: Vec<f64>,
-    /// Value before the start; one for all components or one for each.
-    pub from: Vec<f64>,
-    /// When it ceases to rise `[s]`; may be infinite.
-    pub until: f64,
+declare_block! {
+    /// Rises at a constant rate between two instants.
+    pub struct Ramp("ramp", Sources): "y = from + slope·(min(t, until) − start) for t ≥ start, else from" {
+        /// Rate of y `[1/s]`.
+        pub slope: Vec<f64> as PerComponent = "1",
+        /// Start of the rise `[s]`.
+        pub start: f64 as Number = "0",
+        /// y before the start.
+        pub from: Vec<f64> as PerComponent = "0",
+        /// End of the rise `[s]`.
+        pub until: f64 as Limit = "inf",
+    }
 }
 
 impl Ramp {
@@ -28,43 +24,17 @@ impl Ramp {
     }
 }
 
-impl Described for Ramp {
-    const KIND: &'static Kind = &Kind {
-        name: "ramp",
-        group: Group::Sources,
-        summary: "Rises at a constant rate between two instants.",
-        equation: "y = from + slope·(min(t, until) − start) for t ≥ start, else from",
-        parameters: &[
-            Parameter::optional("slope", Takes::Numbers, "rate of y [1/s]", "1"),
-            Parameter::optional("start", Takes::Number, "when it begins to rise [s]", "0"),
-            Parameter::optional("from", Takes::Numbers, "y before the start", "0"),
-            Parameter::optional("until", Takes::Number, "when it ceases to rise [s]", "inf"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        let new = Self {
-            start: p.number("start"),
-            slope: p.numbers("slope"),
-            from: p.numbers("from"),
-            until: p.limit("until"),
-        };
-        if new.until < new.start {
-            p.fault("until", format!("`until` {} is before `start` {}", new.until, new.start), "exchange them");
-        }
-        new
-    }
-}
-
 impl Block for Ramp {
     type Work<R: Real> = ();
 
-    fn ports(&self) -> Ports {
-        Ports::source()
+    fn validate(&mut self, p: &mut Reader<'_>) {
+        if self.until < self.start {
+            p.fault("until", format!("`until` {} is before `start` {}", self.until, self.start), "exchange them");
+        }
     }
 
-    fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(&[], &[("slope", self.slope.len()), ("from", self.from.len())])?])
+    fn ports(&self) -> Ports {
+        Ports::source()
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
@@ -74,8 +44,8 @@ impl Block for Ramp {
         }
     }
 
-    fn next_corner(&self, t: f64) -> f64 {
-        let later = [self.start, self.until].into_iter().filter(|corner| t + SAME_INSTANT < *corner);
+    fn next_time_event(&self, t: f64) -> f64 {
+        let later = [self.start, self.until].into_iter().filter(|event| t + SAME_INSTANT < *event);
         later.fold(f64::INFINITY, f64::min)
     }
 

@@ -1,8 +1,8 @@
 //! Random numbers by their place: no state, so that any sample can be computed again on its own.
 //!
-//! The numbers are those of SplitMix64 (Steele, Lea, Flood 2014), whose n-th number is a hash of `seed + (n+1)·γ`. The key of a
-//! component is number `component` of the generator seeded with the block's seed; the numbers of that component are those of
-//! the generator seeded with its key.
+//! The numbers are those of SplitMix64 (Steele, Lea, Flood 2014), whose n-th number is a hash of `seed + (n+1)·γ`. The
+//! key of a component is number `component` of the generator seeded with the block's seed; the numbers of that
+//! component are those of the generator seeded with its key.
 
 /// 2⁶⁴ over the golden ratio, made odd.
 const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -23,7 +23,8 @@ pub fn uniform(seed: u64, n: u64) -> f64 {
     ((splitmix(seed, n) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
 }
 
-/// A number of the normal distribution with mean 0 and variance 1 (Box–Muller), from the uniform numbers `2n` and `2n+1`.
+/// A number of the normal distribution with mean 0 and variance 1 (Box–Muller), from the uniform numbers `2n` and
+/// `2n+1`.
 #[must_use]
 pub fn gaussian(seed: u64, n: u64) -> f64 {
     let (u1, u2) = (uniform(seed, n.wrapping_mul(2)), uniform(seed, n.wrapping_mul(2).wrapping_add(1)));

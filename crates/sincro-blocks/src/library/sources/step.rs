@@ -1,21 +1,17 @@
-//! `y = from` before `time`, `to` from it on.
+//! Block `step`.
 
-use sincro_math::Real;
+use crate::library::prelude::*;
 
-use crate::block::{At, Block, Ports, SAME_INSTANT, elementwise, of};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::library::short_list;
-use crate::reader::Reader;
-
-/// Jumps from one value to another.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Step {
-    /// Instant of the jump `[s]`.
-    pub time: f64,
-    /// Value before, one for all components or one for each.
-    pub from: Vec<f64>,
-    /// Value from the jump on, one for all components or one for each.
-    pub to: Vec<f64>,
+declare_block! {
+    /// Jumps from one value to another.
+    pub struct Step("step", Sources): "y = from for t < time, to for t ≥ time" {
+        /// Instant of the jump `[s]`.
+        pub time: f64 as Number = "0",
+        /// y before the jump.
+        pub from: Vec<f64> as PerComponent = "0",
+        /// y from the jump on.
+        pub to: Vec<f64> as PerComponent = "1",
+    }
 }
 
 impl Step {
@@ -26,33 +22,11 @@ impl Step {
     }
 }
 
-impl Described for Step {
-    const KIND: &'static Kind = &Kind {
-        name: "step",
-        group: Group::Sources,
-        summary: "Jumps from one value to another.",
-        equation: "y = from for t < time, to for t ≥ time",
-        parameters: &[
-            Parameter::optional("time", Takes::Number, "instant of the jump [s]", "0"),
-            Parameter::optional("from", Takes::Numbers, "y before the jump", "0"),
-            Parameter::optional("to", Takes::Numbers, "y from the jump on", "1"),
-        ],
-    };
-
-    fn read(p: &mut Reader<'_>) -> Self {
-        Self { time: p.number("time"), from: p.numbers("from"), to: p.numbers("to") }
-    }
-}
-
 impl Block for Step {
     type Work<R: Real> = ();
 
     fn ports(&self) -> Ports {
         Ports::source()
-    }
-
-    fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
-        Ok(vec![elementwise(&[], &[("from", self.from.len()), ("to", self.to.len())])?])
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
@@ -62,7 +36,7 @@ impl Block for Step {
         }
     }
 
-    fn next_corner(&self, t: f64) -> f64 {
+    fn next_time_event(&self, t: f64) -> f64 {
         if t + SAME_INSTANT < self.time { self.time } else { f64::INFINITY }
     }
 

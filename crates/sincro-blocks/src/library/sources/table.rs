@@ -1,11 +1,7 @@
 //! `y = values(t)`: given at instants, in between linear or held, constant outside.
 
-use sincro_math::Real;
-
 use super::cycle::Cycle;
-use crate::block::{At, Block, Ports, SAME_INSTANT};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::{Matrix, Reader};
+use crate::library::prelude::*;
 
 /// A signal that is given at instants: before the first and after the last it is constant.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +10,7 @@ pub struct Table {
     pub times: Vec<f64>,
     /// For every instant a row of components.
     pub values: Matrix,
-    /// Whether a value is held up to the next instant; else the line between the two is taken.
+    /// Holds a value up to the next instant; else the line between the two is taken.
     pub hold: bool,
     /// After this time, counted from the first instant, it begins anew `[s]`; infinite if never.
     pub repeat: f64,
@@ -113,7 +109,7 @@ fn refuse(p: &mut Reader<'_>, keys: &[&str], wherever: &str, help: &str) {
 impl Described for Table {
     const KIND: &'static Kind = &Kind {
         name: "table",
-        group: Group::Sources,
+        category: Category::Sources,
         summary: "A signal that is given at instants, as lists or as columns of a CSV file.",
         equation: "y = values at times; in between linear or held, outside constant",
         parameters: &[
@@ -185,7 +181,7 @@ impl Block for Table {
         }
     }
 
-    fn next_corner(&self, t: f64) -> f64 {
+    fn next_time_event(&self, t: f64) -> f64 {
         let folded = self.folded(t);
         let next = self.times.partition_point(|time| *time <= folded + SAME_INSTANT);
         match self.times.get(next) {

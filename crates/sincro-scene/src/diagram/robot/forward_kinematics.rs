@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::block::{At, Block, Ports};
-use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
@@ -41,7 +41,7 @@ impl ForwardKinematics {
 impl Described for ForwardKinematics {
     const KIND: &'static Kind = &Kind {
         name: "forward-kinematics",
-        group: Group::Robot,
+        category: Category::Robot,
         summary: "Where a body or frame is in the world, and how fast it moves if asked for.",
         equation: "position = p(q), quaternion = (w, x, y, z) of R(q); velocity = ṗ, angular_velocity = ω, world axes",
         parameters: &[

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::block::{At, Block, Ports};
-use sincro_blocks::kind::{Described, Group, Kind};
+use sincro_blocks::kind::{Category, Described, Kind};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea::inverse_dynamics;
@@ -31,7 +31,7 @@ impl GravityTorque {
 impl Described for GravityTorque {
     const KIND: &'static Kind = &Kind {
         name: "gravity-torque",
-        group: Group::Robot,
+        category: Category::Robot,
         summary: "The joint torques that hold the model still against gravity.",
         equation: "y = g(q)",
         parameters: &[],

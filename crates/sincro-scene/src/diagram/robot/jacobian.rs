@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::block::{At, Block, Ports};
-use sincro_blocks::kind::{Described, Group, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
@@ -60,7 +60,7 @@ impl Jacobian {
 impl Described for Jacobian {
     const KIND: &'static Kind = &Kind {
         name: "jacobian",
-        group: Group::Robot,
+        category: Category::Robot,
         summary: "The Jacobian of a body or frame: from joint velocities to its velocity in the world, row by row.",
         equation: "[ω; ṗ] = J(q)·v, world axes, y = rows of J",
         parameters: &[

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::block::{At, Block, Ports};
-use sincro_blocks::kind::{Described, Group, Kind};
+use sincro_blocks::kind::{Category, Described, Kind};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::model::Model;
@@ -30,7 +30,7 @@ impl MassMatrix {
 impl Described for MassMatrix {
     const KIND: &'static Kind = &Kind {
         name: "mass-matrix",
-        group: Group::Robot,
+        category: Category::Robot,
         summary: "The joint-space mass matrix, row by row.",
         equation: "y = M(q), n_v × n_v, row by row",
         parameters: &[],

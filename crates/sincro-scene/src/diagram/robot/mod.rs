@@ -11,7 +11,7 @@ mod mass_matrix;
 
 use std::sync::Arc;
 
-use sincro_blocks::instance::Template;
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::Kind;
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::model::Model;
@@ -41,7 +41,7 @@ pub struct Item {
     /// Its description.
     pub kind: &'static Kind,
     /// Makes one.
-    pub read: fn(&mut Reader<'_>, &Context) -> Box<dyn Template>,
+    pub read: fn(&mut Reader<'_>, &Context) -> Box<dyn DynBlock>,
 }
 
 /// All blocks that are made here and not in the library.

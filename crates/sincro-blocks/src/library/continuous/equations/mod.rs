@@ -1,7 +1,7 @@
 //! A plant written as formulas: `x' = f(x, u, t)`, `q'' = f(q, q', u, t)`, or `mass_matrix(q)·q'' = forces`.
 //!
-//! Formulas know, in this order of slots: the inputs, the states, the time `t` `[s]`, the parameters, and the definitions of `where`,
-//! each of which may use those before it.
+//! Formulas know, in this order of slots: the inputs, the states, the time `t` `[s]`, the parameters, and the
+//! definitions of `where`, each of which may use those before it.
 
 mod read;
 mod solve;
@@ -11,15 +11,16 @@ use std::collections::BTreeMap;
 use sincro_math::Real;
 use sincro_math::expression::Expression;
 
-use crate::block::{At, Block, Memory, Node, Pace, Ports};
-use crate::kind::{Described, Group, Kind, Parameter, Takes};
-use crate::reader::{Fault, NoFiles, Reader, Value};
+use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
+use crate::kind::{Category, Described, Kind, Parameter, Takes};
+use crate::reader::{NoFiles, ParameterError, Reader, Value};
 
 /// Differential equations of first and second order, written as text.
 ///
-/// `x' = …` has the state `x`; `q'' = …` has the states `q` and `q'`, and so has every name in `coordinates`. Without `outputs` there is an
-/// output for every state, named as the state, but `q_dot` for `q'`: wires know no primes. Nothing feeds through but the inputs
-/// that a formula of `outputs` uses. A mass matrix that is singular gives accelerations that are not finite.
+/// `x' = …` has the state `x`; `q'' = …` has the states `q` and `q'`, and so has every name in `coordinates`. Without
+/// `outputs` there is an output for every state, named as the state, but `q_dot` for `q'`: wires know no primes. Only
+/// inputs that a formula of `outputs` uses have direct feedthrough. A singular mass matrix gives accelerations that are
+/// not finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations {
     inputs: Vec<String>,
@@ -35,10 +36,10 @@ pub struct Equations {
     /// n.
     forces: Vec<Expression>,
     outputs: Vec<Output>,
-    /// Which definitions the outputs need.
+    /// True for the definitions that the outputs need.
     needed: Vec<bool>,
-    /// Which inputs the outputs need.
-    feeds_through: Vec<bool>,
+    /// True for the inputs that the outputs need.
+    has_direct_feedthrough: Vec<bool>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +50,7 @@ struct State {
     rate: Rate,
 }
 
-/// Where the rate of a state comes from.
+/// Source of the derivative of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rate {
     /// It is another state.
@@ -63,11 +64,11 @@ enum Rate {
 #[derive(Clone, Debug, PartialEq)]
 struct Output {
     port: String,
-    what: What,
+    source: Source,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum What {
+enum Source {
     State(usize),
     Formula(Expression),
 }
@@ -101,7 +102,7 @@ impl Equations {
     /// let pendulum = Equations::new(given.map(|(key, texts)| (key, texts.into()))).unwrap();
     /// # let _ = pendulum;
     /// ```
-    pub fn new<'a>(parameters: impl IntoIterator<Item = (&'a str, Value)>) -> Result<Self, Vec<Fault>> {
+    pub fn new<'a>(parameters: impl IntoIterator<Item = (&'a str, Value)>) -> Result<Self, Vec<ParameterError>> {
         let given: BTreeMap<String, Value> = parameters.into_iter().map(|(key, x)| (key.to_owned(), x)).collect();
         let scope = BTreeMap::new();
         let mut reader = Reader::new(Self::KIND, &given, &scope, &NoFiles);
@@ -115,7 +116,8 @@ impl Equations {
         self.inputs.len() + self.states.len() + 1 + self.constants.len()
     }
 
-    /// Puts the values of all names into their slots. `is_read` tells the inputs that are known, `is_needed` the definitions.
+    /// Puts the values of all names into their slots. `is_read` tells the inputs that are known, `is_needed` the
+    /// definitions.
     fn fill<R: Real>(
         &self,
         at: &At<'_, R>,
@@ -155,7 +157,7 @@ impl Equations {
 impl Described for Equations {
     const KIND: &'static Kind = &Kind {
         name: "equations",
-        group: Group::Continuous,
+        category: Category::Continuous,
         summary: "A plant written as differential equations of first and second order, or with a mass matrix.",
         equation: "x' = f(x, u, t), q'' = f(q, q', u, t), mass_matrix(q)·q'' = forces(q, q', u, t)",
         parameters: &[
@@ -204,12 +206,12 @@ impl Block for Equations {
         Ok(vec![Some(1); self.outputs.len()])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Continuous
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        SampleTimeKind::Continuous
     }
 
-    fn feeds_through(&self, input: usize) -> bool {
-        self.feeds_through[input]
+    fn has_direct_feedthrough(&self, input: usize) -> bool {
+        self.has_direct_feedthrough[input]
     }
 
     fn memory(&self, _: &Node) -> Memory {
@@ -224,9 +226,9 @@ impl Block for Equations {
 
     fn work<R: Real>(&self) -> Work<R> {
         let formulas = self.definitions.iter().chain(&self.right_sides).chain(&self.mass_matrix).chain(&self.forces);
-        let of_outputs = self.outputs.iter().filter_map(|y| match &y.what {
-            What::Formula(formula) => Some(formula),
-            What::State(_) => None,
+        let of_outputs = self.outputs.iter().filter_map(|y| match &y.source {
+            Source::Formula(formula) => Some(formula),
+            Source::State(_) => None,
         });
         let depth = formulas.chain(of_outputs).map(Expression::stack_depth).max().unwrap_or(0);
         Work {
@@ -238,22 +240,22 @@ impl Block for Equations {
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Work<R>, y: &mut [R]) {
-        if self.outputs.iter().any(|y| matches!(y.what, What::Formula(_))) {
-            self.fill(at, work, |input| self.feeds_through[input], |definition| self.needed[definition]);
+        if self.outputs.iter().any(|y| matches!(y.source, Source::Formula(_))) {
+            self.fill(at, work, |input| self.has_direct_feedthrough[input], |definition| self.needed[definition]);
         }
         for (y, output) in y.iter_mut().zip(&self.outputs) {
-            *y = match &output.what {
-                What::State(k) => at.states[*k],
-                What::Formula(formula) => formula.eval(&work.values, &mut work.stack),
+            *y = match &output.source {
+                Source::State(k) => at.states[*k],
+                Source::Formula(formula) => formula.eval(&work.values, &mut work.stack),
             };
         }
     }
 
-    fn slope<R: Real>(&self, at: &At<'_, R>, work: &mut Work<R>, slope: &mut [R]) {
+    fn derivatives<R: Real>(&self, at: &At<'_, R>, work: &mut Work<R>, derivatives: &mut [R]) {
         self.fill(at, work, |_| true, |_| true);
         self.accelerate(work);
-        for (slope, state) in slope.iter_mut().zip(&self.states) {
-            *slope = match state.rate {
+        for (rate, state) in derivatives.iter_mut().zip(&self.states) {
+            *rate = match state.rate {
                 Rate::State(k) => at.states[k],
                 Rate::RightSide(k) => self.right_sides[k].eval(&work.values, &mut work.stack),
                 Rate::Acceleration(k) => work.forces[k],

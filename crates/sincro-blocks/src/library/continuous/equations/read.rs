@@ -2,7 +2,7 @@
 
 use sincro_math::expression::Expression;
 
-use super::{Equations, Output, Rate, State, What};
+use super::{Equations, Output, Rate, Source, State};
 use crate::reader::{Reader, Value};
 
 /// An equation, cut at its `=`.
@@ -41,7 +41,7 @@ impl Names {
     }
 }
 
-/// What stands for a formula that does not parse.
+/// Stand-in for a formula that does not parse.
 fn nothing() -> Expression {
     Expression::parse("0", &[]).expect("a number is a formula")
 }
@@ -71,7 +71,7 @@ pub(super) fn read(p: &mut Reader<'_>) -> Equations {
 
     let mut new = Equations {
         needed: vec![false; definitions.len()],
-        feeds_through: vec![false; inputs.len()],
+        has_direct_feedthrough: vec![false; inputs.len()],
         inputs,
         states,
         constants,
@@ -240,7 +240,7 @@ fn rows_of_texts(p: &mut Reader<'_>) -> Vec<Vec<String>> {
 
 fn outputs(p: &mut Reader<'_>, names: &Names, states: &[State]) -> Vec<Output> {
     if !p.has("outputs") {
-        let output = |(k, state): (usize, &State)| Output { port: port_of(&state.name), what: What::State(k) };
+        let output = |(k, state): (usize, &State)| Output { port: port_of(&state.name), source: Source::State(k) };
         let outputs: Vec<Output> = states.iter().enumerate().map(output).collect();
         for (k, output) in outputs.iter().enumerate() {
             if outputs[..k].iter().any(|other| other.port == output.port) {
@@ -255,7 +255,7 @@ fn outputs(p: &mut Reader<'_>, names: &Names, states: &[State]) -> Vec<Output> {
         check_port(p, "outputs", &port);
         let formula = names.formula(p, &["outputs", &port], &text);
         let state = states.iter().position(|state| state.name == text.trim());
-        outputs.push(Output { port, what: state.map_or(What::Formula(formula), What::State) });
+        outputs.push(Output { port, source: state.map_or(Source::Formula(formula), Source::State) });
     }
     if outputs.is_empty() {
         p.fault("outputs", "`outputs` is empty", "leave it out to have every state as an output");
@@ -275,10 +275,10 @@ fn check_port(p: &mut Reader<'_>, key: &str, name: &str) {
     }
 }
 
-/// Which definitions and inputs the outputs depend on.
+/// Finds the definitions and inputs that the outputs depend on.
 fn find_needed(new: &mut Equations) {
     let first = new.first_definition();
-    let formulas: Vec<Expression> = new.outputs.iter().filter_map(|y| formula(&y.what)).cloned().collect();
+    let formulas: Vec<Expression> = new.outputs.iter().filter_map(|y| formula(&y.source)).cloned().collect();
     // a definition uses earlier ones only: backwards, each is settled before those it uses
     for k in (0..new.definitions.len()).rev() {
         let later = (k + 1..new.definitions.len()).filter(|&m| new.needed[m]).map(|m| &new.definitions[m]);
@@ -287,13 +287,13 @@ fn find_needed(new: &mut Equations) {
     }
     for input in 0..new.inputs.len() {
         let needed = new.definitions.iter().zip(&new.needed).filter(|(_, needed)| **needed).map(|(f, _)| f);
-        new.feeds_through[input] = formulas.iter().chain(needed).any(|formula| formula.uses(input));
+        new.has_direct_feedthrough[input] = formulas.iter().chain(needed).any(|formula| formula.uses(input));
     }
 }
 
-fn formula(what: &What) -> Option<&Expression> {
-    match what {
-        What::Formula(formula) => Some(formula),
-        What::State(_) => None,
+fn formula(source: &Source) -> Option<&Expression> {
+    match source {
+        Source::Formula(formula) => Some(formula),
+        Source::State(_) => None,
     }
 }

@@ -2,8 +2,8 @@
 
 use sincro_math::Real;
 
-/// `matrix·x = right`, with `x` left in `right`: Gaussian elimination with partial pivoting, both overwritten, nothing allocated. A
-/// singular matrix gives numbers that are not finite.
+/// `matrix·x = right`, with `x` left in `right`: Gaussian elimination with partial pivoting, both overwritten, nothing
+/// allocated. A singular matrix gives numbers that are not finite.
 pub(super) fn solve<R: Real>(matrix: &mut [R], right: &mut [R]) {
     let n = right.len();
     debug_assert_eq!(matrix.len(), n * n, "a square matrix for the right-hand side");

@@ -1,14 +1,15 @@
-//! Rotations: closed forms on the axes, round trips and identities on random ones. A few products of numbers up to 1: 1e-14.
+//! Rotations: closed forms on the axes, round trips and identities on random ones. A few products of numbers up to 1:
+//! 1e-14.
 
-mod b_common;
+mod common;
 
-use b_common::{Random, add, block, faults, value};
+use common::{Random, add, block, faults, value};
 use sincro_blocks::block::Block;
 use sincro_blocks::diagram::Diagram;
-use sincro_blocks::instance::Template;
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::library::rotations::{Convention, EulerToQuaternion};
 use sincro_blocks::library::sources::Constant;
-use sincro_blocks::solo::Solo;
+use sincro_blocks::simulator::Simulator;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const CONVENTIONS: [&str; 2] = ["zyx", "xyz"];
@@ -26,13 +27,13 @@ fn plain(kind: &str, u: &[f64]) -> Vec<f64> {
 }
 
 /// A block with two inputs.
-fn both(block: Box<dyn Template>, first: &[f64], second: &[f64]) -> Vec<f64> {
+fn both(block: Box<dyn DynBlock>, first: &[f64], second: &[f64]) -> Vec<f64> {
     let ports = block.ports().inputs;
     let mut d = Diagram::new();
     d.block("a", Constant { value: first.to_vec() }).block("b", Constant { value: second.to_vec() });
     add(&mut d, "y", block);
     d.wire("a", &format!("y.{}", ports[0])).wire("b", &format!("y.{}", ports[1]));
-    Solo::new(&d, 0.01).unwrap().output("y").to_vec()
+    Simulator::new(&d, 0.01).unwrap().output("y").to_vec()
 }
 
 fn matrix_product(a: &[f64], b: &[f64]) -> Vec<f64> {
@@ -186,7 +187,7 @@ fn the_matrices_of_euler_rates_are_inverse_and_transposed_to_each_other() {
 
 #[test]
 fn a_vector_of_the_wrong_size_is_told() {
-    let found = Solo::new(&b_common::driven(&[1.0, 2.0], block("quaternion-conjugate", &[])), 0.01).unwrap_err();
+    let found = Simulator::new(&common::driven(&[1.0, 2.0], block("quaternion-conjugate", &[])), 0.01).unwrap_err();
     assert!(found[0].message.contains("`u` has 4 components here, it gets 2"), "{}", found[0]);
     assert!(faults("euler-to-matrix", &[("convention", "zxz".into())]).contains("zyx, xyz"));
     assert_eq!(Block::label(&EulerToQuaternion::new(Convention::Xyz)), "xyz → q");

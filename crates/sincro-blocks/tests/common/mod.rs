@@ -1,16 +1,16 @@
-//! What the tests of the library share: blocks from parameters, given samples, a generator of numbers.
+//! Helpers of the library's tests: blocks from parameters, given samples, a generator of numbers.
 #![allow(dead_code)] // every test file takes what it needs
 
 use std::collections::BTreeMap;
 
-use sincro_blocks::block::{At, Block, Pace, Ports};
-use sincro_blocks::diagram::{Diagram, What};
-use sincro_blocks::instance::Template;
-use sincro_blocks::kind::{Described, Group, Kind};
+use sincro_blocks::block::{At, Block, Ports, SampleTimeKind};
+use sincro_blocks::diagram::{Content, Diagram};
+use sincro_blocks::instance::DynBlock;
+use sincro_blocks::kind::{Category, Described, Kind};
 use sincro_blocks::library;
 use sincro_blocks::library::sources::Constant;
-use sincro_blocks::reader::{Fault, Files, Reader, Value};
-use sincro_blocks::solo::Solo;
+use sincro_blocks::reader::{Files, ParameterError, Reader, Value};
+use sincro_blocks::simulator::Simulator;
 use sincro_math::Real;
 
 /// A file `table.csv` with the columns `x` = 0, 1, 3 and `y` = 0, 10, −10.
@@ -27,7 +27,7 @@ impl Files for OneFile {
 }
 
 /// A block of the library, made from parameters as a file gives them.
-pub fn made(kind: &str, parameters: &[(&str, Value)]) -> Result<Box<dyn Template>, Vec<Fault>> {
+pub fn made(kind: &str, parameters: &[(&str, Value)]) -> Result<Box<dyn DynBlock>, Vec<ParameterError>> {
     let item = library::find(kind).unwrap_or_else(|| panic!("no block `{kind}`"));
     let given: BTreeMap<String, Value> = parameters.iter().map(|(key, x)| ((*key).to_owned(), x.clone())).collect();
     let scope = BTreeMap::new();
@@ -38,7 +38,7 @@ pub fn made(kind: &str, parameters: &[(&str, Value)]) -> Result<Box<dyn Template
 }
 
 /// As [`made`], for parameters without faults.
-pub fn block(kind: &str, parameters: &[(&str, Value)]) -> Box<dyn Template> {
+pub fn block(kind: &str, parameters: &[(&str, Value)]) -> Box<dyn DynBlock> {
     made(kind, parameters).unwrap_or_else(|faults| panic!("{faults:#?}"))
 }
 
@@ -64,12 +64,12 @@ pub fn table(entries: &[(&str, Value)]) -> Value {
 }
 
 /// Adds a block made by [`block`].
-pub fn add(d: &mut Diagram, name: &str, block: Box<dyn Template>) {
-    d.add(name, What::Block(block), None);
+pub fn add(d: &mut Diagram, name: &str, block: Box<dyn DynBlock>) {
+    d.add(name, Content::Block(block), None);
 }
 
 /// A diagram with a constant `u` and a block `y` that it is wired to.
-pub fn driven(u: &[f64], block: Box<dyn Template>) -> Diagram {
+pub fn driven(u: &[f64], block: Box<dyn DynBlock>) -> Diagram {
     let mut d = Diagram::new();
     d.block("u", Constant { value: u.to_vec() });
     add(&mut d, "y", block);
@@ -77,18 +77,18 @@ pub fn driven(u: &[f64], block: Box<dyn Template>) -> Diagram {
     d
 }
 
-/// What a block gives for samples of its only input, one a tick of `step` `[s]`; the first component.
-pub fn answer(samples: &[f64], step: f64, block: Box<dyn Template>) -> Vec<f64> {
+/// Outputs of a block for samples of its only input, one a tick of `step` `[s]`; the first component.
+pub fn answer(samples: &[f64], step: f64, block: Box<dyn DynBlock>) -> Vec<f64> {
     let mut d = Diagram::new();
     d.block("u", Samples { values: samples.to_vec() });
     add(&mut d, "y", block);
     d.wire("u", "y");
-    Solo::new(&d, step).unwrap().record("y", samples.len() - 1)
+    Simulator::new(&d, step).unwrap().record("y", samples.len() - 1)
 }
 
-/// What a block gives at once for a constant vector.
-pub fn value(u: &[f64], block: Box<dyn Template>) -> Vec<f64> {
-    Solo::new(&driven(u, block), 0.01).unwrap().output("y").to_vec()
+/// Output of a block for a constant vector.
+pub fn value(u: &[f64], block: Box<dyn DynBlock>) -> Vec<f64> {
+    Simulator::new(&driven(u, block), 0.01).unwrap().output("y").to_vec()
 }
 
 /// A source with a given value at every tick; the last one stays.
@@ -100,7 +100,7 @@ pub struct Samples {
 
 impl Described for Samples {
     const KIND: &'static Kind =
-        &Kind { name: "samples", group: Group::Sources, summary: "", equation: "", parameters: &[] };
+        &Kind { name: "samples", category: Category::Sources, summary: "", equation: "", parameters: &[] };
 
     fn read(_: &mut Reader<'_>) -> Self {
         Self { values: vec![0.0] }
@@ -118,8 +118,8 @@ impl Block for Samples {
         Ok(vec![Some(1)])
     }
 
-    fn pace(&self) -> Pace {
-        Pace::Sampled
+    fn sample_time_kind(&self) -> SampleTimeKind {
+        SampleTimeKind::Discrete
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

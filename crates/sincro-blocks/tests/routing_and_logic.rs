@@ -2,20 +2,20 @@
 
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
-use sincro_blocks::instance::Template;
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::library::logic::{
-    Compare, Comparison, Counter, Direction, Edge, IntervalTest, Latch, Logic, Operator,
+    Compare, Comparison, Counter, Direction, Dominant, Edge, IntervalTest, Latch, Logic, Operator,
 };
 use sincro_blocks::library::routing::{Demux, Merge, MultiportSwitch, Selector, Switch};
 use sincro_blocks::library::sinks::{Scope, Terminator};
 use sincro_blocks::library::sources::{Constant, Table};
-use sincro_blocks::solo::Solo;
+use sincro_blocks::simulator::Simulator;
 
 const STEP: f64 = 0.1;
 
 /// A block, and at each of its inputs a number for every tick.
-fn driven(block: impl Template + 'static, inputs: &[&[f64]]) -> Diagram {
-    let ports = Template::ports(&block).inputs;
+fn driven(block: impl DynBlock + 'static, inputs: &[&[f64]]) -> Diagram {
+    let ports = DynBlock::ports(&block).inputs;
     assert_eq!(ports.len(), inputs.len());
     let mut d = Diagram::new();
     d.block("block", block);
@@ -27,13 +27,13 @@ fn driven(block: impl Template + 'static, inputs: &[&[f64]]) -> Diagram {
     d
 }
 
-fn over_time(block: impl Template + 'static, inputs: &[&[f64]]) -> Vec<f64> {
-    Solo::new(&driven(block, inputs), STEP).unwrap().record("block", inputs[0].len() - 1)
+fn over_time(block: impl DynBlock + 'static, inputs: &[&[f64]]) -> Vec<f64> {
+    Simulator::new(&driven(block, inputs), STEP).unwrap().record("block", inputs[0].len() - 1)
 }
 
 /// A block with constant vectors at its inputs.
-fn fed(block: impl Template + 'static, inputs: &[&[f64]]) -> Diagram {
-    let ports = Template::ports(&block).inputs;
+fn fed(block: impl DynBlock + 'static, inputs: &[&[f64]]) -> Diagram {
+    let ports = DynBlock::ports(&block).inputs;
     let mut d = Diagram::new();
     d.block("block", block);
     for (k, (port, value)) in ports.iter().zip(inputs).enumerate() {
@@ -98,7 +98,7 @@ fn logic_has_its_truth_tables() {
     let odd = Logic { operator: Operator::Xor, inputs: 3 };
     same(&over_time(odd, &[&[1., 1., 0.], &[1., 1., 0.], &[1., 0., 1.]]), &[1., 0., 1.]);
     let all = Logic { operator: Operator::And, inputs: 1 };
-    assert_eq!(Solo::new(&fed(all, &[&[1.0, 3.0, 0.0]]), STEP).unwrap().output("block"), [0.0]);
+    assert_eq!(Simulator::new(&fed(all, &[&[1.0, 3.0, 0.0]]), STEP).unwrap().output("block"), [0.0]);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn an_edge_lasts_one_sample() {
 fn a_latch_remembers_and_answers_at_once() {
     let (set, reset): (&[f64], &[f64]) = (&[0., 1., 0., 0., 0., 1., 0.], &[0., 0., 0., 1., 0., 1., 0.]);
     same(&over_time(Latch::new(), &[set, reset]), &[0., 1., 1., 0., 0., 0., 0.]);
-    same(&over_time(Latch { set_wins: true, initial: true }, &[set, reset]), &[1., 1., 1., 0., 0., 1., 1.]);
+    same(&over_time(Latch { dominant: Dominant::Set, initial: true }, &[set, reset]), &[1., 1., 1., 0., 0., 1., 1.]);
 }
 
 #[test]
@@ -132,11 +132,11 @@ fn a_counter_counts_rises_until_it_is_reset() {
 
 #[test]
 fn a_vector_is_cut_and_rearranged() {
-    let solo = Solo::new(&fed(Demux::new(&[1, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
-    assert_eq!((solo.output("block.y1"), solo.output("block.y2")), (&[1.0][..], &[2.0, 3.0][..]));
+    let simulator = Simulator::new(&fed(Demux::new(&[1, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
+    assert_eq!((simulator.output("block.y1"), simulator.output("block.y2")), (&[1.0][..], &[2.0, 3.0][..]));
     assert!(refusal(&fed(Demux::new(&[1, 1]), &[&[1.0, 2.0, 3.0]])).contains("the sizes add up to 2"));
-    let solo = Solo::new(&fed(Selector::new(&[2, 0, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
-    assert_eq!(solo.output("block"), [3.0, 1.0, 3.0]);
+    let simulator = Simulator::new(&fed(Selector::new(&[2, 0, 2]), &[&[1.0, 2.0, 3.0]]), STEP).unwrap();
+    assert_eq!(simulator.output("block"), [3.0, 1.0, 3.0]);
     assert!(refusal(&fed(Selector::new(&[3]), &[&[1.0, 2.0, 3.0]])).contains("there is no component 3"));
 }
 
@@ -156,8 +156,8 @@ fn a_selector_beyond_the_inputs_stops_the_run_at_its_switch() {
     same(&over_time(MultiportSwitch::new(2), &inputs), &[10., 20., NAN, NAN, NAN, NAN]);
     let mut d = fed(MultiportSwitch::new(2), &[&[3.0], &[1.0], &[2.0]]);
     d.block("end", Terminator).wire("block", "end");
-    let solo = Solo::new(&d, STEP).unwrap();
-    assert_eq!(solo.runner.not_finite().unwrap().0.path, "block");
+    let simulator = Simulator::new(&d, STEP).unwrap();
+    assert_eq!(simulator.runner.not_finite().unwrap().0.path, "block");
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn sinks_take_anything_and_change_nothing() {
     d.block("a", Constant::new(1.0)).block("b", Constant { value: vec![2.0, 3.0] });
     d.block("scope", Scope::new(2)).wire("a", "scope.u1").wire("b", "scope.u2");
     d.block("end", Terminator).wire("b", "end");
-    let mut solo = Solo::new(&d, STEP).unwrap();
-    solo.record("a", 3);
-    assert_eq!((solo.output("a"), solo.output("b")), (&[1.0][..], &[2.0, 3.0][..]));
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("a", 3);
+    assert_eq!((simulator.output("a"), simulator.output("b")), (&[1.0][..], &[2.0, 3.0][..]));
 }

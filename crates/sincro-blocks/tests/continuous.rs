@@ -1,16 +1,16 @@
-//! Continuous blocks against their closed forms. The method between ticks is Runge–Kutta of order 4: with a step of 1 ms and time
-//! constants of 0.1 s its error is far below 1e-9, the tolerance wherever no other is given.
+//! Continuous blocks against their closed forms. The method between ticks is Runge–Kutta of order 4: with a step of 1
+//! ms and time constants of 0.1 s its error is far below 1e-9, the tolerance wherever no other is given.
 
-mod b_common;
+mod common;
 
-use b_common::{Samples, add, answer, block, driven, faults, list, made, rows, table};
+use common::{Samples, add, answer, block, driven, faults, list, made, rows, table};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::continuous::{Equations, Integrator, LowPass, Pid, TransferFunction, TransportDelay};
 use sincro_blocks::library::maths::{Gain, Sum};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::reader::Value;
-use sincro_blocks::solo::Solo;
+use sincro_blocks::simulator::Simulator;
 use sincro_math::elementary::{exp, sin_cos};
 
 const STEP: f64 = 1e-3;
@@ -19,8 +19,8 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9
 }
 
-fn step_response(block: Box<dyn sincro_blocks::instance::Template>, n: usize) -> Vec<f64> {
-    Solo::new(&driven(&[1.0], block), STEP).unwrap().record("y", n)
+fn step_response(block: Box<dyn sincro_blocks::instance::DynBlock>, n: usize) -> Vec<f64> {
+    Simulator::new(&driven(&[1.0], block), STEP).unwrap().record("y", n)
 }
 
 #[test]
@@ -58,29 +58,29 @@ fn an_oscillator_answers_a_step_as_the_textbook_says() {
 fn a_biproper_transfer_function_feeds_through_its_part() {
     // (s + 1)/(0.5s + 1): jumps to 2, then to 1 as 1 + e^(−2t)
     let g = || block("transfer-function", &[("numerator", list(&[1.0, 1.0])), ("denominator", list(&[0.5, 1.0]))]);
-    assert!(g().feeds_through(0));
+    assert!(g().has_direct_feedthrough(0));
     assert!(!TransferFunction::new(&[1.0], &[1.0, 1.0]).on_feed_through());
     let y = step_response(g(), 300);
     assert!(close(y[0], 2.0) && close(y[300], 1.0 + exp(-0.6).0));
 }
 
-/// `feeds_through` without its trait in scope.
+/// `has_direct_feedthrough` without its trait in scope.
 trait FeedThrough {
     fn on_feed_through(&self) -> bool;
 }
 
-impl<T: sincro_blocks::instance::Template> FeedThrough for T {
+impl<T: sincro_blocks::instance::DynBlock> FeedThrough for T {
     fn on_feed_through(&self) -> bool {
-        self.feeds_through(0)
+        self.has_direct_feedthrough(0)
     }
 }
 
 #[test]
 fn a_transfer_function_takes_vectors_component_by_component() {
     let g = Box::new(TransferFunction::new(&[1.0], &[0.01, 0.2, 1.0]));
-    let mut solo = Solo::new(&driven(&[1.0, -3.0], g), STEP).unwrap();
-    solo.record("y", 100);
-    let y = solo.output("y");
+    let mut simulator = Simulator::new(&driven(&[1.0, -3.0], g), STEP).unwrap();
+    simulator.record("y", 100);
+    let y = simulator.output("y");
     assert!(close(y[1], -3.0 * y[0]) && y[0] > 0.1);
 }
 
@@ -106,7 +106,7 @@ fn state_space_and_transfer_function_are_the_same_system() {
     let parameters =
         [("a", rows(&[&[-3.0, -7.0], &[1.0, 0.0]])), ("b", rows(&[&[1.0], &[0.0]])), ("c", rows(&[&[2.0, 5.0]]))];
     let system = block("state-space", &parameters);
-    assert!(!system.feeds_through(0));
+    assert!(!system.has_direct_feedthrough(0));
     let (a, b) = (step_response(g, 300), step_response(system, 300));
     assert!(a.iter().zip(&b).all(|(a, b)| close(*a, *b)));
 }
@@ -130,7 +130,7 @@ fn a_derivative_answers_a_ramp_with_its_slope() {
     let parameters = [("time_constant", 0.1.into()), ("initial_input", 5.0.into())];
     add(&mut d, "y", block("derivative", &parameters));
     d.wire("slope", "ramp").wire("ramp", "y");
-    let y = Solo::new(&d, STEP).unwrap().record("y", 100);
+    let y = Simulator::new(&d, STEP).unwrap().record("y", 100);
     assert!(close(y[0], 0.0) && close(y[100], 3.0 * (1.0 - exp(-1.0).0)));
 }
 
@@ -154,7 +154,7 @@ fn an_integrator_goes_back_to_its_initial_value_while_it_is_reset() {
     d.block("reset", Samples { values: resets });
     add(&mut d, "y", block("integrator", &[("reset", true.into()), ("initial", 7.0.into())]));
     d.wire("one", "y.u").wire("reset", "y.reset");
-    let y = Solo::new(&d, STEP).unwrap().record("y", 29);
+    let y = Simulator::new(&d, STEP).unwrap().record("y", 29);
     assert!(close(y[20], 7.02) && close(y[21], 7.001) && close(y[29], 7.009), "{y:?}");
 }
 
@@ -172,7 +172,7 @@ fn loop_with(parameters: &[(&str, Value)], setpoint: f64) -> Diagram {
 fn a_pi_controller_that_cancels_the_pole_makes_a_lag() {
     // kp + ki/s = kp (s + 1/Ti)/s with Ti = 0.1: closed loop 1/(s·0.1/kp + 1)
     let d = loop_with(&[("kp", 2.0.into()), ("ki", 20.0.into())], 1.0);
-    let y = Solo::new(&d, STEP).unwrap().record("plant", 200);
+    let y = Simulator::new(&d, STEP).unwrap().record("plant", 200);
     assert!(close(y[200], 1.0 - exp(-0.2 * 2.0 / 0.1).0), "{}", y[200]);
 }
 
@@ -182,7 +182,7 @@ fn the_derivative_term_is_a_filtered_derivative() {
     d.block("slope", Constant::new(3.0)).block("ramp", Integrator::new(0.0));
     add(&mut d, "y", block("pid", &[("kd", 2.0.into()), ("filter_time_constant", 0.1.into())]));
     d.wire("slope", "ramp").wire("ramp", "y");
-    let y = Solo::new(&d, STEP).unwrap().record("y", 100);
+    let y = Simulator::new(&d, STEP).unwrap().record("y", 100);
     assert!(close(y[100], 2.0 * 3.0 * (1.0 - exp(-1.0).0)));
 }
 
@@ -196,7 +196,7 @@ fn a_saturated_pid_does_not_wind_up() {
             ("upper", 1.2.into()),
             ("anti_windup", anti_windup.into()),
         ];
-        let y = Solo::new(&loop_with(&parameters, 1.0), STEP).unwrap().record("plant", 1500);
+        let y = Simulator::new(&loop_with(&parameters, 1.0), STEP).unwrap().record("plant", 1500);
         assert!((y[1500] - 1.0).abs() < 1e-3, "{anti_windup} {}", y[1500]);
         y.iter().fold(0.0f64, |most, y| most.max(y - 1.0))
     };
@@ -220,33 +220,36 @@ fn separate_inputs_with_weights_of_one_are_the_error() {
     d.wire("slope", "m").wire("r", "error.u1").wire("m", "error.u2").wire("error", "one");
     d.wire("r", "two.setpoint").wire("m", "two.measurement");
     d.wire("r", "no_kick.setpoint").wire("m", "no_kick.measurement").wire("r", "no_kick.feedforward");
-    let mut solo = Solo::new(&d, STEP).unwrap();
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
     // −kp·m − kd·m/Tf + feedforward
-    assert!(close(solo.output("no_kick")[0], -2.0 * 0.2 - 0.1 * 0.2 / 0.01 + 1.0));
-    solo.record("one", 100);
-    assert!(close(solo.output("one")[0], solo.output("two")[0]));
+    assert!(close(simulator.output("no_kick")[0], -2.0 * 0.2 - 0.1 * 0.2 / 0.01 + 1.0));
+    simulator.record("one", 100);
+    assert!(close(simulator.output("one")[0], simulator.output("two")[0]));
 }
 
 #[test]
 fn an_output_lag_is_the_law_of_the_thesis() {
     // τ_f·y' = kp·e + ki·∫e − y, written out as equations
-    let law = [("kp", 5.0.into()), ("ki", 8.0.into()), ("output_time_constant", 0.02.into())];
+    // the integral term starts at 0.7, and the lag with it
+    let law = [("kp", 5.0.into()), ("ki", 8.0.into()), ("output_time_constant", 0.02.into()), ("initial", 0.7.into())];
     let mut d = Diagram::new();
     d.block("e", Constant::new(0.3));
     let pid = block("pid", &law);
-    assert!(!pid.feeds_through(0));
+    assert!(!pid.has_direct_feedthrough(0));
     add(&mut d, "pid", pid);
     let parameters = [
         ("inputs", Value::from(vec!["e"])),
         ("equations", vec!["i' = e", "y' = (5*e + 8*i - y)/0.02"].into()),
         ("outputs", table(&[("y", "y".into())])),
+        ("initial", table(&[("i", (0.7 / 8.0).into()), ("y", 0.7.into())])),
     ];
     d.block("law", Equations::new(parameters).unwrap());
     d.wire("e", "pid").wire("e", "law");
-    let mut solo = Solo::new(&d, STEP).unwrap();
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    assert_eq!(simulator.output("pid"), [0.7]);
     for _ in 0..100 {
-        assert!(close(solo.output("pid")[0], solo.output("law")[0]));
-        solo.advance();
+        assert!(close(simulator.output("pid")[0], simulator.output("law")[0]));
+        simulator.advance();
     }
 }
 
@@ -262,13 +265,13 @@ fn pid_parameters_that_make_no_sense_are_refused() {
 #[test]
 fn a_pid_takes_vectors_with_a_gain_for_each() {
     let d = driven(&[1.0, 2.0], block("pid", &[("kp", list(&[3.0, 4.0])), ("upper", list(&[10.0, 5.0]))]));
-    assert_eq!(Solo::new(&d, STEP).unwrap().output("y"), [3.0, 5.0]);
+    assert_eq!(Simulator::new(&d, STEP).unwrap().output("y"), [3.0, 5.0]);
     assert_eq!(sincro_blocks::block::Block::label(&Pid::new(1.0, 0.0, 2.0)), "PD");
 }
 
 #[test]
 fn a_transport_delay_gives_back_every_sample_to_the_bit() {
-    let samples = b_common::Random(3).list(60);
+    let samples = common::Random(3).list(60);
     let y = answer(&samples, STEP, Box::new(TransportDelay { delay: 0.007, initial: vec![9.0] }));
     for k in 0..60 {
         assert_eq!(y[k], if k < 7 { 9.0 } else { samples[k - 7] });
@@ -288,7 +291,7 @@ fn a_delay_of_one_step_follows_a_smooth_signal_between_ticks() {
     let mut d = Diagram::new();
     d.block("one", Constant::new(1.0)).block("ramp", Integrator::new(0.0)).block("late", TransportDelay::new(STEP));
     d.block("sum", Integrator::new(0.0)).wire("one", "ramp").wire("ramp", "late").wire("late", "sum");
-    let sum = Solo::new(&d, STEP).unwrap().record("sum", 100);
+    let sum = Simulator::new(&d, STEP).unwrap().record("sum", 100);
     // ∫ (t − h) from h on
     assert!(close(sum[100], 0.5 * 0.099 * 0.099), "{}", sum[100]);
 }
@@ -311,11 +314,11 @@ fn equations_of_second_order_swing_as_their_closed_form() {
     ];
     let mut d = Diagram::new();
     d.block("u", Constant::new(5.0)).block("plant", Equations::new(parameters).unwrap()).wire("u", "plant.u");
-    let mut solo = Solo::new(&d, STEP).unwrap();
-    solo.record("plant.q", 400);
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("plant.q", 400);
     let (s, c) = sin_cos(5.0 * 0.4);
-    assert!(close(solo.output("plant.q")[0], 0.2 + 0.2 * c - 0.2 * s));
-    assert!(close(solo.output("plant.q_dot")[0], -s - c));
+    assert!(close(simulator.output("plant.q")[0], 0.2 + 0.2 * c - 0.2 * s));
+    assert!(close(simulator.output("plant.q_dot")[0], -s - c));
 }
 
 #[test]
@@ -352,13 +355,13 @@ fn a_mass_matrix_gives_the_accelerations_of_its_inverse() {
     for end in ["solved.u1", "solved.u2", "written.u1", "written.u2"] {
         d.wire("u", end);
     }
-    let mut solo = Solo::new(&d, STEP).unwrap();
-    solo.record("solved.q1", 500);
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("solved.q1", 500);
     for port in ["q1", "q2", "q1_dot", "q2_dot"] {
-        let (a, b) = (solo.output(&format!("solved.{port}"))[0], solo.output(&format!("written.{port}"))[0]);
+        let (a, b) = (simulator.output(&format!("solved.{port}"))[0], simulator.output(&format!("written.{port}"))[0]);
         assert!(close(a, b), "{port} {a} {b}");
     }
-    assert!((solo.output("solved.q1")[0] - 0.3).abs() > 0.01);
+    assert!((simulator.output("solved.q1")[0] - 0.3).abs() > 0.01);
 }
 
 #[test]
@@ -370,16 +373,16 @@ fn outputs_feed_through_exactly_the_inputs_that_they_use() {
         ("outputs", table(&[("y", "x + twice".into()), ("x", "x".into()), ("time", "t".into())])),
     ];
     let plant = Equations::new(parameters).unwrap();
-    let feeds: Vec<bool> = (0..3).map(|k| sincro_blocks::block::Block::feeds_through(&plant, k)).collect();
+    let feeds: Vec<bool> = (0..3).map(|k| sincro_blocks::block::Block::has_direct_feedthrough(&plant, k)).collect();
     assert_eq!(feeds, [false, true, false]);
     let mut d = Diagram::new();
     d.block("u", Constant::new(1.5)).block("plant", plant);
     // `a` and `c` are fed back at once: no loop
     d.block("gain", Gain::new(0.0)).wire("plant.y", "gain").wire("gain", "plant.a").wire("gain", "plant.c");
     d.wire("u", "plant.b");
-    let mut solo = Solo::new(&d, STEP).unwrap();
-    solo.record("plant.y", 100);
-    assert!(close(solo.output("plant.y")[0], 3.15) && close(solo.output("plant.time")[0], 0.1));
+    let mut simulator = Simulator::new(&d, STEP).unwrap();
+    simulator.record("plant.y", 100);
+    assert!(close(simulator.output("plant.y")[0], 3.15) && close(simulator.output("plant.time")[0], 0.1));
 }
 
 #[test]
@@ -422,7 +425,7 @@ fn equations_know_the_parameters_of_the_diagram_and_the_time() {
     assert!(faults.is_empty(), "{faults:?}");
     let mut d = Diagram::new();
     d.block("plant", plant);
-    let x = Solo::new(&d, STEP).unwrap().record("plant", 500);
+    let x = Simulator::new(&d, STEP).unwrap().record("plant", 500);
     // t² + 6t at 0.5 s
     assert!(close(x[500], 3.25), "{}", x[500]);
     let clash = [("equations", Value::from(vec!["x' = k"])), ("where", table(&[("k", "1".into())]))];

@@ -1,16 +1,16 @@
 //! Matrices as signals, and adaptation.
 
-mod b_common;
+mod common;
 
-use b_common::{Random, add, block, faults, list};
+use common::{Random, add, block, faults, list};
 use sincro_blocks::block::Block;
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::adaptation::EllipsoidProjection;
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::reader::Value;
-use sincro_blocks::solo::Solo;
+use sincro_blocks::simulator::Simulator;
 
-/// What a block gives for constants at its inputs.
+/// Output of a block for constants at its inputs.
 fn given(inputs: &[(&str, &[f64])], kind: &str, parameters: &[(&str, Value)]) -> Vec<f64> {
     let mut d = Diagram::new();
     add(&mut d, "block", block(kind, parameters));
@@ -18,7 +18,7 @@ fn given(inputs: &[(&str, &[f64])], kind: &str, parameters: &[(&str, Value)]) ->
         let name = format!("constant-{k}");
         d.block(&name, Constant { value: value.to_vec() }).wire(&name, &format!("block.{port}"));
     }
-    Solo::new(&d, 0.01).unwrap().output("block").to_vec()
+    Simulator::new(&d, 0.01).unwrap().output("block").to_vec()
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn the_projection_leaves_what_is_inside_and_never_expands() {
 #[test]
 fn the_projection_stands_for_huge_vectors() {
     let y = EllipsoidProjection::new(1.0, &[1.0], &[1.0]);
-    assert!(y.feeds_through(0));
+    assert!(y.has_direct_feedthrough(0));
     let y = given(&[("u", &[3e150, -4e150])], "ellipsoid-projection", &[("bound", 1.0.into())]);
     assert!((y[0] - 0.6).abs() < 1e-14 && (y[1] + 0.8).abs() < 1e-14);
 }

@@ -1,17 +1,17 @@
 //! Nonlinear blocks against what their words say, at and beside their corners.
 
-mod b_common;
+mod common;
 
 use std::sync::Arc;
 
-use b_common::{Samples, add, answer, block, faults, list, rows, value};
+use common::{Samples, add, answer, block, faults, list, rows, value};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::nonlinear::LookupTable;
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::reader::Value;
 use sincro_blocks::runner::Runner;
-use sincro_blocks::solo::Solo;
+use sincro_blocks::simulator::Simulator;
 use sincro_math::Dual;
 
 const STEP: f64 = 0.125;
@@ -97,7 +97,7 @@ fn a_relay_keeps_its_state_between_its_thresholds() {
     assert!(faults("relay", &swapped).contains("`off_below` 1 is above `on_above` 0"));
 }
 
-fn table(extra: &[(&'static str, Value)]) -> Box<dyn sincro_blocks::instance::Template> {
+fn table(extra: &[(&'static str, Value)]) -> Box<dyn sincro_blocks::instance::DynBlock> {
     let mut parameters = vec![("breakpoints", list(&[0.0, 1.0, 3.0])), ("values", list(&[0.0, 10.0, -10.0]))];
     parameters.extend_from_slice(extra);
     block("lookup-table", &parameters)
@@ -145,7 +145,7 @@ fn a_table_of_two_arguments_is_bilinear() {
         d.block("a", Constant::new(u1)).block("b", Constant::new(u2));
         add(&mut d, "y", grid(extrapolation));
         d.wire("a", "y.u1").wire("b", "y.u2");
-        Solo::new(&d, STEP).unwrap().output("y")[0]
+        Simulator::new(&d, STEP).unwrap().output("y")[0]
     };
     // the values are those of u1 + u2 + u1·u2
     for (u1, u2) in [(0.0, 0.0), (1.0, 0.5), (2.0, 4.0), (0.5, 3.0)] {

@@ -5,33 +5,33 @@
 use std::sync::Arc;
 
 use crate::block::SAME_INSTANT;
-use crate::compile::{Interface, Problem, compile};
+use crate::compile::{CompileError, Interface, compile};
 use crate::diagram::Diagram;
 use crate::runner::Runner;
 
 /// A diagram that runs alone.
 #[derive(Clone, Debug)]
-pub struct Solo {
+pub struct Simulator {
     /// The diagram.
     pub runner: Runner<f64>,
     tick: u64,
-    slopes: [Vec<f64>; 4],
+    derivatives: [Vec<f64>; 4],
     start: Vec<f64>,
 }
 
-impl Solo {
+impl Simulator {
     /// Compiles a diagram with base step `step` `[s]` and evaluates its first tick.
     ///
     /// # Errors
     ///
     /// Everything that is wrong with the diagram.
-    pub fn new(diagram: &Diagram, step: f64) -> Result<Self, Vec<Problem>> {
+    pub fn new(diagram: &Diagram, step: f64) -> Result<Self, CompileError> {
         let program = Arc::new(compile(diagram, &Interface::new(step))?);
         let zero = vec![0.0; program.n_states];
-        let slopes = [zero.clone(), zero.clone(), zero.clone(), zero.clone()];
+        let derivatives = [zero.clone(), zero.clone(), zero.clone(), zero.clone()];
         let mut runner = Runner::new(program);
         runner.evaluate(0, 0.0);
-        Ok(Self { runner, tick: 0, slopes, start: zero })
+        Ok(Self { runner, tick: 0, derivatives, start: zero })
     }
 
     /// Time `[s]`.
@@ -45,18 +45,18 @@ impl Solo {
         let (t, h, tick) = (self.t(), self.runner.program().step, self.tick);
         self.runner.update(tick, t);
         self.start.copy_from_slice(&self.runner.state.continuous);
-        let corner = self.runner.program().next_corner(t);
-        let corner = if corner <= t + h + SAME_INSTANT { t + h } else { f64::INFINITY };
+        let time_event = self.runner.program().next_time_event(t);
+        let time_event = if time_event <= t + h + SAME_INSTANT { t + h } else { f64::INFINITY };
         for stage in 0..4 {
             let c = [0.0, 0.5, 0.5, 1.0][stage];
             for (k, x) in self.runner.state.continuous.iter_mut().enumerate() {
-                *x = self.start[k] + if stage == 0 { 0.0 } else { c * h * self.slopes[stage - 1][k] };
+                *x = self.start[k] + if stage == 0 { 0.0 } else { c * h * self.derivatives[stage - 1][k] };
             }
-            self.runner.minor(tick, t + c * h, corner);
-            self.runner.slopes(tick, t + c * h, corner, &mut self.slopes[stage]);
+            self.runner.minor(tick, t + c * h, time_event);
+            self.runner.derivatives(tick, t + c * h, time_event, &mut self.derivatives[stage]);
         }
         for (k, x) in self.runner.state.continuous.iter_mut().enumerate() {
-            let s = &self.slopes;
+            let s = &self.derivatives;
             *x = self.start[k] + h / 6.0 * (s[0][k] + 2.0 * s[1][k] + 2.0 * s[2][k] + s[3][k]);
         }
         self.tick += 1;

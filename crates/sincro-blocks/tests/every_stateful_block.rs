@@ -1,14 +1,14 @@
-//! What holds for every block of the shelves matrices, nonlinear, continuous, discrete, adaptation and rotations, with all its
-//! parameters in use.
+//! Properties of every block of the categories matrices, nonlinear, continuous, discrete, adaptation and rotations,
+//! with all its parameters in use: values on dual numbers, the Jacobian's diagonal, refusals.
 
-mod b_common;
+mod common;
 
 use std::sync::Arc;
 
-use b_common::{add, block, list, made, rows, table};
+use common::{add, block, list, made, rows, table};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
-use sincro_blocks::kind::Group;
+use sincro_blocks::kind::Category;
 use sincro_blocks::library;
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::program::Program;
@@ -20,7 +20,7 @@ const STEP: f64 = 0.01;
 
 type Parameters = Vec<(&'static str, Value)>;
 
-/// Every block of these shelves: its name, its parameters, the widths of its inputs.
+/// Every block of these categories: its name, its parameters, the widths of its inputs.
 fn examples() -> Vec<(&'static str, Parameters, Vec<usize>)> {
     let linear = || -> Parameters {
         vec![
@@ -137,10 +137,10 @@ fn fed(kind: &str, parameters: &[(&str, Value)], inputs: &[usize]) -> Arc<Progra
 
 #[test]
 fn no_block_is_forgotten_here() {
-    use Group::{Adaptation, Continuous, Discrete, Matrices, Nonlinear, Rotations};
+    use Category::{Adaptation, Continuous, Discrete, Matrices, Nonlinear, Rotations};
     let known: Vec<&str> = examples().iter().map(|e| e.0).collect();
     let is_own = |group| matches!(group, Matrices | Nonlinear | Continuous | Discrete | Adaptation | Rotations);
-    let own = library::all().filter(|i| is_own(i.kind.group));
+    let own = library::all().filter(|i| is_own(i.kind.category));
     for item in own {
         assert!(known.contains(&item.kind.name), "{}", item.kind.name);
     }
@@ -151,7 +151,7 @@ fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
     for (kind, parameters, inputs) in examples() {
         let program = fed(kind, &parameters, &inputs);
         let (mut plain, mut dual) = (Runner::<f64>::new(program.clone()), Runner::<Dual<1>>::new(program.clone()));
-        let (mut slope, mut dual_slope) = (vec![0.0; program.n_states], vec![Dual::default(); program.n_states]);
+        let (mut rates, mut dual_rates) = (vec![0.0; program.n_states], vec![Dual::default(); program.n_states]);
         for tick in 0..20 {
             let t = tick as f64 * STEP;
             plain.evaluate(tick, t);
@@ -161,19 +161,19 @@ fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
             }
             plain.update(tick, t);
             dual.update(tick, t);
-            plain.slopes(tick, t, f64::INFINITY, &mut slope);
-            dual.slopes(tick, t, f64::INFINITY, &mut dual_slope);
-            for k in 0..slope.len() {
-                assert_eq!(slope[k].to_bits(), dual_slope[k].value.to_bits(), "{kind}");
-                plain.state.continuous[k] += STEP * slope[k];
-                dual.state.continuous[k] += Dual::constant(STEP) * dual_slope[k];
+            plain.derivatives(tick, t, f64::INFINITY, &mut rates);
+            dual.derivatives(tick, t, f64::INFINITY, &mut dual_rates);
+            for k in 0..rates.len() {
+                assert_eq!(rates[k].to_bits(), dual_rates[k].value.to_bits(), "{kind}");
+                plain.state.continuous[k] += STEP * rates[k];
+                dual.state.continuous[k] += Dual::constant(STEP) * dual_rates[k];
             }
         }
     }
 }
 
 #[test]
-fn decay_is_the_derivative_of_the_slope_by_its_own_state() {
+fn the_diagonal_of_the_jacobian_is_the_derivative_by_the_own_state() {
     // formulas may be anything: `equations` tells nothing
     for (kind, parameters, inputs) in examples().into_iter().filter(|e| e.0 != "equations") {
         let program = fed(kind, &parameters, &inputs);
@@ -183,10 +183,10 @@ fn decay_is_the_derivative_of_the_slope_by_its_own_state() {
             // one limited, one not
             runner.state.continuous[seed] = Dual::variable(0.1, 0);
             runner.evaluate(0, 0.0);
-            let (mut slope, mut decay) = (vec![Dual::default(); n], vec![Dual::default(); n]);
-            runner.slopes(0, 0.0, f64::INFINITY, &mut slope);
-            runner.decays(0, 0.0, &mut decay);
-            let (own, told) = (-slope[seed].partials[0], decay[seed].value);
+            let (mut rates, mut diagonal) = (vec![Dual::default(); n], vec![Dual::default(); n]);
+            runner.derivatives(0, 0.0, f64::INFINITY, &mut rates);
+            runner.neg_jacobian_diagonal(0, 0.0, &mut diagonal);
+            let (own, told) = (-rates[seed].partials[0], diagonal[seed].value);
             assert!((own - told).abs() < 1e-12 * (1.0 + told.abs()), "{kind}, state {seed}: {own} {told}");
         }
     }

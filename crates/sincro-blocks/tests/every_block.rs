@@ -1,15 +1,15 @@
-//! What holds for every block of the library: its description, its parameters, its values on dual numbers.
+//! Properties of every block of the library: its description, its parameters, its values on dual numbers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sincro_blocks::compile::{Interface, compile};
-use sincro_blocks::diagram::{Diagram, What};
-use sincro_blocks::instance::Template;
+use sincro_blocks::diagram::{Content, Diagram};
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::{Kind, Takes};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::library::{Item, all};
-use sincro_blocks::reader::{Fault, Files, Reader, Value};
+use sincro_blocks::reader::{Files, ParameterError, Reader, Value};
 use sincro_blocks::runner::Runner;
 use sincro_math::Dual;
 
@@ -22,7 +22,7 @@ impl Files for AnyFile {
     }
 }
 
-/// What a parameter may look like that takes this.
+/// A plausible value of a parameter.
 fn plausible(takes: Takes) -> Value {
     match takes {
         Takes::Number | Takes::Positive | Takes::Numbers | Takes::Matrix => Value::Number(0.5),
@@ -36,7 +36,7 @@ fn plausible(takes: Takes) -> Value {
     }
 }
 
-/// What a block needs beside its required parameters: one of several that exclude each other, or a special number.
+/// Parameters that a block needs beside the required ones: one of several that exclude each other, or a special number.
 fn beside(name: &str) -> Vec<(&'static str, Value)> {
     match name {
         "sine" => vec![("frequency_hz", 2.0.into())],
@@ -55,17 +55,17 @@ fn required(kind: &Kind) -> BTreeMap<String, Value> {
     given
 }
 
-fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn Template>, Vec<Fault>) {
+fn read(item: &Item, given: &BTreeMap<String, Value>) -> (Box<dyn DynBlock>, Vec<ParameterError>) {
     let scope = BTreeMap::new();
     let mut reader = Reader::new(item.kind, given, &scope, &AnyFile);
     let block = (item.read)(&mut reader);
     (block, reader.finish())
 }
 
-/// The shelves whose blocks this file knows how to feed.
+/// The categories whose blocks this file knows how to feed.
 fn is_own(kind: &Kind) -> bool {
-    use sincro_blocks::kind::Group::{Logic, Maths, Routing, Sinks, Sources};
-    matches!(kind.group, Sources | Maths | Routing | Logic | Sinks)
+    use sincro_blocks::kind::Category::{Logic, Maths, Routing, Sinks, Sources};
+    matches!(kind.category, Sources | Maths | Routing | Logic | Sinks)
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn every_block_is_described() {
         assert!(!kind.equation.is_empty(), "{}", kind.name);
         let mut keys = BTreeSet::new();
         for parameter in kind.parameters {
-            assert!(!parameter.meaning.is_empty(), "{}: {}", kind.name, parameter.name);
+            assert!(!parameter.meaning().is_empty(), "{}: {}", kind.name, parameter.name);
             assert!(keys.insert(parameter.name), "{}: two parameters {}", kind.name, parameter.name);
             if let (Takes::Choice(words), Some(default)) = (parameter.takes, parameter.default) {
                 assert!(words.contains(&default), "{}: {default}", kind.name);
@@ -140,7 +140,7 @@ fn fed(item: &Item, width: usize) -> Option<(Diagram, Vec<String>)> {
         return None;
     }
     let mut d = Diagram::new();
-    d.add("block", What::Block(block), None);
+    d.add("block", Content::Block(block), None);
     for (k, port) in ports.inputs.iter().enumerate() {
         // within the domain of every function, and a whole number for selectors
         let value = (0..width).map(|i| if k == 0 && width == 1 { 1.0 } else { 0.3 + 0.2 * (k + i) as f64 }).collect();
@@ -158,7 +158,7 @@ fn fed(item: &Item, width: usize) -> Option<(Diagram, Vec<String>)> {
 fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
     for item in all().filter(|item| is_own(item.kind)) {
         let Some((d, outputs)) = [1, 3].iter().find_map(|width| fed(item, *width)) else {
-            // the matrix of one by one takes a scalar: everything of these shelves can be fed
+            // the matrix of one by one takes a scalar: everything of these categories can be fed
             panic!("{} cannot be fed", item.kind.name);
         };
         let program =

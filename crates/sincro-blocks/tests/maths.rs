@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sincro_blocks::block::Block;
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
-use sincro_blocks::instance::Template;
+use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::Described;
 use sincro_blocks::library::maths::{
     Abs, Cross, Divide, Dot, Expression, Function, MatrixGain, Max, Min, Norm, Polynomial, Power, Product, Sign, Sqrt,
@@ -14,12 +14,12 @@ use sincro_blocks::library::maths::{
 use sincro_blocks::library::sources::{Clock, Constant};
 use sincro_blocks::reader::{NoFiles, Reader, Value};
 use sincro_blocks::runner::Runner;
-use sincro_blocks::solo::Solo;
+use sincro_blocks::simulator::Simulator;
 use sincro_math::{Dual, elementary};
 
 /// A block with constants at its inputs.
-fn fed(block: impl Template + 'static, inputs: &[&[f64]]) -> Diagram {
-    let ports = Template::ports(&block).inputs;
+fn fed(block: impl DynBlock + 'static, inputs: &[&[f64]]) -> Diagram {
+    let ports = DynBlock::ports(&block).inputs;
     let mut d = Diagram::new();
     d.block("block", block);
     for (k, (port, value)) in ports.iter().zip(inputs).enumerate() {
@@ -29,11 +29,11 @@ fn fed(block: impl Template + 'static, inputs: &[&[f64]]) -> Diagram {
     d
 }
 
-fn value(block: impl Template + 'static, inputs: &[&[f64]]) -> Vec<f64> {
-    Solo::new(&fed(block, inputs), 0.1).unwrap().output("block").to_vec()
+fn value(block: impl DynBlock + 'static, inputs: &[&[f64]]) -> Vec<f64> {
+    Simulator::new(&fed(block, inputs), 0.1).unwrap().output("block").to_vec()
 }
 
-fn refusal(block: impl Template + 'static, inputs: &[&[f64]]) -> String {
+fn refusal(block: impl DynBlock + 'static, inputs: &[&[f64]]) -> String {
     compile(&fed(block, inputs), &Interface::new(0.1)).unwrap_err()[0].message.clone()
 }
 
@@ -63,9 +63,9 @@ fn a_cross_product_is_square_to_both_factors() {
     let mut d = fed(Cross, &[&[0.3, -1.2, 2.5], &[1.1, 0.7, -0.4]]);
     d.block("first", Dot).wire("block", "first.u1").wire("input-0", "first.u2");
     d.block("second", Dot).wire("block", "second.u1").wire("input-1", "second.u2");
-    let solo = Solo::new(&d, 0.1).unwrap();
+    let simulator = Simulator::new(&d, 0.1).unwrap();
     // roundings of products below 4
-    assert!(solo.output("first")[0].abs() < 4e-15 && solo.output("second")[0].abs() < 4e-15);
+    assert!(simulator.output("first")[0].abs() < 4e-15 && simulator.output("second")[0].abs() < 4e-15);
 }
 
 #[test]
@@ -104,8 +104,8 @@ fn what_is_not_a_number_is_never_hidden() {
 
 #[test]
 fn a_division_by_zero_names_its_block() {
-    let solo = Solo::new(&fed(Divide, &[&[1.0, 1.0], &[2.0, 0.0]]), 0.1).unwrap();
-    let (step, component) = solo.runner.not_finite().unwrap();
+    let simulator = Simulator::new(&fed(Divide, &[&[1.0, 1.0], &[2.0, 0.0]]), 0.1).unwrap();
+    let (step, component) = simulator.runner.not_finite().unwrap();
     assert_eq!((step.path.as_str(), component), ("block", 1));
 }
 
@@ -144,7 +144,7 @@ fn a_polynomial_begins_with_its_highest_power() {
 }
 
 /// The derivative of a block's first output by the first component of its first input.
-fn derivative(block: &(impl Template + Clone + 'static), inputs: &[&[f64]]) -> f64 {
+fn derivative(block: &(impl DynBlock + Clone + 'static), inputs: &[&[f64]]) -> f64 {
     let mut d = fed(block.clone(), inputs);
     // a block of constants is evaluated once; one with a sample time again, after the input has got its derivative
     d.entries[0].sample_time = Some(0.1);
@@ -157,7 +157,7 @@ fn derivative(block: &(impl Template + Clone + 'static), inputs: &[&[f64]]) -> f
 }
 
 /// Compares with the central difference: its error is h²f‴/6 and 1e-16 f/h, below 1e-8 for what is tested here.
-fn check_derivative(block: impl Template + Clone + 'static, inputs: &[&[f64]]) {
+fn check_derivative(block: impl DynBlock + Clone + 'static, inputs: &[&[f64]]) {
     let h = 1e-5;
     let moved = |dx: f64| {
         let first: Vec<f64> = inputs[0].iter().enumerate().map(|(i, x)| if i == 0 { x + dx } else { *x }).collect();
@@ -187,6 +187,7 @@ fn smooth_blocks_carry_their_derivatives() {
     check_derivative(Divide, &[u, v]);
     check_derivative(Sqrt, &[&u[..1]]);
     check_derivative(Abs, &[u]);
+    check_derivative(Abs, &[&[-0.6]]);
     check_derivative(Min::new(2), &[u, v]);
     check_derivative(Max::new(2), &[u, v]);
     check_derivative(Power::new(2.5), &[&u[..1]]);
@@ -194,6 +195,18 @@ fn smooth_blocks_carry_their_derivatives() {
     check_derivative(Polynomial::new(&[1.0, -2.0, 0.5, 3.0]), &[u]);
     check_derivative(MatrixGain::new(&[&[2.0, 0.0, 1.0]]), &[u]);
     check_derivative(Expression::new("u1^2*sin(u2*u1)"), &[u, v]);
+}
+
+#[test]
+fn at_a_kink_the_derivative_is_that_of_one_side() {
+    // of |u| that from above, also at the negative zero; of the least and the greatest of equals that of the first
+    assert_eq!([0.0, -0.0, 1e-300, -1e-300].map(|u| derivative(&Abs, &[&[u]])), [1.0, 1.0, 1.0, -1.0]);
+    for equals in [derivative(&Min::new(2), &[&[0.3], &[0.3]]), derivative(&Max::new(2), &[&[0.3], &[0.3]])] {
+        assert_eq!(equals, 1.0);
+    }
+    assert_eq!(derivative(&Min::new(2), &[&[0.4], &[0.3]]), 0.0);
+    assert_eq!(derivative(&Max::new(2), &[&[0.2], &[0.3]]), 0.0);
+    assert_eq!(derivative(&Sign, &[&[0.2]]), 0.0);
 }
 
 #[test]
@@ -235,10 +248,10 @@ fn several_formulas_make_a_vector_of_scalars() {
 fn a_formula_of_time_moves_though_its_inputs_do_not() {
     let mut d = fed(Expression::new("u*t"), &[&[2.0]]);
     d.block("clock", Clock);
-    let mut solo = Solo::new(&d, 0.25).unwrap();
-    assert_eq!(solo.record("block", 4), [0.0, 0.5, 1.0, 1.5, 2.0]);
+    let mut simulator = Simulator::new(&d, 0.25).unwrap();
+    assert_eq!(simulator.record("block", 4), [0.0, 0.5, 1.0, 1.5, 2.0]);
     d.entries[0].sample_time = Some(0.5);
-    assert_eq!(Solo::new(&d, 0.25).unwrap().record("block", 4), [0.0, 0.0, 1.0, 1.0, 2.0]);
+    assert_eq!(Simulator::new(&d, 0.25).unwrap().record("block", 4), [0.0, 0.0, 1.0, 1.0, 2.0]);
 }
 
 #[test]

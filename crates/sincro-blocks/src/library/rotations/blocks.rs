@@ -1,0 +1,320 @@
+//! All blocks of rotations, as a table: each maps one or two arrays to another.
+
+use super::algebra::{
+    Convention, angular_velocity, body_torque, conjugate, euler_rates, euler_to_matrix, euler_to_quaternion,
+    euler_torque, matrix_to_euler, matrix_to_quaternion, product, quaternion_rate, quaternion_to_matrix, rotate,
+};
+use crate::library::prelude::*;
+
+/// A block of rotations; `MAP` is a [`Map`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rotation<const MAP: usize> {
+    /// Meaning of the three Euler angles, for the maps that have them.
+    pub convention: Convention,
+    /// The map's option, if it has one: `inverse`, `world` or `transposed`.
+    pub option: bool,
+}
+
+/// Maps between representations of rotations, and of their rates, in the order of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Map {
+    EulerToQuaternion,
+    QuaternionToEuler,
+    EulerToMatrix,
+    MatrixToEuler,
+    QuaternionToMatrix,
+    MatrixToQuaternion,
+    RotateVector,
+    QuaternionProduct,
+    QuaternionConjugate,
+    AngularVelocityToQuaternionRate,
+    EulerRates,
+    EulerRatesToAngularVelocity,
+}
+
+/// Quaternion (w, x, y, z) of Euler angles `[rad]`.
+pub type EulerToQuaternion = Rotation<{ Map::EulerToQuaternion as usize }>;
+/// Euler angles `[rad]` of a quaternion (w, x, y, z), which need not be of length 1. Where the middle angle is ±π/2,
+/// yaw (or α) is taken as zero.
+pub type QuaternionToEuler = Rotation<{ Map::QuaternionToEuler as usize }>;
+/// Rotation matrix, row by row, of Euler angles `[rad]`.
+pub type EulerToMatrix = Rotation<{ Map::EulerToMatrix as usize }>;
+/// Euler angles `[rad]` of a rotation matrix, row by row. Where the middle angle is ±π/2, yaw (or α) is taken as zero.
+pub type MatrixToEuler = Rotation<{ Map::MatrixToEuler as usize }>;
+/// Rotation matrix, row by row, of a quaternion (w, x, y, z), which need not be of length 1.
+pub type QuaternionToMatrix = Rotation<{ Map::QuaternionToMatrix as usize }>;
+/// Quaternion (w, x, y, z) with w ≥ 0 of a rotation matrix, row by row.
+pub type MatrixToQuaternion = Rotation<{ Map::MatrixToQuaternion as usize }>;
+/// Vector turned by a quaternion (w, x, y, z), which need not be of length 1: with q_wb, from components in B to
+/// components in W.
+pub type RotateVector = Rotation<{ Map::RotateVector as usize }>;
+/// Product of two quaternions (w, x, y, z): first the rotation `u2`, then `u1`, as q_wc = q_wb ⊗ q_bc.
+pub type QuaternionProduct = Rotation<{ Map::QuaternionProduct as usize }>;
+/// Conjugate of a quaternion (w, x, y, z): the rotation back, if it is of length 1.
+pub type QuaternionConjugate = Rotation<{ Map::QuaternionConjugate as usize }>;
+/// Rate of a quaternion (w, x, y, z) from the angular velocity `w` `[rad/s]`, in the axes of the body or of the world.
+pub type AngularVelocityToQuaternionRate = Rotation<{ Map::AngularVelocityToQuaternionRate as usize }>;
+/// Rates of Euler angles `[rad/s]` from the angular velocity `w` `[rad/s]` in the axes of the body, or, transposed,
+/// torques about the axes of the body from torques about the angles' axes, of the same power. They are not finite where
+/// the middle angle is ±π/2.
+pub type EulerRates = Rotation<{ Map::EulerRates as usize }>;
+/// Angular velocity `[rad/s]` in the axes of the body from rates of Euler angles `[rad/s]`: the inverse of
+/// [`EulerRates`].
+pub type EulerRatesToAngularVelocity = Rotation<{ Map::EulerRatesToAngularVelocity as usize }>;
+
+/// A map as the diagram sees it.
+struct Row {
+    map: Map,
+    kind: Kind,
+    /// Name and width of the inputs.
+    inputs: &'static [(&'static str, usize)],
+    /// Width of the output.
+    output: usize,
+    /// Label, then that with the option; `…` stands for the convention.
+    labels: [&'static str; 2],
+}
+
+const CONVENTION: Parameter = Parameter::optional(
+    "convention",
+    Takes::Choice(Convention::WORDS),
+    "zyx: roll, pitch, yaw with R = Rz(yaw)·Ry(pitch)·Rx(roll); xyz: α, β, γ with R = Rx(α)·Ry(β)·Rz(γ), as in V-REP",
+    "zyx",
+);
+const INVERSE: Parameter = Parameter::optional("inverse", Takes::Flag, "turns back", "false");
+const WORLD: Parameter =
+    Parameter::optional("world", Takes::Flag, "takes the angular velocity in the axes of the world", "false");
+const TRANSPOSED: Parameter = Parameter::optional(
+    "transposed",
+    Takes::Flag,
+    "transposes the matrix, as for torques and in the laws of Lyapunov's method",
+    "false",
+);
+
+/// A row whose label does not depend on the option.
+const fn row(
+    map: Map,
+    (name, summary, equation): (&'static str, &'static str, &'static str),
+    parameters: &'static [Parameter],
+    inputs: &'static [(&'static str, usize)],
+    output: usize,
+    label: &'static str,
+) -> Row {
+    let kind = Kind { name, category: Category::Rotations, summary, equation, parameters };
+    Row { map, kind, inputs, output, labels: [label; 2] }
+}
+
+/// By [`Map`].
+const ROWS: [Row; 12] = [
+    row(
+        Map::EulerToQuaternion,
+        ("euler-to-quaternion", "The quaternion of Euler angles.", "y = q(u)"),
+        &[CONVENTION],
+        &[("u", 3)],
+        4,
+        "… → q",
+    ),
+    row(
+        Map::QuaternionToEuler,
+        ("quaternion-to-euler", "Euler angles of a quaternion.", "u = q(y)"),
+        &[CONVENTION],
+        &[("u", 4)],
+        3,
+        "q → …",
+    ),
+    row(
+        Map::EulerToMatrix,
+        ("euler-to-matrix", "The rotation matrix of Euler angles.", "y = R(u)"),
+        &[CONVENTION],
+        &[("u", 3)],
+        9,
+        "… → R",
+    ),
+    row(
+        Map::MatrixToEuler,
+        ("matrix-to-euler", "Euler angles of a rotation matrix.", "u = R(y)"),
+        &[CONVENTION],
+        &[("u", 9)],
+        3,
+        "R → …",
+    ),
+    row(
+        Map::QuaternionToMatrix,
+        ("quaternion-to-matrix", "The rotation matrix of a quaternion.", "y = R(u/|u|)"),
+        &[],
+        &[("u", 4)],
+        9,
+        "q → R",
+    ),
+    row(
+        Map::MatrixToQuaternion,
+        ("matrix-to-quaternion", "The quaternion of a rotation matrix.", "u = R(y), w ≥ 0"),
+        &[],
+        &[("u", 9)],
+        4,
+        "R → q",
+    ),
+    Row {
+        labels: ["Rv", "Rᵀv"],
+        ..row(
+            Map::RotateVector,
+            ("rotate-vector", "Turns a vector by a quaternion.", "y = R(q)·v, or Rᵀ(q)·v if inverse"),
+            &[INVERSE],
+            &[("q", 4), ("v", 3)],
+            3,
+            "",
+        )
+    },
+    row(
+        Map::QuaternionProduct,
+        ("quaternion-product", "One rotation after another.", "y = u1 ⊗ u2"),
+        &[],
+        &[("u1", 4), ("u2", 4)],
+        4,
+        "⊗",
+    ),
+    row(
+        Map::QuaternionConjugate,
+        ("quaternion-conjugate", "The rotation back.", "y = (w, −x, −y, −z)"),
+        &[],
+        &[("u", 4)],
+        4,
+        "q*",
+    ),
+    row(
+        Map::AngularVelocityToQuaternionRate,
+        (
+            "angular-velocity-to-quaternion-rate",
+            "The rate of a quaternion from an angular velocity.",
+            "y = q ⊗ (0, w)/2, or (0, w) ⊗ q/2 with world axes",
+        ),
+        &[WORLD],
+        &[("q", 4), ("w", 3)],
+        4,
+        "q' = ½q ⊗ ω",
+    ),
+    Row {
+        labels: ["ω → φ'", "E⁻ᵀ·w"],
+        ..row(
+            Map::EulerRates,
+            (
+                "euler-rates",
+                "Rates of Euler angles from the angular velocity of the body.",
+                "y = E⁻¹(euler)·w, or E⁻ᵀ(euler)·w if transposed; w = E(euler)·euler'",
+            ),
+            &[CONVENTION, TRANSPOSED],
+            &[("euler", 3), ("w", 3)],
+            3,
+            "",
+        )
+    },
+    Row {
+        labels: ["φ' → ω", "Eᵀ·τ"],
+        ..row(
+            Map::EulerRatesToAngularVelocity,
+            (
+                "euler-rates-to-angular-velocity",
+                "The angular velocity of a body, in its own axes, from rates of its Euler angles.",
+                "y = E(euler)·rates, or Eᵀ(euler)·rates if transposed",
+            ),
+            &[CONVENTION, TRANSPOSED],
+            &[("euler", 3), ("rates", 3)],
+            3,
+            "",
+        )
+    },
+];
+
+// a type alias names its row by the map
+const _: () = {
+    let mut k = 0;
+    while k < ROWS.len() {
+        assert!(ROWS[k].map as usize == k);
+        k += 1;
+    }
+};
+
+impl<const MAP: usize> Rotation<MAP> {
+    const ROW: &'static Row = &ROWS[MAP];
+
+    /// In a convention, without the option.
+    #[must_use]
+    pub fn new(convention: Convention) -> Self {
+        Self { convention, option: false }
+    }
+}
+
+impl<const MAP: usize> Described for Rotation<MAP> {
+    const KIND: &'static Kind = &Self::ROW.kind;
+
+    fn read(p: &mut Reader<'_>) -> Self {
+        let mut new = Self::default();
+        for parameter in Self::KIND.parameters {
+            match parameter.takes {
+                Takes::Flag => new.option = p.flag(parameter.name),
+                _ => new.convention = <Choice as ParameterType<Convention>>::read(p, parameter.name),
+            }
+        }
+        new
+    }
+}
+
+impl<const MAP: usize> Block for Rotation<MAP> {
+    type Work<R: Real> = ();
+
+    fn ports(&self) -> Ports {
+        let inputs: Vec<&str> = Self::ROW.inputs.iter().map(|(name, _)| *name).collect();
+        Ports::new(&inputs, &["y"])
+    }
+
+    fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
+        for ((name, expected), width) in Self::ROW.inputs.iter().zip(inputs) {
+            if let Some(width) = width
+                && width != expected
+            {
+                return Err(format!("`{name}` has {expected} components here, it gets {width}"));
+            }
+        }
+        Ok(vec![Some(Self::ROW.output)])
+    }
+
+    fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+        let Self { convention, option } = *self;
+        match Self::ROW.map {
+            Map::EulerToQuaternion => y.copy_from_slice(&euler_to_quaternion(array(at, 0), convention)),
+            Map::QuaternionToEuler => {
+                y.copy_from_slice(&matrix_to_euler(quaternion_to_matrix(array(at, 0)), convention));
+            }
+            Map::EulerToMatrix => y.copy_from_slice(&euler_to_matrix(array(at, 0), convention)),
+            Map::MatrixToEuler => y.copy_from_slice(&matrix_to_euler(array(at, 0), convention)),
+            Map::QuaternionToMatrix => y.copy_from_slice(&quaternion_to_matrix(array(at, 0))),
+            Map::MatrixToQuaternion => y.copy_from_slice(&matrix_to_quaternion(array(at, 0))),
+            Map::RotateVector => y.copy_from_slice(&rotate(quaternion_to_matrix(array(at, 0)), array(at, 1), option)),
+            Map::QuaternionProduct => y.copy_from_slice(&product(array(at, 0), array(at, 1))),
+            Map::QuaternionConjugate => y.copy_from_slice(&conjugate(array(at, 0))),
+            Map::AngularVelocityToQuaternionRate => {
+                y.copy_from_slice(&quaternion_rate(array(at, 0), array(at, 1), option));
+            }
+            Map::EulerRates => {
+                let matrix = if option { body_torque } else { euler_rates };
+                y.copy_from_slice(&matrix(array(at, 0), array(at, 1), convention));
+            }
+            Map::EulerRatesToAngularVelocity => {
+                let matrix = if option { euler_torque } else { angular_velocity };
+                y.copy_from_slice(&matrix(array(at, 0), array(at, 1), convention));
+            }
+        }
+    }
+
+    fn label(&self) -> String {
+        let label = Self::ROW.labels[usize::from(self.option)];
+        label.replace('…', self.convention.word())
+    }
+}
+
+/// An input as an array.
+#[inline(always)]
+fn array<R: Real, const N: usize>(at: &At<'_, R>, input: usize) -> [R; N] {
+    let u = at.input(input);
+    core::array::from_fn(|k| u[k])
+}
