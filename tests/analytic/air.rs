@@ -1,16 +1,16 @@
 //! Bodies in moving air: terminal velocity, wind's work, lag and spinning joints in closed form, power balances.
 
+use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::aero::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
+use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
 use sincro_dynamics::energy::energy_at;
-use sincro_dynamics::force::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
-use sincro_dynamics::force::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{
     BodySpec, DragSpec, JointSpec, Model, ModelBuilder, NodeId, RotorDrive, RotorSpec, Shape,
 };
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_dynamics::state::State;
-use sincro_dynamics::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::world::{MethodKind, World};
 
 use crate::mechanisms::{ALL, run};

@@ -1,12 +1,12 @@
 //! Stops of joints, closed loops and couplings against closed forms.
 
 use sincro_dynamics::constraint::ClosureKind;
+use sincro_dynamics::initial;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{
     BodySpec, ClosureSpec, CouplingSpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape,
 };
 use sincro_dynamics::spatial::{Pose, Vec3};
-use sincro_dynamics::start;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
 
@@ -94,7 +94,7 @@ fn a_closed_loop_keeps_the_order_of_the_integrator_and_does_not_drift() {
         let mut worst = 0.0_f64;
         for k in 0..n {
             world.advance(3.0 / f64::from(n) * f64::from(k), 3.0 / f64::from(n)).unwrap();
-            let open = start::openings(world.model(), &world.state)[0].distance;
+            let open = initial::openings(world.model(), &world.state)[0].distance;
             worst = worst.max(open);
         }
         assert!(worst < 1e-10, "{kind:?} drifts {worst:e}");
@@ -153,6 +153,6 @@ fn redundant_equations_are_counted() {
     let pose = Pose { rot: turn, pos: Vec3::zero() };
     b.closure("pin", ClosureSpec { kind: ClosureKind::Hinge, ends: [end, tip], poses: [pose, pose] });
     let model = b.build().unwrap().0;
-    let freedom = start::freedom(&model, &State::new(&model));
+    let freedom = initial::freedom(&model, &State::new(&model));
     assert_eq!((freedom.of_tree, freedom.equations, freedom.redundant, freedom.left()), (3, 5, 3, 1));
 }

@@ -3,8 +3,8 @@
 //! `states.csv` of the scene `rotor-bemt` and `rotor-inflow-grid.csv` were computed independently (Brent's method in Python) with twelve digits;
 //! the columns of the printed script are a transcription that was compared with the Lua text in a Lua interpreter.
 
-use sincro_dynamics::force::rotor::{CoefficientTable, TableRow};
-use sincro_dynamics::force::rotor::{Drag, Rotor, RotorSpec, Spin, StockPropeller, Validity, printed};
+use sincro_dynamics::aero::rotor::{CoefficientTable, TableRow};
+use sincro_dynamics::aero::rotor::{Drag, Rotor, RotorSpec, Spin, StockPropeller, Validity, printed};
 use sincro_dynamics::spatial::{Mat3, Vec3};
 
 const TABLE: &str = include_str!("../../scenes/rotor-bemt/states.csv");

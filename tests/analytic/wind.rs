@@ -1,6 +1,6 @@
 //! Wind: profiles and gusts in closed form; turbulence has the variance and the autocorrelation of Dryden's spectra.
 
-use sincro_dynamics::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, dryden_scales};
+use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, dryden_scales};
 use sincro_math::{Dual, Lanes, Real};
 
 fn turbulent(seed: u64) -> Wind {

@@ -9,7 +9,7 @@
 use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
-use crate::force::rotor::SpeedFrom;
+use crate::aero::rotor::SpeedFrom;
 use crate::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, PackError};

@@ -2,9 +2,10 @@
 
 use sincro_math::Real;
 
-use crate::force::{gravity, spring};
-use crate::kinematics;
+use crate::actuation::spring;
+use crate::gravity;
 use crate::model::Model;
+use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
 

@@ -25,27 +25,27 @@
 //! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
 //! clocks, threads or logs in this crate.
 
-pub mod aba;
-pub mod attachment;
+pub mod actuation;
+pub mod aero;
 pub mod batch;
+mod compile;
 pub mod constraint;
 pub mod contact;
-pub mod crba;
-pub mod drive;
+pub mod coupled;
 pub mod energy;
-pub mod force;
 pub mod geometry;
+mod gravity;
+pub mod initial;
 pub mod integrate;
 pub mod joint;
-pub mod kinematics;
 pub mod mechanism;
 pub mod model;
-pub mod rnea;
+pub mod recursions;
 pub mod scratch;
 pub mod signal;
 pub mod spatial;
-pub mod start;
 pub mod state;
 pub mod stiffness;
-pub mod wind;
 pub mod world;
+
+pub use recursions::{aba, crba, kinematics, rnea};

@@ -1,12 +1,12 @@
 //! How fast springs and dampers of joints act on the inertia they meet: what an explicit method must resolve.
 //!
 //! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything beyond left
-//! free ([`crate::aba::joint_inertias`]), the faster root of D s² + c s + k = 0. It is an estimate: coupling between joints is left
+//! free ([`crate::recursions::aba::joint_inertias`]), the faster root of D s² + c s + k = 0. It is an estimate: coupling between joints is left
 //! out, and D changes with the pose.
 
-use crate::aba::joint_inertias;
-use crate::force::MotorMode;
+use crate::actuation::MotorMode;
 use crate::model::Model;
+use crate::recursions::aba::joint_inertias;
 use crate::state::State;
 
 /// |h·λ| up to which RK4 is stable on the negative real axis. Source: key `hairer1996`, section IV.2.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::actuation::MotorMode;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};
 use sincro_sim::session::{Handle, Phase, Reference, Search, Session, Value};

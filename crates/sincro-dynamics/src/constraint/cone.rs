@@ -25,7 +25,7 @@ pub(crate) struct Group<R> {
     pub direction: [R; 2],
     /// How much rate across its direction a unit of force across it comes with, where it can turn. Of a group that slides so slowly that friction
     /// could turn its velocity within the step, so that the force is that of the end of the step: else friction that turns with a small velocity
-    /// would be stiff without bound. And of one whose direction follows from what it is about to do ([`super::guess`]).
+    /// would be stiff without bound. And of one whose direction follows from what it is about to do ([`super::active_set`]).
     pub give: Option<R>,
 }
 

@@ -1,10 +1,10 @@
 //! Impacts, projections, and what there is to see of contacts: what is done with rows outside of the evaluation of rates.
 
+use super::active_set::Instant;
 use super::cone::{Block, Grip};
 use super::dense::PROJECTION_RANK;
-use super::guess::Instant;
 use super::{Constraints, ContactPoint, dot, pair_of, restitution};
-use crate::contact::feature::tangents;
+use crate::contact::candidate::tangents;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Vec3;

@@ -21,36 +21,36 @@
 //!
 //! Sources: keys `featherstone2008` (chapter 8, loops; section 11, contact), `acary2008` (chapters 3 and 13).
 
-pub mod closure;
+mod active_set;
+mod admm;
 mod cone;
+mod delassus;
 mod dense;
-pub(crate) mod events;
-mod guess;
 mod impact;
-pub(crate) mod memory;
-mod respond;
+pub mod loop_joint;
 pub(crate) mod row;
-mod solve;
-mod split;
+mod solver;
 #[cfg(test)]
 mod tests;
+pub(crate) mod warm_start;
 
 use sincro_math::Real;
 
-pub use closure::{Anchor, Closure, ClosureKind, Coupling};
-pub use solve::SolverReport;
+pub use loop_joint::{Anchor, Closure, ClosureKind, Coupling};
+pub use solver::SolverReport;
 
-use crate::contact::{Collider, Detector, Pair, feature::Spot, feature::tangents};
-use crate::kinematics;
+use crate::contact::{Collider, Detector, Pair, candidate::Spot, candidate::tangents};
+use crate::mechanism::constraints::CLOSED;
 use crate::model::Model;
+use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
+use active_set::Instant;
 use cone::{Block, Grip, Group};
-use events::CLOSED;
-use guess::Instant;
-use memory::Memory;
+
 use row::{Motions, Row, force_at, force_rate};
-use solve::Solver;
+use solver::Solver;
+use warm_start::Memory;
 
 /// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
 pub const SLOT: usize = 7;
@@ -112,7 +112,7 @@ impl ConstraintSet {
     /// Length of [`crate::state::State::contacts`].
     #[must_use]
     pub fn n_numbers(&self) -> usize {
-        memory::length(self.n_slots())
+        warm_start::length(self.n_slots())
     }
 
     /// Number of rows of closures and couplings.
@@ -160,14 +160,14 @@ pub(crate) struct Constraints<R> {
     pub later: Vec<Option<Spot>>,
     pub detector: Detector,
     pub motions: Motions<R>,
-    response: respond::Response<R>,
+    response: delassus::Response<R>,
     pub rows: Vec<Row<R>>,
     /// How far each row's constraint is from holding: gaps, openings.
     pub residual: Vec<R>,
     pub n_free: usize,
     pub blocks: Vec<Block<R>>,
     jacobian: Vec<R>,
-    innovations: respond::Innovations<R>,
+    innovations: delassus::Innovations<R>,
     a: Vec<R>,
     b: Vec<R>,
     pub lambda: Vec<R>,
@@ -194,13 +194,13 @@ impl<R: Real> Constraints<R> {
             later: vec![None; set.n_contacts()],
             detector: Detector::new(&set.colliders, &set.pairs),
             motions: Motions::new(model),
-            response: respond::Response::new(model),
+            response: delassus::Response::new(model),
             rows: Vec::new(),
             residual: Vec::new(),
             n_free: 0,
             blocks: Vec::new(),
             jacobian: Vec::new(),
-            innovations: respond::Innovations::new(model),
+            innovations: delassus::Innovations::new(model),
             a: Vec::new(),
             b: Vec::new(),
             lambda: Vec::new(),

@@ -1,8 +1,8 @@
 //! The laws of contact, looked at in the solver's results for problems of every kind.
 
+use super::active_set::Instant;
 use super::cone::{Block, Grip, Group};
-use super::guess::Instant;
-use super::solve::Solver;
+use super::solver::Solver;
 
 /// Numbers between −1 and 1, always the same.
 struct Numbers(u64);

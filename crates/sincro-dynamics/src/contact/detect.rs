@@ -1,9 +1,9 @@
 //! From poses to spots: where the surfaces of each pair are closest.
 
-use super::feature::{Feature, Spot};
+use super::candidate::{Feature, Spot};
 use super::manifold::Manifolds;
-use super::polytope::{Clipper, Polytope};
 use super::{Collider, Pair, PairKind, Surface};
+use crate::geometry::sat::{Clipper, Polytope};
 use crate::model::{Shape, WORLD};
 use crate::spatial::{Pose, Vec3};
 

@@ -9,9 +9,9 @@ use parry3d_f64::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
 };
 
-use super::feature::{Feature, Spot};
+use super::candidate::{Feature, Spot};
 use super::{Collider, Pair, PairKind, Surface};
-use crate::geometry::library::{LibraryShape, library_pose, vec3};
+use crate::geometry::parry::{LibraryShape, library_pose, vec3};
 use crate::model::Shape;
 use crate::spatial::{Pose, Vec3};
 

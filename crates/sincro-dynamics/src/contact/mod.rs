@@ -6,14 +6,13 @@
 //! Friction of a pair is the geometric mean of the two coefficients (nothing sticks to what is frictionless), restitution the larger one; lengths of
 //! rolling and spinning friction the larger one; compliances are added.
 
+pub(crate) mod candidate;
 mod detect;
-pub(crate) mod feature;
 mod manifold;
-pub mod polyhedron;
-mod polytope;
 
+pub use crate::geometry::polyhedron;
+use crate::geometry::sat::Polytope;
 pub(crate) use detect::Detector;
-use polytope::Polytope;
 
 use crate::model::{Shape, WORLD};
 use crate::spatial::{Pose, Vec3};

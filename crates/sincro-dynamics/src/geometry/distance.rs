@@ -2,9 +2,9 @@
 //! inside. Balls, capsules, cuboids, hulls, half spaces and triangles are exact to rounding, cylinders and cones to about 1e-12 of their size.
 
 use super::Geometry;
-use super::gap::{Convex, Gap, gap};
-use super::solid::{Core, POINT, Placed, Solid};
-use super::tree::Tree;
+use super::bvh::Tree;
+use super::gjk::{Convex, Gap, gap};
+use super::support::{Core, POINT, Placed, Solid};
 use crate::spatial::{Pose, Vec3};
 
 /// How far the normals of two half spaces may be from opposite for a distance between them.

@@ -1,8 +1,8 @@
 //! Distances against closed forms, against planes that separate, and against triangle after triangle.
 
-use super::gap::Convex;
-use super::library::library_pose;
-use super::solid::{Core, Placed, Solid};
+use super::gjk::Convex;
+use super::parry::library_pose;
+use super::support::{Core, Placed, Solid};
 use super::tests::{Numbers, surfaces};
 use super::*;
 use crate::model::Shape;

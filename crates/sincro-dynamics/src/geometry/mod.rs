@@ -3,31 +3,37 @@
 //! Rays have closed forms on solids, hulls are cut by the planes of their faces, meshes and height fields are the collision library's. Distances are
 //! those of convex sets (`gap`), triangle by triangle for meshes and height fields (`tree`).
 
+mod bvh;
 mod distance;
 #[cfg(test)]
 mod distance_tests;
-mod gap;
-pub(crate) mod library;
-mod nearest;
+mod field_of_view;
+mod gjk;
+mod mass;
+pub(crate) mod parry;
+pub mod polyhedron;
+mod proximity;
 #[cfg(test)]
-mod nearest_tests;
-mod ray;
-mod solid;
+mod proximity_tests;
+mod ray_cast;
+pub(crate) mod sat;
+mod shape;
+mod support;
 #[cfg(test)]
 mod tests;
-mod tree;
-mod volume;
 
 use parry3d_f64::query::Ray as LibraryRay;
 
 use crate::contact::Surface;
 use crate::spatial::Vec3;
-use library::{LibraryShape, vec3};
-use tree::Tree;
+use bvh::Tree;
+use parry::{LibraryShape, vec3};
 
 pub use distance::Closest;
-pub use nearest::Sighting;
-pub use volume::{Field, Volume};
+pub use field_of_view::{Field, Volume};
+pub use mass::MassProperties;
+pub use proximity::Sighting;
+pub use shape::Shape;
 
 /// A ray: a point and a direction of length one, in whatever frame is said.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,9 +116,9 @@ impl Geometry {
     #[must_use]
     pub fn hit(&self, ray: &Ray, most: f64) -> Option<Hit> {
         let hit = match &self.surface {
-            Surface::Solid(shape) => ray::solid(shape, ray),
-            Surface::HalfSpace => ray::half_space(ray),
-            Surface::Hull(_) => ray::planes(self.faces.iter().copied(), ray),
+            Surface::Solid(shape) => ray_cast::solid(shape, ray),
+            Surface::HalfSpace => ray_cast::half_space(ray),
+            Surface::Hull(_) => ray_cast::planes(self.faces.iter().copied(), ray),
             Surface::Mesh(..) | Surface::HeightField { .. } => return self.hit_library(ray, most),
         };
         hit.filter(|hit| hit.distance <= most)

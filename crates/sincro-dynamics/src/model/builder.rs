@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use super::{MassProperties, Model, Problem, compile};
+use super::{MassProperties, Model, Problem};
+use crate::actuation::Motor;
+use crate::aero::rotor::RotorLaw;
+use crate::aero::wind::Wind;
 use crate::constraint::ClosureKind;
 use crate::contact::{Material, Surface};
-use crate::force::Motor;
-use crate::force::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
-use crate::wind::Wind;
 
 /// Approach slower than this does not bounce, unless told otherwise [m/s]: a bounce from here is 5e-8 m high under gravity. Without it a
 /// ball would bounce infinitely often in finite time.
@@ -279,6 +279,6 @@ impl ModelBuilder {
     /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
     /// takes its speed from.
     pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
-        compile::compile(self)
+        crate::compile::compile(self)
     }
 }

@@ -6,37 +6,33 @@
 //! joint's axis on a coordinate axis wherever the geometry allows, because that is what the recursions do fastest.
 //! [`Names`] keeps the way back from the user's objects to links and coordinates.
 
-mod builder;
-mod change;
-mod check;
-mod compile;
-mod mass;
-mod names;
+pub(crate) mod builder;
+pub(crate) mod diagnostic;
+pub(crate) mod names;
 mod pack;
-mod problem;
-mod shape;
+pub(crate) mod parameters;
 
 use std::sync::Arc;
 
 use sincro_math::Real;
 
+pub use crate::geometry::{MassProperties, Shape};
 pub use builder::{
     BodySpec, ClosureSpec, CouplingSpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
     RotorSpec,
 };
-pub use mass::MassProperties;
+pub use diagnostic::{Problem, Severity};
 pub use names::{FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
-pub use problem::{Problem, Severity};
-pub use shape::Shape;
 
+use crate::actuation::drive::Drive;
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::aero::AirDrag;
+use crate::aero::rotor::MountedRotor;
+use crate::aero::wind::Wind;
 use crate::constraint::ConstraintSet;
-use crate::drive::Drive;
-use crate::force::rotor::MountedRotor;
-use crate::force::{AirDrag, AppliedTorque, AppliedWrench, Motor};
 use crate::joint::{Placement, Stage, StageKind};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
-use crate::wind::Wind;
 
 /// No parent: the link moves against the world.
 pub(crate) const WORLD: u32 = u32::MAX;

@@ -2,7 +2,7 @@
 
 use super::NodeId;
 use crate::joint::JointKind;
-use crate::kinematics::Attached;
+use crate::recursions::kinematics::Attached;
 use crate::spatial::Pose;
 
 /// A joint as the user built it.

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
-use crate::force::rotor::{MountedRotor, SpeedFrom};
-use crate::force::{AirDrag, AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::aero::AirDrag;
+use crate::aero::rotor::{MountedRotor, SpeedFrom};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
 /// Why models cannot share lanes: the named part has another structure.

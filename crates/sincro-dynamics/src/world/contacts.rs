@@ -2,11 +2,11 @@
 //! come too thick.
 
 use super::{Stop, World};
-use crate::attachment::{Attachment, Coupled};
-use crate::constraint::events::Closing;
-use crate::constraint::memory::Patience;
-use crate::drive::DriveKind;
+use crate::actuation::drive::DriveKind;
+use crate::constraint::warm_start::Patience;
+use crate::coupled::{Attachment, Coupled};
 use crate::integrate::{Failure, FixedStep, System};
+use crate::mechanism::constraints::Closing;
 
 /// Impacts in a row at one instant (a blow that runs through a stack) before what is left counts as inelastic.
 const MAX_BLOWS: usize = 50;

@@ -1,10 +1,10 @@
 //! Drives within a tick: jumps at its start, who holds and who pulls, events that end a sub-step.
 //!
-//! What a drive is: [`crate::drive`].
+//! What a drive is: [`crate::actuation::drive`].
 
 use super::{Stop, World};
-use crate::attachment::Attachment;
-use crate::drive::DriveKind;
+use crate::actuation::drive::DriveKind;
+use crate::coupled::Attachment;
 use crate::integrate::Control;
 
 /// Relative width below which two velocities count as equal.

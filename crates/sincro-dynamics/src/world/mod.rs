@@ -6,20 +6,20 @@
 //!
 //! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
 
-mod change;
 mod contacts;
 mod drives;
+mod parameters;
 
-use crate::attachment::{Alone, Attachment, Coupled, Seen};
-use crate::constraint::events::Closing;
-use crate::constraint::memory::Patience;
+use crate::actuation::drive::DriveKind;
+use crate::actuation::{Motor, Push};
+use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::constraint::warm_start::Patience;
 use crate::constraint::{ContactPoint, SolverReport};
-use crate::drive::DriveKind;
+use crate::coupled::{Alone, Attachment, Coupled, Seen};
 use crate::energy::{Energy, energy, momentum};
-use crate::force::rotor::{RotorLaw, SpeedFrom};
-use crate::force::{Motor, Push};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
+use crate::mechanism::constraints::Closing;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;

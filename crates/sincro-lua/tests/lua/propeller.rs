@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sincro_dynamics::force::rotor::{Drag, RotorSpec, Spin, printed};
+use sincro_dynamics::aero::rotor::{Drag, RotorSpec, Spin, printed};
 use sincro_dynamics::spatial::{Mat3, Quat, Vec3};
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::run::{Halt, LockStep};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use sincro_blocks::instance::Number;
 use sincro_blocks::program::{Measured, Program};
 use sincro_blocks::runner::{Runner, State};
-use sincro_dynamics::attachment::{Attachment, Response, Seen};
+use sincro_dynamics::coupled::{Attachment, Response, Seen};
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State as WorldState;

@@ -1,7 +1,7 @@
 //! The equations of motion as one function, on any numbers: (x, u) → (ẋ, y).
 
 use sincro_blocks::instance::Number;
-use sincro_dynamics::attachment::{Attachment, Coupled, Response, Seen};
+use sincro_dynamics::coupled::{Attachment, Coupled, Response, Seen};
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::mechanism::Mechanism;

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use sincro_dynamics::force::MotorMode;
-use sincro_dynamics::force::rotor::RotorLaw;
+use sincro_dynamics::actuation::MotorMode;
+use sincro_dynamics::aero::rotor::RotorLaw;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
 

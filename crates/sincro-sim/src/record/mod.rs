@@ -10,7 +10,7 @@ pub(crate) mod probe;
 pub use catalogue::{Entry, catalogue};
 pub use contact::ContactQuantity;
 
-use sincro_dynamics::attachment::Response;
+use sincro_dynamics::coupled::Response;
 use sincro_dynamics::energy::Energy;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;

@@ -1,9 +1,9 @@
 //! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is linearised.
 
-use sincro_dynamics::attachment::{Response, Seen};
+use sincro_dynamics::actuation::{damper, spring};
+use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
+use sincro_dynamics::coupled::{Response, Seen};
 use sincro_dynamics::energy::{energy, momentum};
-use sincro_dynamics::force::rotor::{Hub, Load, Validity};
-use sincro_dynamics::force::{damper, spring};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;

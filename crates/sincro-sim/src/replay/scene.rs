@@ -4,9 +4,9 @@
 //! joint of that index in the model, whose pose is in the frames; what is fixed in the world has none.
 
 use serde::Serialize;
+use sincro_dynamics::aero::rotor::{RotorLaw, Spin};
 use sincro_dynamics::constraint::{Anchor, ClosureKind};
 use sincro_dynamics::contact::Surface;
-use sincro_dynamics::force::rotor::{RotorLaw, Spin};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::{Model, Shape};

@@ -1,6 +1,6 @@
 //! Triangles of surfaces that are no simple solids, for pictures: hulls of points, meshes, height fields.
 
-use sincro_dynamics::contact::polyhedron;
+use sincro_dynamics::geometry::polyhedron;
 
 /// Corners `[m]` and triangles, counter-clockwise seen from outside.
 pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);

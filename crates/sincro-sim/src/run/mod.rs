@@ -22,7 +22,7 @@ mod validity;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sincro_dynamics::force::rotor::{MountedRotor, SpeedFrom};
+use sincro_dynamics::aero::rotor::{MountedRotor, SpeedFrom};
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{Effort, MethodKind, World};

@@ -1,6 +1,6 @@
 //! Where rotors leave what their theory holds for: counted at the end of every base step, under the commands of that step.
 
-use sincro_dynamics::force::rotor::Validity;
+use sincro_dynamics::aero::rotor::Validity;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::World;

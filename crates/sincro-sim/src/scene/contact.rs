@@ -2,9 +2,9 @@
 
 use sincro_dynamics::constraint::ClosureKind;
 use sincro_dynamics::contact::{Material, Surface};
+use sincro_dynamics::initial;
 use sincro_dynamics::model::{ClosureSpec, CouplingSpec, Model, ModelBuilder, NodeId};
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
-use sincro_dynamics::start;
 use sincro_dynamics::state::State;
 
 use super::body;
@@ -258,7 +258,7 @@ pub(super) fn check_start(
     document: &Document,
     problems: &mut Problems,
 ) {
-    for opening in start::openings(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED) {
+    for opening in initial::openings(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED) {
         let k = file.closure.iter().position(|c| format!("/{}", c.name) == opening.name);
         let at = document.title_at(&k.map_or(String::new(), |k| format!("/closure/{k}")));
         let gap = if opening.angle > CLOSED && opening.distance <= CLOSED {
@@ -267,12 +267,12 @@ pub(super) fn check_start(
             format!("its ends are {:.6e} m apart", opening.distance)
         };
         let problem = Problem::error(&at, format!("closure `{}` is open at the start: {gap}", opening.name));
-        problems.push(problem.with_help(match start::assembled(model, initial) {
+        problems.push(problem.with_help(match initial::assembled(model, initial) {
             Some(q) => format!("it closes if the joints start at {}", names(model, initial, &q)),
             None => "no position of the joints near the given ones closes it: check lengths and places".into(),
         }));
     }
-    for beyond in start::beyond_limits(model, initial) {
+    for beyond in initial::beyond_limits(model, initial) {
         let object = objects.iter().find(|o| o.path == beyond.joint);
         let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
         let message =
@@ -282,7 +282,7 @@ pub(super) fn check_start(
     if file.allow_overlap {
         return;
     }
-    for overlap in start::overlaps(model, initial).into_iter().filter(|o| o.depth > OVERLAP) {
+    for overlap in initial::overlaps(model, initial).into_iter().filter(|o| o.depth > OVERLAP) {
         let object = objects.iter().find(|o| o.path == overlap.a || o.path == overlap.b);
         let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
         let message = format!("`{}` and `{}` overlap at the start by {:.6e} m", overlap.a, overlap.b, overlap.depth);

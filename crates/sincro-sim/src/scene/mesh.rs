@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sincro_dynamics::contact::Surface;
-use sincro_dynamics::contact::polyhedron::{self, Flaw};
+use sincro_dynamics::geometry::polyhedron::{self, Flaw};
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Pose;
 

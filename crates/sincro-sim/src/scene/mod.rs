@@ -32,8 +32,8 @@ use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
 
 pub(crate) use file::SceneFile;
+pub use sincro_dynamics::initial::Freedom;
 pub use sincro_dynamics::model::Model;
-pub use sincro_dynamics::start::Freedom;
 
 pub use camera::VisionSensor;
 pub(crate) use camera::looking;
@@ -82,7 +82,7 @@ impl Scene {
     /// Degrees of freedom at the start, closed loops counted.
     #[must_use]
     pub fn freedom(&self) -> Freedom {
-        sincro_dynamics::start::freedom(&self.model, &self.initial)
+        sincro_dynamics::initial::freedom(&self.model, &self.initial)
     }
 
     /// The object of a path.

@@ -2,8 +2,8 @@
 
 use sincro_blocks::library::sources::random::{gaussian, splitmix};
 use sincro_blocks::program::seed_of;
-use sincro_dynamics::attachment::Seen;
 use sincro_dynamics::constraint::ContactPoint;
+use sincro_dynamics::coupled::Seen;
 use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;

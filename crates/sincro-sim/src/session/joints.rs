@@ -3,7 +3,7 @@
 //! V-REP's motors in the words of this program: motor off is `free`, velocity control `velocity`, position control `position`, spring-damper
 //! control `spring`, force control `torque`. A target that the present mode does not use is kept for when the mode changes.
 
-use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 
 use super::table::{Handle, JointEntry};

@@ -570,7 +570,8 @@ impl Session {
         let desk = self.desk();
         for joint in desk.table.joints() {
             if let (Some(index), Some(motor)) = (joint.motor, joint.drive)
-                && desk.world.model().motors()[index] != (sincro_dynamics::force::Motor { dof: joint.v_idx, ..motor })
+                && desk.world.model().motors()[index]
+                    != (sincro_dynamics::actuation::Motor { dof: joint.v_idx, ..motor })
             {
                 desk.world.set_motor(index, motor);
             }

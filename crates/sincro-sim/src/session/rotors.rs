@@ -1,7 +1,7 @@
 //! Rotors, as clients and scripts know them: joints with an ideal motor that have a speed and no position. What V-REP's propellers have as
 //! the joint that turns them.
 
-use sincro_dynamics::force::rotor::SpeedFrom;
+use sincro_dynamics::aero::rotor::SpeedFrom;
 
 use super::table::{Handle, Kind};
 use super::{Desk, Refusal};

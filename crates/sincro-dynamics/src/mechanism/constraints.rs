@@ -1,0 +1,297 @@
+//! What a world asks of a constrained mechanism between integration steps: what touches, what an impact does, what drift must be taken away.
+
+use crate::constraint::Constraints;
+use crate::contact::candidate::{Gap, Spot, tangents};
+use crate::contact::{Collider, Pair};
+use crate::integrate::System;
+use crate::mechanism::Mechanism;
+use crate::recursions::aba::{self, Held};
+use crate::recursions::kinematics;
+use crate::spatial::{Pose, Vec3};
+
+/// A gap below this is closed `[m]` or `[rad]`: what projection leaves is a thousandth of it.
+pub(crate) const CLOSED: f64 = 1e-9;
+
+/// Speeds below this are none, in deciding what sticks and what arrives [m/s] or [rad/s].
+pub(crate) const STILL: f64 = 1e-8;
+
+/// Positions and rates of constraints are projected to this `[m]`, [m/s].
+const PROJECTED: f64 = 1e-12;
+
+/// After steps at velocity level, which are of first order, to this.
+const PROJECTED_ROUGHLY: f64 = 1e-10;
+
+/// Most iterations of a projection of positions.
+const MAX_PROJECTIONS: usize = 12;
+
+/// What stands at the start of a sub-step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Touch {
+    /// Whether something rigid that touches arrives: an impact.
+    pub arrives: bool,
+}
+
+/// Who counts as closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Closing {
+    /// What touches and does not leave.
+    Touching,
+    /// What touches at all, for an impact.
+    All,
+    /// What may touch within a step `[s]` at velocity level.
+    Within(f64),
+}
+
+impl Mechanism<f64> {
+    /// Finds what touches at the chart's origin for velocities `v`, and classifies it.
+    pub(crate) fn touch(&mut self, v: &[f64], closing: Closing) -> Touch {
+        let Some(c) = self.constraints.as_deref_mut() else { return Touch::default() };
+        let (model, scratch) = (&self.model, &mut self.scratch);
+        kinematics::poses(model, &self.base, scratch);
+        c.motions.place(model, scratch, v);
+        let set = &*model.constraints;
+        let gravity = model.gravity.norm();
+        let margin = match closing {
+            Closing::Within(h) => 1e-3 + 4.0 * h * c.fastest(&set.colliders, &scratch.poses) + 4.0 * h * h * gravity,
+            _ => 1e-6,
+        };
+        c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.spots);
+        let mut touch = Touch::default();
+        let closes = |gap: f64, rate: f64| match closing {
+            Closing::Touching => gap <= CLOSED && rate <= STILL,
+            Closing::All => gap <= CLOSED,
+            Closing::Within(h) => gap <= CLOSED + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity,
+        };
+        for (slot, limit) in set.limits.iter().enumerate() {
+            let gap = limit.sign * (self.base[limit.coordinate] - limit.bound);
+            let rate = limit.sign * v[limit.dof];
+            c.memory.classify(slot, closes(gap, rate), [false; 3]);
+            touch.arrives |= gap <= CLOSED && rate < -STILL;
+        }
+        for pair in &set.pairs {
+            for k in pair.first..pair.first + pair.slots {
+                let slot = set.limits.len() + k;
+                let Some(spot) = c.spots[k] else {
+                    c.memory.classify(slot, false, [false; 3]);
+                    continue;
+                };
+                let at = spot.gap(scratch, &c.motions);
+                let rate = normal_rate(c, &spot, &at);
+                if pair.material.stiffness.is_finite() {
+                    let slides = slides(c, &spot, &at, pair);
+                    c.memory.classify(slot, at.gap < 0.0, slides);
+                    continue;
+                }
+                let closed = closes(at.gap, rate);
+                let slides = if closed { slides(c, &spot, &at, pair) } else { [false; 3] };
+                c.memory.classify(slot, closed, slides);
+                touch.arrives |= at.gap <= CLOSED && rate < -STILL;
+            }
+        }
+        touch
+    }
+
+    /// Whether something that was apart has come together (and still approaches), in the state last evaluated.
+    pub(crate) fn has_touched(&mut self, v: &[f64]) -> bool {
+        let Some(c) = self.constraints.as_deref_mut() else { return false };
+        let set = &*self.model.constraints;
+        for (slot, limit) in set.limits.iter().enumerate() {
+            let gap = limit.sign * (self.q[limit.coordinate] - limit.bound);
+            if !c.memory.is_closed(slot) && gap < 0.0 && limit.sign * v[limit.dof] < -STILL {
+                return true;
+            }
+        }
+        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, 1e-6, &mut c.later);
+        for pair in &set.pairs {
+            for k in pair.first..pair.first + pair.slots {
+                let Some(spot) = c.later[k] else { continue };
+                if c.memory.is_closed(set.limits.len() + k) {
+                    continue;
+                }
+                let at = spot.gap(&self.scratch, &c.motions);
+                if at.gap < 0.0 && (pair.material.stiffness.is_finite() || normal_rate(c, &spot, &at) < -STILL) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a compliant contact has ended, in the state last evaluated.
+    pub(crate) fn has_left(&self) -> bool {
+        let Some(c) = self.constraints.as_deref() else { return false };
+        c.blocks.iter().any(|b| b.given.is_some() && c.residual[b.row] > 0.0)
+    }
+
+    /// What an impulse meets: forward dynamics at rest without forces, held degrees of freedom as marked.
+    fn factor(&mut self, q_is_base: bool) {
+        self.torque.fill(0.0);
+        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
+            *d = dof.armature;
+        }
+        self.held_acceleration.fill(0.0);
+        let held =
+            (!self.drives.is_empty()).then_some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration });
+        let q = if q_is_base { &self.base } else { &self.q };
+        let input = aba::Input {
+            q,
+            v: &self.torque,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            held,
+            external: None,
+            gravity: false,
+        };
+        let mut change = core::mem::take(&mut self.constraint_change);
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, &mut change);
+        self.constraint_change = change;
+    }
+
+    /// An impact at the chart's origin: changes `v`, returns the energy lost `[J]`. Held degrees of freedom are those marked; the scratch has their
+    /// impulses as reactions.
+    pub(crate) fn collide(&mut self, v: &mut [f64]) -> f64 {
+        self.touch(v, Closing::All);
+        self.factor(true);
+        let Some(c) = self.constraints.as_deref_mut() else { return 0.0 };
+        kinematics::chain_poses(&self.model, &mut self.scratch);
+        c.motions.place(&self.model, &self.scratch, v);
+        c.assemble(&self.model, &self.base, v, &self.scratch, false);
+        if c.rows.is_empty() {
+            return 0.0;
+        }
+        self.scratch.reaction.fill(0.0);
+        c.impact(&self.model, v, &mut self.scratch, !self.drives.is_empty())
+    }
+
+    /// Takes drift away: positions (`y` begins with the chart's zero displacement) until all gaps of what holds are closed, then rates. What holds is what the
+    /// last evaluation found.
+    pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
+        let n = self.model.n_v();
+        let enough = if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
+        let mut last = f64::INFINITY;
+        for k in 0..MAX_PROJECTIONS {
+            if !self.prepare(y, k == 0) {
+                return;
+            }
+            let c = self.constraints.as_deref_mut().expect("prepared");
+            // sticking has no place to be, only no speed
+            c.keep_equations(false, !sticking);
+            let worst = c.worst(&y[n..2 * n]).0;
+            // close to a singular position there may be something that must not be taken away
+            if worst <= enough || worst > 0.5 * last {
+                break;
+            }
+            last = worst;
+            self.factor(true);
+            let mut change = core::mem::take(&mut self.constraint_change);
+            let c = self.constraints.as_deref_mut().expect("prepared");
+            c.project(&self.model, &mut self.scratch, None, &mut change);
+            y[..n].copy_from_slice(&change);
+            self.constraint_change = change;
+            self.rechart(y);
+        }
+        let set = &self.model.constraints;
+        if !sticking && set.closures.is_empty() && set.couplings.is_empty() {
+            return;
+        }
+        self.prepare(y, false);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        if sticking {
+            c.keep_equations(true, false);
+        } else {
+            // at velocity level what bounces has its speed already
+            c.keep_closures();
+        }
+        if c.worst(&y[n..2 * n]).1 <= PROJECTED {
+            return;
+        }
+        self.factor(true);
+        let mut change = core::mem::take(&mut self.constraint_change);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.project(&self.model, &mut self.scratch, Some(&y[n..2 * n]), &mut change);
+        for k in 0..n {
+            y[n + k] += change[k];
+        }
+        self.constraint_change = change;
+    }
+
+    /// Number of equations of closures that follow from others, at the chart's origin.
+    pub(crate) fn redundant(&mut self, y: &[f64]) -> usize {
+        if !self.prepare(y, false) {
+            return 0;
+        }
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.keep_closures();
+        self.factor(true);
+        let mut change = core::mem::take(&mut self.constraint_change);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.project(&self.model, &mut self.scratch, None, &mut change);
+        self.constraint_change = change;
+        self.constraints.as_deref().map_or(0, |c| c.solver.redundant)
+    }
+
+    /// Rows at the chart's origin; false if there are none.
+    fn prepare(&mut self, y: &[f64], first: bool) -> bool {
+        let n = self.model.n_v();
+        let Some(c) = self.constraints.as_deref_mut() else { return false };
+        let v = &y[n..2 * n];
+        if !first || self.q != self.base {
+            kinematics::poses(&self.model, &self.base, &mut self.scratch);
+        }
+        c.motions.place(&self.model, &self.scratch, v);
+        c.assemble(&self.model, &self.base, v, &self.scratch, true);
+        !c.rows.is_empty()
+    }
+
+    /// Notes who does what and in which direction, as last evaluated.
+    pub(crate) fn mark_start(&mut self) {
+        if let Some(c) = &mut self.constraints {
+            c.memory.mark_start();
+        }
+    }
+
+    /// Whether a contact let go, gripped, slipped or reversed since [`Mechanism::mark_start`], in the state last evaluated.
+    pub(crate) fn has_changed(&self) -> bool {
+        let Some(c) = self.constraints.as_deref() else { return false };
+        c.memory.has_changed() || self.has_left()
+    }
+}
+
+impl Constraints<f64> {
+    /// The greatest speed of a point of surface `k` [m/s], at most; after the motions were placed.
+    pub(crate) fn speed(&self, k: usize, collider: &Collider, poses: &[Pose<f64>]) -> f64 {
+        let (at, reach) = self.detector.ball(k, collider, poses);
+        let spin = self.motions.twist_of(collider.link).ang.norm();
+        // what is fixed may be endless
+        let around = if spin > 0.0 { spin * reach } else { 0.0 };
+        self.motions.velocity_of(collider.link, at).norm() + around
+    }
+
+    /// That of all surfaces.
+    fn fastest(&self, colliders: &[Collider], poses: &[Pose<f64>]) -> f64 {
+        colliders.iter().enumerate().map(|(k, collider)| self.speed(k, collider, poses)).fold(0.0, f64::max)
+    }
+}
+
+fn normal_rate(c: &Constraints<f64>, spot: &Spot, at: &Gap<f64>) -> f64 {
+    relative(c, spot, at.point).dot(at.normal)
+}
+
+/// Velocity of a's point against b's [m/s].
+fn relative(c: &Constraints<f64>, spot: &Spot, point: Vec3<f64>) -> Vec3<f64> {
+    c.motions.velocity_of(spot.a, point) - c.motions.velocity_of(spot.b, point)
+}
+
+/// Which groups of friction rows slide.
+fn slides(c: &Constraints<f64>, spot: &Spot, at: &Gap<f64>, pair: &Pair) -> [bool; 3] {
+    let (t1, t2) = tangents(at.normal);
+    let v = relative(c, spot, at.point);
+    let w = c.motions.twist_of(spot.a).ang - c.motions.twist_of(spot.b).ang;
+    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > STILL;
+    let m = &pair.material;
+    [
+        m.friction > 0.0 && across(v),
+        m.rolling_friction > 0.0 && across(w),
+        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > STILL,
+    ]
+}

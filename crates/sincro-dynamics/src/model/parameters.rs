@@ -1,0 +1,38 @@
+//! What of a compiled model may become another number between two steps: masses, gravity, bounds of stops, laws of couplings, materials of pairs. What
+//! there is, and what hangs on what, stays.
+
+use std::sync::Arc;
+
+use super::{MassProperties, Model};
+use crate::spatial::{Pose, RigidInertia, Sym3, Vec3};
+
+/// The inertia of a body that stands at `pose` in its link, about the link's origin.
+pub(crate) fn carried(pose: &Pose<f64>, mass: &MassProperties) -> RigidInertia<f64> {
+    let placed = mass.placed(&pose.rot, pose.pos);
+    RigidInertia::from_center_of_mass(placed.mass, Vec3(placed.center_of_mass), &Sym3(placed.inertia))
+}
+
+impl Model<f64> {
+    /// Gives a link the inertia of its bodies: all of them, by their index among the frames of the names and in that order. The same bits come out
+    /// as if the model had been built with them.
+    pub(crate) fn weigh(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
+        let names = Arc::make_mut(&mut self.names);
+        let mut sum = RigidInertia::zero();
+        for (frame, mass) in bodies {
+            let info = &mut names.frames[*frame];
+            sum = sum.plus(&carried(&info.pose, mass));
+            info.body = Some((mass.center_of_mass, mass.mass));
+        }
+        self.links[link].inertia = sum;
+    }
+
+    /// Takes over what another model of the same scene has as numbers that may change. Its motors are not among them.
+    pub fn take_numbers(&mut self, other: &Self) {
+        for (own, new) in self.links.iter_mut().zip(&other.links) {
+            own.inertia = new.inertia;
+        }
+        self.gravity = other.gravity;
+        self.names = Arc::clone(&other.names);
+        self.constraints = Arc::clone(&other.constraints);
+    }
+}
