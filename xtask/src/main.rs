@@ -1,8 +1,10 @@
 //! `cargo xtask`: the project's own chores, in Rust alone.
 //!
 //! - `check`: formatting, lints, tidiness, tests, documentation; stops at the end with a summary.
+//! - `tidy`: the part of `check` that compiles nothing.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
 
+mod modules;
 mod tidy;
 
 use std::path::{Path, PathBuf};
@@ -11,9 +13,10 @@ use std::process::{Command, ExitCode};
 fn main() -> ExitCode {
     match std::env::args().nth(1).as_deref() {
         Some("check") => check(),
+        Some("tidy") => ExitCode::from(u8::from(!tidy::check(&root()))),
         Some("bless") => bless(),
         _ => {
-            eprintln!("usage: cargo xtask check | bless");
+            eprintln!("usage: cargo xtask check | tidy | bless");
             ExitCode::from(2)
         }
     }

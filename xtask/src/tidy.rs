@@ -1,6 +1,7 @@
 //! What no compiler checks: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking crates stay pure,
 //! that keys of references resolve.
 
+use crate::modules;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -46,6 +47,9 @@ pub fn check(root: &Path) -> bool {
         source(root, path, text, &mut found);
     }
     references(root, &texts, &mut found);
+    let relative = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string();
+    let named: Vec<(String, String)> = texts.iter().map(|(path, text)| (relative(path), text.clone())).collect();
+    modules::check(&named, &mut found);
     tree(root, &mut found);
     arrows(root, &mut found);
     scenes(root, &mut found);

@@ -77,7 +77,7 @@ pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<()
 
 fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     let end = settings.h * f64::from(settings.n_steps);
-    let unlimited = world.model.drives.iter().all(|d| d.limit(&world.model).is_none());
+    let unlimited = world.model.drives.iter().all(|d| world.model.drive_limit(d).is_none());
     // particles are counted for each world
     let counts = world.model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. }));
     let is_free = world.model.constraints().is_empty();
@@ -250,7 +250,7 @@ impl<R: Real> LaneWorlds<R> {
     #[inline(always)]
     fn wanted(&self, i: usize) -> R {
         let drive = &self.mechanism.model.drives[i];
-        drive.wanted(&self.mechanism.model, self.mechanism.base(), &self.mechanism.commands)
+        self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
     }
 
     #[inline(always)]

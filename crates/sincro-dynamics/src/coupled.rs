@@ -78,6 +78,15 @@ impl<R: Real> Attachment<R> for Alone {
     fn decay(&mut self, _: &mut [R]) {}
 }
 
+/// State view of a mechanism at the coordinates last placed and the velocities in `y`.
+#[inline(always)]
+fn seen<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) -> Seen<'a, R> {
+    let n = mechanism.model.n_v();
+    let (v, rotors) = (&y[n..2 * n], &y[mechanism.rotor_states()]);
+    let (model, q, commands) = (&mechanism.model, &*mechanism.q, &*mechanism.commands);
+    Seen { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
+}
+
 /// A mechanism with its attachment as one system.
 #[derive(Debug)]
 pub struct Coupled<'a, R, A: ?Sized> {
@@ -93,7 +102,7 @@ impl<R: Real, A: Attachment<R> + ?Sized> Coupled<'_, R, A> {
     #[inline(always)]
     fn drive(&mut self, t: f64, own: &[R], z: &[R]) {
         let mut commands = core::mem::take(&mut self.mechanism.commands);
-        self.attachment.drive(&mut self.mechanism.seen(t, own), z, &mut commands);
+        self.attachment.drive(&mut seen(self.mechanism, t, own), z, &mut commands);
         self.mechanism.commands = commands;
     }
 
@@ -102,7 +111,7 @@ impl<R: Real, A: Attachment<R> + ?Sized> Coupled<'_, R, A> {
         let n = self.mechanism.model().n_v();
         let torques = self.mechanism.take_motor_torque();
         let response = Response { accelerations: &own_slope[n..2 * n], motor_torque: &torques };
-        self.attachment.slope(&mut self.mechanism.seen(t, own), response, z, slope);
+        self.attachment.slope(&mut seen(self.mechanism, t, own), response, z, slope);
         self.mechanism.put_motor_torque(torques);
     }
 }

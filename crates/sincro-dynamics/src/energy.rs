@@ -3,11 +3,10 @@
 use sincro_math::Real;
 
 use crate::actuation::spring;
-use crate::gravity;
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
-use crate::spatial::Force;
+use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 
 /// Mechanical energy `[J]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,7 +31,7 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
     for (i, link) in model.links.iter().enumerate() {
         let twist = &scratch.links[i].v;
         e.kinetic += half * twist.dot(&link.inertia.mul(twist));
-        e.potential += gravity::energy(model.gravity, &link.inertia, &scratch.poses[i]);
+        e.potential += gravity_energy(model.gravity, &link.inertia, &scratch.poses[i]);
     }
     for (k, dof) in model.dofs.iter().enumerate() {
         e.kinetic += half * dof.armature * v[k] * v[k];
@@ -41,6 +40,13 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
         }
     }
     e
+}
+
+/// Potential energy −m g·c `[J]` of a link whose frame stands at `pose` in the world; zero at the world's origin.
+#[inline(always)]
+fn gravity_energy<R: Real>(gravity: Vec3<R>, inertia: &RigidInertia<R>, pose: &Pose<R>) -> R {
+    let first_moment = pose.rot.mul_vec(inertia.moment) + pose.pos.scale(inertia.mass);
+    -gravity.dot(first_moment)
 }
 
 /// Momentum of all bodies about the world's origin, world axes: angular [kg·m²/s], linear [kg·m/s]; after

@@ -109,7 +109,7 @@ pub fn overlaps(model: &Model<f64>, x: &State<f64>) -> Vec<Overlap> {
     let mut found: Vec<Overlap> = Vec::new();
     for pair in set.pairs.iter().filter(|p| p.material.stiffness.is_infinite()) {
         let gaps = c.spots[pair.first..pair.first + pair.slots].iter().flatten();
-        let depth = gaps.map(|s| -s.gap(&mechanism.scratch, &c.motions).gap).fold(f64::NEG_INFINITY, f64::max);
+        let depth = gaps.map(|s| -s.gap(&c.motions.at(&mechanism.scratch)).gap).fold(f64::NEG_INFINITY, f64::max);
         if depth > 0.0 {
             let name = |k: usize| set.colliders[k].name.clone();
             found.push(Overlap { a: name(pair.a), b: name(pair.b), depth });
@@ -137,8 +137,7 @@ pub fn beyond_limits(model: &Model<f64>, x: &State<f64>) -> Vec<Beyond> {
 pub fn freedom(model: &Model<f64>, x: &State<f64>) -> Freedom {
     let set = model.constraints();
     let mut found = Freedom {
-        of_tree: model.n_v()
-            - model.drives().iter().filter(|d| d.kind == crate::actuation::drive::DriveKind::Lock).count(),
+        of_tree: model.n_v() - model.drives().iter().filter(|d| d.kind == crate::actuation::DriveKind::Lock).count(),
         loops: set.closures.len() + set.couplings.len(),
         equations: set.n_bilateral(),
         redundant: 0,

@@ -34,7 +34,6 @@ pub mod contact;
 pub mod coupled;
 pub mod energy;
 pub mod geometry;
-mod gravity;
 pub mod initial;
 pub mod integrate;
 pub mod joint;

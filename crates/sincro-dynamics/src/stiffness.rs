@@ -31,7 +31,7 @@ pub struct Stiffness {
 #[must_use]
 pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     let inertias = joint_inertias(model, state);
-    let held = |dof: usize| model.drives().iter().any(|d| d.dof == dof && d.limit(model).is_none());
+    let held = |dof: usize| model.drives().iter().any(|d| d.dof == dof && model.drive_limit(d).is_none());
     let each = model.dofs().iter().enumerate().filter(|(k, _)| !held(*k)).map(|(k, dof)| {
         let (mut stiffness, mut damping) = (dof.stiffness, dof.damping);
         for motor in model.motors().iter().filter(|m| m.dof == k && m.mode == MotorMode::Spring) {

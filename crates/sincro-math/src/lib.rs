@@ -19,6 +19,7 @@ pub mod elementary;
 pub mod expression;
 pub mod lanes;
 mod real;
+mod scalar;
 
 pub use dual::Dual;
 pub use lanes::{LaneVisitor, Lanes};

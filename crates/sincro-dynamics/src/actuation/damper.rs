@@ -2,7 +2,7 @@
 
 use sincro_math::Real;
 
-use crate::model::Dof;
+use crate::joint::Dof;
 
 /// Torque [N·m] or force `[N]` at rate `v`.
 #[inline(always)]

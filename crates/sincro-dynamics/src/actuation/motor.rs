@@ -76,7 +76,7 @@ impl<R: Real> Motor<R> {
 
     /// The velocity that a drive wants [rad/s] or [m/s] for a latched command, at coordinate `q` at the tick.
     #[inline(always)]
-    pub fn wanted_velocity(&self, q: R, command: R) -> R {
+    pub fn target_velocity(&self, q: R, command: R) -> R {
         match self.mode {
             MotorMode::Position => (self.kp * (command - q)).clamp_abs(self.max_velocity),
             _ => command,

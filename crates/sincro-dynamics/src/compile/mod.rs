@@ -10,15 +10,15 @@ use std::sync::Arc;
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
-use crate::constraint::{Anchor, Closure, ConstraintSet, Coupling, Limit};
 use crate::contact::{self, Collider};
-use crate::joint::{JointKind, StageKind};
+use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
+use crate::model::Attached;
 use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
 use crate::model::diagnostic::{Problem, Severity};
 use crate::model::names::{FrameInfo, JointInfo, Names};
 use crate::model::parameters::carried;
-use crate::model::{Dof, Link, MassProperties, Model, Shift, WORLD};
-use crate::recursions::kinematics::Attached;
+use crate::model::{Anchor, Closure, ConstraintSet, Coupling, Limit};
+use crate::model::{MassProperties, Model};
 use crate::spatial::{Mat3, Pose, RigidInertia, Vec3};
 
 /// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point leaves.
@@ -43,8 +43,21 @@ struct Compiler<'a> {
     names: Names,
 }
 
-/// Compiles what `builder` holds.
-pub(crate) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
+impl ModelBuilder {
+    /// Checks everything and compiles. The second part of the result are the warnings.
+    ///
+    /// # Errors
+    ///
+    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is not
+    /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
+    /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
+    /// takes its speed from.
+    pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
+        compile(self)
+    }
+}
+
+fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
     let mut problems = check::check(builder);
     if problems.iter().any(|p| p.severity == Severity::Error) {
         return Err(problems);
@@ -85,7 +98,7 @@ pub(crate) fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem
     }
     model.names = Arc::new(names);
     mark_children(&mut model.links);
-    model.drives = crate::actuation::drive::drives_of(&model);
+    model.drives = model.find_drives();
     problems.extend(check::massless_joints(&model));
     if problems.iter().any(|p| p.severity == Severity::Error) {
         return Err(problems);

@@ -7,8 +7,8 @@
 use sincro_math::{Real, Task};
 
 use super::row::Row;
-use crate::joint::{Stage, StageVisitor};
-use crate::model::{Link, Model, WORLD};
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+use crate::model::Model;
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
 use crate::spatial::{Force, Motion};
 

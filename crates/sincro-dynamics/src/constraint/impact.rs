@@ -126,7 +126,7 @@ impl Constraints<f64> {
         let set = &model.constraints;
         self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open).filter_map(move |block| {
             let k = block.slot - set.limits.len();
-            let at = self.spots[k]?.gap(scratch, &self.motions);
+            let at = self.spots[k]?.gap(&self.motions.at(scratch));
             let (t1, t2) = tangents(at.normal);
             let mut force = at.normal.scale(self.lambda[block.row]);
             let mut torque = Vec3::zero();

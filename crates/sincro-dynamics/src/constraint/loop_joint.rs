@@ -11,74 +11,10 @@
 use sincro_math::Real;
 
 use super::row::{Motions, Row, force_at, force_rate};
-use crate::model::WORLD;
+use crate::joint::WORLD;
+use crate::model::{Anchor, Closure, ClosureKind};
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Pose, Vec3};
-
-/// A frame fixed in a link.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Anchor {
-    /// Name of the body or frame.
-    pub name: String,
-    /// The link, `WORLD` for none.
-    pub(crate) link: u32,
-    /// In the link, or the world.
-    pub pose: Pose<f64>,
-}
-
-/// How two anchors are kept together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ClosureKind {
-    /// Their origins coincide.
-    Point,
-    /// Their origins coincide and their z axes agree.
-    Hinge,
-    /// They coincide.
-    Weld,
-    /// Their origins keep a distance `[m]`.
-    Distance(f64),
-}
-
-impl ClosureKind {
-    /// Number of rows.
-    #[must_use]
-    pub fn rows(self) -> usize {
-        match self {
-            Self::Point => 3,
-            Self::Hinge => 5,
-            Self::Weld => 6,
-            Self::Distance(_) => 1,
-        }
-    }
-}
-
-/// A closure of a loop.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Closure {
-    /// Name given by the user.
-    pub name: String,
-    /// How.
-    pub kind: ClosureKind,
-    /// One end.
-    pub a: Anchor,
-    /// The other end.
-    pub b: Anchor,
-}
-
-/// Two coordinates that move together: q₂ = ratio·q₁ + offset.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Coupling {
-    /// Name given by the user.
-    pub name: String,
-    /// Degrees of freedom 1 and 2.
-    pub dofs: [usize; 2],
-    /// Coordinates in q of the two.
-    pub coordinates: [usize; 2],
-    /// Of the rates, v₂ over v₁.
-    pub ratio: f64,
-    /// `[rad]` or `[m]`.
-    pub offset: f64,
-}
 
 /// An anchor at one instant.
 struct End<R> {

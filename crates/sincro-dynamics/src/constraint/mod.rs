@@ -27,7 +27,7 @@ mod cone;
 mod delassus;
 mod dense;
 mod impact;
-pub mod loop_joint;
+mod loop_joint;
 pub(crate) mod row;
 mod solver;
 #[cfg(test)]
@@ -36,91 +36,25 @@ pub(crate) mod warm_start;
 
 use sincro_math::Real;
 
-pub use loop_joint::{Anchor, Closure, ClosureKind, Coupling};
+pub use crate::model::{Anchor, Closure, ClosureKind, ConstraintSet, Coupling, Limit, SLOT};
 pub use solver::SolverReport;
 
-use crate::contact::{Collider, Detector, Pair, candidate::Spot, candidate::tangents};
-use crate::mechanism::constraints::CLOSED;
+use crate::contact::{Detector, Pair, candidate::Spot, candidate::tangents};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use active_set::Instant;
 use cone::{Block, Grip, Group};
-
 use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
 use warm_start::Memory;
 
-/// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
-pub const SLOT: usize = 7;
+/// A gap below this is closed `[m]` or `[rad]`: what projection leaves is a thousandth of it.
+pub(crate) const CLOSED: f64 = 1e-9;
 
 /// Rows of contacts that memory is reserved for beforehand.
 const RESERVED: usize = 48;
-
-/// A limit of a joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
-    /// Degree of freedom.
-    pub dof: usize,
-    /// Its coordinate in q.
-    pub coordinate: usize,
-    /// +1 for a lower, −1 for an upper limit.
-    pub sign: f64,
-    /// `[rad]` or `[m]`.
-    pub bound: f64,
-    /// Speed of leaving over speed of arriving.
-    pub restitution: f64,
-}
-
-/// All constraints of a model; numbers are the same in every lane.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ConstraintSet {
-    /// Loops.
-    pub closures: Vec<Closure>,
-    /// Couplings of joints.
-    pub couplings: Vec<Coupling>,
-    /// Limits of joints: the first slots.
-    pub limits: Vec<Limit>,
-    /// Surfaces that can touch.
-    pub colliders: Vec<Collider>,
-    /// Pairs of them; their slots come after the limits'.
-    pub pairs: Vec<Pair>,
-    /// Approach slower than this does not bounce [m/s].
-    pub rest_speed: f64,
-}
-
-impl ConstraintSet {
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.closures.is_empty() && self.couplings.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
-    }
-
-    /// Number of slots of contacts.
-    #[must_use]
-    pub fn n_contacts(&self) -> usize {
-        self.pairs.last().map_or(0, |p| p.first + p.slots)
-    }
-
-    /// Number of slots: limits, then contacts.
-    #[must_use]
-    pub fn n_slots(&self) -> usize {
-        self.limits.len() + self.n_contacts()
-    }
-
-    /// Length of [`crate::state::State::contacts`].
-    #[must_use]
-    pub fn n_numbers(&self) -> usize {
-        warm_start::length(self.n_slots())
-    }
-
-    /// Number of rows of closures and couplings.
-    #[must_use]
-    pub fn n_bilateral(&self) -> usize {
-        self.closures.iter().map(|c| c.kind.rows()).sum::<usize>() + self.couplings.len()
-    }
-}
 
 /// What the rows are asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -317,7 +251,7 @@ impl<R: Real> Constraints<R> {
         for (slot, limit) in set.limits.iter().enumerate() {
             if self.memory.is_closed(slot) {
                 let sign = R::splat(limit.sign);
-                self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::model::WORLD, R::zero())]));
+                self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::joint::WORLD, R::zero())]));
                 self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
                 let row = self.rows.len() - 1;
                 self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3], effect: 0 });
@@ -337,7 +271,7 @@ impl<R: Real> Constraints<R> {
     }
 
     fn contact(&mut self, slot: usize, spot: &Spot, pair: &Pair, v: &[R], scratch: &Scratch<R>, slides: bool) {
-        let at = spot.gap(scratch, &self.motions);
+        let at = spot.gap(&self.motions.at(scratch));
         let row = self.rows.len();
         let (c, n) = (at.point, at.normal);
         let normal = Row::between(spot.a, spot.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));

@@ -10,13 +10,8 @@
 
 use sincro_math::Real;
 
-use super::SLOT;
 use super::cone::{Block, Grip};
-
-/// Length of the part of the state that belongs to `n_slots` slots.
-pub(crate) fn length(n_slots: usize) -> usize {
-    if n_slots == 0 { 0 } else { SLOT * n_slots + 1 }
-}
+use crate::model::{SLOT, warm_start_len};
 
 /// After a tick in which events came too thick, how many of the next are made at velocity level without trying, and how many are left of them: more every
 /// time, until a tick goes well. A heap that comes to rest would cost a hundred located events a tick otherwise.
@@ -54,7 +49,7 @@ pub(crate) struct Memory<R> {
 impl<R: Real> Memory<R> {
     pub fn new(n_slots: usize) -> Self {
         Self {
-            numbers: vec![R::zero(); length(n_slots)],
+            numbers: vec![R::zero(); warm_start_len(n_slots)],
             closed: vec![false; n_slots],
             slides: vec![[false; 3]; n_slots],
             directions: vec![[[R::zero(); 2]; 3]; n_slots],

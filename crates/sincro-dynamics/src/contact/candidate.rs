@@ -12,10 +12,8 @@
 
 use sincro_math::Real;
 
-use crate::constraint::row::Motions;
-use crate::model::WORLD;
-use crate::scratch::Scratch;
-use crate::spatial::{Pose, Vec3};
+use crate::joint::WORLD;
+use crate::spatial::{Motion, Pose, Vec3};
 
 /// What the point of body a may touch, in link axes of body b.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +49,34 @@ pub(crate) struct Gap<R> {
     pub normal_dot: Vec3<R>,
 }
 
-fn pose_of<R: Real>(scratch: &Scratch<R>, link: u32) -> Pose<R> {
-    if link == WORLD { Pose::identity() } else { scratch.poses[link as usize] }
+/// Poses and twists of all links at one instant, in world axes; twists are about the world's origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LinkMotions<'a, R> {
+    pub poses: &'a [Pose<R>],
+    pub twists: &'a [Motion<R>],
+}
+
+impl<R: Real> LinkMotions<'_, R> {
+    fn pose_of(&self, link: u32) -> Pose<R> {
+        if link == WORLD { Pose::identity() } else { self.poses[link as usize] }
+    }
+
+    /// Twist of a link; zero for the world.
+    pub fn twist_of(&self, link: u32) -> Motion<R> {
+        if link == WORLD { Motion::zero() } else { self.twists[link as usize] }
+    }
+
+    /// Velocity [m/s] of the point of a link that is at `p` in the world.
+    pub fn velocity_of(&self, link: u32, p: Vec3<R>) -> Vec3<R> {
+        let v = self.twist_of(link);
+        v.lin + v.ang.cross(p)
+    }
 }
 
 impl Spot {
-    /// The gap and how it changes, with poses in `scratch` and twists in `motions`.
-    pub fn gap<R: Real>(&self, scratch: &Scratch<R>, motions: &Motions<R>) -> Gap<R> {
-        let (x_a, x_b) = (pose_of(scratch, self.a), pose_of(scratch, self.b));
+    /// Contact kinematics: signed distance, contact point, normal and their rates.
+    pub fn gap<R: Real>(&self, motions: &LinkMotions<'_, R>) -> Gap<R> {
+        let (x_a, x_b) = (motions.pose_of(self.a), motions.pose_of(self.b));
         let p = x_a.point(Vec3::splat(self.point.0));
         let p_dot = motions.velocity_of(self.a, p);
         let w_b = motions.twist_of(self.b).ang;

@@ -3,8 +3,9 @@
 use super::candidate::{Feature, Spot};
 use super::manifold::Manifolds;
 use super::{Collider, Pair, PairKind, Surface};
-use crate::geometry::sat::{Clipper, Polytope};
-use crate::model::{Shape, WORLD};
+use crate::geometry::Shape;
+use crate::geometry::sat::{Clipper, PointOnPlane, Polytope};
+use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
 /// Sine of the tilt below which a cylinder on its end is held to stand on four points of its rim.
@@ -59,7 +60,12 @@ impl Detector {
                 PairKind::Polytopes => {
                     let (Some(one), Some(two)) = (&self.polytopes[pair.a], &self.polytopes[pair.b]) else { continue };
                     let of = |c: &Collider| if c.link == WORLD { Pose::identity() } else { poses[c.link as usize] };
-                    self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), margin, slots);
+                    let (max_points, mut free) = (slots.len(), slots.iter_mut());
+                    self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), margin, max_points, |found| {
+                        if let Some(slot) = free.next() {
+                            *slot = Some(point_on_plane(&found, a, b));
+                        }
+                    });
                 }
                 PairKind::General => {
                     self.manifolds.find(k, (pair.a, pair.b), (a, b), (&at(a), &at(b)), margin, slots);
@@ -90,7 +96,7 @@ fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
 
 fn polytopes(colliders: &[Collider], pairs: &[Pair]) -> Vec<Option<Polytope>> {
     let wanted = |k: usize| pairs.iter().any(|p| p.kind == PairKind::Polytopes && (p.a == k || p.b == k));
-    colliders.iter().enumerate().map(|(k, c)| wanted(k).then(|| Polytope::of(c)).flatten()).collect()
+    colliders.iter().enumerate().map(|(k, c)| wanted(k).then(|| Polytope::new(&c.surface, &c.pose)).flatten()).collect()
 }
 
 fn plane_of(b: &Collider) -> Feature {
@@ -99,6 +105,12 @@ fn plane_of(b: &Collider) -> Feature {
 
 fn spot(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> Spot {
     Spot { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
+}
+
+/// Spot of a point that face clipping or crossing edges gave.
+fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> Spot {
+    let (a, b) = if found.is_on_first { (a, b) } else { (b, a) };
+    spot(a, b, found.point, 0.0, Feature::Plane { origin: found.origin, normal: found.normal })
 }
 
 fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<Spot>]) {

@@ -11,8 +11,8 @@ use parry3d_f64::query::{
 
 use super::candidate::{Feature, Spot};
 use super::{Collider, Pair, PairKind, Surface};
+use crate::geometry::Shape;
 use crate::geometry::parry::{LibraryShape, library_pose, vec3};
-use crate::model::Shape;
 use crate::spatial::{Pose, Vec3};
 
 /// A normal is across an axis if its component along it is below this.

@@ -1,11 +1,11 @@
 //! Distances against closed forms, against planes that separate, and against triangle after triangle.
 
+use super::Shape;
 use super::gjk::Convex;
 use super::parry::library_pose;
 use super::support::{Core, Placed, Solid};
 use super::tests::{Numbers, surfaces};
 use super::*;
-use crate::model::Shape;
 use crate::spatial::{Pose, Quat};
 
 impl Numbers {

@@ -19,12 +19,12 @@ mod ray_cast;
 pub(crate) mod sat;
 mod shape;
 mod support;
+mod surface;
 #[cfg(test)]
 mod tests;
 
 use parry3d_f64::query::Ray as LibraryRay;
 
-use crate::contact::Surface;
 use crate::spatial::Vec3;
 use bvh::Tree;
 use parry::{LibraryShape, vec3};
@@ -34,6 +34,7 @@ pub use field_of_view::{Field, Volume};
 pub use mass::MassProperties;
 pub use proximity::Sighting;
 pub use shape::Shape;
+pub use surface::Surface;
 
 /// A ray: a point and a direction of length one, in whatever frame is said.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,8 +5,7 @@ use parry3d_f64::math::{Pose as LibraryPose, Vector};
 use parry3d_f64::shape::{SharedShape, TriMeshFlags};
 use parry3d_f64::utils::Array2;
 
-use crate::contact::Surface;
-use crate::model::Shape;
+use super::{Shape, Surface};
 use crate::spatial::{Mat3, Pose, Quat, Vec3};
 
 /// A surface as the library has it, and where its frame stands in the surface's own.

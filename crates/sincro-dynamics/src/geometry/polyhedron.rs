@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 
-use crate::model::MassProperties;
+use super::MassProperties;
 use crate::spatial::Vec3;
 
 /// Twice the area of a triangle over the square of its longest side below which it is a line.
@@ -141,8 +141,8 @@ pub fn hull(points: &[[f64; 3]]) -> Option<Triangles> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Shape;
     use super::*;
-    use crate::model::Shape;
 
     /// Corners and outward triangles of a cuboid about `center`.
     fn cuboid(size: [f64; 3], center: [f64; 3]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {

@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
+use super::Shape;
 use super::distance_tests::{along, parts, with_triangles};
 use super::field_of_view::Within;
 use super::gjk::gap;
 use super::support::{POINT, Placed};
 use super::tests::{Numbers, surfaces};
 use super::*;
-use crate::model::Shape;
 use crate::spatial::{Mat3, Pose};
 
 fn fields() -> Vec<Field> {

@@ -1,7 +1,7 @@
 //! Where rays enter solids: closed forms, in the solid's own frame.
 
+use super::Shape;
 use super::{Hit, Ray};
-use crate::model::Shape;
 use crate::spatial::Vec3;
 
 /// A solid.

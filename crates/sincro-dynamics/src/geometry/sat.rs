@@ -10,9 +10,7 @@
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
 
-use crate::contact::candidate::{Feature, Spot};
-use crate::contact::{Collider, Surface};
-use crate::model::Shape;
+use super::{Shape, Surface};
 use crate::spatial::{Pose, Vec3};
 
 /// Distances below this make no difference between directions, and points closer than this are one `[m]`.
@@ -44,7 +42,6 @@ struct Edge {
 /// A convex polytope in the frame of its link.
 #[derive(Clone, Debug)]
 pub(crate) struct Polytope {
-    link: u32,
     vertices: Vec<Vec3<f64>>,
     faces: Vec<Face>,
     loops: Vec<usize>,
@@ -53,9 +50,9 @@ pub(crate) struct Polytope {
 }
 
 impl Polytope {
-    /// The polytope of a surface that is one, and not too large.
-    pub fn of(collider: &Collider) -> Option<Self> {
-        let hull = match &collider.surface {
+    /// Polytope of a surface at `pose` in its link; none if the surface is no polytope or has too many edges.
+    pub fn new(surface: &Surface, pose: &Pose<f64>) -> Option<Self> {
+        let hull = match surface {
             Surface::Solid(Shape::Cuboid { size }) => {
                 let corner = |k: usize| Vector::from_array(corner(k, size));
                 // faces of a box with normals along ±x, ±y, ±z, outlines counter-clockwise from outside
@@ -71,11 +68,11 @@ impl Polytope {
             }
             _ => None,
         }?;
-        (hull.edges().len() <= MAX_EDGES).then(|| Self::from_library(&hull, collider))
+        (hull.edges().len() <= MAX_EDGES).then(|| Self::from_library(&hull, pose))
     }
 
-    fn from_library(hull: &ConvexPolyhedron, collider: &Collider) -> Self {
-        let vertices: Vec<_> = hull.points().iter().map(|p| collider.pose.point(Vec3([p.x, p.y, p.z]))).collect();
+    fn from_library(hull: &ConvexPolyhedron, pose: &Pose<f64>) -> Self {
+        let vertices: Vec<_> = hull.points().iter().map(|p| pose.point(Vec3([p.x, p.y, p.z]))).collect();
         let loops: Vec<usize> = hull.vertices_adj_to_face().iter().map(|k| *k as usize).collect();
         let face = |first: usize, len: usize| {
             // from the outline, as exact as the vertices
@@ -92,12 +89,24 @@ impl Polytope {
         let edges = edges.collect();
         let sum = vertices.iter().fold(Vec3::zero(), |a, b| a + *b);
         let center = sum.scale(1.0 / vertices.len() as f64);
-        Self { link: collider.link, vertices, faces, loops, edges, center }
+        Self { vertices, faces, loops, edges, center }
     }
 }
 
 fn corner(k: usize, size: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|c| if k >> c & 1 == 0 { -0.5 * size[c] } else { 0.5 * size[c] })
+}
+
+/// Point of one polytope over a plane of the other, each in the frame of its own link.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PointOnPlane {
+    /// True if the point belongs to the first polytope and the plane to the second.
+    pub is_on_first: bool,
+    pub point: Vec3<f64>,
+    /// Point of the plane `[m]`.
+    pub origin: Vec3<f64>,
+    /// Normal of the plane, from its polytope to the point.
+    pub normal: Vec3<f64>,
 }
 
 /// The second polytope in the frame of the first one's link, and room for outlines.
@@ -143,8 +152,17 @@ impl Placed<'_> {
 }
 
 impl Clipper {
-    /// Writes the spots of two polytopes that are nearer than `margin` `[m]`; `x_ab` is the pose of b's link in a's.
-    pub fn find(&mut self, a: &Polytope, b: &Polytope, x_ab: &Pose<f64>, margin: f64, slots: &mut [Option<Spot>]) {
+    /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`; `x_ab` is the
+    /// pose of b's link in a's.
+    pub fn find(
+        &mut self,
+        a: &Polytope,
+        b: &Polytope,
+        x_ab: &Pose<f64>,
+        margin: f64,
+        max_points: usize,
+        mut emit: impl FnMut(PointOnPlane),
+    ) {
         let Self { vertices, normals, outline, cut } = self;
         vertices.clear();
         vertices.extend(b.vertices.iter().map(|v| x_ab.point(*v)));
@@ -162,7 +180,7 @@ impl Clipper {
             && depth > of_faces + ALIKE
         {
             if depth <= margin {
-                slots[0] = Some(edge_spot(&one, &two, edges, n, x_ab));
+                emit(edge_point(&one, &two, edges, n, x_ab));
             }
             return;
         }
@@ -172,13 +190,13 @@ impl Clipper {
         let n = lead.normal(face);
         let origin = lead.vertices[lead.shape.loops[lead.shape.faces[face].first]];
         outline.retain(|p| n.dot(*p - origin) <= margin);
-        thin_out(outline, slots.len());
-        for (slot, p) in slots.iter_mut().zip(outline.iter()) {
+        thin_out(outline, max_points);
+        for p in outline.iter() {
             let own = |p: Vec3<f64>| x_ab.rot.tr_mul_vec(p - x_ab.pos);
-            *slot = Some(if first_leads {
-                point_on_plane((b.link, own(*p)), (a.link, origin, n))
+            emit(if first_leads {
+                PointOnPlane { is_on_first: false, point: own(*p), origin, normal: n }
             } else {
-                point_on_plane((a.link, *p), (b.link, own(origin), x_ab.rot.tr_mul_vec(n)))
+                PointOnPlane { is_on_first: true, point: *p, origin: own(origin), normal: x_ab.rot.tr_mul_vec(n) }
             });
         }
     }
@@ -279,7 +297,7 @@ fn arcs_cross((a, b, u): (Vec3<f64>, Vec3<f64>, Vec3<f64>), (c, d): (Vec3<f64>, 
 }
 
 /// Two edges that cross: the first one's nearest point over a plane through the second one.
-fn edge_spot(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64>, x_ab: &Pose<f64>) -> Spot {
+fn edge_point(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64>, x_ab: &Pose<f64>) -> PointOnPlane {
     let line = |placed: &Placed<'_>, k: usize| {
         let [from, to] = placed.shape.edges[k].ends.map(|v| placed.vertices[v]);
         (from, to - from)
@@ -290,44 +308,29 @@ fn edge_spot(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64>
     let along = ((r.dot(u) * ww - r.dot(w) * uw) / (uu * ww - uw * uw)).clamp(0.0, 1.0);
     let point = p + u.scale(along);
     let own = |v: Vec3<f64>| x_ab.rot.tr_mul_vec(v);
-    point_on_plane((one.shape.link, point), (two.shape.link, own(q - x_ab.pos), own(n)))
-}
-
-fn point_on_plane((a, point): (u32, Vec3<f64>), (b, origin, normal): (u32, Vec3<f64>, Vec3<f64>)) -> Spot {
-    Spot { a, b, point, radius: 0.0, radius_a: 0.0, rim: None, feature: Feature::Plane { origin, normal } }
+    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Material;
     use crate::spatial::Mat3;
 
-    fn brick(link: u32) -> Polytope {
+    fn brick() -> Polytope {
         let surface = Surface::Solid(Shape::Cuboid { size: [0.24, 0.12, 0.08] });
-        let collider = Collider {
-            name: String::new(),
-            frame: 0,
-            link,
-            pose: Pose::identity(),
-            surface,
-            material: Material::default(),
-        };
-        Polytope::of(&collider).unwrap()
+        Polytope::new(&surface, &Pose::identity()).unwrap()
     }
 
-    /// Points and gaps of a brick in a pose over one at rest.
+    /// Points and signed distances of a brick in a pose over one at rest.
     fn touch(x_ab: &Pose<f64>) -> Vec<(Vec3<f64>, f64)> {
-        let mut slots = [None; 8];
-        Clipper::default().find(&brick(0), &brick(1), x_ab, 1e-3, &mut slots);
-        let place = |p: Vec3<f64>, link: u32| if link == 1 { x_ab.point(p) } else { p };
-        let read = |spot: &Spot| {
-            let Feature::Plane { origin, normal } = spot.feature else { panic!("a plane is expected") };
-            let (p, o) = (place(spot.point, spot.a), place(origin, spot.b));
-            let n = if spot.b == 1 { x_ab.rot.mul_vec(normal) } else { normal };
-            (p, n.dot(p - o))
-        };
-        slots.iter().flatten().map(read).collect()
+        let mut points = Vec::new();
+        Clipper::default().find(&brick(), &brick(), x_ab, 1e-3, 8, |p: PointOnPlane| {
+            let place = |p: Vec3<f64>, is_first: bool| if is_first { p } else { x_ab.point(p) };
+            let (point, origin) = (place(p.point, p.is_on_first), place(p.origin, !p.is_on_first));
+            let n = if p.is_on_first { x_ab.rot.mul_vec(p.normal) } else { p.normal };
+            points.push((point, n.dot(point - origin)));
+        });
+        points
     }
 
     fn turned(axis: usize, angle: f64, pos: [f64; 3]) -> Pose<f64> {

@@ -3,8 +3,7 @@
 use super::Geometry;
 use super::bvh::Tree;
 use super::gjk::Convex;
-use crate::contact::Surface;
-use crate::model::Shape;
+use super::{Shape, Surface};
 use crate::spatial::{Pose, Vec3};
 
 /// Faces whose distance from a point differs by less than this share it `[m]`.

@@ -1,7 +1,7 @@
 //! Rays against the collision library's, which finds them by other ways.
 
+use super::Shape;
 use super::*;
-use crate::model::Shape;
 
 /// Numbers from −1 to 1, always the same.
 pub(super) struct Numbers(pub u64);

@@ -2,8 +2,7 @@
 
 use sincro_math::Real;
 
-use super::{Ball, Placement, Stage};
-use crate::model::Link;
+use super::{Ball, Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, Quat, RigidInertia, Vec3};
 
 /// Unconstrained motion.

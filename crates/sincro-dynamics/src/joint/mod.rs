@@ -9,7 +9,9 @@
 //! q = 0. The motion subspace S of every stage is constant in the link frame, so its velocity product is `v × S q̇`.
 
 mod ball;
+mod dof;
 mod free;
+mod link;
 mod prismatic;
 mod revolute;
 mod screw;
@@ -17,12 +19,14 @@ mod screw;
 use sincro_math::Real;
 
 pub use ball::Ball;
+pub use dof::Dof;
 pub use free::Free;
+pub use link::Link;
+pub(crate) use link::{Shift, WORLD};
 pub use prismatic::Prismatic;
 pub use revolute::Revolute;
 pub use screw::Screw;
 
-use crate::model::Link;
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// The kinds of joint a user builds with.

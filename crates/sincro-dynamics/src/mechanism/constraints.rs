@@ -1,6 +1,6 @@
 //! What a world asks of a constrained mechanism between integration steps: what touches, what an impact does, what drift must be taken away.
 
-use crate::constraint::Constraints;
+use crate::constraint::{CLOSED, Constraints};
 use crate::contact::candidate::{Gap, Spot, tangents};
 use crate::contact::{Collider, Pair};
 use crate::integrate::System;
@@ -8,9 +8,6 @@ use crate::mechanism::Mechanism;
 use crate::recursions::aba::{self, Held};
 use crate::recursions::kinematics;
 use crate::spatial::{Pose, Vec3};
-
-/// A gap below this is closed `[m]` or `[rad]`: what projection leaves is a thousandth of it.
-pub(crate) const CLOSED: f64 = 1e-9;
 
 /// Speeds below this are none, in deciding what sticks and what arrives [m/s] or [rad/s].
 pub(crate) const STILL: f64 = 1e-8;
@@ -75,7 +72,7 @@ impl Mechanism<f64> {
                     c.memory.classify(slot, false, [false; 3]);
                     continue;
                 };
-                let at = spot.gap(scratch, &c.motions);
+                let at = spot.gap(&c.motions.at(scratch));
                 let rate = normal_rate(c, &spot, &at);
                 if pair.material.stiffness.is_finite() {
                     let slides = slides(c, &spot, &at, pair);
@@ -108,7 +105,7 @@ impl Mechanism<f64> {
                 if c.memory.is_closed(set.limits.len() + k) {
                     continue;
                 }
-                let at = spot.gap(&self.scratch, &c.motions);
+                let at = spot.gap(&c.motions.at(&self.scratch));
                 if at.gap < 0.0 && (pair.material.stiffness.is_finite() || normal_rate(c, &spot, &at) < -STILL) {
                     return true;
                 }

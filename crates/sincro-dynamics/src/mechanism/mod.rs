@@ -7,14 +7,13 @@
 //! Source: key `iserles2000`, sections 2.5 and 3.
 
 pub(crate) mod constraints;
+mod torques;
 
 use sincro_math::Real;
 
-use crate::actuation::drive::{Drive, DriveKind};
-use crate::actuation::{Instant, Motor, Push, damper, friction, joint_torques};
+use crate::actuation::{Drive, DriveKind, Motor, Push, damper, friction};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::{Constraints, Level};
-use crate::coupled::Seen;
 use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
 use crate::model::Model;
@@ -23,6 +22,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
+use torques::{Instant, joint_torques};
 
 /// A model with its commands and everything needed to evaluate its rates without allocation.
 #[derive(Clone, Debug)]
@@ -175,15 +175,6 @@ impl<R: Real> Mechanism<R> {
         displace(&self.model, &self.base, &y[..self.model.n_v()], &mut self.q);
     }
 
-    /// As an attachment sees it, at the coordinates last placed and the velocities in y.
-    #[inline(always)]
-    pub(crate) fn seen<'a>(&'a mut self, t: f64, y: &'a [R]) -> Seen<'a, R> {
-        let n = self.model.n_v();
-        let (v, rotors) = (&y[n..2 * n], &y[self.rotor_states()]);
-        let (model, q, commands) = (&self.model, &*self.q, &*self.commands);
-        Seen { t, model, q, v, rotors, commands, scratch: &mut self.scratch }
-    }
-
     pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
         core::mem::take(&mut self.motor_torque)
     }
@@ -313,7 +304,7 @@ impl<R: Real> Mechanism<R> {
         if was_drive == motor.is_drive() {
             return;
         }
-        let drives = crate::actuation::drive::drives_of(&self.model);
+        let drives = self.model.find_drives();
         let known = |new: &Drive| self.model.drives.iter().position(|old| old == new).map(|i| self.drives[i]);
         self.drives = drives.iter().map(|drive| known(drive).unwrap_or(R::zero())).collect();
         self.model.drives = drives;
@@ -434,7 +425,7 @@ impl<R: Real> Mechanism<R> {
                     holding -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
                 }
             }
-            let pulling = match drive.limit(&self.model) {
+            let pulling = match self.model.drive_limit(&drive) {
                 Some(limit) => self.drives[d] * limit,
                 None => R::zero(),
             };

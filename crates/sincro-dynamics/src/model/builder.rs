@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{MassProperties, Model, Problem};
+use super::ClosureKind;
+use super::MassProperties;
 use crate::actuation::Motor;
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
-use crate::constraint::ClosureKind;
 use crate::contact::{Material, Surface};
 use crate::joint::JointKind;
 use crate::signal::Signal;
@@ -268,17 +268,5 @@ impl ModelBuilder {
     /// Approach slower than this does not bounce [m/s].
     pub fn set_rest_speed(&mut self, speed: f64) {
         self.rest_speed = speed;
-    }
-
-    /// Checks everything and compiles. The second part of the result are the warnings.
-    ///
-    /// # Errors
-    ///
-    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is not
-    /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
-    /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
-    /// takes its speed from.
-    pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
-        crate::compile::compile(self)
     }
 }

@@ -2,8 +2,16 @@
 
 use super::NodeId;
 use crate::joint::JointKind;
-use crate::recursions::kinematics::Attached;
 use crate::spatial::Pose;
+
+/// A frame fixed in a link (`None`: in the world) at a pose.
+#[derive(Clone, Copy, Debug)]
+pub struct Attached<R> {
+    /// The link, none for the world.
+    pub link: Option<usize>,
+    /// Pose of the frame in the link or the world.
+    pub pose: Pose<R>,
+}
 
 /// A joint as the user built it.
 #[derive(Clone, Debug)]

@@ -17,8 +17,8 @@
 
 use sincro_math::{Real, Task};
 
-use crate::joint::{Stage, StageVisitor};
-use crate::model::{Link, Model, WORLD};
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+use crate::model::Model;
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
 use crate::spatial::{ArticulatedInertia, Force, Motion};
 use crate::state::State;

@@ -5,8 +5,8 @@
 
 use sincro_math::Real;
 
-use crate::joint::{Stage, StageVisitor};
-use crate::model::{Link, Model};
+use crate::joint::{Link, Stage, StageVisitor};
+use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, RigidInertia};

@@ -2,8 +2,9 @@
 
 use sincro_math::Real;
 
-use crate::joint::{Stage, StageVisitor};
-use crate::model::{Link, Model, WORLD};
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+pub use crate::model::Attached;
+use crate::model::Model;
 use crate::recursions::aba::joint_motion;
 use crate::scratch::{LinkScratch, Scratch};
 use crate::spatial::{Mat3, Motion, Pose, Vec3};
@@ -94,15 +95,6 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
         out.v = link.motion_in_link::<S>(&out.at, &parent.0) + v_joint;
         out.a = link.motion_in_link::<S>(&out.at, &parent.1) + a_joint + S::velocity_product(&out.v, &v_joint);
     }
-}
-
-/// A frame fixed in a link (`None`: in the world) at a pose.
-#[derive(Clone, Copy, Debug)]
-pub struct Attached<R> {
-    /// The link, none for the world.
-    pub link: Option<usize>,
-    /// Pose of the frame in the link or the world.
-    pub pose: Pose<R>,
 }
 
 /// Pose of a frame in the world, after [`poses`] or [`motions`].

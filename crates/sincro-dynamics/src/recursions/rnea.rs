@@ -5,8 +5,8 @@
 
 use sincro_math::{Real, Task};
 
-use crate::joint::{Stage, StageVisitor};
-use crate::model::{Link, Model, WORLD};
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+use crate::model::Model;
 use crate::recursions::aba::joint_motion;
 use crate::scratch::{LinkScratch, Scratch};
 use crate::spatial::{Force, Motion, Vec3};

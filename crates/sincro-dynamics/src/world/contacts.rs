@@ -2,7 +2,7 @@
 //! come too thick.
 
 use super::{Stop, World};
-use crate::actuation::drive::DriveKind;
+use crate::actuation::DriveKind;
 use crate::constraint::warm_start::Patience;
 use crate::coupled::{Attachment, Coupled};
 use crate::integrate::{Failure, FixedStep, System};

@@ -3,7 +3,7 @@
 //! What a drive is: [`crate::actuation::drive`].
 
 use super::{Stop, World};
-use crate::actuation::drive::DriveKind;
+use crate::actuation::DriveKind;
 use crate::coupled::Attachment;
 use crate::integrate::Control;
 
@@ -14,12 +14,13 @@ impl World {
     /// Velocity that each drive wants during this tick.
     pub(super) fn latch(&mut self) {
         for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
-            self.wanted[i] = drive.wanted(&self.mechanism.model, self.mechanism.base(), &self.mechanism.commands);
+            self.wanted[i] =
+                self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands);
         }
     }
 
     pub(super) fn is_unlimited(&self, drive: usize) -> bool {
-        self.mechanism.model.drives[drive].limit(&self.mechanism.model).is_none()
+        self.mechanism.model.drive_limit(&self.mechanism.model.drives[drive]).is_none()
     }
 
     /// The jump at the start of a tick and the state of the drives after it.
@@ -151,7 +152,7 @@ impl World {
         let mut limit = 0.0;
         for (drive, pull) in self.mechanism.model.drives.iter().zip(&self.mechanism.drives) {
             if drive.dof == dof && *pull == 0.0 {
-                limit += drive.limit(&self.mechanism.model)?;
+                limit += self.mechanism.model.drive_limit(drive)?;
             }
         }
         let reaction = self.mechanism.scratch.reaction[dof];

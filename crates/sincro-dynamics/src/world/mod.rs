@@ -10,7 +10,7 @@ mod contacts;
 mod drives;
 mod parameters;
 
-use crate::actuation::drive::DriveKind;
+use crate::actuation::DriveKind;
 use crate::actuation::{Motor, Push};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::warm_start::Patience;

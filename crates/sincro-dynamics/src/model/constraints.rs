@@ -1,0 +1,141 @@
+//! Constraints of a model as they are declared: loop joints, couplings, joint limits, colliders and their pairs.
+
+use crate::contact::{Collider, Pair};
+use crate::spatial::Pose;
+
+/// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
+pub const SLOT: usize = 7;
+
+/// A frame fixed in a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anchor {
+    /// Name of the body or frame.
+    pub name: String,
+    /// The link, `WORLD` for none.
+    pub(crate) link: u32,
+    /// In the link, or the world.
+    pub pose: Pose<f64>,
+}
+
+/// How two anchors are kept together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClosureKind {
+    /// Their origins coincide.
+    Point,
+    /// Their origins coincide and their z axes agree.
+    Hinge,
+    /// They coincide.
+    Weld,
+    /// Their origins keep a distance `[m]`.
+    Distance(f64),
+}
+
+impl ClosureKind {
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(self) -> usize {
+        match self {
+            Self::Point => 3,
+            Self::Hinge => 5,
+            Self::Weld => 6,
+            Self::Distance(_) => 1,
+        }
+    }
+}
+
+/// A closure of a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Name given by the user.
+    pub name: String,
+    /// How.
+    pub kind: ClosureKind,
+    /// One end.
+    pub a: Anchor,
+    /// The other end.
+    pub b: Anchor,
+}
+
+/// Two coordinates that move together: q₂ = ratio·q₁ + offset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// Name given by the user.
+    pub name: String,
+    /// Degrees of freedom 1 and 2.
+    pub dofs: [usize; 2],
+    /// Coordinates in q of the two.
+    pub coordinates: [usize; 2],
+    /// Of the rates, v₂ over v₁.
+    pub ratio: f64,
+    /// `[rad]` or `[m]`.
+    pub offset: f64,
+}
+
+/// A limit of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// Degree of freedom.
+    pub dof: usize,
+    /// Its coordinate in q.
+    pub coordinate: usize,
+    /// +1 for a lower, −1 for an upper limit.
+    pub sign: f64,
+    /// `[rad]` or `[m]`.
+    pub bound: f64,
+    /// Speed of leaving over speed of arriving.
+    pub restitution: f64,
+}
+
+/// All constraints of a model; numbers are the same in every lane.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ConstraintSet {
+    /// Loops.
+    pub closures: Vec<Closure>,
+    /// Couplings of joints.
+    pub couplings: Vec<Coupling>,
+    /// Limits of joints: the first slots.
+    pub limits: Vec<Limit>,
+    /// Surfaces that can touch.
+    pub colliders: Vec<Collider>,
+    /// Pairs of them; their slots come after the limits'.
+    pub pairs: Vec<Pair>,
+    /// Approach slower than this does not bounce [m/s].
+    pub rest_speed: f64,
+}
+
+impl ConstraintSet {
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.closures.is_empty() && self.couplings.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
+    }
+
+    /// Number of slots of contacts.
+    #[must_use]
+    pub fn n_contacts(&self) -> usize {
+        self.pairs.last().map_or(0, |p| p.first + p.slots)
+    }
+
+    /// Number of slots: limits, then contacts.
+    #[must_use]
+    pub fn n_slots(&self) -> usize {
+        self.limits.len() + self.n_contacts()
+    }
+
+    /// Length of [`crate::state::State::contacts`].
+    #[must_use]
+    pub fn n_numbers(&self) -> usize {
+        warm_start_len(self.n_slots())
+    }
+
+    /// Number of rows of closures and couplings.
+    #[must_use]
+    pub fn n_bilateral(&self) -> usize {
+        self.closures.iter().map(|c| c.kind.rows()).sum::<usize>() + self.couplings.len()
+    }
+}
+
+/// Length of the part of the state that belongs to `n_slots` slots.
+pub(crate) fn warm_start_len(n_slots: usize) -> usize {
+    if n_slots == 0 { 0 } else { SLOT * n_slots + 1 }
+}
