@@ -81,7 +81,7 @@ fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     // particles are counted for each world
     let counts = world.model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. }));
     let is_free = world.model.constraints().is_empty();
-    unlimited && is_free && !counts && world.model.next_corner(-1.0) >= end
+    unlimited && is_free && !counts && world.model.next_time_event(-1.0) >= end
 }
 
 /// One world by itself.
@@ -132,8 +132,8 @@ impl LaneVisitor for Bundle<'_> {
         let model = Model::<R>::pack(&models)?;
         let mechanism = Mechanism::new(model, false);
         let dim = mechanism.dim();
-        let jump = vec![R::zero(); mechanism.model().n_v()];
-        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], jump, mechanism };
+        let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
+        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], reach_target_velocities, mechanism };
         lanes.load(worlds);
         match settings.method {
             MethodKind::SemiImplicitEuler => lanes.run(&mut SemiImplicitEuler::new(dim), worlds, settings),
@@ -149,7 +149,7 @@ impl LaneVisitor for Bundle<'_> {
 struct LaneWorlds<R> {
     mechanism: Mechanism<R>,
     y: Vec<R>,
-    jump: Vec<R>,
+    reach_target_velocities: Vec<R>,
 }
 
 impl<R: Real> LaneWorlds<R> {
@@ -229,26 +229,26 @@ impl<R: Real> LaneWorlds<R> {
     #[inline(always)]
     fn drive(&mut self, is_euler: bool, h: f64) {
         let n_v = self.mechanism.model().n_v();
-        self.mechanism.mark_held();
+        self.mechanism.mark_locked();
         for i in 0..self.mechanism.drives.len() {
             let dof = self.mechanism.model.drives[i].dof;
-            let missing = self.wanted(i) - self.y[n_v + dof];
+            let missing = self.target_velocities(i) - self.y[n_v + dof];
             let scale = if is_euler { R::splat(h) } else { R::one() };
-            self.mechanism.held_acceleration[dof] = missing / scale;
+            self.mechanism.prescribed_acceleration[dof] = missing / scale;
         }
         if is_euler {
             return;
         }
-        self.mechanism.impulse(&mut self.jump);
+        self.mechanism.impulse(&mut self.reach_target_velocities);
         for k in 0..n_v {
-            self.y[n_v + k] += self.jump[k];
+            self.y[n_v + k] += self.reach_target_velocities[k];
         }
         self.set_driven_velocities();
-        self.mechanism.mark_held();
+        self.mechanism.mark_locked();
     }
 
     #[inline(always)]
-    fn wanted(&self, i: usize) -> R {
+    fn target_velocities(&self, i: usize) -> R {
         let drive = &self.mechanism.model.drives[i];
         self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
     }
@@ -257,7 +257,7 @@ impl<R: Real> LaneWorlds<R> {
     fn set_driven_velocities(&mut self) {
         let n_v = self.mechanism.model().n_v();
         for i in 0..self.mechanism.drives.len() {
-            self.y[n_v + self.mechanism.model.drives[i].dof] = self.wanted(i);
+            self.y[n_v + self.mechanism.model.drives[i].dof] = self.target_velocities(i);
         }
     }
 

@@ -11,29 +11,29 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 
 /// Something with continuous states of its own.
-pub trait Attachment<R: Real> {
+pub trait CoupledSystem<R: Real> {
     /// Its states z, as they are between steps.
     fn states(&mut self) -> &mut [R];
 
     /// Told before a sub-step: the instant of a jump at its end, else infinite.
-    fn set_corner(&mut self, corner: f64);
+    fn set_time_event(&mut self, event: f64);
 
     /// The first instant after `t` at which it jumps or has a corner because of time alone.
-    fn next_corner(&self, t: f64) -> f64;
+    fn next_time_event(&self, t: f64) -> f64;
 
     /// Writes the commands that it determines at this instant, with the states `z`; the others are held.
-    fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]);
+    fn find_commands(&mut self, state_view: &mut StateView<'_, R>, z: &[R], commands: &mut [R]);
 
     /// The rates of `z`, with the accelerations and motor torques that follow from the commands just given.
-    fn slope(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]);
+    fn slope(&mut self, state_view: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]);
 
-    /// −∂slopeᵢ/∂zᵢ at the instant of the last [`Attachment::slope`], as far as known [1/s]; taken at the new state by implicit methods.
-    fn decay(&mut self, decay: &mut [R]);
+    /// −∂slopeᵢ/∂zᵢ at the instant of the last [`CoupledSystem::slope`], as far as known [1/s]; taken at the new state by implicit methods.
+    fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
 }
 
 /// A mechanism looked at by its attachment.
 #[derive(Debug)]
-pub struct Seen<'a, R> {
+pub struct StateView<'a, R> {
     /// Time `[s]`.
     pub t: f64,
     /// The model.
@@ -61,30 +61,30 @@ pub struct Response<'a, R> {
 
 /// No attachment.
 #[derive(Clone, Copy, Debug)]
-pub struct Alone;
+pub struct NoCoupling;
 
-impl<R: Real> Attachment<R> for Alone {
+impl<R: Real> CoupledSystem<R> for NoCoupling {
     fn states(&mut self) -> &mut [R] {
         &mut []
     }
-    fn set_corner(&mut self, _: f64) {}
-    fn next_corner(&self, _: f64) -> f64 {
+    fn set_time_event(&mut self, _: f64) {}
+    fn next_time_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
     #[inline(always)]
-    fn drive(&mut self, _: &mut Seen<'_, R>, _: &[R], _: &mut [R]) {}
+    fn find_commands(&mut self, _: &mut StateView<'_, R>, _: &[R], _: &mut [R]) {}
     #[inline(always)]
-    fn slope(&mut self, _: &mut Seen<'_, R>, _: Response<'_, R>, _: &[R], _: &mut [R]) {}
-    fn decay(&mut self, _: &mut [R]) {}
+    fn slope(&mut self, _: &mut StateView<'_, R>, _: Response<'_, R>, _: &[R], _: &mut [R]) {}
+    fn negated_jacobian_diagonal(&mut self, _: &mut [R]) {}
 }
 
 /// State view of a mechanism at the coordinates last placed and the velocities in `y`.
 #[inline(always)]
-fn seen<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) -> Seen<'a, R> {
+fn state_view<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) -> StateView<'a, R> {
     let n = mechanism.model.n_v();
     let (v, rotors) = (&y[n..2 * n], &y[mechanism.rotor_states()]);
     let (model, q, commands) = (&mechanism.model, &*mechanism.q, &*mechanism.commands);
-    Seen { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
+    StateView { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
 }
 
 /// A mechanism with its attachment as one system.
@@ -93,16 +93,16 @@ pub struct Coupled<'a, R, A: ?Sized> {
     /// The mechanism.
     pub mechanism: &'a mut Mechanism<R>,
     /// What is attached.
-    pub attachment: &'a mut A,
+    pub system: &'a mut A,
     /// Memory as long as z.
-    pub decay: &'a mut [R],
+    pub negated_jacobian_diagonal: &'a mut [R],
 }
 
-impl<R: Real, A: Attachment<R> + ?Sized> Coupled<'_, R, A> {
+impl<R: Real, A: CoupledSystem<R> + ?Sized> Coupled<'_, R, A> {
     #[inline(always)]
-    fn drive(&mut self, t: f64, own: &[R], z: &[R]) {
+    fn find_commands(&mut self, t: f64, own: &[R], z: &[R]) {
         let mut commands = core::mem::take(&mut self.mechanism.commands);
-        self.attachment.drive(&mut seen(self.mechanism, t, own), z, &mut commands);
+        self.system.find_commands(&mut state_view(self.mechanism, t, own), z, &mut commands);
         self.mechanism.commands = commands;
     }
 
@@ -111,15 +111,15 @@ impl<R: Real, A: Attachment<R> + ?Sized> Coupled<'_, R, A> {
         let n = self.mechanism.model().n_v();
         let torques = self.mechanism.take_motor_torque();
         let response = Response { accelerations: &own_slope[n..2 * n], motor_torque: &torques };
-        self.attachment.slope(&mut seen(self.mechanism, t, own), response, z, slope);
+        self.system.slope(&mut state_view(self.mechanism, t, own), response, z, slope);
         self.mechanism.put_motor_torque(torques);
     }
 }
 
-impl<R: Real, A: Attachment<R> + ?Sized> System<R> for Coupled<'_, R, A> {
+impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
     #[inline(always)]
     fn dim(&self) -> usize {
-        self.mechanism.dim() + self.decay.len()
+        self.mechanism.dim() + self.negated_jacobian_diagonal.len()
     }
 
     #[inline(always)]
@@ -131,8 +131,8 @@ impl<R: Real, A: Attachment<R> + ?Sized> System<R> for Coupled<'_, R, A> {
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
         let (own, z) = y.split_at(self.mechanism.dim());
         let (own_slope, z_slope) = slope.split_at_mut(own.len());
-        self.mechanism.place(own);
-        self.drive(t, own, z);
+        self.mechanism.set_coordinates(own);
+        self.find_commands(t, own, z);
         self.mechanism.slope(t, own, own_slope);
         self.rates(t, own, own_slope, z, z_slope);
     }
@@ -141,16 +141,16 @@ impl<R: Real, A: Attachment<R> + ?Sized> System<R> for Coupled<'_, R, A> {
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
         let (own, z) = y.split_at(self.mechanism.dim());
         let (own_slope, z_slope) = slope.split_at_mut(own.len());
-        self.mechanism.place(own);
-        self.drive(t, own, z);
+        self.mechanism.set_coordinates(own);
+        self.find_commands(t, own, z);
         self.mechanism.implicit_slope(t, h, implicit, own, own_slope);
         if z.is_empty() {
             return;
         }
         self.rates(t, own, own_slope, z, z_slope);
-        self.attachment.decay(self.decay);
-        for (slope, decay) in z_slope.iter_mut().zip(&*self.decay) {
-            *slope = *slope / (R::one() + R::splat(h) * *decay);
+        self.system.negated_jacobian_diagonal(self.negated_jacobian_diagonal);
+        for (slope, negated_jacobian_diagonal) in z_slope.iter_mut().zip(&*self.negated_jacobian_diagonal) {
+            *slope = *slope / (R::one() + R::splat(h) * *negated_jacobian_diagonal);
         }
     }
 

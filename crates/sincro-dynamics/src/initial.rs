@@ -2,13 +2,13 @@
 
 use crate::integrate::System;
 use crate::mechanism::Mechanism;
-use crate::mechanism::constraints::Closing;
+use crate::mechanism::constraints::ActivationRule;
 use crate::model::Model;
 use crate::state::State;
 
 /// How far a closure is open.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Opening {
+pub struct ConstraintResidual {
     /// Its name.
     pub name: String,
     /// Between the ends, or from the distance wanted `[m]`; of a coupling, in the units of its second joint.
@@ -19,7 +19,7 @@ pub struct Opening {
 
 /// Two surfaces that overlap.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Overlap {
+pub struct Penetration {
     /// One body.
     pub a: String,
     /// The other.
@@ -30,7 +30,7 @@ pub struct Overlap {
 
 /// A joint beyond a stop.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Beyond {
+pub struct LimitViolation {
     /// Name of the joint.
     pub joint: String,
     /// Where it is `[rad]` or `[m]`.
@@ -41,9 +41,9 @@ pub struct Beyond {
 
 /// Degrees of freedom and what takes them away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Freedom {
+pub struct Mobility {
     /// Of the tree.
-    pub of_tree: usize,
+    pub tree_dofs: usize,
     /// Closed loops: closures and couplings.
     pub loops: usize,
     /// Equations of those.
@@ -52,11 +52,11 @@ pub struct Freedom {
     pub redundant: usize,
 }
 
-impl Freedom {
+impl Mobility {
     /// What is left.
     #[must_use]
-    pub fn left(&self) -> usize {
-        (self.of_tree + self.redundant).saturating_sub(self.equations)
+    pub fn dofs(&self) -> usize {
+        (self.tree_dofs + self.redundant).saturating_sub(self.equations)
     }
 }
 
@@ -69,50 +69,51 @@ fn placed(model: &Model<f64>, x: &State<f64>) -> (Mechanism<f64>, Vec<f64>) {
 
 /// How far every closure and coupling is open in a state.
 #[must_use]
-pub fn openings(model: &Model<f64>, x: &State<f64>) -> Vec<Opening> {
+pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintResidual> {
     let set = model.constraints();
     let mut scratch = crate::scratch::Scratch::new(model);
     crate::recursions::kinematics::poses(model, &x.q, &mut scratch);
-    let closures = set.closures.iter().map(|c| {
-        let (distance, angle) = c.opening(&scratch);
-        Opening { name: c.name.clone(), distance, angle }
+    let loop_joints = set.loop_joints.iter().map(|c| {
+        let (distance, angle) = c.residual(&scratch);
+        ConstraintResidual { name: c.name.clone(), distance, angle }
     });
-    let couplings = set.couplings.iter().map(|c| {
+    let gears = set.gears.iter().map(|c| {
         let [q1, q2] = c.coordinates.map(|k| x.q[k]);
-        Opening { name: c.name.clone(), distance: (q2 - c.ratio * q1 - c.offset).abs(), angle: 0.0 }
+        ConstraintResidual { name: c.name.clone(), distance: (q2 - c.ratio * q1 - c.offset).abs(), angle: 0.0 }
     });
-    closures.chain(couplings).collect()
+    loop_joints.chain(gears).collect()
 }
 
 /// Coordinates near those of a state that close all loops; none if there are none near.
 #[must_use]
-pub fn assembled(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
+pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     let (mut mechanism, mut y) = placed(model, x);
     mechanism.drives.fill(1.0);
-    mechanism.mark_held();
+    mechanism.mark_locked();
     for _ in 0..20 {
         mechanism.project(&mut y, false);
     }
     let mut closed = x.clone();
     closed.q.copy_from_slice(mechanism.base());
-    let all = openings(model, &closed).iter().all(|o| o.distance < 1e-9 && o.angle < 1e-9);
+    let all = constraint_residuals(model, &closed).iter().all(|o| o.distance < 1e-9 && o.angle < 1e-9);
     (all && closed.q.iter().all(|q| q.is_finite())).then_some(closed.q)
 }
 
 /// Pairs of bodies that overlap, each with its greatest depth; compliant ones left out.
 #[must_use]
-pub fn overlaps(model: &Model<f64>, x: &State<f64>) -> Vec<Overlap> {
+pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     let set = model.constraints();
     let (mut mechanism, y) = placed(model, x);
-    mechanism.touch(&y[model.n_v()..], Closing::All);
+    mechanism.detect_contacts(&y[model.n_v()..], ActivationRule::All);
     let Some(c) = mechanism.constraints.as_deref() else { return Vec::new() };
-    let mut found: Vec<Overlap> = Vec::new();
+    let mut found: Vec<Penetration> = Vec::new();
     for pair in set.pairs.iter().filter(|p| p.material.stiffness.is_infinite()) {
-        let gaps = c.spots[pair.first..pair.first + pair.slots].iter().flatten();
-        let depth = gaps.map(|s| -s.gap(&c.motions.at(&mechanism.scratch)).gap).fold(f64::NEG_INFINITY, f64::max);
+        let gaps = c.candidates[pair.first..pair.first + pair.slots].iter().flatten();
+        let depth =
+            gaps.map(|s| -s.kinematics(&c.motions.at(&mechanism.scratch)).distance).fold(f64::NEG_INFINITY, f64::max);
         if depth > 0.0 {
             let name = |k: usize| set.colliders[k].name.clone();
-            found.push(Overlap { a: name(pair.a), b: name(pair.b), depth });
+            found.push(Penetration { a: name(pair.a), b: name(pair.b), depth });
         }
     }
     found
@@ -120,10 +121,10 @@ pub fn overlaps(model: &Model<f64>, x: &State<f64>) -> Vec<Overlap> {
 
 /// Joints beyond their stops, by more than rounding.
 #[must_use]
-pub fn beyond_limits(model: &Model<f64>, x: &State<f64>) -> Vec<Beyond> {
+pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolation> {
     let beyond = model.constraints().limits.iter().filter_map(|limit| {
         let position = x.q[limit.coordinate];
-        (limit.sign * (position - limit.bound) < -1e-9).then(|| Beyond {
+        (limit.sign * (position - limit.bound) < -1e-9).then(|| LimitViolation {
             joint: model.names().dof_name(limit.dof).to_owned(),
             position,
             limit: limit.bound,
@@ -134,18 +135,18 @@ pub fn beyond_limits(model: &Model<f64>, x: &State<f64>) -> Vec<Beyond> {
 
 /// Degrees of freedom in a state, closures counted.
 #[must_use]
-pub fn freedom(model: &Model<f64>, x: &State<f64>) -> Freedom {
+pub fn mobility(model: &Model<f64>, x: &State<f64>) -> Mobility {
     let set = model.constraints();
-    let mut found = Freedom {
-        of_tree: model.n_v() - model.drives().iter().filter(|d| d.kind == crate::actuation::DriveKind::Lock).count(),
-        loops: set.closures.len() + set.couplings.len(),
+    let mut found = Mobility {
+        tree_dofs: model.n_v() - model.drives().iter().filter(|d| d.kind == crate::actuation::DriveKind::Lock).count(),
+        loops: set.loop_joints.len() + set.gears.len(),
         equations: set.n_bilateral(),
         redundant: 0,
     };
     if found.equations > 0 {
         let (mut mechanism, y) = placed(model, x);
         mechanism.drives.fill(1.0);
-        mechanism.mark_held();
+        mechanism.mark_locked();
         found.redundant = mechanism.redundant(&y);
     }
     found

@@ -105,7 +105,7 @@ impl Signal {
     /// The first instant after `t` at which the signal or its slope jumps, so that no integration step straddles it;
     /// infinite if there is none.
     #[must_use]
-    pub fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_time_event(&self, t: f64) -> f64 {
         let after = |x: f64| if x > t + SAME_INSTANT { x } else { f64::INFINITY };
         match *self {
             Self::Constant(_) | Self::Sine { .. } => f64::INFINITY,
@@ -156,7 +156,7 @@ mod tests {
         let pulse = Signal::Pulse { period: 1.0, width: 0.25, low: 0.0, high: 1.0, start: 0.5 };
         let mut t = 0.0;
         let corners: Vec<f64> = std::iter::from_fn(|| {
-            t = pulse.next_corner(t);
+            t = pulse.next_time_event(t);
             Some(t)
         })
         .take(4)

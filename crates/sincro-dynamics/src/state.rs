@@ -14,7 +14,7 @@ use crate::spatial::{Quat, Vec3};
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
 /// | `commands` | latched commands: of motors, then six of each external force that takes them, then of rotors | [`Model::n_commands`] |
 /// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
-/// | `contacts` | what the constraint solver starts from: forces and grip of each limit and contact ([`crate::constraint::SLOT`] numbers), and one of the world's | 7 × slots + 1, 0 without slots |
+/// | `contacts` | what the constraint solver starts from: forces and grip of each limit and contact ([`crate::constraint::SLOT_LEN`] numbers), and one of the world's | 7 × slots + 1, 0 without slots |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
 /// | `rotors` | speed of each rotor with a lag; of a stock propeller what it throws this tick | rotors that have one |
 /// | `tick` | base steps done | |

@@ -205,7 +205,7 @@ impl Wind {
 
     /// The first instant after `t` `[s]` at which a gust begins or has done; infinite if there is none.
     #[must_use]
-    pub fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_time_event(&self, t: f64) -> f64 {
         let ends = self.gusts.iter().flat_map(|g| [g.start, g.start + if g.holds { 1.0 } else { 2.0 } * g.rise]);
         ends.filter(|x| *x > t + SAME_INSTANT).fold(f64::INFINITY, f64::min)
     }

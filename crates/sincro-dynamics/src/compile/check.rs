@@ -3,23 +3,23 @@
 use crate::aero::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
-use crate::model::diagnostic::{Problem, Severity};
+use crate::model::diagnostic::{Diagnostic, Severity};
 use crate::model::{MassProperties, Model};
 use crate::spatial::{Mat3, Vec3};
 
 /// Relative excess over the triangle inequality that is put down to rounding of printed figures.
 const TRIANGLE_SLACK: f64 = 1e-9;
 
-struct Findings(Vec<Problem>);
+struct Findings(Vec<Diagnostic>);
 
 impl Findings {
     fn error(&mut self, node: NodeId, field: &'static str, message: String, help: &str) {
-        self.0.push(Problem { severity: Severity::Error, node: Some(node), field, message, help: help.into() });
+        self.0.push(Diagnostic { severity: Severity::Error, node: Some(node), field, message, help: help.into() });
     }
 }
 
 /// Everything that can be said of the objects one by one, and of the tree.
-pub(super) fn check(builder: &ModelBuilder) -> Vec<Problem> {
+pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
     let mut found = Findings(Vec::new());
     if builder.gravity.iter().any(|g| !g.is_finite()) {
         found.error(
@@ -172,7 +172,7 @@ fn check_mass(found: &mut Findings, id: NodeId, name: &str, mass: &MassPropertie
     }
     let excess = mass.triangle_excess();
     if excess > TRIANGLE_SLACK {
-        found.0.push(Problem {
+        found.0.push(Diagnostic {
             severity: Severity::Warning,
             node: Some(id),
             field: "inertia",
@@ -286,7 +286,7 @@ fn carries_a_body(builder: &ModelBuilder, joint: NodeId) -> bool {
 }
 
 /// Joints along which no inertia can be felt: a point mass on its own axis, say.
-pub(super) fn massless_joints(model: &Model<f64>) -> Vec<Problem> {
+pub(super) fn massless_joints(model: &Model<f64>) -> Vec<Diagnostic> {
     let inertias = crate::recursions::aba::joint_inertias(model, &crate::state::State::new(model));
     let scale = inertias.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let mut found = Findings(Vec::new());

@@ -14,10 +14,10 @@ use crate::contact::{self, Collider};
 use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
 use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
-use crate::model::diagnostic::{Problem, Severity};
+use crate::model::diagnostic::{Diagnostic, Severity};
 use crate::model::names::{FrameInfo, JointInfo, Names};
 use crate::model::parameters::carried;
-use crate::model::{Anchor, Closure, ConstraintSet, Coupling, Limit};
+use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint};
 use crate::model::{MassProperties, Model};
 use crate::spatial::{Mat3, Pose, RigidInertia, Vec3};
 
@@ -52,12 +52,12 @@ impl ModelBuilder {
     /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
     /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
     /// takes its speed from.
-    pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
+    pub fn build(&self) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
         compile(self)
     }
 }
 
-fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
+fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut problems = check::check(builder);
     if problems.iter().any(|p| p.severity == Severity::Error) {
         return Err(problems);
@@ -210,16 +210,16 @@ impl Compiler<'_> {
             let at = self.carriers[node.0 as usize];
             Anchor { name: self.nodes[node.0 as usize].name.clone(), link: at.link, pose: at.pose.compose(pose) }
         };
-        let closures = builder.closures.iter().map(|(name, spec)| Closure {
+        let loop_joints = builder.loop_joints.iter().map(|(name, spec)| LoopJoint {
             name: name.clone(),
             kind: spec.kind,
             a: anchor(spec.ends[0], &spec.poses[0]),
             b: anchor(spec.ends[1], &spec.poses[1]),
         });
         let joint = |node: NodeId| self.names.joints.iter().find(|j| j.node == node);
-        let couplings = builder.couplings.iter().filter_map(|(name, spec)| {
+        let gears = builder.gears.iter().filter_map(|(name, spec)| {
             let [one, two] = [joint(spec.joints[0])?, joint(spec.joints[1])?];
-            Some(Coupling {
+            Some(GearConstraint {
                 name: name.clone(),
                 dofs: [one.v_idx, two.v_idx],
                 coordinates: [one.q_idx, two.q_idx],
@@ -251,8 +251,8 @@ impl Compiler<'_> {
         let parent = |link: u32| self.model.links[link as usize].parent;
         let pairs = contact::pairs(&colliders, |a, b| parent(a) == b || parent(b) == a);
         ConstraintSet {
-            closures: closures.collect(),
-            couplings: couplings.collect(),
+            loop_joints: loop_joints.collect(),
+            gears: gears.collect(),
             limits,
             pairs,
             colliders,

@@ -11,7 +11,7 @@
 
 use sincro_math::Real;
 
-use super::cone::{Block, Grip, Group};
+use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use super::dense::Dense;
 
 /// A row of A with its coefficient.
@@ -33,7 +33,7 @@ const MAX_TERMS: usize = 6;
 
 /// The unknowns of a guess; grows to the largest problem it has seen.
 #[derive(Clone, Debug)]
-pub(crate) struct Guess<R> {
+pub(crate) struct ActiveSet<R> {
     unknowns: Vec<Unknown>,
     tested: Vec<usize>,
     across: Vec<usize>,
@@ -42,7 +42,7 @@ pub(crate) struct Guess<R> {
     pub rates: Vec<R>,
 }
 
-impl<R> Default for Guess<R> {
+impl<R> Default for ActiveSet<R> {
     fn default() -> Self {
         Self { unknowns: Vec::new(), tested: Vec::new(), across: Vec::new(), column: Vec::new(), rates: Vec::new() }
     }
@@ -50,7 +50,7 @@ impl<R> Default for Guess<R> {
 
 /// The problem of one instant: w = A λ + b.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Instant<'a, R> {
+pub(crate) struct ContactProblem<'a, R> {
     /// Row by row, symmetric.
     pub a: &'a [R],
     pub b: &'a [R],
@@ -58,7 +58,7 @@ pub(crate) struct Instant<'a, R> {
     pub n_free: usize,
 }
 
-impl<R: Real> Instant<'_, R> {
+impl<R: Real> ContactProblem<'_, R> {
     pub fn m(&self) -> usize {
         self.b.len()
     }
@@ -69,7 +69,7 @@ impl<R: Real> Instant<'_, R> {
     }
 }
 
-impl<R: Real> Guess<R> {
+impl<R: Real> ActiveSet<R> {
     /// Memory for problems of `m` rows.
     pub fn reserve(&mut self, m: usize) {
         let more = |len: usize| m.saturating_sub(len);
@@ -87,7 +87,7 @@ impl<R: Real> Guess<R> {
     }
 
     /// Row of A that holds unknown `k`, for what is not across.
-    pub fn row(&self, k: usize, blocks: &[Block<R>]) -> Option<usize> {
+    pub fn row(&self, k: usize, blocks: &[UnilateralConstraint<R>]) -> Option<usize> {
         match self.unknowns[k] {
             Unknown::Row(row) => Some(row),
             Unknown::Normal(block) => Some(blocks[block].row),
@@ -96,7 +96,7 @@ impl<R: Real> Guess<R> {
     }
 
     /// Lists what the blocks leave unknown, and makes λ fit what they say.
-    pub fn take(&mut self, n_free: usize, blocks: &[Block<R>], lambda: &mut [R]) {
+    pub fn take(&mut self, n_free: usize, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
         self.unknowns.clear();
         self.unknowns.extend((0..n_free).map(Unknown::Row));
         for (k, block) in blocks.iter().enumerate() {
@@ -109,7 +109,7 @@ impl<R: Real> Guess<R> {
             }
             for (g, group) in block.groups.iter().enumerate() {
                 let Some(group) = group else { continue };
-                if group.grip == Grip::Stick {
+                if group.grip == ContactMode::Stick {
                     self.unknowns.extend((group.row..group.row + group.dim).map(Unknown::Row));
                 } else if group.give.is_some() {
                     self.unknowns.push(Unknown::Across(k, g));
@@ -119,26 +119,32 @@ impl<R: Real> Guess<R> {
     }
 
     /// The rates that λ makes.
-    pub fn find_rates(&mut self, instant: &Instant<'_, R>, lambda: &[R]) {
+    pub fn find_rates(&mut self, problem: &ContactProblem<'_, R>, lambda: &[R]) {
         self.rates.clear();
-        self.rates.extend_from_slice(instant.b);
+        self.rates.extend_from_slice(problem.b);
         // A is symmetric: its columns are its rows
         for (i, x) in lambda.iter().enumerate().filter(|(_, x)| **x != R::zero()) {
-            for (rate, a) in self.rates.iter_mut().zip(instant.row(i)) {
+            for (rate, a) in self.rates.iter_mut().zip(problem.row(i)) {
                 *rate += *a * *x;
             }
         }
     }
 
     /// The linear system: how the tested rates answer the unknowns, and what they are to change by. Rates must be those of λ.
-    pub fn system(&mut self, instant: &Instant<'_, R>, blocks: &[Block<R>], lambda: &[R], dense: &mut Dense<R>) {
+    pub fn system(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &[R],
+        dense: &mut Dense<R>,
+    ) {
         let n = self.unknowns.len();
         dense.reset(n);
         let mut column = core::mem::take(&mut self.column);
         self.list_tested(blocks);
         for j in 0..n {
             let unknown = self.unknowns[j];
-            self.answer(instant, unknown, blocks, &mut column);
+            self.answer(problem, unknown, blocks, &mut column);
             for (i, row) in self.tested.iter().enumerate() {
                 dense.set(i, j, column[*row]);
             }
@@ -158,7 +164,7 @@ impl<R: Real> Guess<R> {
     }
 
     /// The row that each unknown is tested with (for what is tested across, any), and which are tested across.
-    fn list_tested(&mut self, blocks: &[Block<R>]) {
+    fn list_tested(&mut self, blocks: &[UnilateralConstraint<R>]) {
         self.tested.clear();
         self.across.clear();
         for (k, unknown) in self.unknowns.iter().enumerate() {
@@ -173,7 +179,7 @@ impl<R: Real> Guess<R> {
     }
 
     /// Adds changes of the unknowns to λ.
-    pub fn change(&self, blocks: &[Block<R>], delta: &[R], lambda: &mut [R]) {
+    pub fn change(&self, blocks: &[UnilateralConstraint<R>], delta: &[R], lambda: &mut [R]) {
         for (unknown, delta) in self.unknowns.iter().zip(delta) {
             let mut terms = [(0, R::zero()); MAX_TERMS];
             for (row, c) in moved(*unknown, blocks, &mut terms) {
@@ -183,20 +189,26 @@ impl<R: Real> Guess<R> {
     }
 
     /// What all rates answer to one unknown.
-    fn answer(&self, instant: &Instant<'_, R>, unknown: Unknown, blocks: &[Block<R>], out: &mut Vec<R>) {
+    fn answer(
+        &self,
+        problem: &ContactProblem<'_, R>,
+        unknown: Unknown,
+        blocks: &[UnilateralConstraint<R>],
+        out: &mut Vec<R>,
+    ) {
         let mut terms = [(0, R::zero()); MAX_TERMS];
         out.clear();
         let terms = moved(unknown, blocks, &mut terms);
         let (first, c) = terms[0];
-        out.extend(instant.row(first).iter().map(|a| *a * c));
+        out.extend(problem.row(first).iter().map(|a| *a * c));
         for (row, c) in &terms[1..] {
-            for (out, a) in out.iter_mut().zip(instant.row(*row)) {
+            for (out, a) in out.iter_mut().zip(problem.row(*row)) {
                 *out += *a * *c;
             }
         }
     }
 
-    fn test(&self, unknown: Unknown, blocks: &[Block<R>], rates: &[R]) -> R {
+    fn test(&self, unknown: Unknown, blocks: &[UnilateralConstraint<R>], rates: &[R]) -> R {
         match unknown {
             Unknown::Row(row) => rates[row],
             Unknown::Normal(k) => rates[blocks[k].row],
@@ -205,18 +217,22 @@ impl<R: Real> Guess<R> {
     }
 }
 
-fn group<R>(blocks: &[Block<R>], k: usize, g: usize) -> &Group<R> {
+fn group<R>(blocks: &[UnilateralConstraint<R>], k: usize, g: usize) -> &FrictionGroup<R> {
     blocks[k].groups[g].as_ref().expect("it was listed")
 }
 
 /// Component across the direction of a group.
-fn across<R: Real>(group: &Group<R>, x: &[R]) -> R {
+fn across<R: Real>(group: &FrictionGroup<R>, x: &[R]) -> R {
     let [d0, d1] = group.direction;
     d0 * x[group.row + 1] - d1 * x[group.row]
 }
 
 /// The forces that an unknown moves.
-fn moved<'a, R: Real>(unknown: Unknown, blocks: &[Block<R>], terms: &'a mut [Term<R>; MAX_TERMS]) -> &'a [Term<R>] {
+fn moved<'a, R: Real>(
+    unknown: Unknown,
+    blocks: &[UnilateralConstraint<R>],
+    terms: &'a mut [Term<R>; MAX_TERMS],
+) -> &'a [Term<R>] {
     let mut n = 0;
     let mut add = |row: usize, c: R| {
         terms[n] = (row, c);
@@ -231,7 +247,7 @@ fn moved<'a, R: Real>(unknown: Unknown, blocks: &[Block<R>], terms: &'a mut [Ter
         }
         Unknown::Normal(k) => {
             add(blocks[k].row, R::one());
-            for group in blocks[k].groups.iter().flatten().filter(|g| g.grip == Grip::Slip) {
+            for group in blocks[k].groups.iter().flatten().filter(|g| g.grip == ContactMode::Slip) {
                 for i in 0..group.dim {
                     add(group.row + i, R::splat(group.coefficient) * group.direction[i]);
                 }
@@ -243,7 +259,7 @@ fn moved<'a, R: Real>(unknown: Unknown, blocks: &[Block<R>], terms: &'a mut [Ter
 
 /// Writes what a block's state says of its forces: none where it lets go, the limit along its direction where it slips, and across it what there was
 /// if it can turn.
-fn impose<R: Real>(block: &Block<R>, lambda: &mut [R]) {
+fn impose<R: Real>(block: &UnilateralConstraint<R>, lambda: &mut [R]) {
     if let Some(force) = block.given {
         lambda[block.row] = force;
     }
@@ -253,7 +269,7 @@ fn impose<R: Real>(block: &Block<R>, lambda: &mut [R]) {
     for group in block.groups.iter().flatten() {
         if block.open {
             lambda[group.row..group.row + group.dim].fill(R::zero());
-        } else if group.grip == Grip::Slip {
+        } else if group.grip == ContactMode::Slip {
             let limit = R::splat(group.coefficient) * lambda[block.row];
             let turned = if group.give.is_some() { across(group, lambda) } else { R::zero() };
             let [d0, d1] = group.direction;

@@ -8,8 +8,8 @@
 //!
 //! Sources: keys `acary2008` (section 3.9.4, the shift), `carpentier2024` (the method).
 
-use super::active_set::{Guess, Instant};
-use super::cone::{Block, Group};
+use super::active_set::{ActiveSet, ContactProblem};
+use super::cone::{FrictionGroup, UnilateralConstraint};
 use super::dense::{Dense, Factor};
 use sincro_math::Real;
 
@@ -50,7 +50,7 @@ struct Cone {
 
 /// Working memory; grows to the largest problem it has seen.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Splitting {
+pub(crate) struct Admm {
     factor: Factor,
     matrix: Vec<f64>,
     g: Vec<f64>,
@@ -66,28 +66,28 @@ pub(crate) struct Splitting {
     pub iterations: usize,
 }
 
-impl Splitting {
-    /// Prepares the problem that is left when nothing is guessed. `blocks` must be [`ask_all`]ed; λ is where it starts from.
+impl Admm {
+    /// Prepares the problem that is left when nothing is guessed. `blocks` must be [`activate_all`]ed; λ is where it starts from.
     pub fn begin<R: Real>(
         &mut self,
-        instant: &Instant<'_, R>,
-        guess: &mut Guess<R>,
+        problem: &ContactProblem<'_, R>,
+        active_set: &mut ActiveSet<R>,
         dense: &mut Dense<R>,
-        blocks: &[Block<R>],
+        blocks: &[UnilateralConstraint<R>],
         lambda: &mut [R],
     ) {
-        guess.take(instant.n_free, blocks, lambda);
-        guess.find_rates(instant, lambda);
-        guess.system(instant, blocks, lambda, dense);
-        let n = guess.len();
-        self.list_cones(guess, blocks, lambda, dense);
+        active_set.take(problem.n_free, blocks, lambda);
+        active_set.find_rates(problem, lambda);
+        active_set.system(problem, blocks, lambda, dense);
+        let n = active_set.len();
+        self.list_cones(active_set, blocks, lambda, dense);
         self.matrix.clear();
         for i in 0..n {
             self.matrix.extend((0..n).map(|j| dense.get(i, j).lane(0) * self.scale[i] * self.scale[j]));
         }
         // x starts as λ in the unknowns; across a slow group, from nothing
         self.x.clear();
-        self.x.extend((0..n).map(|k| guess.row(k, blocks).map_or(0.0, |row| lambda[row].lane(0)) / self.scale[k]));
+        self.x.extend((0..n).map(|k| active_set.row(k, blocks).map_or(0.0, |row| lambda[row].lane(0)) / self.scale[k]));
         // the right-hand side is −(G x + g)
         self.g.clear();
         for i in 0..n {
@@ -105,15 +105,21 @@ impl Splitting {
         self.factor();
     }
 
-    fn list_cones<R: Real>(&mut self, guess: &Guess<R>, blocks: &[Block<R>], lambda: &[R], dense: &Dense<R>) {
-        let n = guess.len();
+    fn list_cones<R: Real>(
+        &mut self,
+        active_set: &ActiveSet<R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &[R],
+        dense: &Dense<R>,
+    ) {
+        let n = active_set.len();
         self.cones.clear();
         self.scale.clear();
         for k in 0..n {
             let d = dense.get(k, k).lane(0).abs();
             self.scale.push(if d > 0.0 { 1.0 / d.sqrt() } else { 1.0 });
         }
-        let place = |row: usize| (0..n).find(|k| guess.row(*k, blocks) == Some(row));
+        let place = |row: usize| (0..n).find(|k| active_set.row(*k, blocks) == Some(row));
         for block in blocks {
             let normal = if block.given.is_some() { None } else { place(block.row) };
             let mut discs = [None; 3];
@@ -208,9 +214,9 @@ impl Splitting {
     }
 
     /// Writes the feasible forces, and what they say of the blocks.
-    pub fn finish<R: Real>(&self, guess: &Guess<R>, blocks: &mut [Block<R>], lambda: &mut [R]) {
+    pub fn finish<R: Real>(&self, active_set: &ActiveSet<R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         for k in 0..self.y.len() {
-            if let Some(row) = guess.row(k, blocks) {
+            if let Some(row) = active_set.row(k, blocks) {
                 lambda[row] = R::splat(self.y[k] * self.scale[k]);
             }
         }
@@ -236,7 +242,7 @@ impl Splitting {
 }
 
 /// A group slips with its force as it is, and gives way across it.
-fn slip<R: Real>(group: &mut Group<R>, force: &[f64], across: f64) {
+fn slip<R: Real>(group: &mut FrictionGroup<R>, force: &[f64], across: f64) {
     let size = norm(force);
     let mut d = [R::zero(); 2];
     for (d, x) in d.iter_mut().zip(force) {
@@ -246,7 +252,7 @@ fn slip<R: Real>(group: &mut Group<R>, force: &[f64], across: f64) {
 }
 
 /// Makes every block press and every group stick that need not slide: nothing is guessed.
-pub(crate) fn ask_all<R: Real>(blocks: &mut [Block<R>]) {
+pub(crate) fn activate_all<R: Real>(blocks: &mut [UnilateralConstraint<R>]) {
     for block in blocks.iter_mut() {
         block.open = false;
         for group in block.groups.iter_mut().flatten().filter(|g| !g.slides) {

@@ -14,7 +14,7 @@ use crate::spatial::{Force, Motion};
 
 /// Working memory of [`Response::find`]: forces and accelerations of the links, what each degree of freedom gives way.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Response<R> {
+pub(crate) struct InverseMass<R> {
     force: Vec<Force<R>>,
     motion: Vec<Motion<R>>,
     x: Vec<R>,
@@ -25,7 +25,7 @@ pub(crate) struct Response<R> {
     touched: Vec<bool>,
 }
 
-impl<R: Real> Response<R> {
+impl<R: Real> InverseMass<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.links.len();
         let mut tree = vec![0; n];
@@ -112,7 +112,7 @@ impl<R: Real> Response<R> {
 /// With M = (I + …) D (I + …)ᵀ factored as that algorithm does it, A is the sum over the degrees of freedom of products of these, and a row costs as much
 /// as its way is long. Source: keys `featherstone2008` (section 7.3), `jain2011` (chapter 7, the factors).
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Innovations<R> {
+pub(crate) struct Delassus<R> {
     /// U of each degree of freedom, world axes, about the world's origin.
     u: Vec<Force<R>>,
     inv_d: Vec<R>,
@@ -122,7 +122,7 @@ pub(crate) struct Innovations<R> {
     values: Vec<R>,
 }
 
-impl<R: Real> Innovations<R> {
+impl<R: Real> Delassus<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.n_v();
         let mut link_of = vec![WORLD; n];

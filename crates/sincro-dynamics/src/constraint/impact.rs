@@ -1,7 +1,7 @@
 //! Impacts, projections, and what there is to see of contacts: what is done with rows outside of the evaluation of rates.
 
-use super::active_set::Instant;
-use super::cone::{Block, Grip};
+use super::active_set::ContactProblem;
+use super::cone::{ContactMode, UnilateralConstraint};
 use super::dense::PROJECTION_RANK;
 use super::{Constraints, ContactPoint, dot, pair_of, restitution};
 use crate::contact::candidate::tangents;
@@ -19,14 +19,14 @@ impl Constraints<f64> {
         self.blocks.iter_mut().for_each(|b| b.open = false);
         for block in &mut self.blocks {
             for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.grip, group.give) = (false, Grip::Stick, None);
+                (group.slides, group.grip, group.give) = (false, ContactMode::Stick, None);
             }
             // what is compliant takes its time
             if block.given.is_some() {
                 block.given = Some(0.0);
             }
         }
-        self.respond(model, scratch);
+        self.assemble_delassus(model, scratch);
         self.b.clear();
         self.b.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
         self.before.clone_from(&self.b);
@@ -36,9 +36,9 @@ impl Constraints<f64> {
                 self.b[block.row] += restitution(model, block.slot) * self.before[block.row];
             }
         }
-        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.solve(&instant, &mut self.blocks, &mut self.lambda);
-        let mut change = core::mem::take(&mut self.kick);
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+        let mut change = core::mem::take(&mut self.velocity_change);
         change.fill(0.0);
         self.push(model, scratch, &mut change, has_drives);
         let mut lost = 0.0;
@@ -49,12 +49,12 @@ impl Constraints<f64> {
         for (v, change) in v.iter_mut().zip(&change) {
             *v += *change;
         }
-        self.kick = change;
+        self.velocity_change = change;
         lost
     }
 
     /// Keeps the rows of closures.
-    pub fn keep_closures(&mut self) {
+    pub fn keep_loop_joints(&mut self) {
         self.rows.truncate(self.n_free);
         self.residual.truncate(self.n_free);
         self.blocks.clear();
@@ -70,11 +70,11 @@ impl Constraints<f64> {
         keep.clear();
         keep.extend(0..n_free);
         let residual = &self.residual;
-        let holds = |b: &&Block<f64>| !b.open && b.given.is_none() && (!inside || residual[b.row] < 0.0);
+        let holds = |b: &&UnilateralConstraint<f64>| !b.open && b.given.is_none() && (!inside || residual[b.row] < 0.0);
         for block in self.blocks.iter().filter(holds) {
             keep.push(block.row);
             for group in block.groups.iter().flatten() {
-                if sticking && group.grip == Grip::Stick {
+                if sticking && group.grip == ContactMode::Stick {
                     keep.extend(group.row..group.row + group.dim);
                 }
             }
@@ -94,22 +94,22 @@ impl Constraints<f64> {
 
     /// Largest residual, and largest rate for joint rates `v`, of the rows.
     pub fn worst(&self, v: &[f64]) -> (f64, f64) {
-        let gap = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let distance = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let rate = self.rows.iter().map(|row| self.motions.rate(row, v).abs()).fold(0.0, f64::max);
-        (gap, rate)
+        (distance, rate)
     }
 
     /// The smallest change (in the metric of the mass matrix) of positions that undoes the residuals, or of rates that stops them.
     pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
-        self.respond(model, scratch);
+        self.assemble_delassus(model, scratch);
         self.b.clear();
         match v {
             Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
             None => self.b.extend_from_slice(&self.residual),
         }
         self.solver.rank = PROJECTION_RANK;
-        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.correct(&instant, &[], &mut self.lambda);
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.correct(&problem, &[], &mut self.lambda);
         out.fill(0.0);
         self.push(model, scratch, out, false);
     }
@@ -117,7 +117,7 @@ impl Constraints<f64> {
     /// Torque of the stops on a degree of freedom, as of the last evaluation.
     pub fn limit_torque(&self, model: &Model<f64>, dof: usize) -> f64 {
         let limits = &model.constraints.limits;
-        let on = |b: &&Block<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
+        let on = |b: &&UnilateralConstraint<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
         self.blocks.iter().filter(on).map(|b| limits[b.slot].sign * self.lambda[b.row]).sum()
     }
 
@@ -126,7 +126,7 @@ impl Constraints<f64> {
         let set = &model.constraints;
         self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open).filter_map(move |block| {
             let k = block.slot - set.limits.len();
-            let at = self.spots[k]?.gap(&self.motions.at(scratch));
+            let at = self.candidates[k]?.kinematics(&self.motions.at(scratch));
             let (t1, t2) = tangents(at.normal);
             let mut force = at.normal.scale(self.lambda[block.row]);
             let mut torque = Vec3::zero();
@@ -142,8 +142,16 @@ impl Constraints<f64> {
             let pair = pair_of(set, k);
             let [one, two] = [set.pairs[pair].a, set.pairs[pair].b];
             // a spot may have its rounded side on either
-            let surfaces = if set.colliders[one].link == self.spots[k]?.a { [one, two] } else { [two, one] };
-            Some(ContactPoint { pair, surfaces, point: at.point, normal: at.normal, force, torque, gap: at.gap })
+            let surfaces = if set.colliders[one].link == self.candidates[k]?.a { [one, two] } else { [two, one] };
+            Some(ContactPoint {
+                pair,
+                surfaces,
+                point: at.point,
+                normal: at.normal,
+                force,
+                torque,
+                distance: at.distance,
+            })
         })
     }
 }

@@ -12,7 +12,7 @@ use sincro_math::Real;
 
 use super::row::{Motions, Row, force_at, force_rate};
 use crate::joint::WORLD;
-use crate::model::{Anchor, Closure, ClosureKind};
+use crate::model::{Anchor, LoopJoint, LoopJointKind};
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Pose, Vec3};
 
@@ -31,7 +31,7 @@ fn end<R: Real>(anchor: &Anchor, scratch: &Scratch<R>, motions: &Motions<R>) -> 
     End { link: anchor.link, p_dot: motions.velocity_of(anchor.link, pose.pos), pose, w }
 }
 
-impl Closure {
+impl LoopJoint {
     /// Adds the rows and residuals at the poses of `scratch` and the twists of `motions`.
     pub(crate) fn rows<R: Real>(
         &self,
@@ -41,7 +41,7 @@ impl Closure {
         residual: &mut Vec<R>,
     ) {
         let (a, b) = (end(&self.a, scratch, motions), end(&self.b, scratch, motions));
-        if let ClosureKind::Distance(length) = self.kind {
+        if let LoopJointKind::Distance(length) = self.kind {
             let d = a.pose.pos - b.pose.pos;
             let size = d.norm();
             let n = d.scale(R::one() / size);
@@ -56,8 +56,8 @@ impl Closure {
             residual.push(a.pose.pos[k] - b.pose.pos[k]);
         }
         let pairs: &[(usize, usize)] = match self.kind {
-            ClosureKind::Hinge => &[(0, 2), (1, 2)],
-            ClosureKind::Weld => &[(0, 1), (1, 2), (2, 0)],
+            LoopJointKind::Hinge => &[(0, 2), (1, 2)],
+            LoopJointKind::Weld => &[(0, 1), (1, 2), (2, 0)],
             _ => &[],
         };
         for &(i, j) in pairs {
@@ -72,7 +72,7 @@ impl Closure {
     }
 
     /// How far it is open `[m]`, and the angle between the axes that should agree `[rad]`.
-    pub(crate) fn opening(&self, scratch: &Scratch<f64>) -> (f64, f64) {
+    pub(crate) fn residual(&self, scratch: &Scratch<f64>) -> (f64, f64) {
         let pose = |x: &Anchor| {
             if x.link == WORLD { x.pose } else { scratch.poses[x.link as usize].compose(&x.pose) }
         };
@@ -83,10 +83,10 @@ impl Closure {
             sincro_math::elementary::atan2(u.cross(w).norm(), u.dot(w)).0
         };
         match self.kind {
-            ClosureKind::Distance(length) => ((distance - length).abs(), 0.0),
-            ClosureKind::Point => (distance, 0.0),
-            ClosureKind::Hinge => (distance, angle(2)),
-            ClosureKind::Weld => (distance, angle(0).max(angle(1)).max(angle(2))),
+            LoopJointKind::Distance(length) => ((distance - length).abs(), 0.0),
+            LoopJointKind::Point => (distance, 0.0),
+            LoopJointKind::Hinge => (distance, angle(2)),
+            LoopJointKind::Weld => (distance, angle(0).max(angle(1)).max(angle(2))),
         }
     }
 }

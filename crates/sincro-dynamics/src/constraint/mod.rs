@@ -1,20 +1,20 @@
 //! The one constraint solver: closed loops, couplings, limits of joints and contacts, over the reduced coordinates.
 //!
 //! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built row
-//! by row from what the articulated-body recursion makes of each (`respond`), so that held degrees of freedom (ideal motors, sticking joint
+//! by row from what the articulated-body recursion makes of each (`delassus`), so that held degrees of freedom (ideal motors, sticking joint
 //! friction) and the implicit terms of an integrator are in it for nothing. Nothing is soft: no gain, no penalty, no drift to tune. After each
 //! accepted sub-step the world projects positions and velocities in the metric of the mass matrix.
 //!
 //! | file | what |
 //! |---|---|
 //! | `row` | rows in world coordinates, their rates, their Jacobians |
-//! | `closure` | loops and couplings |
-//! | `respond` | A, and M⁻¹ times a vector |
+//! | `loop_joint` | loops and couplings |
+//! | `delassus` | A, and M⁻¹ times a vector |
 //! | `dense` | elimination with rank |
 //! | `cone` | friction: blocks and groups |
-//! | `guess` | what a guess about them leaves unknown |
-//! | `split` | the solution without a guess |
-//! | `solve` | the problem of one instant |
+//! | `active_set` | what a guess about them leaves unknown |
+//! | `admm` | the solution without a guess |
+//! | `solver` | the problem of one instant |
 //! | `impact` | impacts, projections, points of contact |
 //! | `memory` | who does what |
 //! | `events` | what the world asks of a mechanism: touch, strike, project |
@@ -36,22 +36,22 @@ pub(crate) mod warm_start;
 
 use sincro_math::Real;
 
-pub use crate::model::{Anchor, Closure, ClosureKind, ConstraintSet, Coupling, Limit, SLOT};
+pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
 pub use solver::SolverReport;
 
-use crate::contact::{Detector, Pair, candidate::Spot, candidate::tangents};
+use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate::tangents};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
-use active_set::Instant;
-use cone::{Block, Grip, Group};
+use active_set::ContactProblem;
+use cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
-use warm_start::Memory;
+use warm_start::WarmStart;
 
 /// A gap below this is closed `[m]` or `[rad]`: what projection leaves is a thousandth of it.
-pub(crate) const CLOSED: f64 = 1e-9;
+pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;
 
 /// Rows of contacts that memory is reserved for beforehand.
 const RESERVED: usize = 48;
@@ -81,33 +81,33 @@ pub struct ContactPoint {
     /// Torque of rolling and spinning friction on it [N·m].
     pub torque: Vec3<f64>,
     /// Distance `[m]`.
-    pub gap: f64,
+    pub distance: f64,
 }
 
 /// The constraints of one world and all they need.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints<R> {
     /// What is where, and what it does.
-    pub memory: Memory<R>,
-    pub spots: Vec<Option<Spot>>,
+    pub memory: WarmStart<R>,
+    pub candidates: Vec<Option<ContactCandidate>>,
     /// Spots of a later instant, to look for what has touched.
-    pub later: Vec<Option<Spot>>,
+    pub later_candidates: Vec<Option<ContactCandidate>>,
     pub detector: Detector,
     pub motions: Motions<R>,
-    response: delassus::Response<R>,
+    inverse_mass: delassus::InverseMass<R>,
     pub rows: Vec<Row<R>>,
     /// How far each row's constraint is from holding: gaps, openings.
     pub residual: Vec<R>,
     pub n_free: usize,
-    pub blocks: Vec<Block<R>>,
+    pub blocks: Vec<UnilateralConstraint<R>>,
     jacobian: Vec<R>,
-    innovations: delassus::Innovations<R>,
+    delassus_factors: delassus::Delassus<R>,
     a: Vec<R>,
     b: Vec<R>,
     pub lambda: Vec<R>,
     torque: Vec<R>,
     change: Vec<R>,
-    kick: Vec<R>,
+    velocity_change: Vec<R>,
     before: Vec<R>,
     kept: Vec<usize>,
     /// Length of the sub-step that is being made `[s]`; 0: none.
@@ -123,24 +123,24 @@ impl<R: Real> Constraints<R> {
         }
         let n = vec![R::zero(); model.n_v()];
         let mut new = Self {
-            memory: Memory::new(set.n_slots()),
-            spots: vec![None; set.n_contacts()],
-            later: vec![None; set.n_contacts()],
+            memory: WarmStart::new(set.n_slots()),
+            candidates: vec![None; set.n_contacts()],
+            later_candidates: vec![None; set.n_contacts()],
             detector: Detector::new(&set.colliders, &set.pairs),
             motions: Motions::new(model),
-            response: delassus::Response::new(model),
+            inverse_mass: delassus::InverseMass::new(model),
             rows: Vec::new(),
             residual: Vec::new(),
             n_free: 0,
             blocks: Vec::new(),
             jacobian: Vec::new(),
-            innovations: delassus::Innovations::new(model),
+            delassus_factors: delassus::Delassus::new(model),
             a: Vec::new(),
             b: Vec::new(),
             lambda: Vec::new(),
             torque: n.clone(),
             change: n.clone(),
-            kick: n,
+            velocity_change: n,
             before: Vec::new(),
             kept: Vec::new(),
             sub_step: 0.0,
@@ -162,7 +162,7 @@ impl<R: Real> Constraints<R> {
             list.reserve(m);
         }
         self.jacobian.reserve(m * n);
-        self.innovations.reserve(m);
+        self.delassus_factors.reserve(m);
         self.a.reserve(m * m);
         self.solver.reserve(m);
     }
@@ -189,21 +189,21 @@ impl<R: Real> Constraints<R> {
         if self.rows.is_empty() {
             return;
         }
-        self.respond(model, scratch);
+        self.assemble_delassus(model, scratch);
         self.b.clear();
         match level {
             Level::Acceleration => {
                 self.motions.accelerate(model, scratch);
                 self.b.extend(self.rows.iter().map(|row| self.motions.acceleration(row, v_dot)));
             }
-            Level::Velocity(h) => self.ask_velocities(model, h, v, v_dot),
+            Level::Velocity(h) => self.velocity_level_rates(model, h, v, v_dot),
         }
         self.solve();
         self.push(model, scratch, v_dot, has_drives);
     }
 
     /// b of a step at velocity level: (J v)/h + J v̇, room left to what is not there yet, bounce for what arrives.
-    fn ask_velocities(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
+    fn velocity_level_rates(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
         let n = model.n_v();
         let per_h = R::splat(1.0 / h);
         for i in 0..self.rows.len() {
@@ -220,11 +220,11 @@ impl<R: Real> Constraints<R> {
             let row = &self.jacobian[i * n..(i + 1) * n];
             let speed = dot(row, v);
             let bounce = restitution(model, block.slot);
-            let arrives = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
-            if speed.lane(0) < -rest_speed && bounce > 0.0 && arrives {
+            let has_impact = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
+            if speed.lane(0) < -rest_speed && bounce > 0.0 && has_impact {
                 // from where it is: to let it arrive first would take its speed
                 self.b[i] += speed * per_h * R::splat(bounce);
-            } else if self.residual[i].lane(0) > CLOSED {
+            } else if self.residual[i].lane(0) > CLOSED_DISTANCE {
                 // what is closed but for rounding has no room: several gaps of one face would contradict each other
                 self.b[i] += self.residual[i] * per_h * per_h;
             }
@@ -237,10 +237,10 @@ impl<R: Real> Constraints<R> {
         self.rows.clear();
         self.residual.clear();
         self.blocks.clear();
-        for closure in &set.closures {
+        for closure in &set.loop_joints {
             closure.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
         }
-        for coupling in &set.couplings {
+        for coupling in &set.gears {
             let [one, two] = coupling.dofs.map(|k| k as u32);
             let ratio = R::splat(coupling.ratio);
             self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
@@ -254,33 +254,49 @@ impl<R: Real> Constraints<R> {
                 self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::joint::WORLD, R::zero())]));
                 self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
                 let row = self.rows.len() - 1;
-                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3], effect: 0 });
+                self.blocks.push(UnilateralConstraint {
+                    slot,
+                    row,
+                    open: false,
+                    given: None,
+                    groups: [None; 3],
+                    effect: 0,
+                });
             }
         }
         for pair in &set.pairs {
             for k in pair.first..pair.first + pair.slots {
                 let slot = set.limits.len() + k;
-                if let (true, Some(spot)) = (self.memory.is_closed(slot), self.spots[k]) {
-                    self.contact(slot, &spot, pair, v, scratch, slides);
+                if let (true, Some(candidate)) = (self.memory.is_closed(slot), self.candidates[k]) {
+                    self.contact(slot, &candidate, pair, v, scratch, slides);
                 }
             }
         }
         self.lambda.clear();
         self.lambda.resize(self.rows.len(), R::zero());
-        self.memory.recall(&mut self.blocks, &mut self.lambda);
+        self.memory.restore(&mut self.blocks, &mut self.lambda);
     }
 
-    fn contact(&mut self, slot: usize, spot: &Spot, pair: &Pair, v: &[R], scratch: &Scratch<R>, slides: bool) {
-        let at = spot.gap(&self.motions.at(scratch));
+    fn contact(
+        &mut self,
+        slot: usize,
+        candidate: &ContactCandidate,
+        pair: &Pair,
+        v: &[R],
+        scratch: &Scratch<R>,
+        slides: bool,
+    ) {
+        let at = candidate.kinematics(&self.motions.at(scratch));
         let row = self.rows.len();
         let (c, n) = (at.point, at.normal);
-        let normal = Row::between(spot.a, spot.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
-        self.add(normal, at.gap);
+        let normal =
+            Row::between(candidate.a, candidate.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
+        self.add(normal, at.distance);
         let material = &pair.material;
         let given = material.stiffness.is_finite().then(|| {
             let rate = self.motions.rate(&normal, v);
             let k = R::splat(material.stiffness);
-            let force = -(k * at.gap) * (R::one() - R::splat(material.dissipation) * rate);
+            let force = -(k * at.distance) * (R::one() - R::splat(material.dissipation) * rate);
             // it never pulls
             force.max(R::zero())
         });
@@ -296,33 +312,33 @@ impl<R: Real> Constraints<R> {
             let axes = if g == 2 { [n, n] } else { [t1, t2] };
             for t in axes.into_iter().take(dim) {
                 let row = if g == 0 {
-                    Row::between(spot.a, spot.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
+                    Row::between(candidate.a, candidate.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
                 } else {
-                    Row::between(spot.a, spot.b, Force { ang: t, lin: zero }, Force::zero())
+                    Row::between(candidate.a, candidate.b, Force { ang: t, lin: zero }, Force::zero())
                 };
                 self.add(row, R::zero());
             }
             let slides = slides && self.memory.slides(slot, g);
-            let mut group = Group {
+            let mut group = FrictionGroup {
                 row: first,
                 dim,
                 coefficient,
                 slides,
-                grip: Grip::Stick,
+                grip: ContactMode::Stick,
                 direction: [R::zero(); 2],
                 give: None,
             };
             if slides {
-                group.grip = Grip::Slip;
-                let (direction, speed) = self.against(first, dim, v, self.memory.direction(slot, g));
-                group.direction = self.memory.steer(slot, g, direction);
+                group.grip = ContactMode::Slip;
+                let (direction, speed) = self.direction_against(first, dim, v, self.memory.direction(slot, g));
+                group.direction = self.memory.set_direction(slot, g, direction);
                 if dim == 2 {
                     self.align(&mut group, speed);
                 }
             }
             groups[g] = Some(group);
         }
-        self.blocks.push(Block { slot, row, open: false, given, groups, effect: 0 });
+        self.blocks.push(UnilateralConstraint { slot, row, open: false, given, groups, effect: 0 });
     }
 
     fn add(&mut self, row: Row<R>, residual: R) {
@@ -331,7 +347,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Direction against the velocity of a group of rows; the last one where there is none.
-    fn against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
+    fn direction_against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
         let mut u = [R::zero(); 2];
         for k in 0..dim {
             u[k] = self.motions.rate(&self.rows[first + k], v);
@@ -346,7 +362,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Turns the two rows of a sliding group into one along the sliding and one across it; notes its speed.
-    fn align(&mut self, group: &mut Group<R>, speed: R) {
+    fn align(&mut self, group: &mut FrictionGroup<R>, speed: R) {
         let (i, j) = (group.row, group.row + 1);
         let (one, two, d) = (self.rows[i], self.rows[j], group.direction);
         self.rows[i] = one.combined(&two, -d[0], -d[1]);
@@ -356,7 +372,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Of the groups that slide, those that do so slowly: their speed becomes what the solver needs.
-    fn find_slow(&mut self) {
+    fn find_slow_sliding(&mut self) {
         let m = self.rows.len();
         let h = self.sub_step;
         for block in &mut self.blocks {
@@ -373,7 +389,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Jacobian and A of the rows.
-    pub fn respond(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
+    pub fn assemble_delassus(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         let (m, n) = (self.rows.len(), model.n_v());
         self.solver.reserve(m);
         self.jacobian.clear();
@@ -381,13 +397,13 @@ impl<R: Real> Constraints<R> {
         for (row, j) in self.rows.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
             self.motions.jacobian(model, row, j);
         }
-        self.innovations.products(model, scratch, self.motions.columns(), &self.rows, &mut self.a);
+        self.delassus_factors.products(model, scratch, self.motions.columns(), &self.rows, &mut self.a);
     }
 
     fn solve(&mut self) {
-        self.find_slow();
-        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.solve(&instant, &mut self.blocks, &mut self.lambda);
+        self.find_slow_sliding();
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
         self.memory.keep(&self.blocks, &self.lambda);
     }
 
@@ -402,7 +418,7 @@ impl<R: Real> Constraints<R> {
         }
         let mut reaction = core::mem::take(&mut scratch.reaction);
         let wanted = has_drives.then_some(&mut reaction[..]);
-        self.response.find(model, scratch, &self.torque, &mut self.change, wanted);
+        self.inverse_mass.find(model, scratch, &self.torque, &mut self.change, wanted);
         scratch.reaction = reaction;
         for (v_dot, change) in v_dot.iter_mut().zip(&self.change) {
             *v_dot += *change;

@@ -6,22 +6,22 @@
 //! | code | 0 never seen, else 1 + 1·open + 2, 4, 8·slipping group + 16·what can be seen of it | yes |
 //! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
 //!
-//! The last number is [`Patience`].
+//! The last number is [`ZenoFallback`].
 
 use sincro_math::Real;
 
-use super::cone::{Block, Grip};
-use crate::model::{SLOT, warm_start_len};
+use super::cone::{ContactMode, UnilateralConstraint};
+use crate::model::{SLOT_LEN, warm_start_len};
 
 /// After a tick in which events came too thick, how many of the next are made at velocity level without trying, and how many are left of them: more every
 /// time, until a tick goes well. A heap that comes to rest would cost a hundred located events a tick otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Patience {
+pub(crate) struct ZenoFallback {
     pub pause: u32,
     pub left: u32,
 }
 
-impl Patience {
+impl ZenoFallback {
     /// Most ticks without trying.
     const MOST: u32 = 32;
 
@@ -33,7 +33,7 @@ impl Patience {
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct Memory<R> {
+pub(crate) struct WarmStart<R> {
     /// As in the state.
     pub numbers: Vec<R>,
     closed: Vec<bool>,
@@ -46,7 +46,7 @@ pub(crate) struct Memory<R> {
     reversed: Vec<[bool; 3]>,
 }
 
-impl<R: Real> Memory<R> {
+impl<R: Real> WarmStart<R> {
     pub fn new(n_slots: usize) -> Self {
         Self {
             numbers: vec![R::zero(); warm_start_len(n_slots)],
@@ -59,14 +59,14 @@ impl<R: Real> Memory<R> {
         }
     }
 
-    pub fn patience(&self) -> Patience {
+    pub fn zeno_fallback(&self) -> ZenoFallback {
         let number = self.numbers.last().map_or(0, |x| x.lane(0) as u32);
-        Patience { pause: number / 256, left: number % 256 }
+        ZenoFallback { pause: number / 256, left: number % 256 }
     }
 
-    pub fn set_patience(&mut self, patience: Patience) {
+    pub fn set_patience(&mut self, zeno_fallback: ZenoFallback) {
         if let Some(number) = self.numbers.last_mut() {
-            *number = R::splat(f64::from(256 * patience.pause + patience.left));
+            *number = R::splat(f64::from(256 * zeno_fallback.pause + zeno_fallback.left));
         }
     }
 
@@ -84,7 +84,7 @@ impl<R: Real> Memory<R> {
 
     /// Takes the direction of a sliding group's friction. Within a sub-step it does not turn round: the force goes on smoothly until the
     /// instant of reversal has been located.
-    pub fn steer(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
+    pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
         let start = self.start_directions[slot][group];
         let turned = (direction[0] * start[0] + direction[1] * start[1]).lane(0) < 0.0;
         self.reversed[slot][group] = turned;
@@ -99,22 +99,22 @@ impl<R: Real> Memory<R> {
         self.slides[slot] = slides;
         self.start_directions[slot] = [[R::zero(); 2]; 3];
         if !closed {
-            self.numbers[slot * SLOT..(slot + 1) * SLOT].fill(R::zero());
+            self.numbers[slot * SLOT_LEN..(slot + 1) * SLOT_LEN].fill(R::zero());
         }
     }
 
     fn code(&self, slot: usize) -> u32 {
-        self.numbers[slot * SLOT + 6].lane(0) as u32
+        self.numbers[slot * SLOT_LEN + 6].lane(0) as u32
     }
 
     /// Gives the blocks what they did and the forces they had.
-    pub fn recall(&self, blocks: &mut [Block<R>], lambda: &mut [R]) {
+    pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         for block in blocks {
             let code = self.code(block.slot);
             if code == 0 {
                 continue;
             }
-            let kept = &self.numbers[block.slot * SLOT..];
+            let kept = &self.numbers[block.slot * SLOT_LEN..];
             lambda[block.row] = kept[0];
             block.open = (code - 1) & 1 == 1 && block.given.is_none();
             for (g, group) in block.groups.iter_mut().enumerate() {
@@ -136,16 +136,16 @@ impl<R: Real> Memory<R> {
     }
 
     /// Remembers a solution.
-    pub fn keep(&mut self, blocks: &[Block<R>], lambda: &[R]) {
+    pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
         for block in blocks {
-            let kept = &mut self.numbers[block.slot * SLOT..(block.slot + 1) * SLOT];
+            let kept = &mut self.numbers[block.slot * SLOT_LEN..(block.slot + 1) * SLOT_LEN];
             kept[0] = lambda[block.row];
             let mut code = 1 + u32::from(block.open);
             for (g, group) in block.groups.iter().enumerate() {
                 let Some(group) = group else { continue };
                 let first = [1, 3, 5][g];
                 kept[first..first + group.dim].copy_from_slice(&lambda[group.row..group.row + group.dim]);
-                if group.grip == Grip::Slip && !block.open {
+                if group.grip == ContactMode::Slip && !block.open {
                     code += 2 << g;
                 }
             }

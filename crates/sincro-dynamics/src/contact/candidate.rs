@@ -25,7 +25,7 @@ pub(crate) enum Feature {
 
 /// A possible point of contact between two links.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Spot {
+pub(crate) struct ContactCandidate {
     pub a: u32,
     pub b: u32,
     /// In link axes of a.
@@ -41,8 +41,8 @@ pub(crate) struct Spot {
 
 /// A spot at one instant, world axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gap<R> {
-    pub gap: R,
+pub(crate) struct ContactKinematics<R> {
+    pub distance: R,
     pub point: Vec3<R>,
     pub normal: Vec3<R>,
     pub point_dot: Vec3<R>,
@@ -73,9 +73,9 @@ impl<R: Real> LinkMotions<'_, R> {
     }
 }
 
-impl Spot {
+impl ContactCandidate {
     /// Contact kinematics: signed distance, contact point, normal and their rates.
-    pub fn gap<R: Real>(&self, motions: &LinkMotions<'_, R>) -> Gap<R> {
+    pub fn kinematics<R: Real>(&self, motions: &LinkMotions<'_, R>) -> ContactKinematics<R> {
         let (x_a, x_b) = (motions.pose_of(self.a), motions.pose_of(self.b));
         let p = x_a.point(Vec3::splat(self.point.0));
         let p_dot = motions.velocity_of(self.a, p);
@@ -92,8 +92,8 @@ impl Spot {
                     return rim(height, (p, p_dot), (n, n_dot), (axis, axis_dot), radius);
                 }
                 let point = p - n.scale(radius);
-                Gap {
-                    gap: height - radius,
+                ContactKinematics {
+                    distance: height - radius,
                     point,
                     normal: n,
                     point_dot: p_dot - n_dot.scale(radius),
@@ -117,14 +117,14 @@ impl Spot {
     }
 
     /// From the vector D to the point P from what it may touch.
-    fn of_distance<R: Real>(&self, p: Vec3<R>, p_dot: Vec3<R>, d: Vec3<R>, d_dot: Vec3<R>) -> Gap<R> {
+    fn of_distance<R: Real>(&self, p: Vec3<R>, p_dot: Vec3<R>, d: Vec3<R>, d_dot: Vec3<R>) -> ContactKinematics<R> {
         let length = d.norm();
         let inverse = R::one() / length;
         let n = d.scale(inverse);
         let n_dot = (d_dot - n.scale(n.dot(d_dot))).scale(inverse);
         let own = R::splat(self.radius_a);
-        Gap {
-            gap: length - R::splat(self.radius),
+        ContactKinematics {
+            distance: length - R::splat(self.radius),
             point: p - n.scale(own),
             normal: n,
             point_dot: p_dot - n_dot.scale(own),
@@ -140,7 +140,7 @@ fn rim<R: Real>(
     (n, n_dot): (Vec3<R>, Vec3<R>),
     (axis, axis_dot): (Vec3<R>, Vec3<R>),
     radius: R,
-) -> Gap<R> {
+) -> ContactKinematics<R> {
     let along = n.dot(axis);
     let across = n - axis.scale(along);
     let along_dot = n_dot.dot(axis) + n.dot(axis_dot);
@@ -149,8 +149,8 @@ fn rim<R: Real>(
     let inverse = R::one() / s;
     let u = across.scale(-inverse);
     let u_dot = -(across_dot.scale(inverse) - across.scale(inverse * inverse * inverse * across.dot(across_dot)));
-    Gap {
-        gap: height - radius * s,
+    ContactKinematics {
+        distance: height - radius * s,
         point: p + u.scale(radius),
         normal: n,
         point_dot: p_dot + u_dot.scale(radius),

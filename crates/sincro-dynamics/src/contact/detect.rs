@@ -1,10 +1,10 @@
 //! From poses to spots: where the surfaces of each pair are closest.
 
-use super::candidate::{Feature, Spot};
+use super::candidate::{ContactCandidate, Feature};
 use super::manifold::Manifolds;
 use super::{Collider, Pair, PairKind, Surface};
 use crate::geometry::Shape;
-use crate::geometry::sat::{Clipper, PointOnPlane, Polytope};
+use crate::geometry::sat::{FaceClipper, PointOnPlane, Polytope};
 use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
@@ -18,7 +18,7 @@ pub(crate) struct Detector {
     reach: Vec<f64>,
     manifolds: Manifolds,
     polytopes: Vec<Option<Polytope>>,
-    clipper: Clipper,
+    clipper: FaceClipper,
     /// Pairs that are told not to touch.
     pub ignored: Vec<bool>,
 }
@@ -30,7 +30,7 @@ impl Detector {
             reach: colliders.iter().map(|c| c.surface.reach()).collect(),
             manifolds: Manifolds::new(colliders, pairs),
             polytopes: polytopes(colliders, pairs),
-            clipper: Clipper::default(),
+            clipper: FaceClipper::default(),
             ignored: vec![false; pairs.len()],
         }
     }
@@ -42,10 +42,10 @@ impl Detector {
         pairs: &[Pair],
         poses: &[Pose<f64>],
         margin: f64,
-        spots: &mut [Option<Spot>],
+        candidates: &mut [Option<ContactCandidate>],
     ) {
         for (k, pair) in pairs.iter().enumerate() {
-            let slots = &mut spots[pair.first..pair.first + pair.slots];
+            let slots = &mut candidates[pair.first..pair.first + pair.slots];
             slots.fill(None);
             let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
             if self.ignored[k] || !self.is_near(pair, (a, b), poses, margin) {
@@ -103,24 +103,29 @@ fn plane_of(b: &Collider) -> Feature {
     Feature::Plane { origin: b.pose.pos, normal: b.pose.rot.col(2) }
 }
 
-fn spot(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> Spot {
-    Spot { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
+fn candidate(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> ContactCandidate {
+    ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
 }
 
 /// Spot of a point that face clipping or crossing edges gave.
-fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> Spot {
+fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> ContactCandidate {
     let (a, b) = if found.is_on_first { (a, b) } else { (b, a) };
-    spot(a, b, found.point, 0.0, Feature::Plane { origin: found.origin, normal: found.normal })
+    candidate(a, b, found.point, 0.0, Feature::Plane { origin: found.origin, normal: found.normal })
 }
 
-fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<Spot>]) {
+fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<ContactCandidate>]) {
     let (points, radius) = points;
     for (slot, point) in slots.iter_mut().zip(points) {
-        *slot = Some(spot(a, b, *point, *radius, plane_of(b)));
+        *slot = Some(candidate(a, b, *point, *radius, plane_of(b)));
     }
 }
 
-fn cylinder_on_plane(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>), slots: &mut [Option<Spot>]) {
+fn cylinder_on_plane(
+    a: &Collider,
+    b: &Collider,
+    (at_a, at_b): (&Pose<f64>, &Pose<f64>),
+    slots: &mut [Option<ContactCandidate>],
+) {
     let Surface::Solid(Shape::Cylinder { radius, length }) = a.surface else { return };
     let (n, axis) = (at_b.rot.col(2), at_a.rot.col(2));
     let across = n - axis.scale(n.dot(axis));
@@ -131,24 +136,24 @@ fn cylinder_on_plane(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pos
         let slots = &mut slots[4 * end..4 * end + 4];
         if !stands {
             let rim = Some(a.pose.rot.col(2));
-            slots[0] = Some(Spot { rim, ..spot(a, b, center, radius, plane_of(b)) });
+            slots[0] = Some(ContactCandidate { rim, ..candidate(a, b, center, radius, plane_of(b)) });
             continue;
         }
         for (k, slot) in slots.iter_mut().enumerate() {
             let e = [[radius, 0.0, z], [0.0, radius, z], [-radius, 0.0, z], [0.0, -radius, z]][k];
-            *slot = Some(spot(a, b, a.pose.point(Vec3(e)), 0.0, plane_of(b)));
+            *slot = Some(candidate(a, b, a.pose.point(Vec3(e)), 0.0, plane_of(b)));
         }
     }
 }
 
-fn balls(a: &Collider, b: &Collider) -> Spot {
+fn balls(a: &Collider, b: &Collider) -> ContactCandidate {
     let (ra, rb) = (a.ball().unwrap_or(0.0), b.ball().unwrap_or(0.0));
     let feature = Feature::Point { origin: b.pose.pos };
-    Spot { radius_a: ra, ..spot(a, b, a.pose.pos, ra + rb, feature) }
+    ContactCandidate { radius_a: ra, ..candidate(a, b, a.pose.pos, ra + rb, feature) }
 }
 
 /// The face, edge or corner of the cuboid that is closest to the ball's centre; from inside, the nearest face.
-fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>)) -> Spot {
+fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>)) -> ContactCandidate {
     let radius = a.ball().unwrap_or(0.0);
     let Surface::Solid(Shape::Cuboid { size }) = b.surface else { unreachable!("the pair is a ball on a cuboid") };
     let c = at_b.rot.tr_mul_vec(at_a.pos - at_b.pos);
@@ -172,5 +177,5 @@ fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f
             Feature::Plane { origin: in_link(Vec3::along(k, side(k))), normal: b.pose.rot.col(k).scale(sign) }
         }
     };
-    spot(a, b, a.pose.pos, radius, feature)
+    candidate(a, b, a.pose.pos, radius, feature)
 }

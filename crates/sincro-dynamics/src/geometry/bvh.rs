@@ -1,6 +1,6 @@
 //! Triangles in a tree of boxes: what is far is not looked at.
 
-use super::gjk::gap;
+use super::gjk::gjk;
 use super::support::{Core, ON, POINT, Placed};
 use crate::spatial::{Pose, Vec3};
 
@@ -9,7 +9,7 @@ const LEAF: usize = 4;
 
 /// Triangles, their boxes in a binary tree.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tree {
+pub(super) struct Bvh {
     triangles: Vec<[Vec3<f64>; 3]>,
     nodes: Vec<Node>,
 }
@@ -25,7 +25,7 @@ struct Node {
     second: u32,
 }
 
-impl Tree {
+impl Bvh {
     /// Of triangles.
     pub fn new(mut triangles: Vec<[Vec3<f64>; 3]>) -> Self {
         let mut nodes = Vec::new();
@@ -41,17 +41,17 @@ impl Tree {
         &self.triangles
     }
 
-    /// Looks at all triangles that may be nearer to `center` than `reach` more than what is returned by `look` for the nearest so far, beginning with `most`.
+    /// Looks at all triangles that may be nearer to `center` than `reach` more than what is returned by `look` for the nearest so far, beginning with `max_distance`.
     pub fn visit(
         &self,
         center: Vec3<f64>,
         reach: f64,
-        most: f64,
+        max_distance: f64,
         look: &mut impl FnMut(&[Vec3<f64>; 3], f64) -> Option<f64>,
     ) {
         if !self.nodes.is_empty() {
-            let mut most = most;
-            self.descend(0, center, reach, &mut most, look);
+            let mut max_distance = max_distance;
+            self.descend(0, center, reach, &mut max_distance, look);
         }
     }
 
@@ -60,17 +60,17 @@ impl Tree {
         k: usize,
         center: Vec3<f64>,
         reach: f64,
-        most: &mut f64,
+        max_distance: &mut f64,
         look: &mut impl FnMut(&[Vec3<f64>; 3], f64) -> Option<f64>,
     ) {
         let node = &self.nodes[k];
-        if node.distance(center) - reach > *most {
+        if node.distance(center) - reach > *max_distance {
             return;
         }
         if node.second == 0 {
             for triangle in &self.triangles[node.first as usize..][..node.n as usize] {
-                if let Some(found) = look(triangle, *most) {
-                    *most = most.min(found);
+                if let Some(found) = look(triangle, *max_distance) {
+                    *max_distance = max_distance.min(found);
                 }
             }
             return;
@@ -78,7 +78,7 @@ impl Tree {
         let (a, b) = (k + 1, node.second as usize);
         let turned = self.nodes[b].distance(center) < self.nodes[a].distance(center);
         for child in if turned { [b, a] } else { [a, b] } {
-            self.descend(child, center, reach, most, look);
+            self.descend(child, center, reach, max_distance, look);
         }
     }
 
@@ -86,16 +86,16 @@ impl Tree {
     pub fn normal_near(&self, p: Vec3<f64>, towards: Vec3<f64>) -> Vec3<f64> {
         let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
         let off = |triangle: &[Vec3<f64>; 3]| {
-            gap(&point, &Placed { core: Core::Triangle(*triangle), radius: 0.0, pose: Pose::identity() }).distance
+            gjk(&point, &Placed { core: Core::Triangle(*triangle), radius: 0.0, pose: Pose::identity() }).distance
         };
         let mut least = f64::INFINITY;
-        self.visit(p, 0.0, f64::INFINITY, &mut |triangle, most| {
+        self.visit(p, 0.0, f64::INFINITY, &mut |triangle, max_distance| {
             least = least.min(off(triangle));
-            Some(least.min(most))
+            Some(least.min(max_distance))
         });
         let mut best = (f64::NEG_INFINITY, Vec3([0.0, 0.0, 1.0]));
-        self.visit(p, 0.0, least + ON, &mut |triangle, most| {
-            if off(triangle) <= most {
+        self.visit(p, 0.0, least + ON, &mut |triangle, max_distance| {
+            if off(triangle) <= max_distance {
                 let normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
                 let normal = normal.scale(1.0 / normal.norm().max(f64::MIN_POSITIVE));
                 if normal.dot(towards) > best.0 {

@@ -1,5 +1,5 @@
 //! Volumes that proximity sensors look into, in the frame of the sensor: z is where it looks. What of them is nearer to the origin than some radius is
-//! convex, and knows its farthest point in every direction: what `nearest` needs.
+//! convex, and knows its farthest point in every direction: what `proximity` needs.
 //!
 //! All but the pyramid are their section with the plane of z and one direction across, u: lines and a circle about the origin.
 
@@ -44,7 +44,7 @@ pub enum Volume {
 
 /// A volume with its near and far end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Field {
+pub struct FieldOfView {
     pub(super) volume: Volume,
     /// z of its near end `[m]`.
     pub(super) offset: f64,
@@ -65,11 +65,11 @@ enum Bounds {
 
 /// What of a field is within a radius about the origin.
 pub(super) struct Within<'a> {
-    pub field: &'a Field,
+    pub field: &'a FieldOfView,
     pub radius: f64,
 }
 
-impl Field {
+impl FieldOfView {
     /// A volume from `offset` to `offset` + `range` before the sensor `[m]`; none unless all its numbers are finite, lengths not negative, the range
     /// positive, angles within (0, π].
     #[must_use]
@@ -168,7 +168,7 @@ fn line([u, z]: [f64; 2], b: f64) -> ([f64; 2], f64) {
 }
 
 impl Convex for Within<'_> {
-    fn farthest(&self, d: Vec3<f64>) -> Vec3<f64> {
+    fn support(&self, d: Vec3<f64>) -> Vec3<f64> {
         let is_flat = matches!(self.field.volume, Volume::Disc { .. });
         match &self.field.bounds {
             Bounds::Section(lines) if is_flat => {
@@ -185,7 +185,7 @@ impl Convex for Within<'_> {
         }
     }
 
-    fn middle(&self) -> Vec3<f64> {
+    fn interior_point(&self) -> Vec3<f64> {
         Vec3([0.0, 0.0, self.radius])
     }
 }

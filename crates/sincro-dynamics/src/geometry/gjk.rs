@@ -16,7 +16,7 @@ use crate::spatial::Vec3;
 /// Relative error of a distance at which the search ends; curved sets are approached point by point, polytopes end before.
 const ENOUGH: f64 = 1e-14;
 /// Steps after which the search ends whatever is reached; boxes need about 5, cylinders on their rims about 30.
-const MOST_STEPS: usize = 300;
+const MAX_ITERATIONS: usize = 300;
 /// Gram determinants below this, by the squares of their edges, are those of simplices without extent.
 const FLAT: f64 = 1e-26;
 
@@ -26,14 +26,14 @@ const SOUND: f64 = 1e-13;
 /// A convex set that knows its farthest point in a direction.
 pub(super) trait Convex {
     /// The point farthest along `d`, of any length but zero.
-    fn farthest(&self, d: Vec3<f64>) -> Vec3<f64>;
+    fn support(&self, d: Vec3<f64>) -> Vec3<f64>;
     /// A point that is in it or near it.
-    fn middle(&self) -> Vec3<f64>;
+    fn interior_point(&self) -> Vec3<f64>;
 }
 
 /// Two points closest to each other: none of them, but one of both sets, if the sets meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Gap {
+pub(super) struct Separation {
     /// `[m]`, 0 if the sets meet.
     pub distance: f64,
     /// On the first and the second set; the same if they meet.
@@ -57,19 +57,19 @@ struct Simplex {
 }
 
 /// The closest points of two convex sets.
-pub(super) fn gap(a: &impl Convex, b: &impl Convex) -> Gap {
+pub(super) fn gjk(a: &impl Convex, b: &impl Convex) -> Separation {
     let corner = |d: Vec3<f64>| {
-        let (a, b) = (a.farthest(-d), b.farthest(d));
+        let (a, b) = (a.support(-d), b.support(d));
         Corner { w: a - b, a, b }
     };
-    let mut start = a.middle() - b.middle();
+    let mut start = a.interior_point() - b.interior_point();
     if start.dot(start) == 0.0 {
         start = Vec3([1.0, 0.0, 0.0]);
     }
     let first = corner(start);
     let mut simplex = Simplex { corners: [first; 4], weights: [1.0, 0.0, 0.0, 0.0], n: 1, v: first.w };
     let mut v = first.w;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_ITERATIONS {
         let square = v.dot(v);
         if square == 0.0 {
             return simplex.meeting();
@@ -94,7 +94,7 @@ pub(super) fn gap(a: &impl Convex, b: &impl Convex) -> Gap {
             return simplex.meeting();
         }
     }
-    Gap { distance: v.norm(), points: simplex.points() }
+    Separation { distance: v.norm(), points: simplex.points() }
 }
 
 impl Simplex {
@@ -108,9 +108,9 @@ impl Simplex {
     }
 
     /// The sets meet where the two points are.
-    fn meeting(&self) -> Gap {
+    fn meeting(&self) -> Separation {
         let [a, b] = self.points();
-        Gap { distance: 0.0, points: [(a + b).scale(0.5); 2] }
+        Separation { distance: 0.0, points: [(a + b).scale(0.5); 2] }
     }
 
     /// The smallest part of this simplex and one more corner that holds the point closest to the origin; none if the origin is inside all
@@ -124,7 +124,7 @@ impl Simplex {
                 found.corners[found.n] = self.corners[k];
                 found.n += 1;
             }
-            if !(found.weigh() && found.is_sound()) {
+            if !(found.set_mass_properties() && found.is_sound()) {
                 continue;
             }
             if found.n == 4 {
@@ -160,7 +160,7 @@ impl Simplex {
     }
 
     /// Weights of the point of the affine hull that is closest to the origin; whether all of them are positive.
-    fn weigh(&mut self) -> bool {
+    fn set_mass_properties(&mut self) -> bool {
         if self.n == 3 {
             self.begin_with_shortest_edge();
         }

@@ -1,7 +1,7 @@
 //! Surfaces to look at: what a ray hits first, what is closest, what a proximity sensor sees. No part of a step; sensors and clients ask.
 //!
 //! Rays have closed forms on solids, hulls are cut by the planes of their faces, meshes and height fields are the collision library's. Distances are
-//! those of convex sets (`gap`), triangle by triangle for meshes and height fields (`tree`).
+//! those of convex sets (`gjk`), triangle by triangle for meshes and height fields (`bvh`).
 
 mod bvh;
 mod distance;
@@ -26,13 +26,13 @@ mod tests;
 use parry3d_f64::query::Ray as LibraryRay;
 
 use crate::spatial::Vec3;
-use bvh::Tree;
-use parry::{LibraryShape, vec3};
+use bvh::Bvh;
+use parry::{ParryShape, vec3};
 
 pub use distance::Closest;
-pub use field_of_view::{Field, Volume};
+pub use field_of_view::{FieldOfView, Volume};
 pub use mass::MassProperties;
-pub use proximity::Sighting;
+pub use proximity::Detection;
 pub use shape::Shape;
 pub use surface::Surface;
 
@@ -66,11 +66,11 @@ pub struct Hit {
 #[derive(Clone)]
 pub struct Geometry {
     surface: Surface,
-    library: LibraryShape,
+    library: ParryShape,
     /// Of a hull: outward normals and distances from the origin.
     faces: Vec<(Vec3<f64>, f64)>,
     /// Of a mesh or height field: its triangles.
-    tree: Tree,
+    bvh: Bvh,
     reach: f64,
 }
 
@@ -84,21 +84,21 @@ impl Geometry {
     /// A surface; none if it has no extent that can be computed with, such as a flat hull.
     #[must_use]
     pub fn new(surface: Surface) -> Option<Self> {
-        let library = LibraryShape::of(&surface)?;
+        let library = ParryShape::of(&surface)?;
         let faces = match library.shape.as_convex_polyhedron() {
-            Some(hull) => {
+            Some(convex_hull) => {
                 let of = |k: usize| {
-                    let normal = vec3(hull.faces()[k].normal);
-                    let first = hull.faces()[k].first_vertex_or_edge as usize;
-                    let corner = hull.points()[hull.vertices_adj_to_face()[first] as usize];
+                    let normal = vec3(convex_hull.faces()[k].normal);
+                    let first = convex_hull.faces()[k].first_vertex_or_edge as usize;
+                    let corner = convex_hull.points()[convex_hull.vertices_adj_to_face()[first] as usize];
                     (normal, normal.dot(vec3(corner)))
                 };
-                (0..hull.faces().len()).map(of).collect()
+                (0..convex_hull.faces().len()).map(of).collect()
             }
             None => Vec::new(),
         };
-        let (tree, reach) = (Tree::new(library.triangles()), surface.reach());
-        Some(Self { surface, library, faces, tree, reach })
+        let (bvh, reach) = (Bvh::new(library.triangles()), surface.reach());
+        Some(Self { surface, library, faces, bvh, reach })
     }
 
     /// The surface.
@@ -113,23 +113,23 @@ impl Geometry {
         self.reach
     }
 
-    /// Where a ray, given in the surface's frame, enters it from outside within `most` `[m]`; what starts inside a solid does not see it.
+    /// Where a ray, given in the surface's frame, enters it from outside within `max_distance` `[m]`; what starts inside a solid does not see it.
     #[must_use]
-    pub fn hit(&self, ray: &Ray, most: f64) -> Option<Hit> {
+    pub fn cast_ray(&self, ray: &Ray, max_distance: f64) -> Option<Hit> {
         let hit = match &self.surface {
             Surface::Solid(shape) => ray_cast::solid(shape, ray),
             Surface::HalfSpace => ray_cast::half_space(ray),
             Surface::Hull(_) => ray_cast::planes(self.faces.iter().copied(), ray),
-            Surface::Mesh(..) | Surface::HeightField { .. } => return self.hit_library(ray, most),
+            Surface::Mesh(..) | Surface::HeightField { .. } => return self.cast_ray_parry(ray, max_distance),
         };
-        hit.filter(|hit| hit.distance <= most)
+        hit.filter(|hit| hit.distance <= max_distance)
     }
 
-    fn hit_library(&self, ray: &Ray, most: f64) -> Option<Hit> {
-        let LibraryShape { shape, pose } = &self.library;
+    fn cast_ray_parry(&self, ray: &Ray, max_distance: f64) -> Option<Hit> {
+        let ParryShape { shape, pose } = &self.library;
         let local = |v: Vec3<f64>| pose.rot.tr_mul_vec(v).0;
         let theirs = LibraryRay::new(local(ray.origin - pose.pos).into(), local(ray.direction).into());
-        let hit = shape.cast_local_ray_and_get_normal(&theirs, most, false)?;
+        let hit = shape.cast_local_ray_and_get_normal(&theirs, max_distance, false)?;
         let normal = pose.rot.mul_vec(vec3(hit.normal));
         Some(Hit { distance: hit.time_of_impact, normal })
     }

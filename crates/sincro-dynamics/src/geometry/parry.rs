@@ -10,7 +10,7 @@ use crate::spatial::{Mat3, Pose, Quat, Vec3};
 
 /// A surface as the library has it, and where its frame stands in the surface's own.
 #[derive(Clone)]
-pub(crate) struct LibraryShape {
+pub(crate) struct ParryShape {
     /// The shape.
     pub shape: SharedShape,
     /// Where its frame stands in the surface's own.
@@ -20,7 +20,7 @@ pub(crate) struct LibraryShape {
 /// Axes (x, y, z) of ours as (y, z, x) of the library's.
 const CYCLIC: Mat3<f64> = Mat3([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
 
-impl LibraryShape {
+impl ParryShape {
     /// A surface; none if the library refuses it.
     pub fn of(surface: &Surface) -> Option<Self> {
         let points = |list: &[[f64; 3]]| list.iter().map(|p| Vector::from_array(*p)).collect::<Vec<_>>();
@@ -58,7 +58,7 @@ impl LibraryShape {
     }
 }
 
-impl LibraryShape {
+impl ParryShape {
     /// Triangles of a mesh or height field, in the surface's frame; of others none.
     pub fn triangles(&self) -> Vec<[Vec3<f64>; 3]> {
         let ours = |t: parry3d_f64::shape::Triangle| [t.a, t.b, t.c].map(|p| self.pose.point(vec3(p)));
@@ -70,7 +70,7 @@ impl LibraryShape {
 }
 
 /// A pose as the library has it.
-pub(crate) fn library_pose(x: &Pose<f64>) -> LibraryPose {
+pub(crate) fn parry_pose(x: &Pose<f64>) -> LibraryPose {
     let q = Quat::from_matrix(&x.rot);
     let mut pose = LibraryPose::IDENTITY;
     pose.translation = Vector::from_array(x.pos.0);

@@ -20,7 +20,7 @@ const NO_VOLUME: f64 = 1e-9;
 
 /// Why a mesh encloses no volume. Corners and triangles are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Flaw {
+pub enum MeshDefect {
     /// A corner is not a number, or infinite.
     NotFinite {
         /// The corner.
@@ -56,37 +56,37 @@ pub enum Flaw {
 
 /// What keeps a mesh from enclosing a volume, in the order of its triangles; empty if it does.
 #[must_use]
-pub fn flaws(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Flaw> {
+pub fn defects(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<MeshDefect> {
     let bad = (0..corners.len()).filter(|k| !corners[*k].iter().all(|x| x.is_finite()));
-    let mut flaws: Vec<Flaw> = bad.map(|corner| Flaw::NotFinite { corner }).collect();
-    if !flaws.is_empty() {
-        return flaws;
+    let mut defects: Vec<MeshDefect> = bad.map(|corner| MeshDefect::NotFinite { corner }).collect();
+    if !defects.is_empty() {
+        return defects;
     }
     if triangles.len() < 4 {
-        return vec![Flaw::TooFew];
+        return vec![MeshDefect::TooFew];
     }
     let point = |k: u32| corners[k as usize];
     let mut edges = BTreeMap::new();
     for (triangle, t) in triangles.iter().enumerate() {
         if is_flat(t.map(point)) {
-            flaws.push(Flaw::Flat { triangle });
+            defects.push(MeshDefect::Flat { triangle });
         }
         for k in 0..3 {
             let ends = [t[k], t[(k + 1) % 3]];
             if let Some(first) = edges.insert(ends, triangle) {
-                flaws.push(Flaw::Twice { triangles: [first, triangle], edge: ends.map(point) });
+                defects.push(MeshDefect::Twice { triangles: [first, triangle], edge: ends.map(point) });
             }
         }
     }
     let open = edges.iter().filter(|([a, b], _)| !edges.contains_key(&[*b, *a]));
-    flaws.extend(open.map(|(ends, triangle)| Flaw::Open { triangle: *triangle, edge: ends.map(point) }));
-    if flaws.is_empty() {
+    defects.extend(open.map(|(ends, triangle)| MeshDefect::Open { triangle: *triangle, edge: ends.map(point) }));
+    if defects.is_empty() {
         let volume = mass_properties(corners, triangles, 1.0).mass;
         if volume <= 0.0 {
-            flaws.push(Flaw::InsideOut { volume });
+            defects.push(MeshDefect::InsideOut { volume });
         }
     }
-    flaws
+    defects
 }
 
 fn is_flat(corners: [[f64; 3]; 3]) -> bool {
@@ -127,7 +127,7 @@ pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 /// The convex hull of points, counter-clockwise seen from outside; none if they span no volume.
 #[must_use]
-pub fn hull(points: &[[f64; 3]]) -> Option<Triangles> {
+pub fn convex_hull(points: &[[f64; 3]]) -> Option<Triangles> {
     if points.len() < 4 || !points.iter().flatten().all(|x| x.is_finite()) {
         return None;
     }
@@ -162,7 +162,7 @@ mod tests {
     fn a_cuboid_of_triangles_weighs_what_a_cuboid_does() {
         let (size, center) = ([0.2, 0.3, 0.5], [0.4, -0.1, 0.7]);
         let (corners, triangles) = cuboid(size, center);
-        assert_eq!(flaws(&corners, &triangles), []);
+        assert_eq!(defects(&corners, &triangles), []);
         let (mesh, solid) =
             (mass_properties(&corners, &triangles, 700.0), Shape::Cuboid { size }.mass_properties(700.0));
         close(mesh.mass, solid.mass, solid.mass);
@@ -175,7 +175,7 @@ mod tests {
         // corners 0 and the unit points: volume 1/6, centre 1/4, ∫x² = 1/60, ∫xy = 1/120
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-        assert_eq!(flaws(&corners, &triangles), []);
+        assert_eq!(defects(&corners, &triangles), []);
         let found = mass_properties(&corners, &triangles, 6.0);
         close(found.mass, 1.0, 1.0);
         (0..3).for_each(|k| close(found.center_of_mass[k], 0.25, 1.0));
@@ -188,30 +188,33 @@ mod tests {
         let (corners, triangles) = cuboid([1.0; 3], [0.0; 3]);
         let mut open = triangles.clone();
         open.remove(5);
-        assert!(matches!(flaws(&corners, &open)[..], [Flaw::Open { .. }, Flaw::Open { .. }, Flaw::Open { .. }]));
+        assert!(matches!(
+            defects(&corners, &open)[..],
+            [MeshDefect::Open { .. }, MeshDefect::Open { .. }, MeshDefect::Open { .. }]
+        ));
         let mut turned = triangles.clone();
         turned[5].swap(0, 1);
-        assert!(flaws(&corners, &turned).iter().any(|f| matches!(f, Flaw::Twice { triangles: [_, 5], .. })));
+        assert!(defects(&corners, &turned).iter().any(|f| matches!(f, MeshDefect::Twice { triangles: [_, 5], .. })));
         let inside: Vec<[u32; 3]> = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
-        assert!(matches!(flaws(&corners, &inside)[..], [Flaw::InsideOut { .. }]));
+        assert!(matches!(defects(&corners, &inside)[..], [MeshDefect::InsideOut { .. }]));
         let mut nan = corners.clone();
         nan[3][1] = f64::NAN;
-        assert_eq!(flaws(&nan, &triangles), [Flaw::NotFinite { corner: 3 }]);
+        assert_eq!(defects(&nan, &triangles), [MeshDefect::NotFinite { corner: 3 }]);
         let mut flat = triangles.clone();
         flat[2] = [0, 1, 1];
-        assert!(flaws(&corners, &flat).contains(&Flaw::Flat { triangle: 2 }));
-        assert_eq!(flaws(&corners, &triangles[..3]), [Flaw::TooFew]);
+        assert!(defects(&corners, &flat).contains(&MeshDefect::Flat { triangle: 2 }));
+        assert_eq!(defects(&corners, &triangles[..3]), [MeshDefect::TooFew]);
     }
 
     #[test]
     fn a_hull_keeps_corners_and_drops_what_is_inside() {
         let (mut points, _) = cuboid([0.2, 0.4, 0.6], [0.0; 3]);
         points.extend([[0.0; 3], [0.05, 0.1, -0.2], [0.09, 0.0, 0.0]]);
-        let (corners, triangles) = hull(&points).unwrap();
+        let (corners, triangles) = convex_hull(&points).unwrap();
         assert_eq!((corners.len(), triangles.len()), (8, 12));
-        assert_eq!(flaws(&corners, &triangles), []);
+        assert_eq!(defects(&corners, &triangles), []);
         close(mass_properties(&corners, &triangles, 1.0).mass, 0.048, 1.0);
-        assert!(hull(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]).is_none());
-        assert!(hull(&points[..3]).is_none());
+        assert!(convex_hull(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]).is_none());
+        assert!(convex_hull(&points[..3]).is_none());
     }
 }

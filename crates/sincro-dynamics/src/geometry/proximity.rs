@@ -5,9 +5,9 @@
 //! it where the volume grows evenly; where they do, halving takes over. It ends at 1e-13 of the size. Meshes and height fields are their triangles, each of
 //! which is convex. Rays have their own closed forms. What the origin, or the middle of the near end, is inside of is not seen.
 
-use super::distance::rounded;
-use super::field_of_view::{Field, Volume, Within};
-use super::gjk::{Convex, gap};
+use super::distance::closest_points;
+use super::field_of_view::{FieldOfView, Volume, Within};
+use super::gjk::{Convex, gjk};
 use super::support::{Core, POINT, Placed, Solid, normal_at};
 use super::{Geometry, Ray};
 use crate::spatial::{Pose, Vec3};
@@ -15,11 +15,11 @@ use crate::spatial::{Pose, Vec3};
 /// Distance of volume and surface at which the search ends, by the size of the volume.
 const TOUCHES: f64 = 1e-13;
 /// Secants and halvings at most.
-const MOST_STEPS: usize = 120;
+const MAX_ITERATIONS: usize = 120;
 
 /// What a sensor sees, in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighting {
+pub struct Detection {
     /// From the sensor's origin `[m]`.
     pub distance: f64,
     /// The point seen `[m]`.
@@ -28,28 +28,28 @@ pub struct Sighting {
     pub normal: Vec3<f64>,
 }
 
-impl Field {
-    /// The point of a surface in the volume that is closest to the origin, within `most` `[m]`; the surface's frame stands at `x_sg` in the sensor's.
+impl FieldOfView {
+    /// The point of a surface in the volume that is closest to the origin, within `max_distance` `[m]`; the surface's frame stands at `x_sg` in the sensor's.
     #[must_use]
-    pub fn nearest(&self, geometry: &Geometry, x_sg: &Pose<f64>, most: f64) -> Option<Sighting> {
-        let most = most.min(self.reach);
-        if x_sg.pos.norm() - geometry.reach() > most {
+    pub fn detect(&self, geometry: &Geometry, x_sg: &Pose<f64>, max_distance: f64) -> Option<Detection> {
+        let max_distance = max_distance.min(self.reach);
+        if x_sg.pos.norm() - geometry.reach() > max_distance {
             return None;
         }
         if self.volume == Volume::Ray {
-            return self.along_ray(geometry, x_sg).filter(|seen| seen.distance <= most);
+            return self.detect_along_ray(geometry, x_sg).filter(|seen| seen.distance <= max_distance);
         }
         let point = match geometry.solid() {
-            Solid::Convex(core, radius) => self.of_convex(&Placed { core, radius, pose: *x_sg }, true),
-            Solid::HalfSpace => self.of_half_space(x_sg),
-            Solid::Triangles(tree) => {
+            Solid::Convex(core, radius) => self.closest_in_convex(&Placed { core, radius, pose: *x_sg }, true),
+            Solid::HalfSpace => self.closest_in_half_space(x_sg),
+            Solid::Triangles(bvh) => {
                 let mut best: Option<Vec3<f64>> = None;
                 let origin = x_sg.inverse().pos;
-                tree.visit(origin, 0.0, most, &mut |triangle, most| {
+                bvh.visit(origin, 0.0, max_distance, &mut |triangle, max_distance| {
                     let placed = Placed { core: Core::Triangle(*triangle), radius: 0.0, pose: *x_sg };
-                    let point = self.of_convex(&placed, false)?;
+                    let point = self.closest_in_convex(&placed, false)?;
                     let distance = point.norm();
-                    if distance > most || best.is_some_and(|best| distance >= best.norm()) {
+                    if distance > max_distance || best.is_some_and(|best| distance >= best.norm()) {
                         return None;
                     }
                     best = Some(point);
@@ -60,34 +60,34 @@ impl Field {
         }?;
         let (distance, local) = (point.norm(), x_sg.inverse().point(point));
         let normal = x_sg.rot.mul_vec(normal_at(geometry, local, x_sg.inverse().pos - local));
-        (distance <= most).then_some(Sighting { distance, point, normal })
+        (distance <= max_distance).then_some(Detection { distance, point, normal })
     }
 
-    fn along_ray(&self, geometry: &Geometry, x_sg: &Pose<f64>) -> Option<Sighting> {
+    fn detect_along_ray(&self, geometry: &Geometry, x_sg: &Pose<f64>) -> Option<Detection> {
         let x_gs = x_sg.inverse();
         let start = Vec3([0.0, 0.0, self.offset]);
         let ray = Ray { origin: x_gs.point(start), direction: x_gs.rot.col(2) };
-        let hit = geometry.hit(&ray, self.end - self.offset)?;
+        let hit = geometry.cast_ray(&ray, self.end - self.offset)?;
         let distance = self.offset + hit.distance;
-        Some(Sighting { distance, point: Vec3([0.0, 0.0, distance]), normal: x_sg.rot.mul_vec(hit.normal) })
+        Some(Detection { distance, point: Vec3([0.0, 0.0, distance]), normal: x_sg.rot.mul_vec(hit.normal) })
     }
 
     /// The closest point of a convex set; if it is a solid, none where the sensor is in it.
-    fn of_convex(&self, set: &Placed<'_>, is_solid: bool) -> Option<Vec3<f64>> {
+    fn closest_in_convex(&self, set: &Placed<'_>, is_solid: bool) -> Option<Vec3<f64>> {
         let at = |p: Vec3<f64>| Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
         let start = Vec3([0.0, 0.0, self.offset]);
-        if is_solid && rounded(&at(start), set).distance == 0.0 {
+        if is_solid && closest_points(&at(start), set).distance == 0.0 {
             return None;
         }
-        let closest = rounded(&at(Vec3::zero()), set);
+        let closest = closest_points(&at(Vec3::zero()), set);
         if closest.distance > self.reach {
             return None;
         }
         if closest.distance > 0.0 && self.contains(closest.points[1]) {
             return Some(closest.points[1]);
         }
-        self.touch(closest.distance, |within| {
-            let found = gap(within, set);
+        self.first_contact(closest.distance, |within| {
+            let found = gjk(within, set);
             let apart = found.distance - set.radius;
             let [p, q] = found.points;
             let off = if found.distance > 0.0 { set.radius / found.distance } else { 0.0 };
@@ -95,7 +95,7 @@ impl Field {
         })
     }
 
-    fn of_half_space(&self, x_sg: &Pose<f64>) -> Option<Vec3<f64>> {
+    fn closest_in_half_space(&self, x_sg: &Pose<f64>) -> Option<Vec3<f64>> {
         let (up, from) = (x_sg.rot.col(2), x_sg.pos);
         let height = |p: Vec3<f64>| up.dot(p - from);
         if height(Vec3([0.0, 0.0, self.offset])) <= 0.0 {
@@ -105,14 +105,14 @@ impl Field {
         if height(Vec3::zero()) > 0.0 && self.contains(closest) {
             return Some(closest);
         }
-        self.touch(closest.norm(), |within| {
-            let p = within.farthest(-up);
+        self.first_contact(closest.norm(), |within| {
+            let p = within.support(-up);
             (height(p), p)
         })
     }
 
     /// The point where what is within a radius first touches a set: `apart` tells how far they are apart, not above 0 if they meet, and the set's point.
-    fn touch(&self, least: f64, apart: impl Fn(&Within<'_>) -> (f64, Vec3<f64>)) -> Option<Vec3<f64>> {
+    fn first_contact(&self, least: f64, apart: impl Fn(&Within<'_>) -> (f64, Vec3<f64>)) -> Option<Vec3<f64>> {
         let look = |radius: f64| apart(&Within { field: self, radius });
         let enough = TOUCHES * self.reach;
         if look(self.reach).0 > enough {
@@ -121,7 +121,7 @@ impl Field {
         let (mut low, mut high) = (least.max(self.offset), self.reach);
         let (mut f_low, mut point) = look(low);
         let mut before: Option<(f64, f64)> = None;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_ITERATIONS {
             if f_low <= enough || high - low <= enough {
                 break;
             }

@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use super::Shape;
 use super::distance_tests::{along, parts, with_triangles};
 use super::field_of_view::Within;
-use super::gjk::gap;
+use super::gjk::gjk;
 use super::support::{POINT, Placed};
 use super::tests::{Numbers, surfaces};
 use super::*;
 use crate::spatial::{Mat3, Pose};
 
-fn fields() -> Vec<Field> {
+fn fields() -> Vec<FieldOfView> {
     let volumes = [
         (Volume::Ray, 0.1),
         (Volume::Cylinder { radius: 0.2, far_radius: 0.5 }, 0.0),
@@ -24,13 +24,13 @@ fn fields() -> Vec<Field> {
         (Volume::Pyramid { size: [0.1, 0.2], far_size: [0.8, 0.5] }, 0.05),
         (Volume::Pyramid { size: [0.0, 0.0], far_size: [0.6, 0.6] }, 0.0),
     ];
-    volumes.into_iter().map(|(volume, offset)| Field::new(volume, offset, 1.3).unwrap()).collect()
+    volumes.into_iter().map(|(volume, offset)| FieldOfView::new(volume, offset, 1.3).unwrap()).collect()
 }
 
 /// How far a point is from the field.
-fn off(field: &Field, p: Vec3<f64>) -> f64 {
+fn off(field: &FieldOfView, p: Vec3<f64>) -> f64 {
     let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
-    gap(&Within { field, radius: field.reach() }, &point).distance
+    gjk(&Within { field, radius: field.reach() }, &point).distance
 }
 
 #[test]
@@ -42,15 +42,15 @@ fn a_wall_is_seen_where_it_is_closest_or_at_the_rim() {
         let (sin, cos) = sincro_math::elementary::sin_cos(PI - lean);
         let pose = Pose { rot: Mat3::rotation::<1>(sin, cos), pos: Vec3([0.0, 0.0, 0.5]) };
         let half: f64 = 0.35;
-        let cone = Field::new(Volume::Cone { angle: 2.0 * half }, 0.0, 3.0).unwrap();
-        let seen = cone.nearest(&wall, &pose, f64::INFINITY).unwrap();
+        let cone = FieldOfView::new(Volume::Cone { angle: 2.0 * half }, 0.0, 3.0).unwrap();
+        let seen = cone.detect(&wall, &pose, f64::INFINITY).unwrap();
         let c = |x: f64| sincro_math::elementary::sin_cos(x).1;
         // the foot of the perpendicular, or the outermost ray towards it
         let expected = if lean <= half { 0.5 * c(lean) } else { 0.5 * c(lean) / c(lean - half) };
         assert!((seen.distance - expected).abs() < 1e-12, "{lean}: {} {expected}", seen.distance);
         assert!((seen.normal - pose.rot.col(2)).norm() < 1e-12);
         // a ray meets it on the axis
-        let ray = Field::new(Volume::Ray, 0.0, 3.0).unwrap().nearest(&wall, &pose, f64::INFINITY).unwrap();
+        let ray = FieldOfView::new(Volume::Ray, 0.0, 3.0).unwrap().detect(&wall, &pose, f64::INFINITY).unwrap();
         assert!((ray.distance - 0.5).abs() < 1e-15);
     }
 }
@@ -58,12 +58,12 @@ fn a_wall_is_seen_where_it_is_closest_or_at_the_rim() {
 #[test]
 fn a_ball_beside_a_cone_is_seen_on_its_outermost_ray() {
     let ball = Geometry::new(Surface::Solid(Shape::Sphere { radius: 0.2 })).unwrap();
-    let cone = Field::new(Volume::Cone { angle: 0.5 }, 0.0, 2.0).unwrap();
+    let cone = FieldOfView::new(Volume::Cone { angle: 0.5 }, 0.0, 2.0).unwrap();
     let (sin, cos) = sincro_math::elementary::sin_cos(0.25);
     for k in 0..100 {
         let x = 0.01 * f64::from(k);
         let pose = Pose::translation(Vec3([0.0, x, 1.0]));
-        let seen = cone.nearest(&ball, &pose, f64::INFINITY);
+        let seen = cone.detect(&ball, &pose, f64::INFINITY);
         // along the outermost ray: t² − 2 t (x sin + cos) + x² + 1 − r² = 0
         let (b, c) = (x * sin + cos, x * x + 1.0 - 0.04);
         let expected = if x <= sin / cos {
@@ -93,10 +93,10 @@ fn nothing_in_the_volume_is_nearer_than_what_is_seen() {
                 pose.pos += Vec3([0.0, 0.0, 0.7]);
                 let inside = |p: Vec3<f64>| geometry.closest_to(pose.inverse().point(p)).unwrap().distance;
                 if inside(Vec3([0.0, 0.0, field.offset()])) == 0.0 {
-                    assert!(field.nearest(geometry, &pose, f64::INFINITY).is_none());
+                    assert!(field.detect(geometry, &pose, f64::INFINITY).is_none());
                     continue;
                 }
-                let seen = field.nearest(geometry, &pose, f64::INFINITY);
+                let seen = field.detect(geometry, &pose, f64::INFINITY);
                 let least = seen.map_or(f64::INFINITY, |s| s.distance);
                 if let Some(seen) = seen {
                     seen_n += 1;
@@ -143,7 +143,7 @@ fn of_meshes_the_nearest_triangle_is_seen() {
             for _ in 0..100 {
                 let mut pose = numbers.pose(0.6);
                 pose.pos += Vec3([0.0, 0.0, 0.8]);
-                let seen = field.nearest(&geometry, &pose, f64::INFINITY);
+                let seen = field.detect(&geometry, &pose, f64::INFINITY);
                 let least = seen.map_or(f64::INFINITY, |s| s.distance);
                 n += usize::from(seen.is_some());
                 if let Some(seen) = seen {
@@ -182,7 +182,7 @@ fn fields_that_are_none_are_refused() {
         (Volume::Pyramid { size: [0.1, 0.0], far_size: [0.1, 0.0] }, 0.0, 1.0),
     ];
     for (volume, offset, range) in bad {
-        assert!(Field::new(volume, offset, range).is_none(), "{volume:?} {offset} {range}");
+        assert!(FieldOfView::new(volume, offset, range).is_none(), "{volume:?} {offset} {range}");
     }
 }
 
@@ -201,7 +201,7 @@ fn volumes_know_their_farthest_points() {
                 d
             };
             let w = Within { field: &field, radius: r };
-            let p = super::gjk::Convex::farthest(&w, d);
+            let p = super::gjk::Convex::support(&w, d);
             assert!(field.contains(p) && p.norm() <= r + 1e-9, "{field:?} {r} {d:?} {p:?}");
             for _ in 0..50 {
                 let q = numbers.vector().scale(1.3);

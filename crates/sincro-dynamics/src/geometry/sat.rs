@@ -52,7 +52,7 @@ pub(crate) struct Polytope {
 impl Polytope {
     /// Polytope of a surface at `pose` in its link; none if the surface is no polytope or has too many edges.
     pub fn new(surface: &Surface, pose: &Pose<f64>) -> Option<Self> {
-        let hull = match surface {
+        let convex_hull = match surface {
             Surface::Solid(Shape::Cuboid { size }) => {
                 let corner = |k: usize| Vector::from_array(corner(k, size));
                 // faces of a box with normals along ±x, ±y, ±z, outlines counter-clockwise from outside
@@ -68,21 +68,21 @@ impl Polytope {
             }
             _ => None,
         }?;
-        (hull.edges().len() <= MAX_EDGES).then(|| Self::from_library(&hull, pose))
+        (convex_hull.edges().len() <= MAX_EDGES).then(|| Self::from_library(&convex_hull, pose))
     }
 
-    fn from_library(hull: &ConvexPolyhedron, pose: &Pose<f64>) -> Self {
-        let vertices: Vec<_> = hull.points().iter().map(|p| pose.point(Vec3([p.x, p.y, p.z]))).collect();
-        let loops: Vec<usize> = hull.vertices_adj_to_face().iter().map(|k| *k as usize).collect();
+    fn from_library(convex_hull: &ConvexPolyhedron, pose: &Pose<f64>) -> Self {
+        let vertices: Vec<_> = convex_hull.points().iter().map(|p| pose.point(Vec3([p.x, p.y, p.z]))).collect();
+        let loops: Vec<usize> = convex_hull.vertices_adj_to_face().iter().map(|k| *k as usize).collect();
         let face = |first: usize, len: usize| {
             // from the outline, as exact as the vertices
             let at = |k: usize| vertices[loops[first + k]];
             let normal = (1..len - 1).fold(Vec3::zero(), |n, k| n + (at(k) - at(0)).cross(at(k + 1) - at(0)));
             Face { normal: normal.scale(1.0 / normal.norm()), first, len }
         };
-        let outlines = hull.faces().iter().map(|f| (f.first_vertex_or_edge, f.num_vertices_or_edges));
+        let outlines = convex_hull.faces().iter().map(|f| (f.first_vertex_or_edge, f.num_vertices_or_edges));
         let faces = outlines.map(|(first, len)| face(first as usize, len as usize)).collect();
-        let edges = hull
+        let edges = convex_hull
             .edges()
             .iter()
             .map(|e| Edge { ends: e.vertices.map(|k| k as usize), faces: e.faces.map(|k| k as usize) });
@@ -111,7 +111,7 @@ pub(crate) struct PointOnPlane {
 
 /// The second polytope in the frame of the first one's link, and room for outlines.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Clipper {
+pub(crate) struct FaceClipper {
     vertices: Vec<Vec3<f64>>,
     normals: Vec<Vec3<f64>>,
     outline: Vec<Vec3<f64>>,
@@ -151,7 +151,7 @@ impl Placed<'_> {
     }
 }
 
-impl Clipper {
+impl FaceClipper {
     /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`; `x_ab` is the
     /// pose of b's link in a's.
     pub fn find(
@@ -243,9 +243,9 @@ fn cut_outline(
     core::mem::swap(outline, cut);
 }
 
-/// Leaves at most `most` points: those are taken out first whose absence takes the least area away.
-fn thin_out(points: &mut Vec<Vec3<f64>>, most: usize) {
-    while points.len() > most {
+/// Leaves at most `max_distance` points: those are taken out first whose absence takes the least area away.
+fn thin_out(points: &mut Vec<Vec3<f64>>, max_points: usize) {
+    while points.len() > max_points {
         let n = points.len();
         let area = |k: usize| {
             let (before, after) = (points[(k + n - 1) % n], points[(k + 1) % n]);
@@ -322,9 +322,9 @@ mod tests {
     }
 
     /// Points and signed distances of a brick in a pose over one at rest.
-    fn touch(x_ab: &Pose<f64>) -> Vec<(Vec3<f64>, f64)> {
+    fn first_contact(x_ab: &Pose<f64>) -> Vec<(Vec3<f64>, f64)> {
         let mut points = Vec::new();
-        Clipper::default().find(&brick(), &brick(), x_ab, 1e-3, 8, |p: PointOnPlane| {
+        FaceClipper::default().find(&brick(), &brick(), x_ab, 1e-3, 8, |p: PointOnPlane| {
             let place = |p: Vec3<f64>, is_first: bool| if is_first { p } else { x_ab.point(p) };
             let (point, origin) = (place(p.point, p.is_on_first), place(p.origin, !p.is_on_first));
             let n = if p.is_on_first { x_ab.rot.mul_vec(p.normal) } else { p.normal };
@@ -347,18 +347,18 @@ mod tests {
     fn a_brick_on_a_brick_stands_on_four_corners_whatever_rounding_says() {
         for axis in 0..3 {
             for tilt in [0.0, 1e-16, -3e-16, 1e-13, -1e-10] {
-                let points = touch(&turned(axis, tilt, [0.0, 0.0, 0.08 - 1e-13]));
+                let points = first_contact(&turned(axis, tilt, [0.0, 0.0, 0.08 - 1e-13]));
                 assert_eq!(points.len(), 4, "axis {axis}, tilt {tilt:e}: {points:?}");
-                assert!(points.iter().all(|(_, gap)| gap.abs() < 1e-10));
+                assert!(points.iter().all(|(_, gjk)| gjk.abs() < 1e-10));
             }
         }
     }
 
     #[test]
     fn a_brick_that_is_turned_touches_with_an_octagon_and_one_that_overhangs_with_what_is_left() {
-        let octagon = touch(&turned(2, 0.8, [0.0, 0.0, 0.08]));
+        let octagon = first_contact(&turned(2, 0.8, [0.0, 0.0, 0.08]));
         assert_eq!(octagon.len(), 8, "{octagon:?}");
-        let shifted = touch(&turned(2, 0.0, [0.1, 0.0, 0.08]));
+        let shifted = first_contact(&turned(2, 0.0, [0.1, 0.0, 0.08]));
         let x = |f: fn(f64, f64) -> f64, start: f64| shifted.iter().fold(start, |a, (p, _)| f(a, p[0]));
         assert_eq!(shifted.len(), 4);
         assert!((x(f64::min, 1.0) + 0.02).abs() < 1e-15 && (x(f64::max, -1.0) - 0.12).abs() < 1e-15);
@@ -372,14 +372,14 @@ mod tests {
         let lower = turned(0, sincro_math::elementary::atan2(0.12, 0.08).0, [0.0; 3]);
         let quarter = turned(2, core::f64::consts::FRAC_PI_2, [0.0, 0.0, 2.0 * up + 1e-4]);
         let upper = quarter.compose(&turned(0, sincro_math::elementary::atan2(0.12, 0.08).0, [0.0; 3]));
-        let points = touch(&lower.inverse().compose(&upper));
+        let points = first_contact(&lower.inverse().compose(&upper));
         assert_eq!(points.len(), 1, "{points:?}");
         assert!((points[0].1 - 1e-4).abs() < 1e-12, "{points:?}");
     }
 
     #[test]
     fn bricks_far_apart_do_not_touch() {
-        assert!(touch(&turned(2, 0.3, [0.0, 0.0, 0.09])).is_empty());
-        assert!(touch(&turned(2, 0.3, [0.3, 0.0, 0.0])).is_empty());
+        assert!(first_contact(&turned(2, 0.3, [0.0, 0.0, 0.09])).is_empty());
+        assert!(first_contact(&turned(2, 0.3, [0.3, 0.0, 0.0])).is_empty());
     }
 }

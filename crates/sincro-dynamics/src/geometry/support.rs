@@ -1,7 +1,7 @@
 //! Surfaces as what distances are computed of: convex sets with a rounding, a half space, or triangles in a tree of boxes.
 
 use super::Geometry;
-use super::bvh::Tree;
+use super::bvh::Bvh;
 use super::gjk::Convex;
 use super::{Shape, Surface};
 use crate::spatial::{Pose, Vec3};
@@ -14,7 +14,7 @@ pub(super) enum Solid<'a> {
     Convex(Core<'a>, f64),
     /// Everything below z = 0.
     HalfSpace,
-    Triangles(&'a Tree),
+    Triangles(&'a Bvh),
 }
 
 /// What is inside the rounding of a convex surface.
@@ -46,23 +46,25 @@ pub(super) const POINT: Core<'_> = Core::Point;
 
 impl Geometry {
     pub(super) fn solid(&self) -> Solid<'_> {
-        let rounded = Solid::Convex;
+        let closest_points = Solid::Convex;
         match &self.surface {
-            Surface::Solid(Shape::Sphere { radius }) => rounded(Core::Point, *radius),
-            Surface::Solid(Shape::Cuboid { size }) => rounded(Core::Cuboid(size.map(|x| 0.5 * x)), 0.0),
-            Surface::Solid(Shape::Cylinder { radius, length }) => rounded(Core::Cylinder(*radius, 0.5 * length), 0.0),
-            Surface::Solid(Shape::Capsule { radius, length }) => rounded(Core::Segment(0.5 * length), *radius),
-            Surface::Solid(Shape::Cone { radius, length }) => rounded(Core::Cone(*radius, *length), 0.0),
-            Surface::Hull(points) => rounded(Core::Points(points), 0.0),
+            Surface::Solid(Shape::Sphere { radius }) => closest_points(Core::Point, *radius),
+            Surface::Solid(Shape::Cuboid { size }) => closest_points(Core::Cuboid(size.map(|x| 0.5 * x)), 0.0),
+            Surface::Solid(Shape::Cylinder { radius, length }) => {
+                closest_points(Core::Cylinder(*radius, 0.5 * length), 0.0)
+            }
+            Surface::Solid(Shape::Capsule { radius, length }) => closest_points(Core::Segment(0.5 * length), *radius),
+            Surface::Solid(Shape::Cone { radius, length }) => closest_points(Core::Cone(*radius, *length), 0.0),
+            Surface::Hull(points) => closest_points(Core::Points(points), 0.0),
             Surface::HalfSpace => Solid::HalfSpace,
-            Surface::Mesh(..) | Surface::HeightField { .. } => Solid::Triangles(&self.tree),
+            Surface::Mesh(..) | Surface::HeightField { .. } => Solid::Triangles(&self.bvh),
         }
     }
 }
 
 impl Core<'_> {
     /// In its own frame.
-    pub(super) fn farthest(&self, d: Vec3<f64>) -> Vec3<f64> {
+    pub(super) fn support(&self, d: Vec3<f64>) -> Vec3<f64> {
         let end = |half: f64, x: f64| if x >= 0.0 { half } else { -half };
         let rim = |radius: f64, z: f64| {
             let across = (d[0] * d[0] + d[1] * d[1]).sqrt();
@@ -78,12 +80,12 @@ impl Core<'_> {
                 let (apex, base) = (Vec3([0.0, 0.0, 0.75 * length]), rim(radius, -0.25 * length));
                 if d.dot(apex) >= d.dot(base) { apex } else { base }
             }
-            Self::Points(points) => Vec3(farthest_of(points.iter().copied(), d)),
-            Self::Triangle(corners) => Vec3(farthest_of(corners.into_iter().map(|c| c.0), d)),
+            Self::Points(points) => Vec3(support_of_points(points.iter().copied(), d)),
+            Self::Triangle(corners) => Vec3(support_of_points(corners.into_iter().map(|c| c.0), d)),
         }
     }
 
-    fn middle(&self) -> Vec3<f64> {
+    fn interior_point(&self) -> Vec3<f64> {
         match *self {
             Self::Points(points) => Vec3(points[0]),
             Self::Triangle([a, ..]) => a,
@@ -92,7 +94,7 @@ impl Core<'_> {
     }
 }
 
-fn farthest_of(points: impl Iterator<Item = [f64; 3]>, d: Vec3<f64>) -> [f64; 3] {
+fn support_of_points(points: impl Iterator<Item = [f64; 3]>, d: Vec3<f64>) -> [f64; 3] {
     let mut best = ([0.0; 3], f64::NEG_INFINITY);
     for p in points {
         let along = d.dot(Vec3(p));
@@ -104,12 +106,12 @@ fn farthest_of(points: impl Iterator<Item = [f64; 3]>, d: Vec3<f64>) -> [f64; 3]
 }
 
 impl Convex for Placed<'_> {
-    fn farthest(&self, d: Vec3<f64>) -> Vec3<f64> {
-        self.pose.point(self.core.farthest(self.pose.rot.tr_mul_vec(d)))
+    fn support(&self, d: Vec3<f64>) -> Vec3<f64> {
+        self.pose.point(self.core.support(self.pose.rot.tr_mul_vec(d)))
     }
 
-    fn middle(&self) -> Vec3<f64> {
-        self.pose.point(self.core.middle())
+    fn interior_point(&self) -> Vec3<f64> {
+        self.pose.point(self.core.interior_point())
     }
 }
 
@@ -141,7 +143,7 @@ pub(super) fn normal_at(geometry: &Geometry, p: Vec3<f64>, towards: Vec3<f64>) -
             facing([(flank, lean), ((p[2] + 0.25 * length).abs(), up(-1.0))].into_iter(), towards)
         }
         Surface::Hull(_) => facing(geometry.faces.iter().map(|(n, offset)| ((n.dot(p) - offset).abs(), *n)), towards),
-        Surface::Mesh(..) | Surface::HeightField { .. } => geometry.tree.normal_near(p, towards),
+        Surface::Mesh(..) | Surface::HeightField { .. } => geometry.bvh.normal_near(p, towards),
     }
 }
 

@@ -1,16 +1,16 @@
 //! What a world asks of a constrained mechanism between integration steps: what touches, what an impact does, what drift must be taken away.
 
-use crate::constraint::{CLOSED, Constraints};
-use crate::contact::candidate::{Gap, Spot, tangents};
+use crate::constraint::{CLOSED_DISTANCE, Constraints};
+use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::{Collider, Pair};
 use crate::integrate::System;
 use crate::mechanism::Mechanism;
-use crate::recursions::aba::{self, Held};
+use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::spatial::{Pose, Vec3};
 
 /// Speeds below this are none, in deciding what sticks and what arrives [m/s] or [rad/s].
-pub(crate) const STILL: f64 = 1e-8;
+pub(crate) const ZERO_SPEED: f64 = 1e-8;
 
 /// Positions and rates of constraints are projected to this `[m]`, [m/s].
 const PROJECTED: f64 = 1e-12;
@@ -23,14 +23,14 @@ const MAX_PROJECTIONS: usize = 12;
 
 /// What stands at the start of a sub-step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Touch {
+pub(crate) struct ContactStatus {
     /// Whether something rigid that touches arrives: an impact.
-    pub arrives: bool,
+    pub has_impact: bool,
 }
 
 /// Who counts as closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Closing {
+pub(crate) enum ActivationRule {
     /// What touches and does not leave.
     Touching,
     /// What touches at all, for an impact.
@@ -41,72 +41,78 @@ pub(crate) enum Closing {
 
 impl Mechanism<f64> {
     /// Finds what touches at the chart's origin for velocities `v`, and classifies it.
-    pub(crate) fn touch(&mut self, v: &[f64], closing: Closing) -> Touch {
-        let Some(c) = self.constraints.as_deref_mut() else { return Touch::default() };
+    pub(crate) fn detect_contacts(&mut self, v: &[f64], closing: ActivationRule) -> ContactStatus {
+        let Some(c) = self.constraints.as_deref_mut() else { return ContactStatus::default() };
         let (model, scratch) = (&self.model, &mut self.scratch);
         kinematics::poses(model, &self.base, scratch);
         c.motions.place(model, scratch, v);
         let set = &*model.constraints;
         let gravity = model.gravity.norm();
         let margin = match closing {
-            Closing::Within(h) => 1e-3 + 4.0 * h * c.fastest(&set.colliders, &scratch.poses) + 4.0 * h * h * gravity,
+            ActivationRule::Within(h) => {
+                1e-3 + 4.0 * h * c.fastest(&set.colliders, &scratch.poses) + 4.0 * h * h * gravity
+            }
             _ => 1e-6,
         };
-        c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.spots);
-        let mut touch = Touch::default();
-        let closes = |gap: f64, rate: f64| match closing {
-            Closing::Touching => gap <= CLOSED && rate <= STILL,
-            Closing::All => gap <= CLOSED,
-            Closing::Within(h) => gap <= CLOSED + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity,
+        c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.candidates);
+        let mut touch = ContactStatus::default();
+        let closes = |distance: f64, rate: f64| match closing {
+            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= ZERO_SPEED,
+            ActivationRule::All => distance <= CLOSED_DISTANCE,
+            ActivationRule::Within(h) => {
+                distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
+            }
         };
         for (slot, limit) in set.limits.iter().enumerate() {
-            let gap = limit.sign * (self.base[limit.coordinate] - limit.bound);
+            let distance = limit.sign * (self.base[limit.coordinate] - limit.bound);
             let rate = limit.sign * v[limit.dof];
-            c.memory.classify(slot, closes(gap, rate), [false; 3]);
-            touch.arrives |= gap <= CLOSED && rate < -STILL;
+            c.memory.classify(slot, closes(distance, rate), [false; 3]);
+            touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -ZERO_SPEED;
         }
         for pair in &set.pairs {
             for k in pair.first..pair.first + pair.slots {
                 let slot = set.limits.len() + k;
-                let Some(spot) = c.spots[k] else {
+                let Some(candidate) = c.candidates[k] else {
                     c.memory.classify(slot, false, [false; 3]);
                     continue;
                 };
-                let at = spot.gap(&c.motions.at(scratch));
-                let rate = normal_rate(c, &spot, &at);
+                let at = candidate.kinematics(&c.motions.at(scratch));
+                let rate = normal_rate(c, &candidate, &at);
                 if pair.material.stiffness.is_finite() {
-                    let slides = slides(c, &spot, &at, pair);
-                    c.memory.classify(slot, at.gap < 0.0, slides);
+                    let slides = slides(c, &candidate, &at, pair);
+                    c.memory.classify(slot, at.distance < 0.0, slides);
                     continue;
                 }
-                let closed = closes(at.gap, rate);
-                let slides = if closed { slides(c, &spot, &at, pair) } else { [false; 3] };
+                let closed = closes(at.distance, rate);
+                let slides = if closed { slides(c, &candidate, &at, pair) } else { [false; 3] };
                 c.memory.classify(slot, closed, slides);
-                touch.arrives |= at.gap <= CLOSED && rate < -STILL;
+                touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -ZERO_SPEED;
             }
         }
         touch
     }
 
     /// Whether something that was apart has come together (and still approaches), in the state last evaluated.
-    pub(crate) fn has_touched(&mut self, v: &[f64]) -> bool {
+    pub(crate) fn has_new_contact(&mut self, v: &[f64]) -> bool {
         let Some(c) = self.constraints.as_deref_mut() else { return false };
         let set = &*self.model.constraints;
         for (slot, limit) in set.limits.iter().enumerate() {
-            let gap = limit.sign * (self.q[limit.coordinate] - limit.bound);
-            if !c.memory.is_closed(slot) && gap < 0.0 && limit.sign * v[limit.dof] < -STILL {
+            let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
+            if !c.memory.is_closed(slot) && distance < 0.0 && limit.sign * v[limit.dof] < -ZERO_SPEED {
                 return true;
             }
         }
-        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, 1e-6, &mut c.later);
+        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, 1e-6, &mut c.later_candidates);
         for pair in &set.pairs {
             for k in pair.first..pair.first + pair.slots {
-                let Some(spot) = c.later[k] else { continue };
+                let Some(candidate) = c.later_candidates[k] else { continue };
                 if c.memory.is_closed(set.limits.len() + k) {
                     continue;
                 }
-                let at = spot.gap(&c.motions.at(&self.scratch));
-                if at.gap < 0.0 && (pair.material.stiffness.is_finite() || normal_rate(c, &spot, &at) < -STILL) {
+                let at = candidate.kinematics(&c.motions.at(&self.scratch));
+                if at.distance < 0.0
+                    && (pair.material.stiffness.is_finite() || normal_rate(c, &candidate, &at) < -ZERO_SPEED)
+                {
                     return true;
                 }
             }
@@ -115,7 +121,7 @@ impl Mechanism<f64> {
     }
 
     /// Whether a compliant contact has ended, in the state last evaluated.
-    pub(crate) fn has_left(&self) -> bool {
+    pub(crate) fn has_compliant_contact_opened(&self) -> bool {
         let Some(c) = self.constraints.as_deref() else { return false };
         c.blocks.iter().any(|b| b.given.is_some() && c.residual[b.row] > 0.0)
     }
@@ -126,16 +132,16 @@ impl Mechanism<f64> {
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
         }
-        self.held_acceleration.fill(0.0);
-        let held =
-            (!self.drives.is_empty()).then_some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration });
+        self.prescribed_acceleration.fill(0.0);
+        let prescribed = (!self.drives.is_empty())
+            .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
         let q = if q_is_base { &self.base } else { &self.q };
         let input = aba::Input {
             q,
             v: &self.torque,
             torque: &self.torque,
             diagonal: &self.diagonal,
-            held,
+            prescribed,
             external: None,
             gravity: false,
         };
@@ -146,8 +152,8 @@ impl Mechanism<f64> {
 
     /// An impact at the chart's origin: changes `v`, returns the energy lost `[J]`. Held degrees of freedom are those marked; the scratch has their
     /// impulses as reactions.
-    pub(crate) fn collide(&mut self, v: &mut [f64]) -> f64 {
-        self.touch(v, Closing::All);
+    pub(crate) fn apply_impact(&mut self, v: &mut [f64]) -> f64 {
+        self.detect_contacts(v, ActivationRule::All);
         self.factor(true);
         let Some(c) = self.constraints.as_deref_mut() else { return 0.0 };
         kinematics::chain_poses(&self.model, &mut self.scratch);
@@ -188,7 +194,7 @@ impl Mechanism<f64> {
             self.rechart(y);
         }
         let set = &self.model.constraints;
-        if !sticking && set.closures.is_empty() && set.couplings.is_empty() {
+        if !sticking && set.loop_joints.is_empty() && set.gears.is_empty() {
             return;
         }
         self.prepare(y, false);
@@ -197,7 +203,7 @@ impl Mechanism<f64> {
             c.keep_equations(true, false);
         } else {
             // at velocity level what bounces has its speed already
-            c.keep_closures();
+            c.keep_loop_joints();
         }
         if c.worst(&y[n..2 * n]).1 <= PROJECTED {
             return;
@@ -218,7 +224,7 @@ impl Mechanism<f64> {
             return 0;
         }
         let c = self.constraints.as_deref_mut().expect("prepared");
-        c.keep_closures();
+        c.keep_loop_joints();
         self.factor(true);
         let mut change = core::mem::take(&mut self.constraint_change);
         let c = self.constraints.as_deref_mut().expect("prepared");
@@ -250,7 +256,7 @@ impl Mechanism<f64> {
     /// Whether a contact let go, gripped, slipped or reversed since [`Mechanism::mark_start`], in the state last evaluated.
     pub(crate) fn has_changed(&self) -> bool {
         let Some(c) = self.constraints.as_deref() else { return false };
-        c.memory.has_changed() || self.has_left()
+        c.memory.has_changed() || self.has_compliant_contact_opened()
     }
 }
 
@@ -270,25 +276,25 @@ impl Constraints<f64> {
     }
 }
 
-fn normal_rate(c: &Constraints<f64>, spot: &Spot, at: &Gap<f64>) -> f64 {
-    relative(c, spot, at.point).dot(at.normal)
+fn normal_rate(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
+    relative(c, candidate, at.point).dot(at.normal)
 }
 
 /// Velocity of a's point against b's [m/s].
-fn relative(c: &Constraints<f64>, spot: &Spot, point: Vec3<f64>) -> Vec3<f64> {
-    c.motions.velocity_of(spot.a, point) - c.motions.velocity_of(spot.b, point)
+fn relative(c: &Constraints<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
+    c.motions.velocity_of(candidate.a, point) - c.motions.velocity_of(candidate.b, point)
 }
 
 /// Which groups of friction rows slide.
-fn slides(c: &Constraints<f64>, spot: &Spot, at: &Gap<f64>, pair: &Pair) -> [bool; 3] {
+fn slides(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>, pair: &Pair) -> [bool; 3] {
     let (t1, t2) = tangents(at.normal);
-    let v = relative(c, spot, at.point);
-    let w = c.motions.twist_of(spot.a).ang - c.motions.twist_of(spot.b).ang;
-    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > STILL;
+    let v = relative(c, candidate, at.point);
+    let w = c.motions.twist_of(candidate.a).ang - c.motions.twist_of(candidate.b).ang;
+    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > ZERO_SPEED;
     let m = &pair.material;
     [
         m.friction > 0.0 && across(v),
         m.rolling_friction > 0.0 && across(w),
-        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > STILL,
+        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > ZERO_SPEED,
     ]
 }

@@ -17,12 +17,12 @@ use crate::constraint::{Constraints, Level};
 use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
 use crate::model::Model;
-use crate::recursions::aba::{self, Held};
+use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
-use torques::{Instant, joint_torques};
+use torques::{TorqueInput, joint_torques};
 
 /// A model with its commands and everything needed to evaluate its rates without allocation.
 #[derive(Clone, Debug)]
@@ -41,8 +41,8 @@ pub struct Mechanism<R> {
     pub(crate) q: Vec<R>,
     pub(crate) torque: Vec<R>,
     pub(crate) diagonal: Vec<R>,
-    pub(crate) held_mask: Vec<R>,
-    pub(crate) held_acceleration: Vec<R>,
+    pub(crate) locked_mask: Vec<R>,
+    pub(crate) prescribed_acceleration: Vec<R>,
     external: Vec<Force<R>>,
     /// Pushes from outside the model, until they are taken away.
     pushes: Vec<Push<R>>,
@@ -72,8 +72,8 @@ impl<R: Real> Mechanism<R> {
             q: vec![R::zero(); model.n_q()],
             torque: zero.clone(),
             diagonal: zero.clone(),
-            held_mask: zero.clone(),
-            held_acceleration: zero.clone(),
+            locked_mask: zero.clone(),
+            prescribed_acceleration: zero.clone(),
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             pushes: Vec::new(),
             air_dissipation: R::zero(),
@@ -103,8 +103,8 @@ impl<R: Real> Mechanism<R> {
             &self.q,
             &self.torque,
             &self.diagonal,
-            &self.held_mask,
-            &self.held_acceleration,
+            &self.locked_mask,
+            &self.prescribed_acceleration,
             &self.motor_torque,
         ];
         numbers.iter().map(|v| size_of_val(&***v)).sum::<usize>()
@@ -171,7 +171,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Finds the coordinates of y.
     #[inline(always)]
-    pub(crate) fn place(&mut self, y: &[R]) {
+    pub(crate) fn set_coordinates(&mut self, y: &[R]) {
         displace(&self.model, &self.base, &y[..self.model.n_v()], &mut self.q);
     }
 
@@ -190,7 +190,7 @@ impl<R: Real> Mechanism<R> {
     }
 
     /// Computes poses, twists and accelerations of all links.
-    pub(crate) fn locate(&mut self, x: &State<R>, v_dot: &[R]) {
+    pub(crate) fn update_kinematics(&mut self, x: &State<R>, v_dot: &[R]) {
         kinematics::motions(&self.model, &x.q, &x.v, v_dot, &mut self.scratch);
     }
 
@@ -202,29 +202,29 @@ impl<R: Real> Mechanism<R> {
 
     /// Marks the degrees of freedom whose drives hold, with zero acceleration; says whether there are any.
     #[inline(always)]
-    pub fn mark_held(&mut self) {
+    pub fn mark_locked(&mut self) {
         let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
         if self.drives.is_empty() {
             return;
         }
-        self.held_mask.fill(zero);
-        self.held_acceleration.fill(zero);
-        for (drive, &pull) in self.model.drives.iter().zip(&self.drives) {
-            let holds = pull.abs().if_less(half, one, zero);
-            self.held_mask[drive.dof] = self.held_mask[drive.dof].max(holds);
+        self.locked_mask.fill(zero);
+        self.prescribed_acceleration.fill(zero);
+        for (drive, &saturation) in self.model.drives.iter().zip(&self.drives) {
+            let holds = saturation.abs().if_less(half, one, zero);
+            self.locked_mask[drive.dof] = self.locked_mask[drive.dof].max(holds);
         }
     }
 
     /// Whether a degree of freedom is held, as last marked.
     #[must_use]
-    pub fn is_held(&self, dof: usize) -> bool {
-        self.held_mask[dof].lane(0) > 0.5
+    pub fn is_locked(&self, dof: usize) -> bool {
+        self.locked_mask[dof].lane(0) > 0.5
     }
 
     /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].
     #[inline(always)]
     fn accelerations(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
-        let at = Instant { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
+        let at = TorqueInput { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
         let external = if self.has_external() {
             self.external_wrenches(t, v, rotors);
@@ -232,13 +232,20 @@ impl<R: Real> Mechanism<R> {
         } else {
             None
         };
-        let held = if self.drives.is_empty() {
+        let prescribed = if self.drives.is_empty() {
             None
         } else {
-            Some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration })
+            Some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration })
         };
-        let input =
-            aba::Input { q: &self.q, v, torque: &self.torque, diagonal: &self.diagonal, held, external, gravity: true };
+        let input = aba::Input {
+            q: &self.q,
+            v,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            prescribed,
+            external,
+            gravity: true,
+        };
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
         if R::LANES == 1
             && let Some(constraints) = &mut self.constraints
@@ -308,8 +315,8 @@ impl<R: Real> Mechanism<R> {
         let known = |new: &Drive| self.model.drives.iter().position(|old| old == new).map(|i| self.drives[i]);
         self.drives = drives.iter().map(|drive| known(drive).unwrap_or(R::zero())).collect();
         self.model.drives = drives;
-        self.held_mask.fill(R::zero());
-        self.held_acceleration.fill(R::zero());
+        self.locked_mask.fill(R::zero());
+        self.prescribed_acceleration.fill(R::zero());
     }
 
     /// The first rotor whose law gave what is not a number in the last evaluation.
@@ -403,8 +410,8 @@ impl<R: Real> Mechanism<R> {
     pub(crate) fn friction_torque(&self, i: usize) -> R {
         let drive = self.model.drives[i];
         let limit = self.model.dofs[drive.dof].friction;
-        let holding = self.scratch.reaction[drive.dof].clamp_abs(limit);
-        self.drives[i].abs().if_less(R::splat(0.5), holding, self.drives[i] * limit)
+        let locked = self.scratch.reaction[drive.dof].clamp_abs(limit);
+        self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * limit)
     }
 
     /// Torque of every motor in the last evaluation.
@@ -417,19 +424,19 @@ impl<R: Real> Mechanism<R> {
         for d in 0..self.model.drives.len() {
             let drive = self.model.drives[d];
             let DriveKind::Motor(i) = drive.kind else { continue };
-            let mut holding = self.scratch.reaction[drive.dof];
+            let mut locked = self.scratch.reaction[drive.dof];
             for f in 0..d {
                 if self.model.drives[f].dof == drive.dof {
                     // friction that holds the same joint takes its share first
                     let share = self.friction_torque(f);
-                    holding -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
+                    locked -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
                 }
             }
-            let pulling = match self.model.drive_limit(&drive) {
+            let saturated = match self.model.drive_limit(&drive) {
                 Some(limit) => self.drives[d] * limit,
                 None => R::zero(),
             };
-            self.motor_torque[i] = self.drives[d].abs().if_less(R::splat(0.5), holding, pulling);
+            self.motor_torque[i] = self.drives[d].abs().if_less(R::splat(0.5), locked, saturated);
         }
     }
 
@@ -462,13 +469,13 @@ impl<R: Real> Mechanism<R> {
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
         }
-        let held = Some(Held { mask: &self.held_mask, acceleration: &self.held_acceleration });
+        let prescribed = Some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
         let input = aba::Input {
             q: &self.base,
             v: &self.torque,
             torque: &self.torque,
             diagonal: &self.diagonal,
-            held,
+            prescribed,
             external: None,
             gravity: false,
         };

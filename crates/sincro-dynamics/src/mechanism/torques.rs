@@ -8,7 +8,7 @@ use crate::model::Model;
 
 /// Joint torques of all elements at one instant, and what they add to the mass matrix in a linearly implicit step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Instant<'a, R> {
+pub(crate) struct TorqueInput<'a, R> {
     pub t: f64,
     pub q: &'a [R],
     pub v: &'a [R],
@@ -20,7 +20,7 @@ pub(crate) struct Instant<'a, R> {
 
 /// Sums the torques of all joint elements into `torque` and the diagonal (armature and implicit terms) into `diagonal`.
 #[inline(always)]
-pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &Instant<'_, R>, torque: &mut [R], diagonal: &mut [R]) {
+pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, torque: &mut [R], diagonal: &mut [R]) {
     // at h = 0 these are the explicit torques
     let (of_dampers, of_springs) = match at.implicit {
         None => (0.0, 0.0),
@@ -45,10 +45,10 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &Instant<'_, R>, torq
         torque[k] += tau;
         diagonal[k] += implicit;
     }
-    for (drive, &pull) in model.drives.iter().zip(at.drives) {
+    for (drive, &saturation) in model.drives.iter().zip(at.drives) {
         // a holding drive (0) gives what its constraint needs; the others pull at their limit
         if let Some(limit) = model.drive_limit(drive) {
-            torque[drive.dof] += pull * limit;
+            torque[drive.dof] += saturation * limit;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::ClosureKind;
+use super::LoopJointKind;
 use super::MassProperties;
 use crate::actuation::Motor;
 use crate::aero::rotor::RotorLaw;
@@ -141,9 +141,9 @@ pub(crate) enum NodeKind {
 
 /// A closure to be added.
 #[derive(Clone, Debug)]
-pub struct ClosureSpec {
+pub struct LoopJointSpec {
     /// How the ends are kept together.
-    pub kind: ClosureKind,
+    pub kind: LoopJointKind,
     /// The ends: bodies, frames, or the world.
     pub ends: [NodeId; 2],
     /// Frames in the ends that are kept together.
@@ -152,7 +152,7 @@ pub struct ClosureSpec {
 
 /// A coupling of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug)]
-pub struct CouplingSpec {
+pub struct GearSpec {
     /// The joints.
     pub joints: [NodeId; 2],
     /// Ratio of their rates.
@@ -188,8 +188,8 @@ pub struct ModelBuilder {
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) nodes: Vec<Node>,
     pub(crate) colliders: Vec<(NodeId, Pose<f64>, Surface, Material)>,
-    pub(crate) closures: Vec<(String, ClosureSpec)>,
-    pub(crate) couplings: Vec<(String, CouplingSpec)>,
+    pub(crate) loop_joints: Vec<(String, LoopJointSpec)>,
+    pub(crate) gears: Vec<(String, GearSpec)>,
     pub(crate) rest_speed: f64,
 }
 
@@ -203,8 +203,8 @@ impl ModelBuilder {
             wind: None,
             nodes: vec![world],
             colliders: Vec::new(),
-            closures: Vec::new(),
-            couplings: Vec::new(),
+            loop_joints: Vec::new(),
+            gears: Vec::new(),
             rest_speed: REST_SPEED,
         }
     }
@@ -256,13 +256,13 @@ impl ModelBuilder {
     }
 
     /// Adds a closure of a loop.
-    pub fn closure(&mut self, name: &str, spec: ClosureSpec) {
-        self.closures.push((name.into(), spec));
+    pub fn loop_joint(&mut self, name: &str, spec: LoopJointSpec) {
+        self.loop_joints.push((name.into(), spec));
     }
 
     /// Adds a coupling of two joints.
-    pub fn coupling(&mut self, name: &str, spec: CouplingSpec) {
-        self.couplings.push((name.into(), spec));
+    pub fn gear(&mut self, name: &str, spec: GearSpec) {
+        self.gears.push((name.into(), spec));
     }
 
     /// Approach slower than this does not bounce [m/s].

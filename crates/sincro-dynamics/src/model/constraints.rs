@@ -4,7 +4,7 @@ use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;
 
 /// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
-pub const SLOT: usize = 7;
+pub const SLOT_LEN: usize = 7;
 
 /// A frame fixed in a link.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Anchor {
 
 /// How two anchors are kept together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ClosureKind {
+pub enum LoopJointKind {
     /// Their origins coincide.
     Point,
     /// Their origins coincide and their z axes agree.
@@ -30,7 +30,7 @@ pub enum ClosureKind {
     Distance(f64),
 }
 
-impl ClosureKind {
+impl LoopJointKind {
     /// Number of rows.
     #[must_use]
     pub fn rows(self) -> usize {
@@ -45,11 +45,11 @@ impl ClosureKind {
 
 /// A closure of a loop.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Closure {
+pub struct LoopJoint {
     /// Name given by the user.
     pub name: String,
     /// How.
-    pub kind: ClosureKind,
+    pub kind: LoopJointKind,
     /// One end.
     pub a: Anchor,
     /// The other end.
@@ -58,7 +58,7 @@ pub struct Closure {
 
 /// Two coordinates that move together: q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coupling {
+pub struct GearConstraint {
     /// Name given by the user.
     pub name: String,
     /// Degrees of freedom 1 and 2.
@@ -90,9 +90,9 @@ pub struct Limit {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConstraintSet {
     /// Loops.
-    pub closures: Vec<Closure>,
+    pub loop_joints: Vec<LoopJoint>,
     /// Couplings of joints.
-    pub couplings: Vec<Coupling>,
+    pub gears: Vec<GearConstraint>,
     /// Limits of joints: the first slots.
     pub limits: Vec<Limit>,
     /// Surfaces that can touch.
@@ -107,7 +107,7 @@ impl ConstraintSet {
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.closures.is_empty() && self.couplings.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
+        self.loop_joints.is_empty() && self.gears.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
     }
 
     /// Number of slots of contacts.
@@ -131,11 +131,11 @@ impl ConstraintSet {
     /// Number of rows of closures and couplings.
     #[must_use]
     pub fn n_bilateral(&self) -> usize {
-        self.closures.iter().map(|c| c.kind.rows()).sum::<usize>() + self.couplings.len()
+        self.loop_joints.iter().map(|c| c.kind.rows()).sum::<usize>() + self.gears.len()
     }
 }
 
 /// Length of the part of the state that belongs to `n_slots` slots.
 pub(crate) fn warm_start_len(n_slots: usize) -> usize {
-    if n_slots == 0 { 0 } else { SLOT * n_slots + 1 }
+    if n_slots == 0 { 0 } else { SLOT_LEN * n_slots + 1 }
 }

@@ -13,7 +13,7 @@ pub enum Severity {
 
 /// One finding about one object.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Problem {
+pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
     /// The object, none where the model as a whole is meant.

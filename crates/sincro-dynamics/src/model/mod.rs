@@ -21,12 +21,12 @@ use sincro_math::Real;
 pub use crate::geometry::{MassProperties, Shape};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
-    BodySpec, ClosureSpec, CouplingSpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
+    BodySpec, DragSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
     RotorSpec,
 };
 pub(crate) use constraints::warm_start_len;
-pub use constraints::{Anchor, Closure, ClosureKind, ConstraintSet, Coupling, Limit, SLOT};
-pub use diagnostic::{Problem, Severity};
+pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
+pub use diagnostic::{Diagnostic, Severity};
 pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 
@@ -210,13 +210,13 @@ impl<R: Real> Model<R> {
 impl Model<f64> {
     /// The first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if there is none.
     #[must_use]
-    pub fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_time_event(&self, t: f64) -> f64 {
         if self.applied.is_empty() && self.wrenches.is_empty() && self.wind.is_none() {
             return f64::INFINITY;
         }
-        let of_wind = self.wind.as_ref().filter(|_| self.feels_air()).map_or(f64::INFINITY, |w| w.next_corner(t));
+        let of_wind = self.wind.as_ref().filter(|_| self.feels_air()).map_or(f64::INFINITY, |w| w.next_time_event(t));
         let applied = self.applied.iter().flat_map(|a| &a.signal);
         let wrenches = self.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.torque).flatten());
-        applied.chain(wrenches).map(|s| s.next_corner(t)).fold(of_wind, f64::min)
+        applied.chain(wrenches).map(|s| s.next_time_event(t)).fold(of_wind, f64::min)
     }
 }

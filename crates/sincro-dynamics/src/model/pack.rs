@@ -154,7 +154,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
         (a.wind == b.wind, "wind"),
-        (a.constraints == b.constraints, "closures, limits and contacts"),
+        (a.constraints == b.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

@@ -15,7 +15,7 @@ pub(crate) fn carried(pose: &Pose<f64>, mass: &MassProperties) -> RigidInertia<f
 impl Model<f64> {
     /// Gives a link the inertia of its bodies: all of them, by their index among the frames of the names and in that order. The same bits come out
     /// as if the model had been built with them.
-    pub(crate) fn weigh(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
+    pub(crate) fn set_mass_properties(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
         let names = Arc::make_mut(&mut self.names);
         let mut sum = RigidInertia::zero();
         for (frame, mass) in bodies {
@@ -27,7 +27,7 @@ impl Model<f64> {
     }
 
     /// Takes over what another model of the same scene has as numbers that may change. Its motors are not among them.
-    pub fn take_numbers(&mut self, other: &Self) {
+    pub fn copy_parameters_from(&mut self, other: &Self) {
         for (own, new) in self.links.iter_mut().zip(&other.links) {
             own.inertia = new.inertia;
         }

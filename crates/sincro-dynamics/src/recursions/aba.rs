@@ -35,7 +35,7 @@ pub struct Input<'a, R> {
     /// Added to the diagonal of the mass matrix [kg·m²] or `[kg]`.
     pub diagonal: &'a [R],
     /// Held degrees of freedom, if any.
-    pub held: Option<Held<'a, R>>,
+    pub prescribed: Option<Prescribed<'a, R>>,
     /// External wrench on each link, link axes, about the link's origin.
     pub external: Option<&'a [Force<R>]>,
     /// Whether gravity acts (an impulse feels none).
@@ -44,7 +44,7 @@ pub struct Input<'a, R> {
 
 /// Degrees of freedom whose acceleration is prescribed.
 #[derive(Clone, Copy, Debug)]
-pub struct Held<'a, R> {
+pub struct Prescribed<'a, R> {
     /// 1 for held, 0 for free.
     pub mask: &'a [R],
     /// Prescribed acceleration [rad/s²] or [m/s²]; read where held.
@@ -169,15 +169,15 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
         }
         // written out, so that each index is a constant and what it leaves unused is not computed
         if S::N_V == 6 {
-            left.give_way::<S>(link, 5, input, dofs);
-            left.give_way::<S>(link, 4, input, dofs);
-            left.give_way::<S>(link, 3, input, dofs);
+            left.eliminate_dof::<S>(link, 5, input, dofs);
+            left.eliminate_dof::<S>(link, 4, input, dofs);
+            left.eliminate_dof::<S>(link, 3, input, dofs);
         }
         if S::N_V >= 3 {
-            left.give_way::<S>(link, 2, input, dofs);
-            left.give_way::<S>(link, 1, input, dofs);
+            left.eliminate_dof::<S>(link, 2, input, dofs);
+            left.eliminate_dof::<S>(link, 1, input, dofs);
         }
-        left.give_way::<S>(link, 0, input, dofs);
+        left.eliminate_dof::<S>(link, 0, input, dofs);
         if let Some(parent) = parent {
             let ia = link.articulated_to_parent::<S>(&this.at, &left.ia);
             parent.ia = if link.is_last_child { ia } else { parent.ia.plus(&ia) };
@@ -195,7 +195,7 @@ struct Remainder<R> {
 
 impl<R: Real> Remainder<R> {
     #[inline(always)]
-    fn give_way<S: Stage>(&mut self, link: &Link<R>, j: usize, input: &Input<'_, R>, dofs: &mut [DofScratch<R>]) {
+    fn eliminate_dof<S: Stage>(&mut self, link: &Link<R>, j: usize, input: &Input<'_, R>, dofs: &mut [DofScratch<R>]) {
         let dof = &mut dofs[j];
         eliminate::<S, R>(link, j, &self.ia, &self.pa, input, link.v_idx as usize + j, dof);
         // Ia = IA − U Uᵀ/D,  pa = pA + U u/D   (held: Ia = IA, pa = pA + U·acceleration)
@@ -226,10 +226,10 @@ fn eliminate<S: Stage, R: Real>(
     out.force = link.signed::<S>(input.torque[dof_idx]) - S::project(link, j, pa);
     out.inv_d = R::one() / out.d;
     out.x = out.force * out.inv_d;
-    if let Some(held) = input.held {
-        let (half, mask) = (R::splat(0.5), held.mask[dof_idx]);
+    if let Some(prescribed) = input.prescribed {
+        let (half, mask) = (R::splat(0.5), prescribed.mask[dof_idx]);
         out.inv_d = half.if_less(mask, R::zero(), out.inv_d);
-        out.x = half.if_less(mask, link.signed::<S>(held.acceleration[dof_idx]), out.x);
+        out.x = half.if_less(mask, link.signed::<S>(prescribed.acceleration[dof_idx]), out.x);
     }
 }
 
@@ -255,7 +255,7 @@ fn accelerations_base_to_tip<R: Real>(
             a_parent,
             dofs: &scratch.dofs[v_idx..],
             v_dot: &mut v_dot[v_idx..],
-            reaction: input.held.map(|_| &mut scratch.reaction[v_idx..]),
+            reaction: input.prescribed.map(|_| &mut scratch.reaction[v_idx..]),
         });
     }
 }
@@ -325,7 +325,7 @@ pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
         v: &torque,
         torque: &torque,
         diagonal: &diagonal,
-        held: None,
+        prescribed: None,
         external: None,
         gravity: false,
     };

@@ -19,9 +19,9 @@ impl World {
     /// # Panics
     ///
     /// If there is no such link or frame.
-    pub fn weigh(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
+    pub fn set_mass_properties(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
         let before = self.mechanical_energy();
-        self.mechanism.model.weigh(link, bodies);
+        self.mechanism.model.set_mass_properties(link, bodies);
         if self.state.tick > 0 {
             self.state.totals[0] += self.mechanical_energy() - before;
         }
@@ -63,8 +63,8 @@ impl World {
     /// # Panics
     ///
     /// If there is no such coupling.
-    pub fn set_coupling(&mut self, k: usize, ratio: f64, offset: f64) {
-        let coupling = &mut Arc::make_mut(&mut self.mechanism.model.constraints).couplings[k];
+    pub fn set_gear(&mut self, k: usize, ratio: f64, offset: f64) {
+        let coupling = &mut Arc::make_mut(&mut self.mechanism.model.constraints).gears[k];
         (coupling.ratio, coupling.offset) = (ratio, offset);
     }
 

@@ -2,14 +2,14 @@
 //!
 //! At a tick ([`Control::look`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
 //! are latched from that instant on ([`Control::latch`]), and memory is updated ([`Control::update`]). Between ticks the diagram is an
-//! [`Attachment`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
+//! [`CoupledSystem`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
 
 use std::sync::Arc;
 
 use sincro_blocks::instance::Number;
 use sincro_blocks::program::{Measured, Program};
 use sincro_blocks::runner::{Runner, State};
-use sincro_dynamics::coupled::{Attachment, Response, Seen};
+use sincro_dynamics::coupled::{CoupledSystem, Response, StateView};
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State as WorldState;
@@ -129,7 +129,7 @@ impl<R: Number> Control<R> {
         self.wiring.program.is_continuous()
     }
 
-    fn read_state(&mut self, seen: &mut Seen<'_, R>, is_minor: bool) {
+    fn read_state(&mut self, seen: &mut StateView<'_, R>, is_minor: bool) {
         if self.wiring.early.is_empty() {
             return;
         }
@@ -146,7 +146,7 @@ impl<R: Number> Control<R> {
         }
     }
 
-    fn read_response(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, is_minor: bool) {
+    fn read_response(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, is_minor: bool) {
         kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
         let view = View::of(seen);
         for reading in self.wiring.late.iter().filter(|r| r.is_minor || !is_minor) {
@@ -181,10 +181,10 @@ impl<R: Number> Control<R> {
         new
     }
 
-    /// As [`Attachment::drive`]; `perturbed` is a signal and its change.
+    /// As [`CoupledSystem::find_commands`]; `perturbed` is a signal and its change.
     pub(crate) fn drive_whole(
         &mut self,
-        seen: &mut Seen<'_, R>,
+        seen: &mut StateView<'_, R>,
         z: &[R],
         commands: &mut [R],
         perturbed: Option<(usize, R)>,
@@ -195,10 +195,10 @@ impl<R: Number> Control<R> {
         self.write_commands(commands, true);
     }
 
-    /// As [`Attachment::slope`].
+    /// As [`CoupledSystem::slope`].
     pub(crate) fn slope_whole(
         &mut self,
-        seen: &mut Seen<'_, R>,
+        seen: &mut StateView<'_, R>,
         response: Response<'_, R>,
         slope: &mut [R],
         perturbed: Option<(usize, R)>,
@@ -224,7 +224,7 @@ impl Control<f64> {
             world.rates(t);
         }
         self.read_tick_sums(world, tick);
-        world.with_seen(t, |mut seen| self.read_state(&mut seen, false));
+        world.with_state_view(t, |mut seen| self.read_state(&mut seen, false));
         self.runner.evaluate(tick, t);
         if !self.wiring.late.is_empty() {
             self.look_late(world, tick, t);
@@ -259,7 +259,7 @@ impl Control<f64> {
         let (accelerations, torques) =
             (core::mem::take(&mut self.late_accelerations), core::mem::take(&mut self.late_torque));
         let response = Response { accelerations: &accelerations, motor_torque: &torques };
-        world.with_seen(t, |mut seen| self.read_response(&mut seen, response, false));
+        world.with_state_view(t, |mut seen| self.read_response(&mut seen, response, false));
         (self.late_accelerations, self.late_torque) = (accelerations, torques);
         world.state.commands.copy_from_slice(&self.held);
         self.runner.evaluate_late(tick, t);
@@ -297,7 +297,7 @@ impl Control<f64> {
     /// Brings the continuous commands to the end of a step, sampled blocks still holding: what the world is seen with before the next
     /// tick acts.
     pub fn arrive(&mut self, world: &mut World, t: f64) {
-        world.with_seen(t, |mut seen| self.read_state(&mut seen, true));
+        world.with_state_view(t, |mut seen| self.read_state(&mut seen, true));
         self.runner.minor(self.tick, t, self.corner);
         self.write_commands(&mut world.state.commands, true);
     }
@@ -336,27 +336,27 @@ impl Control<f64> {
     }
 }
 
-impl<R: Number + Real> Attachment<R> for Control<R> {
+impl<R: Number + Real> CoupledSystem<R> for Control<R> {
     fn states(&mut self) -> &mut [R] {
         &mut self.runner.state.continuous
     }
 
-    fn set_corner(&mut self, corner: f64) {
+    fn set_time_event(&mut self, corner: f64) {
         self.corner = corner;
     }
 
-    fn next_corner(&self, t: f64) -> f64 {
+    fn next_time_event(&self, t: f64) -> f64 {
         self.wiring.program.next_corner(t)
     }
 
-    fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
+    fn find_commands(&mut self, seen: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {
         self.runner.state.continuous.copy_from_slice(z);
         self.read_state(seen, true);
         self.runner.minor(self.tick, seen.t, self.corner);
         self.write_commands(commands, true);
     }
 
-    fn slope(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
+    fn slope(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
         if z.is_empty() {
             return;
         }
@@ -368,7 +368,7 @@ impl<R: Number + Real> Attachment<R> for Control<R> {
         self.runner.slopes(self.tick, seen.t, self.corner, slope);
     }
 
-    fn decay(&mut self, decay: &mut [R]) {
+    fn negated_jacobian_diagonal(&mut self, decay: &mut [R]) {
         self.runner.decays(self.tick, 0.0, decay);
     }
 }

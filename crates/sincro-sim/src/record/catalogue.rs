@@ -206,9 +206,9 @@ fn contact_signals(list: &mut List, model: &Model<f64>) {
             list.add(format!("{}.limit_torque", joint.name), torque, Probe::LimitTorque(joint.v_idx));
         }
     }
-    let closures = set.closures.iter().map(|c| &c.name);
-    for (k, name) in closures.chain(set.couplings.iter().map(|c| &c.name)).enumerate() {
-        list.add(format!("{name}.opening"), if k < set.closures.len() { "m" } else { "" }, Probe::Opening(k));
+    let closures = set.loop_joints.iter().map(|c| &c.name);
+    for (k, name) in closures.chain(set.gears.iter().map(|c| &c.name)).enumerate() {
+        list.add(format!("{name}.opening"), if k < set.loop_joints.len() { "m" } else { "" }, Probe::Opening(k));
     }
 }
 

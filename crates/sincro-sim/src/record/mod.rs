@@ -217,7 +217,7 @@ impl Recorder {
             Probe::FrictionTorque(k) => seen.friction_torque(k),
             Probe::LimitTorque(k) => seen.limit_torque(k),
             Probe::Contact(quantity, frame, k) => contact::read(seen.model(), seen.contacts(), quantity, frame, k),
-            Probe::Opening(k) => seen.opening(k),
+            Probe::Opening(k) => seen.residual(k),
             Probe::Reaction(k) => seen.scratch().reaction()[k],
             probe => {
                 let view = View::observed(seen, t);

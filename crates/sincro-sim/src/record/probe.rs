@@ -2,7 +2,7 @@
 
 use sincro_dynamics::actuation::{damper, spring};
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
-use sincro_dynamics::coupled::{Response, Seen};
+use sincro_dynamics::coupled::{Response, StateView};
 use sincro_dynamics::energy::{energy, momentum};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
@@ -32,8 +32,8 @@ pub(crate) struct View<'a, R> {
 
 impl<'a, R> View<'a, R> {
     /// Of what an attachment sees.
-    pub fn of(seen: &'a Seen<'_, R>) -> Self {
-        let &Seen { t, model, q, v, rotors, commands, ref scratch } = seen;
+    pub fn of(seen: &'a StateView<'_, R>) -> Self {
+        let &StateView { t, model, q, v, rotors, commands, ref scratch } = seen;
         Self { t, model, q, v, rotors, commands, scratch }
     }
 }

@@ -7,7 +7,8 @@ pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
 /// Of the convex hull of points; none if they span no volume.
 pub(super) fn of_hull(points: &[[f64; 3]]) -> Triangles {
-    polyhedron::hull(points).map_or_else(Triangles::default, |(corners, triangles)| of_mesh(&corners, &triangles))
+    polyhedron::convex_hull(points)
+        .map_or_else(Triangles::default, |(corners, triangles)| of_mesh(&corners, &triangles))
 }
 
 /// Of a mesh.

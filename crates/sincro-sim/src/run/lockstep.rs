@@ -112,8 +112,8 @@ impl LockStep {
         let step = experiment.step;
         let mut new = Self { world, control, sensors, signals, floats, commands, step, tick: 0, table, scripts };
         match &mut new.control {
-            Some(control) if control.is_continuous() => new.world.settle_start_with(0.0, control),
-            _ => new.world.settle_start(0.0),
+            Some(control) if control.is_continuous() => new.world.initialize_with(0.0, control),
+            _ => new.world.initialize(0.0),
         }
         new
     }

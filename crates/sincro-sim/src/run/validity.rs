@@ -41,7 +41,7 @@ impl Register {
             return;
         }
         let Self { counts, zero } = self;
-        world.with_seen(t, |seen| {
+        world.with_state_view(t, |seen| {
             kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
             let air = seen.model.wind().map(|wind| wind.at(t));
             for (rotor, counts) in seen.model.rotors().iter().zip(counts) {

@@ -22,7 +22,7 @@ mod running;
 
 pub(crate) use running::Sensors;
 
-use sincro_dynamics::geometry::{Field, Volume};
+use sincro_dynamics::geometry::{FieldOfView, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};
 
 use crate::experiment::Experiment;
@@ -106,9 +106,9 @@ pub struct Errors {
 impl SensorKind {
     /// What a proximity sensor looks into; none for others.
     #[must_use]
-    pub fn field(self) -> Option<Field> {
+    pub fn field(self) -> Option<FieldOfView> {
         match self {
-            Self::Proximity { volume, offset, range, .. } => Field::new(volume, offset, range),
+            Self::Proximity { volume, offset, range, .. } => FieldOfView::new(volume, offset, range),
             _ => None,
         }
     }

@@ -239,7 +239,7 @@ impl Desk<'_> {
     /// There is no such joint.
     pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, Refusal> {
         let joint = self.table.joint(handle)?;
-        let mut couplings = self.world.model().constraints().couplings.iter();
+        let mut couplings = self.world.model().constraints().gears.iter();
         let Some(coupling) = couplings.find(|c| c.dofs[1] == joint.v_idx) else { return Ok(None) };
         let master = self.table.joints().iter().find(|j| j.v_idx == coupling.dofs[0]);
         Ok(master.map(|master| (master.handle, coupling.offset, coupling.ratio)))

@@ -195,7 +195,7 @@ impl Rotor {
     /// Thrust, torque, inflow and power in air of `density` [kg/m³], at `speed` [rad/s] (negative: backwards), with the hub
     /// moving at `velocity` [m/s] relative to the air, in the rotor's axes.
     ///
-    /// Finite for finite arguments (velocities beyond [`FASTEST`](super::FASTEST) count as that); NaN for others. On dual numbers the
+    /// Finite for finite arguments (velocities beyond [`MAX_VELOCITY`](super::MAX_VELOCITY) count as that); NaN for others. On dual numbers the
     /// derivatives are exact.
     #[inline(always)]
     pub fn evaluate<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>) -> Load<R> {

@@ -64,13 +64,13 @@ pub struct Load<R> {
 
 /// Largest velocity `[m/s]` and speed `[rad/s]` that are taken as they are: beyond it the squares and cubes of the equations would overflow.
 /// Far beyond any physics, where only finiteness is promised.
-pub const FASTEST: f64 = 1e60;
+pub const MAX_VELOCITY: f64 = 1e60;
 
-/// `x` limited to ±[`FASTEST`]; what is not finite becomes NaN, because a limit hides no failure.
+/// `x` limited to ±[`MAX_VELOCITY`]; what is not finite becomes NaN, because a limit hides no failure.
 #[inline(always)]
 fn limited<R: Real>(x: R) -> R {
     // 0·x is 0 for a finite number and NaN for all others
-    x.clamp_abs(R::splat(FASTEST)) + R::zero() * x
+    x.clamp_abs(R::splat(MAX_VELOCITY)) + R::zero() * x
 }
 
 /// What is wrong with a number that must be within [least, most], if anything; `unit` may be empty.

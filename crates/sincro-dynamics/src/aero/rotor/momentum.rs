@@ -40,7 +40,7 @@ pub(super) struct Balance<R> {
 
 /// Most evaluations of f in one search: a Newton step that does not halve the one before last is replaced by a halving
 /// of the bracket. Usual are five; the limit is there for what is not a number and for roots of 1e-30 of the bracket.
-const MOST_STEPS: usize = 128;
+const MAX_ITERATIONS: usize = 128;
 
 /// f′ below this part of the velocities in it counts as zero: at a double root rounding leaves √ε = 1.5e-8 of it.
 const FLAT: f64 = 1e-8;
@@ -137,7 +137,7 @@ impl Balance<f64> {
     fn rising_root(&self, mut low: f64, mut high: f64, start: f64) -> f64 {
         let mut w = start;
         let (mut last, mut before_last) = (high - low, high - low);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_ITERATIONS {
             let (f, slope) = self.residual(w);
             if f > 0.0 {
                 high = w;
@@ -159,7 +159,7 @@ impl Balance<f64> {
 
 /// The point in [low, high] where `is_before` turns from true to false.
 fn bisect(mut low: f64, mut high: f64, is_before: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_ITERATIONS {
         let middle = low + 0.5 * (high - low);
         if middle <= low || middle >= high {
             break;
