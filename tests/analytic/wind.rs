@@ -80,7 +80,8 @@ fn turbulence_has_the_variance_and_autocorrelation_of_dryden() {
             worst[which] = worst[which].max(error);
         }
     }
-    // the variance to what the finite time leaves of products of neighbouring harmonics; the rest to two harmonics of 64
+    // the variance to what the finite time leaves of products of neighbouring harmonics; the rest to two harmonics of
+    // 64
     assert!(worst[0] < 0.02 && worst[1] < 2.0 / 64.0, "{worst:?}");
 }
 

@@ -1,8 +1,9 @@
 //! Many worlds of one structure, several at a time in the lanes of vector registers.
 //!
-//! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has the bits
-//! that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do together (drives with a
-//! limit, inputs with corners: each world would want its own sub-steps) is done one world at a time; the result does not tell.
+//! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has
+//! the bits that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do
+//! together (drives with a limit, inputs with corners: each world would want its own sub-steps) is done one world at a
+//! time; the result does not tell.
 //!
 //! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
 
@@ -21,13 +22,14 @@ use crate::world::{MethodKind, Stop, World};
 pub struct BatchWorld {
     /// Its model; all worlds of a batch have the same structure.
     pub model: Model<f64>,
-    /// Where it starts, and after the run where it has got to.
+    /// Initial state, and after the run the final one.
     pub state: State<f64>,
     /// Commands of every motor for every tick, tick by tick; empty: those in `state` throughout.
     pub commands: Vec<f64>,
-    /// Why it stopped before the end, if it did.
+    /// Reason why it stopped before the end, if it did.
     pub stop: Option<Stop>,
-    /// Coordinates and velocities at every recorded tick, one after the other (`n_q + n_v` a record); the start is the first.
+    /// Coordinates and velocities at every recorded tick, one after the other (`n_q + n_v` a record); the start is the
+    /// first.
     pub record: Vec<f64>,
 }
 
@@ -39,7 +41,7 @@ impl BatchWorld {
     }
 }
 
-/// How all worlds of a batch are advanced.
+/// Method, step and length of a batch, the same for all its worlds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BatchSettings {
     /// A fixed-step method.
@@ -225,7 +227,8 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// Marks what the drives hold for this tick: Euler reaches the velocity within the step, the others jump first.
+    /// Prescribes the locked degrees of freedom for this tick: Euler reaches the target velocity within the step, the
+    /// others jump first.
     #[inline(always)]
     fn drive(&mut self, is_euler: bool, h: f64) {
         let n_v = self.mechanism.model().n_v();

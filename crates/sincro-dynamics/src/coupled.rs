@@ -1,7 +1,9 @@
-//! What is integrated together with a mechanism and may drive it between ticks: a block diagram, for one.
+//! Coupled systems: continuous states integrated together with a mechanism, which may command it between ticks, such as
+//! a block diagram.
 //!
-//! The mechanism does not know what it is. At every evaluation it is first asked for the commands at that instant, then, with the
-//! accelerations that follow, for the rates of its own states. y = (the mechanism's, z).
+//! The mechanism does not know the other system. At every evaluation the system is first asked for the commands at that
+//! instant, then, with the accelerations that follow, for the derivatives of its own states. The joint state vector is
+//! y = (mechanism's y, z).
 
 use sincro_math::Real;
 
@@ -10,28 +12,30 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::scratch::Scratch;
 
-/// Something with continuous states of its own.
+/// Coupled system: continuous states z that are integrated together with a mechanism.
 pub trait CoupledSystem<R: Real> {
-    /// Its states z, as they are between steps.
+    /// States z, as they are between steps.
     fn states(&mut self) -> &mut [R];
 
-    /// Told before a sub-step: the instant of a jump at its end, else infinite.
+    /// Announces a sub-step: the time event at its end if there is one, else infinity.
     fn set_time_event(&mut self, event: f64);
 
-    /// The first instant after `t` at which it jumps or has a corner because of time alone.
+    /// Next time event: the first instant after `t` at which the system is discontinuous because of time alone.
     fn next_time_event(&self, t: f64) -> f64;
 
-    /// Writes the commands that it determines at this instant, with the states `z`; the others are held.
+    /// Writes the commands that the system determines at this instant, with the states `z`; the others are held.
     fn find_commands(&mut self, state_view: &mut StateView<'_, R>, z: &[R], commands: &mut [R]);
 
-    /// The rates of `z`, with the accelerations and motor torques that follow from the commands just given.
+    /// Writes the derivatives of `z`, with the accelerations and motor torques that follow from the commands just
+    /// given.
     fn slope(&mut self, state_view: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]);
 
-    /// −∂slopeᵢ/∂zᵢ at the instant of the last [`CoupledSystem::slope`], as far as known [1/s]; taken at the new state by implicit methods.
+    /// Diagonal of −∂f/∂z at the instant of the last [`CoupledSystem::slope`], as far as known [1/s]; implicit methods
+    /// evaluate it at the new state.
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
 }
 
-/// A mechanism looked at by its attachment.
+/// State view: the mechanism at one instant, as a coupled system or a sensor sees it.
 #[derive(Debug)]
 pub struct StateView<'a, R> {
     /// Time `[s]`.
@@ -46,11 +50,11 @@ pub struct StateView<'a, R> {
     pub rotors: &'a [R],
     /// Commands as they were last given; empty while they are being written.
     pub commands: &'a [R],
-    /// Memory for kinematics, of any content.
+    /// Working memory for kinematics, of any content.
     pub scratch: &'a mut Scratch<R>,
 }
 
-/// What follows from the commands.
+/// Response of the mechanism to the commands.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<'a, R> {
     /// Accelerations [rad/s²] or [m/s²].
@@ -59,7 +63,7 @@ pub struct Response<'a, R> {
     pub motor_torque: &'a [R],
 }
 
-/// No attachment.
+/// No coupling.
 #[derive(Clone, Copy, Debug)]
 pub struct NoCoupling;
 
@@ -87,14 +91,14 @@ fn state_view<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) 
     StateView { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
 }
 
-/// A mechanism with its attachment as one system.
+/// Mechanism and coupled system as one [`System`].
 #[derive(Debug)]
 pub struct Coupled<'a, R, A: ?Sized> {
     /// The mechanism.
     pub mechanism: &'a mut Mechanism<R>,
-    /// What is attached.
+    /// Coupled system.
     pub system: &'a mut A,
-    /// Memory as long as z.
+    /// Diagonal of −∂f/∂z, working memory as long as z.
     pub negated_jacobian_diagonal: &'a mut [R],
 }
 

@@ -13,7 +13,7 @@ use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 pub struct Energy<R> {
     /// ½ vᵀ M v, armature included.
     pub kinetic: R,
-    /// Of gravity, zero at the world's origin, and of springs, zero at rest.
+    /// Potential energy of gravity, zero at the world's origin, and of springs, zero at rest.
     pub potential: R,
 }
 

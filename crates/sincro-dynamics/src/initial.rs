@@ -1,4 +1,5 @@
-//! Whether a state can be a start: loops that are open, joints beyond their stops, bodies that overlap; and how redundant the closures are.
+//! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, and the mobility of
+//! the mechanism.
 
 use crate::integrate::System;
 use crate::mechanism::Mechanism;
@@ -6,54 +7,55 @@ use crate::mechanism::constraints::ActivationRule;
 use crate::model::Model;
 use crate::state::State;
 
-/// How far a closure is open.
+/// Constraint residual of a loop joint or gear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstraintResidual {
     /// Its name.
     pub name: String,
-    /// Between the ends, or from the distance wanted `[m]`; of a coupling, in the units of its second joint.
+    /// Distance between the ends, or deviation from the prescribed distance `[m]`; of a gear, in the units of its
+    /// second joint.
     pub distance: f64,
-    /// Between axes that should agree `[rad]`.
+    /// Angle between axes that should agree `[rad]`.
     pub angle: f64,
 }
 
-/// Two surfaces that overlap.
+/// Penetration of two surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Penetration {
     /// One body.
     pub a: String,
     /// The other.
     pub b: String,
-    /// How deep `[m]`.
+    /// Penetration depth `[m]`.
     pub depth: f64,
 }
 
-/// A joint beyond a stop.
+/// Joint position outside of a joint limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitViolation {
     /// Name of the joint.
     pub joint: String,
-    /// Where it is `[rad]` or `[m]`.
+    /// Position `[rad]` or `[m]`.
     pub position: f64,
     /// The limit `[rad]` or `[m]`.
     pub limit: f64,
 }
 
-/// Degrees of freedom and what takes them away.
+/// Mobility of a mechanism: degrees of freedom of the tree and the constraint equations on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mobility {
-    /// Of the tree.
+    /// Degrees of freedom of the tree.
     pub tree_dofs: usize,
-    /// Closed loops: closures and couplings.
+    /// Number of loop joints and gears.
     pub loops: usize,
-    /// Equations of those.
+    /// Number of their equations.
     pub equations: usize,
-    /// Equations that follow from others here.
+    /// Equations that depend on others in this state.
     pub redundant: usize,
 }
 
 impl Mobility {
-    /// What is left.
+    /// Returns the remaining degrees of freedom.
     #[must_use]
     pub fn dofs(&self) -> usize {
         (self.tree_dofs + self.redundant).saturating_sub(self.equations)
@@ -67,7 +69,7 @@ fn placed(model: &Model<f64>, x: &State<f64>) -> (Mechanism<f64>, Vec<f64>) {
     (mechanism, y)
 }
 
-/// How far every closure and coupling is open in a state.
+/// Constraint residuals of every loop joint and gear in a state.
 #[must_use]
 pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintResidual> {
     let set = model.constraints();
@@ -84,7 +86,7 @@ pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<Constrain
     loop_joints.chain(gears).collect()
 }
 
-/// Coordinates near those of a state that close all loops; none if there are none near.
+/// Coordinates near those of a state that satisfy all loop joints and gears; none if there are none nearby.
 #[must_use]
 pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     let (mut mechanism, mut y) = placed(model, x);
@@ -99,7 +101,7 @@ pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     (all && closed.q.iter().all(|q| q.is_finite())).then_some(closed.q)
 }
 
-/// Pairs of bodies that overlap, each with its greatest depth; compliant ones left out.
+/// Pairs of bodies that penetrate, each with its greatest depth; compliant pairs left out.
 #[must_use]
 pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     let set = model.constraints();
@@ -119,7 +121,7 @@ pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     found
 }
 
-/// Joints beyond their stops, by more than rounding.
+/// Joints outside of their limits by more than rounding.
 #[must_use]
 pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolation> {
     let beyond = model.constraints().limits.iter().filter_map(|limit| {
@@ -133,7 +135,7 @@ pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolatio
     beyond.collect()
 }
 
-/// Degrees of freedom in a state, closures counted.
+/// Mobility in a state, loop joints and gears counted.
 #[must_use]
 pub fn mobility(model: &Model<f64>, x: &State<f64>) -> Mobility {
     let set = model.constraints();

@@ -1,8 +1,8 @@
 //! What bodies do: the dynamics of kinematic trees in joint coordinates.
 //!
-//! A [`model::Model`] is built once and immutable; a [`state::State`] is exactly what must be saved to continue a run bit for
-//! bit; a [`scratch::Scratch`] holds what can be recomputed at any time. Every algorithm is a function of the three and
-//! is written once over [`Real`](sincro_math::Real).
+//! A [`model::Model`] is built once and immutable; a [`state::State`] is exactly what must be saved to continue a run
+//! bit for bit; a [`scratch::Scratch`] holds what can be recomputed at any time. Every algorithm is a function of the
+//! three and is written once over [`Real`](sincro_math::Real).
 //!
 //! | want | see |
 //! |---|---|
@@ -22,8 +22,8 @@
 //! | what is integrated along, such as a diagram | [`attachment`] |
 //! | many worlds at once | [`batch`] |
 //!
-//! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
-//! clocks, threads or logs in this crate.
+//! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z).
+//! No files, clocks, threads or logs in this crate.
 
 pub mod actuation;
 pub mod aero;

@@ -1,5 +1,5 @@
-//! Working memory of the recursions. It holds nothing that cannot be recomputed from model and state, and may be dropped at any
-//! time; it is allocated once and never grows.
+//! Working memory of the recursions. It holds nothing that cannot be recomputed from model and state, and may be
+//! dropped at any time; it is allocated once and never grows.
 
 use sincro_math::Real;
 
@@ -89,7 +89,8 @@ impl<R: Real> Scratch<R> {
         &self.poses
     }
 
-    /// Torque that each held degree of freedom needed beyond the given one in the last [`crate::recursions::aba::forward_dynamics`].
+    /// Torque that each held degree of freedom needed beyond the given one in the last
+    /// [`crate::recursions::aba::forward_dynamics`].
     #[must_use]
     pub fn reaction(&self) -> &[R] {
         &self.reaction

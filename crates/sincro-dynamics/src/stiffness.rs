@@ -1,8 +1,8 @@
-//! How fast springs and dampers of joints act on the inertia they meet: what an explicit method must resolve.
+//! Stiffness estimate: rates of springs and dampers of joints, which an explicit method must resolve.
 //!
-//! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything beyond left
-//! free ([`crate::recursions::aba::joint_inertias`]), the faster root of D s² + c s + k = 0. It is an estimate: coupling between joints is left
-//! out, and D changes with the pose.
+//! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything
+//! beyond left free ([`crate::recursions::aba::joint_inertias`]), the rate is that of the faster root of D s² + c s + k
+//! = 0. Coupling between joints is neglected, and D changes with the pose.
 
 use crate::actuation::MotorMode;
 use crate::model::Model;
@@ -27,7 +27,8 @@ pub struct Stiffness {
     pub inertia: f64,
 }
 
-/// The fastest spring or damper at a state, none if there is none. Joints held by ideal velocity motors are left out.
+/// Returns the fastest spring or damper at a state, none if there is none. Joints with ideal velocity motors are left
+/// out.
 #[must_use]
 pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     let inertias = joint_inertias(model, state);

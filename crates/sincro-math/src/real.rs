@@ -5,8 +5,8 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A real number: `f64`, a bundle of lanes, or a dual number.
 ///
-/// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch looks
-/// at one lane at a time ([`Real::lane`]).
+/// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch
+/// looks at one lane at a time ([`Real::lane`]).
 pub trait Real:
     Copy
     + Debug
@@ -24,7 +24,7 @@ pub trait Real:
     + SubAssign
     + MulAssign
 {
-    /// How many worlds stand side by side: 1 for `f64` and dual numbers.
+    /// Number of lanes: 1 for `f64` and dual numbers.
     const LANES: usize;
 
     /// The constant `x`, in every lane and without derivatives.
@@ -57,8 +57,9 @@ pub trait Real:
     /// derivatives by `x` and by `y`.
     fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self;
 
-    /// Runs a hot computation compiled for the best registers of this processor: lanes for their own instruction set, scalars for
-    /// the thirty-two registers of AVX-512. There is one compiled copy of a task for each kind of number, whoever calls it.
+    /// Runs a hot computation compiled for the best registers of this processor: lanes for their own instruction set,
+    /// scalars for the thirty-two registers of AVX-512. There is one compiled copy of a task for each kind of number,
+    /// whoever calls it.
     #[inline(always)]
     fn run_hot<T: Task>(task: T) -> T::Output {
         task.run()
@@ -94,7 +95,7 @@ pub trait Real:
         self.min(limit).max(-limit)
     }
 
-    /// Whether every lane is finite.
+    /// Returns true if every lane is finite.
     #[inline(always)]
     fn is_finite(self) -> bool {
         (0..Self::LANES).all(|k| self.lane(k).is_finite())
@@ -103,9 +104,9 @@ pub trait Real:
 
 /// A computation handed to [`Real::run_hot`]. `run` must be `#[inline(always)]`, and so must be what it calls.
 pub trait Task {
-    /// What it yields.
+    /// Result type.
     type Output;
 
-    /// Does it.
+    /// Runs the computation.
     fn run(self) -> Self::Output;
 }

@@ -29,13 +29,13 @@ pub struct AppliedWrench<R> {
     pub link: usize,
     /// Frame of application in the link.
     pub pose: Pose<R>,
-    /// Whether components are along the frame's axes; else along the world's.
+    /// True if components are along the frame's axes; else along the world's.
     pub in_body: bool,
     /// Force components `[N]`, one signal a lane each.
     pub force: [Vec<Signal>; 3],
     /// Torque components [N·m], one signal a lane each.
     pub torque: [Vec<Signal>; 3],
-    /// Where its six commands begin (force `[N]`, then torque [N·m]), if it takes any.
+    /// Index of the first of its six commands (force `[N]`, then torque [N·m]); none if it takes no commands.
     pub input: Option<usize>,
 }
 
@@ -60,12 +60,13 @@ impl<R: Real> AppliedWrench<R> {
     }
 }
 
-/// A constant force and torque, world axes, at a point of a link: what scripts and clients push with from outside the model.
+/// External force and torque in world axes at a point of a link, constant until it is removed: applied by scripts and
+/// clients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push<R> {
     /// The link.
     pub link: usize,
-    /// Where the force acts, link frame `[m]`.
+    /// Point of application, link frame `[m]`.
     pub point: Vec3<R>,
     /// World axes `[N]`.
     pub force: Vec3<R>,

@@ -1,17 +1,22 @@
-//! Drives: set-valued joint torques, that is velocity motors and Coulomb friction.
+//! Drives: set-valued joint torques of velocity motors and Coulomb friction.
 //!
-//! A drive wants a velocity w (friction: zero) and has a limit. Either it *holds* its joint at w with whatever torque that takes,
-//! up to the limit, or it *pulls* with its limit towards w. The state of a drive is −1, 0 (holding) or +1.
-//! A held degree of freedom is exact in the recursions ([`crate::recursions::aba::Held`]): no gain, no drift, no creep.
+//! A drive has a target velocity (zero for friction) and a torque limit. Its state is *locked* (0): the joint moves
+//! exactly at the target velocity, with any torque within the limit; or *saturated* (+1 or −1): the drive applies its
+//! limit towards the target velocity. The transition between the two is an event that the world locates
+//! ([`crate::world`]). A locked degree of freedom has a prescribed acceleration in the recursions
+//! ([`crate::recursions::aba::Prescribed`]): no gain, no drift, no creep.
+//!
+//! Law: |τ| ≤ τ_max, and τ = τ_max sign(v* − v) where v ≠ v*. Source: key `acary2008`, chapter 3 (friction as a set-valued
+//! law).
 
-/// What a drive is.
+/// Source of a set-valued joint torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveKind {
     /// Coulomb friction of the joint.
     Friction,
     /// Velocity or position motor of this index.
     Motor(usize),
-    /// Nothing moves: a degree of freedom of a force sensor.
+    /// Lock without a limit: a degree of freedom of a force sensor.
     Lock,
 }
 

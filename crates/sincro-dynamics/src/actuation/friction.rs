@@ -1,7 +1,8 @@
-//! Coulomb friction in a joint: a torque of at most `limit` that holds the joint still if it can, and else opposes the motion.
+//! Coulomb friction of a joint: a torque of magnitude at most `limit` that keeps the joint at rest if it can, and
+//! opposes the motion otherwise.
 //!
-//! As a drive ([`crate::actuation::drive`]) it is a velocity motor that wants zero velocity and is limited in torque; there is no
-//! smoothing, so that sticking does not creep.
+//! It is a drive ([`crate::actuation::drive`]) with target velocity zero. The law is not regularised, so a sticking
+//! joint does not creep.
 
 use sincro_math::Real;
 

@@ -1,15 +1,15 @@
-//! Force elements: what pushes and brakes the bodies, each with its torque, its energy or its power.
+//! Actuation and passive forces of joints: motors, drives, Coulomb friction, springs, dampers, torques given over time.
 //!
-//! | element | torque on its joint | stores | takes |
+//! | element | torque on its joint | potential energy | dissipated power |
 //! |---|---|---|---|
 //! | [`spring`] | −k (q − rest) | ½ k (q − rest)² | |
 //! | [`damper`] | −c q̇ | | c q̇² |
-//! | [`friction`] | ∓ limit, or whatever holds | | limit·|q̇| |
+//! | [`friction`] | locked: any torque within the limit; sliding: ∓ limit | | limit·\|q̇\| |
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`applied`] | a signal of time | | −τ q̇ |
-//! | [`gravity`] | through the base's acceleration | −m g·c | |
-//! | [`rotor`] | thrust and reaction at a hub | | what the shaft gives |
-//! | [`drag`] | −½ρ·abs(u)·(a ∘ u) − c ∘ u at a point | | −F·u |
+//!
+//! Gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy); elements
+//! in the air are in [`crate::aero`].
 
 pub mod applied;
 pub mod damper;

@@ -12,7 +12,7 @@
 
 use sincro_math::Real;
 
-/// What a motor does with its command.
+/// Control mode of a motor, which gives its command a meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MotorMode {
     /// Nothing.
@@ -68,13 +68,13 @@ impl Motor<f64> {
 }
 
 impl<R: Real> Motor<R> {
-    /// Whether the motor is a velocity constraint.
+    /// Returns true if the motor is a velocity constraint.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         matches!(self.mode, MotorMode::Velocity | MotorMode::Position)
     }
 
-    /// The velocity that a drive wants [rad/s] or [m/s] for a latched command, at coordinate `q` at the tick.
+    /// Target velocity of a drive [rad/s] or [m/s] for a latched command, at coordinate `q` at the tick.
     #[inline(always)]
     pub fn target_velocity(&self, q: R, command: R) -> R {
         match self.mode {
@@ -83,8 +83,8 @@ impl<R: Real> Motor<R> {
         }
     }
 
-    /// Torque in modes that are not constraints, and the implicit diagonal, for a step that takes dampers implicitly over
-    /// `steps.0` and springs over `steps.1` (0: explicit).
+    /// Torque in modes that are not constraints, and the implicit diagonal, for a step that takes dampers implicitly
+    /// over `steps.0` and springs over `steps.1` (0: explicit).
     #[inline(always)]
     pub(crate) fn torque(&self, q: R, v: R, command: R, steps: (R, R)) -> (R, R) {
         match self.mode {
@@ -92,7 +92,7 @@ impl<R: Real> Motor<R> {
             MotorMode::Spring => {
                 let wanted = self.stiffness * (command - (q + steps.1 * v)) - self.damping * v;
                 let implicit = steps.0 * (self.damping + steps.1 * self.stiffness);
-                // beyond its limit the motor pulls constantly
+                // a saturated motor has a constant torque
                 let within = wanted.abs().if_less(self.max_torque, implicit, R::zero());
                 (wanted.clamp_abs(self.max_torque), within)
             }

@@ -1,10 +1,11 @@
 //! Drag of a body in the air that moves past it.
 //!
-//! F = −½ρ |u| (a ∘ u) − c ∘ u, u = v − wind, componentwise (∘) in the axes of the element, at its origin, the centre of
-//! pressure. Equal areas a give the drag of a ball, ½ρ a |u|² against u whatever its direction; c is what creeping flow or a
-//! linearised model gives. Both brake: −F·u ≥ 0, the power that the air takes as heat.
+//! F = −½ρ |u| (a ∘ u) − c ∘ u, u = v − wind, componentwise (∘) in the axes of the element, at its origin, the centre
+//! of pressure. Equal areas a give the drag of a ball, ½ρ a |u|² against u whatever its direction; c is what creeping
+//! flow or a linearised model gives. Both brake: −F·u ≥ 0, the power that the air takes as heat.
 //!
-//! In wind the force also does work: F·v = −D + F·wind, D = −F·u. The first is dissipation, the second the work of the wind.
+//! In wind the force also does work: F·v = −D + F·wind, D = −F·u. The first is dissipation, the second the work of the
+//! wind.
 //!
 //! Source: key `leishman2006`, equivalent flat-plate areas.
 //!
@@ -35,7 +36,7 @@ pub struct AirDrag<R> {
     pub density: f64,
 }
 
-/// What the air does to a drag element.
+/// Aerodynamic force on a drag element.
 #[derive(Clone, Copy, Debug)]
 pub struct Resistance<R> {
     /// Force on the centre of pressure, axes of the element `[N]`.
@@ -45,8 +46,8 @@ pub struct Resistance<R> {
 }
 
 impl<R: Real> AirDrag<R> {
-    /// Velocity of the centre of pressure in the air [m/s], axes of the element, for the twist of its link in link axes and the
-    /// link's pose in the world.
+    /// Velocity of the centre of pressure in the air [m/s], axes of the element, for the twist of its link in link axes
+    /// and the link's pose in the world.
     #[inline(always)]
     pub fn velocity(&self, twist: &Motion<R>, x_wl: &Pose<R>, air: Option<&Air<'_>>) -> Vec3<R> {
         velocity_in_air(&self.pose, twist, x_wl, air)

@@ -1,21 +1,22 @@
 //! Wind: the velocity of the air as a function of time and height, and of nothing else.
 //!
-//! There is no state and no filter: the same instant has the same wind, whichever step or order asks for it, so integrators
-//! may go back, and a snapshot needs nothing of it. An instant ([`Wind::at`]) costs a few operations, with turbulence 192
-//! sines; a place in it a few operations more.
+//! There is no state and no filter: the same instant has the same wind, whichever step or order asks for it, so
+//! integrators may go back, and a snapshot needs nothing of it. An instant ([`Wind::at`]) costs a few operations, with
+//! turbulence 192 sines; a place in it a few operations more.
 //!
-//! Source: key `mil-f-8785c`, section 3.7: logarithmic shear, discrete gust of 1 − cosine, Dryden's spectra at low altitude.
+//! Source: key `mil-f-8785c`, section 3.7: logarithmic shear, discrete gust of 1 − cosine, Dryden's spectra at low
+//! altitude.
 //!
 //! **Turbulence.** Dryden's spectra, each with ∫₀^∞ Φ dω = σ²,
 //!
 //! Φu(ω) = σu² (2/π)(Lu/V) / (1 + x²), x = Lu ω/V;
 //! Φv(ω) = σv² (1/π)(Lv/V)(1 + 3x²)/(1 + x²)², x = Lv ω/V; Φw likewise with Lw,
 //!
-//! are not filtered out of noise here but summed: [`N_HARMONICS`] cosines of equal variance σ²/N and random phase. Their
-//! frequencies divide the spectrum into N parts of equal area, one drawn at random in each, so that nothing repeats with a
-//! period. The band ends at x = [`BAND`]; the tail beyond it, 0.6 % (u) and 1.0 % (v, w) of the variance, is moved into the
-//! band, so that the variance is σ² exactly. Autocorrelations are σu² e^{−r} and σv² e^{−r}(1 − r/2), with r = Vτ/L, to within
-//! about 1/N.
+//! are not filtered out of noise here but summed: [`N_HARMONICS`] cosines of equal variance σ²/N and random phase.
+//! Their frequencies divide the spectrum into N parts of equal area, one drawn at random in each, so that nothing
+//! repeats with a period. The band ends at x = [`BAND`]; the tail beyond it, 0.6 % (u) and 1.0 % (v, w) of the
+//! variance, is moved into the band, so that the variance is σ² exactly. Autocorrelations are σu² e^{−r} and σv²
+//! e^{−r}(1 − r/2), with r = Vτ/L, to within about 1/N.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -55,24 +56,25 @@ pub enum Profile {
 /// A gust (A/2)(1 − cos(π s)), s the time since its start by its rise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gust {
-    /// Where it begins `[s]`.
+    /// Start `[s]`.
     pub start: f64,
     /// Time to the peak `[s]`.
     pub rise: f64,
     /// Velocity at the peak `[m/s]`, world axes.
     pub peak: [f64; 3],
-    /// Whether it stays at its peak, as in the source; else it falls as it rose.
+    /// True if it stays at its peak, as in the source; else it falls as it rose.
     pub holds: bool,
 }
 
-/// How strong turbulence is, and how long.
+/// Intensity and length scale of turbulence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scales {
     /// As [`dryden_scales`] gives them near the ground.
     LowAltitude {
         /// Mean wind at 20 feet, W₂₀ `[m/s]`.
         wind_at_20_feet: f64,
-        /// Height h `[m]`, 3.048 to 304.8: lengths and deviations are those at this height, whatever height is asked for.
+        /// Height h `[m]`, 3.048 to 304.8: lengths and deviations are those at this height, whatever height is asked
+        /// for.
         height: f64,
     },
     /// Given outright.
@@ -95,12 +97,12 @@ impl Scales {
     }
 }
 
-/// Where Dryden's turbulence is met.
+/// Dryden turbulence with its seed, scales and airspeed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurbulenceSpec {
     /// Another seed is another turbulence with the same spectra.
     pub seed: u64,
-    /// How strong it is, and how long.
+    /// Intensity and length scale.
     pub scales: Scales,
     /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind.
     pub airspeed: f64,
@@ -203,7 +205,7 @@ impl Wind {
         }
     }
 
-    /// The first instant after `t` `[s]` at which a gust begins or has done; infinite if there is none.
+    /// Next time event: the first instant after `t` `[s]` at which a gust begins or ends; infinite if there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         let ends = self.gusts.iter().flat_map(|g| [g.start, g.start + if g.holds { 1.0 } else { 2.0 } * g.rise]);
@@ -315,7 +317,7 @@ impl Component {
     }
 }
 
-/// Where in the band the rising function `area` has the value `wanted`, by halving to the last bit but a few.
+/// Inverse of the increasing function `area` at `wanted` on the band, by bisection to within a few bits.
 fn inverse(area: fn(f64) -> f64, wanted: f64) -> f64 {
     let (mut low, mut high) = (0.0, BAND);
     for _ in 0..60 {

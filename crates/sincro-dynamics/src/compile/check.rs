@@ -1,4 +1,4 @@
-//! What the builder refuses, and what it only warns of.
+//! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
 use crate::aero::rotor::RotorLaw;
 use crate::joint::JointKind;

@@ -1,7 +1,7 @@
-//! From the user's tree to flat links.
+//! Compilation of a model: from the user's tree of objects to a flat list of links.
 //!
-//! Every node gets a *carrier*: the link it is fixed in (or the world) and its pose there. A joint starts one new link for each
-//! of its stages. The inertias of all bodies with the same carrier are summed.
+//! Every node gets a *carrier*: the link it is fixed in (or the world) and its pose there. A joint starts one new link
+//! for each of its stages. The inertias of all bodies with the same carrier are summed.
 
 mod check;
 
@@ -21,7 +21,8 @@ use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint};
 use crate::model::{MassProperties, Model};
 use crate::spatial::{Mat3, Pose, RigidInertia, Vec3};
 
-/// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point leaves.
+/// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point
+/// leaves.
 const ON_AXIS: f64 = 1e-15;
 
 #[derive(Clone, Copy)]
@@ -48,10 +49,10 @@ impl ModelBuilder {
     ///
     /// # Errors
     ///
-    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is not
-    /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
-    /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
-    /// takes its speed from.
+    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is
+    /// not positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction,
+    /// armature or limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not
+    /// turn with the joint it takes its speed from.
     pub fn build(&self) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
         compile(self)
     }

@@ -1,44 +1,45 @@
-//! What a guess about every block leaves unknown, and the linear system of it.
+//! Linear system of the current active set: the unknown multipliers and the rates they must bring to zero.
 //!
-//! | unknown | what it moves | what it makes zero |
+//! | unknown | forces it moves | condition |
 //! |---|---|---|
-//! | a row that holds (closures, what sticks) | its force | its rate |
-//! | the normal force of what presses | it, and the friction c λₙ d of each group that slips along d | the normal rate |
-//! | the force across the slipping, where it can turn | λₑ along e ⟂ d | wₑ + give λₑ |
+//! | bilateral row, or row of a sticking group | its multiplier | its rate is zero |
+//! | normal force λₙ of a closed contact | λₙ, and μ λₙ d of each group slipping along d | the normal rate is zero |
+//! | friction across the slip direction, where it can turn | λₑ along e ⟂ d | wₑ + c λₑ = 0 |
 //!
-//! Friction that slips opposes the slipping. With d = −w/|w| known from before, the change of direction is linear in the rate across:
-//! λₑ = −(c λₙ/|w|) wₑ, so give = |w|/(c λₙ). That is Newton's method for the cone.
+//! Slipping friction opposes the slip rate. With d = −w/|w| of the last iterate, the change of direction is linear in
+//! the rate across: λₑ = −(μ λₙ/|w|) wₑ, so c = |w|/(μ λₙ). This is Newton's method for the friction cone. Source: key
+//! `acary2008`, chapter 13.
 
 use sincro_math::Real;
 
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use super::dense::Dense;
 
-/// A row of A with its coefficient.
+/// Row of G with its coefficient.
 type Term<R> = (usize, R);
 
-/// One unknown: the terms it moves and the terms it is tested with.
+/// Unknown of the linear system.
 #[derive(Clone, Copy, Debug)]
 enum Unknown {
-    /// A row that holds.
+    /// Bilateral row, or row of a sticking group.
     Row(usize),
-    /// The normal row of a block.
+    /// Normal row of a unilateral constraint.
     Normal(usize),
-    /// The direction across a slipping group: block and group.
+    /// Direction across a slipping group: indices of constraint and group.
     Across(usize, usize),
 }
 
-/// Most terms of an unknown: a normal row and three groups of friction.
+/// Maximum number of terms of an unknown: a normal row and three groups of friction.
 const MAX_TERMS: usize = 6;
 
-/// The unknowns of a guess; grows to the largest problem it has seen.
+/// Unknowns of an active set; grows to the largest problem it has seen.
 #[derive(Clone, Debug)]
 pub(crate) struct ActiveSet<R> {
     unknowns: Vec<Unknown>,
     tested: Vec<usize>,
     across: Vec<usize>,
     column: Vec<R>,
-    /// A λ + b.
+    /// w = G λ + b.
     pub rates: Vec<R>,
 }
 
@@ -48,13 +49,13 @@ impl<R> Default for ActiveSet<R> {
     }
 }
 
-/// The problem of one instant: w = A λ + b.
+/// Frictional contact problem w = G λ + b at one instant.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactProblem<'a, R> {
-    /// Row by row, symmetric.
+    /// Delassus matrix G, row by row, symmetric.
     pub a: &'a [R],
     pub b: &'a [R],
-    /// Rows without bounds come first.
+    /// Number of bilateral rows, which come first.
     pub n_free: usize,
 }
 
@@ -86,7 +87,7 @@ impl<R: Real> ActiveSet<R> {
         self.unknowns.len()
     }
 
-    /// Row of A that holds unknown `k`, for what is not across.
+    /// Row of G whose multiplier unknown `k` is; none for an unknown across a slip direction.
     pub fn row(&self, k: usize, blocks: &[UnilateralConstraint<R>]) -> Option<usize> {
         match self.unknowns[k] {
             Unknown::Row(row) => Some(row),
@@ -95,7 +96,7 @@ impl<R: Real> ActiveSet<R> {
         }
     }
 
-    /// Lists what the blocks leave unknown, and makes λ fit what they say.
+    /// Lists the unknowns of the current contact modes, and makes λ consistent with the modes.
     pub fn take(&mut self, n_free: usize, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
         self.unknowns.clear();
         self.unknowns.extend((0..n_free).map(Unknown::Row));
@@ -118,11 +119,11 @@ impl<R: Real> ActiveSet<R> {
         }
     }
 
-    /// The rates that λ makes.
+    /// Finds the rates w of λ.
     pub fn find_rates(&mut self, problem: &ContactProblem<'_, R>, lambda: &[R]) {
         self.rates.clear();
         self.rates.extend_from_slice(problem.b);
-        // A is symmetric: its columns are its rows
+        // G is symmetric: its columns are its rows
         for (i, x) in lambda.iter().enumerate().filter(|(_, x)| **x != R::zero()) {
             for (rate, a) in self.rates.iter_mut().zip(problem.row(i)) {
                 *rate += *a * *x;
@@ -130,7 +131,8 @@ impl<R: Real> ActiveSet<R> {
         }
     }
 
-    /// The linear system: how the tested rates answer the unknowns, and what they are to change by. Rates must be those of λ.
+    /// Fills the linear system: derivatives of the tested rates by the unknowns, and minus the rates. `rates` must be
+    /// those of λ.
     pub fn system(
         &mut self,
         problem: &ContactProblem<'_, R>,
@@ -163,7 +165,7 @@ impl<R: Real> ActiveSet<R> {
         self.column = column;
     }
 
-    /// The row that each unknown is tested with (for what is tested across, any), and which are tested across.
+    /// Lists the row that each unknown is tested with, and the unknowns tested across a slip direction.
     fn list_tested(&mut self, blocks: &[UnilateralConstraint<R>]) {
         self.tested.clear();
         self.across.clear();
@@ -188,7 +190,7 @@ impl<R: Real> ActiveSet<R> {
         }
     }
 
-    /// What all rates answer to one unknown.
+    /// Derivatives of all rates by one unknown.
     fn answer(
         &self,
         problem: &ContactProblem<'_, R>,
@@ -227,7 +229,7 @@ fn across<R: Real>(group: &FrictionGroup<R>, x: &[R]) -> R {
     d0 * x[group.row + 1] - d1 * x[group.row]
 }
 
-/// The forces that an unknown moves.
+/// Multipliers that an unknown moves.
 fn moved<'a, R: Real>(
     unknown: Unknown,
     blocks: &[UnilateralConstraint<R>],
@@ -257,8 +259,8 @@ fn moved<'a, R: Real>(
     &terms[..n]
 }
 
-/// Writes what a block's state says of its forces: none where it lets go, the limit along its direction where it slips, and across it what there was
-/// if it can turn.
+/// Makes the multipliers of a constraint consistent with its mode: zero if open, at the friction limit along the
+/// direction if slipping, the component across kept if it can turn.
 fn impose<R: Real>(block: &UnilateralConstraint<R>, lambda: &mut [R]) {
     if let Some(force) = block.given {
         lambda[block.row] = force;

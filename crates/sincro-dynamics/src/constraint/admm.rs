@@ -1,38 +1,41 @@
-//! Forces from nothing: operator splitting for w = A λ + b with cones.
+//! ADMM for the frictional contact problem w = G λ + b, λ ∈ K, used when the active-set iteration does not converge.
 //!
-//! Where a guess about who sticks, slips and lets go does not come right by being mended, this finds the forces without one: x obeys the linear
-//! system, y the cones, z is what keeps them apart (the alternating direction method of multipliers). Friction is no optimality condition of anything; with
-//! the normal rate shifted by c |w_t| it is (de Saxcé), and the shift is taken from the last iterate. Rows are scaled to a
-//! diagonal of one, each group of friction as a whole, so that discs stay discs. Redundant contacts share the load evenly, from where they started.
-//! The result is feasible always and as exact as the tolerance; [`super::solver`] makes it exact.
+//! The alternating direction method of multipliers splits the problem: x satisfies the linear system, y lies in the
+//! product K of friction cones, z is the scaled multiplier of x = y. Coulomb friction is not associated; the de Saxcé
+//! correction wₙ + μ|w_t| turns it into a cone complementarity problem, and the correction is taken from the last
+//! iterate. Rows are scaled to a unit diagonal, each friction group as a whole, so that discs stay discs. Redundant
+//! contacts share the load evenly, relative to the start. The result is always feasible, and accurate to the tolerance;
+//! [`super::solver`] makes it exact by the linear system of the active set that it implies.
 //!
-//! Sources: keys `acary2008` (section 3.9.4, the shift), `carpentier2024` (the method).
+//! x ← (G + ρ 1)⁻¹ (ρ y − z − g − s), y ← P_K(x + z/ρ), z ← z + ρ (x − y), with s the de Saxcé shift.
+//!
+//! Sources: keys `acary2008` (section 3.9.4, the correction), `carpentier2024` (the method).
 
 use super::active_set::{ActiveSet, ContactProblem};
 use super::cone::{FrictionGroup, UnilateralConstraint};
 use super::dense::{Dense, Factor};
 use sincro_math::Real;
 
-/// Most iterations.
+/// Iteration limit; beyond it the last iterate is returned with its residual.
 const MAX_ITERATIONS: usize = 4000;
 
-/// Iterations between looks at the balance of the two residuals.
+/// Iterations between updates of the penalty ρ.
 const BALANCE: usize = 20;
 
-/// Scaled forces over the largest rate beyond which nothing comes of it.
+/// Ratio of scaled forces to the largest rate beyond which the iteration has diverged.
 const DIVERGED: f64 = 1e9;
 
-/// Share by which the discs are made smaller: what sticks at its very limit, of redundant contacts, is then found a little inside, where the linear
-/// system can make it exact; what slips is told by its rate.
+/// Relative reduction of the friction discs: a group that sticks exactly at its limit, of redundant contacts, is then
+/// found a little inside, where the linear system can make it exact; slipping groups are recognised by their rate.
 const INSIDE: f64 = 1e-5;
 
-/// Share of the largest rate that makes a group at its limit one that slips.
+/// Slip threshold of a group at its limit, relative to the largest rate.
 const SLIPS: f64 = 1e-6;
 
-/// Largest change, as a share of the largest force and rate, that ends the iterations.
+/// Convergence tolerance of both residuals, relative to the largest force and the largest rate.
 const TOLERANCE: f64 = 1e-12;
 
-/// A disc of friction among the unknowns.
+/// Friction disc among the unknowns.
 #[derive(Clone, Copy, Debug)]
 struct Disc {
     first: usize,
@@ -41,7 +44,7 @@ struct Disc {
     size: f64,
 }
 
-/// A normal force and its discs; the normal force may be given.
+/// Friction cone: a normal force, which may be prescribed, and its discs.
 #[derive(Clone, Copy, Debug)]
 struct Cone {
     normal: Option<usize>,
@@ -67,7 +70,8 @@ pub(crate) struct Admm {
 }
 
 impl Admm {
-    /// Prepares the problem that is left when nothing is guessed. `blocks` must be [`activate_all`]ed; λ is where it starts from.
+    /// Prepares the problem of all constraints closed and sticking. `blocks` must be the result of [`activate_all`]; λ
+    /// is the start.
     pub fn begin<R: Real>(
         &mut self,
         problem: &ContactProblem<'_, R>,
@@ -143,7 +147,7 @@ impl Admm {
         self.factor.factor(n, |i, j| if i == j { matrix[i * n + j] + rho } else { matrix[i * n + j] });
     }
 
-    /// Goes on for `iterations`; says whether nothing moves any more, or never will.
+    /// Runs up to `iterations`; returns true if it has converged, diverged or reached the limit.
     pub fn run(&mut self, iterations: usize) -> bool {
         let mut since = 0;
         for _ in 0..iterations {
@@ -158,7 +162,7 @@ impl Admm {
                 return true;
             }
             if forces > DIVERGED * rates || !forces.is_finite() {
-                // sliding friction can make a problem without a solution (Painlevé): no force is better than any
+                // sliding friction can make a problem without a solution (Painlevé paradox): zero forces are returned
                 self.y.fill(0.0);
                 return true;
             }
@@ -170,7 +174,7 @@ impl Admm {
         self.iterations >= MAX_ITERATIONS
     }
 
-    /// Keeps the two residuals of one size.
+    /// Adapts ρ so that the primal and the dual residual stay of one magnitude.
     fn balance(&mut self, primal: f64, dual: f64) {
         let ratio = (primal / dual.max(f64::MIN_POSITIVE)).clamp(1e-4, 1e4).sqrt();
         if (0.5..2.0).contains(&ratio) {
@@ -183,7 +187,7 @@ impl Admm {
         }
     }
 
-    /// One iteration; how far x and y are apart, and by how much the rates moved.
+    /// One iteration; returns the primal residual |x − y| and the dual residual ρ|Δy|.
     fn iterate(&mut self) -> (f64, f64) {
         let n = self.g.len();
         for cone in &self.cones {
@@ -197,7 +201,7 @@ impl Admm {
         self.factor.solve(&mut self.x);
         let (mut apart, mut moved) = (0.0_f64, 0.0_f64);
         self.last.clone_from(&self.y);
-        // what is not in a cone is free
+        // unknowns outside of every cone are unbounded
         for k in 0..n {
             self.y[k] = self.x[k] + self.z[k] / self.rho;
         }
@@ -213,7 +217,7 @@ impl Admm {
         (apart, moved)
     }
 
-    /// Writes the feasible forces, and what they say of the blocks.
+    /// Writes the feasible forces and the contact modes that they imply.
     pub fn finish<R: Real>(&self, active_set: &ActiveSet<R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         for k in 0..self.y.len() {
             if let Some(row) = active_set.row(k, blocks) {
@@ -241,7 +245,7 @@ impl Admm {
     }
 }
 
-/// A group slips with its force as it is, and gives way across it.
+/// Sets a group to slip along its force, with a compliance across it.
 fn slip<R: Real>(group: &mut FrictionGroup<R>, force: &[f64], across: f64) {
     let size = norm(force);
     let mut d = [R::zero(); 2];
@@ -251,7 +255,7 @@ fn slip<R: Real>(group: &mut FrictionGroup<R>, force: &[f64], across: f64) {
     group.slip(d, Some(R::splat(across)));
 }
 
-/// Makes every block press and every group stick that need not slide: nothing is guessed.
+/// Sets every constraint closed and every group sticking unless it slides with a velocity.
 pub(crate) fn activate_all<R: Real>(blocks: &mut [UnilateralConstraint<R>]) {
     for block in blocks.iter_mut() {
         block.open = false;
@@ -268,11 +272,12 @@ fn norm(x: &[f64]) -> f64 {
     }
 }
 
-/// The nearest point of a cone: every group of friction within its share of one normal force.
+/// Projection onto a friction cone: every group within its share of one normal force.
 fn project(cone: &Cone, y: &mut [f64]) {
     let mut limit = 1.0;
     if let Some(normal) = cone.normal {
-        // least (n − n₀)² + Σ max(0, |x_g| − c_g n)²: who is beyond, is found by trying; there are three at most
+        // minimises (n − n₀)² + Σ max(0, |x_g| − c_g n)²; the active terms are found by iteration, there are three at
+        // most
         let mut n = y[normal];
         for _ in 0..4 {
             let (mut top, mut bottom) = (y[normal], 1.0);

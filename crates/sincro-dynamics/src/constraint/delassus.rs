@@ -1,8 +1,9 @@
-//! Responses: M⁻¹ times a vector of joint torques, in time proportional to the number of links, and J M⁻¹ Jᵀ, with what forward dynamics left
+//! Delassus matrix G = J M⁻¹ Jᵀ (`n_rows × n_rows`) and products with M⁻¹, from the factors that forward dynamics left
 //! in the scratch.
 //!
-//! For the first, the second half of the articulated-body algorithm with velocities, gravity and bias forces zero. Held degrees of freedom do
-//! not respond; what they need instead is added to their reaction. Source: key `featherstone2008`, section 7.3.
+//! M⁻¹ τ ([`InverseMass`]) is the second half of the articulated-body algorithm with velocities, gravity and bias
+//! forces zero, linear in the number of links. Prescribed degrees of freedom do not respond; the torque they need
+//! instead is added to their reaction. Source: key `featherstone2008`, section 7.3.
 
 use sincro_math::{Real, Task};
 
@@ -12,7 +13,7 @@ use crate::model::Model;
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
 use crate::spatial::{Force, Motion};
 
-/// Working memory of [`Response::find`]: forces and accelerations of the links, what each degree of freedom gives way.
+/// Working memory of [`InverseMass::find`]: forces and accelerations of the links, solution of each degree of freedom.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InverseMass<R> {
     force: Vec<Force<R>>,
@@ -21,7 +22,7 @@ pub(crate) struct InverseMass<R> {
     torque: Vec<R>,
     /// First link of the tree that each link belongs to.
     tree: Vec<u32>,
-    /// Whether anything pushes in a tree.
+    /// True if a torque acts in a tree.
     touched: Vec<bool>,
 }
 
@@ -43,7 +44,8 @@ impl<R: Real> InverseMass<R> {
         }
     }
 
-    /// `out = M⁻¹ torque`; with `reaction`, what held degrees of freedom need against it is added there.
+    /// Computes `out = M⁻¹ torque`; with `reaction`, the torques that prescribed degrees of freedom need are added
+    /// there.
     pub fn find(
         &mut self,
         model: &Model<R>,
@@ -107,10 +109,12 @@ impl<R: Real> InverseMass<R> {
     }
 }
 
-/// A = J M⁻¹ Jᵀ without M⁻¹: what the articulated-body algorithm leaves of a row's wrench at every degree of freedom on its way to the base, over √D.
+/// Factors of the Delassus matrix: for every row and degree of freedom on the way to the base, the innovation of the
+/// row's wrench over √D.
 ///
-/// With M = (I + …) D (I + …)ᵀ factored as that algorithm does it, A is the sum over the degrees of freedom of products of these, and a row costs as much
-/// as its way is long. Source: keys `featherstone2008` (section 7.3), `jain2011` (chapter 7, the factors).
+/// With M = (1 + …) D (1 + …)ᵀ factored as the articulated-body algorithm does it, G is the sum over the degrees of
+/// freedom of products of these, and a row costs as much as its way to the base is long. Sources: keys
+/// `featherstone2008` (section 7.3), `jain2011` (chapter 7, innovations factorisation).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Delassus<R> {
     /// U of each degree of freedom, world axes, about the world's origin.
@@ -139,7 +143,7 @@ impl<R: Real> Delassus<R> {
         self.values.reserve((m * self.u.len()).saturating_sub(self.values.len()));
     }
 
-    /// A of `rows`, row by row, from what forward dynamics left in the scratch.
+    /// Delassus matrix of `rows`, row by row, from the factors that forward dynamics left in the scratch.
     pub fn products(
         &mut self,
         model: &Model<R>,
@@ -175,7 +179,8 @@ impl<R: Real> Delassus<R> {
         }
     }
 
-    /// One row from its two ends to the base; where the ways meet, what is left of both goes on together.
+    /// Carries the wrench of one row from its two links to the base; where the two ways meet, the rest of both goes on
+    /// together.
     fn descend(&mut self, model: &Model<R>, columns: &[Motion<R>], row: &Row<R>, (i, m): (usize, usize)) {
         let mut ends = [(row.a, row.wa), (row.b, -row.wb)];
         for (end, (dof, _)) in ends.iter_mut().zip(&row.joints) {
@@ -212,7 +217,7 @@ impl<R: Real> Delassus<R> {
     }
 }
 
-/// Sums over the degrees of freedom of the products of what the rows leave there.
+/// Sum over the degrees of freedom of the products of the factors.
 struct Products<'a, R> {
     m: usize,
     values: &'a [R],
@@ -227,7 +232,7 @@ impl<R: Real> Task for Products<'_, R> {
         let Self { m, values, a } = self;
         for values in values.chunks_exact(m) {
             for (i, x) in values.iter().enumerate() {
-                // most rows do not pass most degrees of freedom
+                // most rows do not pass through most degrees of freedom
                 if *x == R::zero() {
                     continue;
                 }
@@ -299,7 +304,7 @@ impl<R: Real> StageVisitor for Down<'_, R> {
             a += S::column(self.link, j, acceleration);
             self.out[j] = self.link.signed::<S>(acceleration);
             if let Some(reaction) = &mut reaction {
-                // of a free degree of freedom this is zero
+                // zero for a degree of freedom that is not prescribed
                 let needed = dof.d * acceleration + along - self.given[j];
                 let held = dof.inv_d.abs().if_less(R::splat(f64::MIN_POSITIVE), needed, R::zero());
                 reaction[j] += self.link.signed::<S>(held);

@@ -1,4 +1,4 @@
-//! Closures: what joins two links that the tree leaves apart, and couplings of joints.
+//! Rows and residuals of loop joints (loop-closure constraints).
 //!
 //! | kind | residual (world axes) | rows |
 //! |---|---|---|
@@ -6,7 +6,9 @@
 //! | hinge | the point's, and xₐ·z_b, yₐ·z_b | 5 |
 //! | weld | the point's, and xₐ·y_b, yₐ·z_b, zₐ·x_b | 6 |
 //! | distance | \|pₐ − p_b\| − length | 1 |
-//! | coupling | q₂ − ratio·q₁ − offset | 1 |
+//! | gear (in `mod.rs`) | q₂ − ratio·q₁ − offset | 1 |
+//!
+//! Source: key `featherstone2008`, chapter 8.
 
 use sincro_math::Real;
 
@@ -16,7 +18,7 @@ use crate::model::{Anchor, LoopJoint, LoopJointKind};
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Pose, Vec3};
 
-/// An anchor at one instant.
+/// Anchor at one instant, world axes.
 struct End<R> {
     link: u32,
     pose: Pose<R>,
@@ -32,7 +34,7 @@ fn end<R: Real>(anchor: &Anchor, scratch: &Scratch<R>, motions: &Motions<R>) -> 
 }
 
 impl LoopJoint {
-    /// Adds the rows and residuals at the poses of `scratch` and the twists of `motions`.
+    /// Appends rows and residuals at the poses of `scratch` and the twists of `motions`.
     pub(crate) fn rows<R: Real>(
         &self,
         scratch: &Scratch<R>,
@@ -71,7 +73,7 @@ impl LoopJoint {
         }
     }
 
-    /// How far it is open `[m]`, and the angle between the axes that should agree `[rad]`.
+    /// Constraint residual: distance `[m]`, and angle between the axes that should agree `[rad]`.
     pub(crate) fn residual(&self, scratch: &Scratch<f64>) -> (f64, f64) {
         let pose = |x: &Anchor| {
             if x.link == WORLD { x.pose } else { scratch.poses[x.link as usize].compose(&x.pose) }
@@ -91,7 +93,7 @@ impl LoopJoint {
     }
 }
 
-/// A row along `n` between two points that may lie apart.
+/// Row along `n` between two points that may lie apart.
 fn along<R: Real>(a: &End<R>, b: &End<R>, n: Vec3<R>, n_dot: Vec3<R>) -> Row<R> {
     let mut row = Row::between(a.link, b.link, force_at(a.pose.pos, n), force_rate(a.pose.pos, n, a.p_dot, n_dot));
     row.wb = force_at(b.pose.pos, n);

@@ -1,25 +1,35 @@
-//! The one constraint solver: closed loops, couplings, limits of joints and contacts, over the reduced coordinates.
+//! Constraint solver in generalized coordinates: loop joints, gears, joint limits and contacts with friction.
 //!
-//! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built row
-//! by row from what the articulated-body recursion makes of each (`delassus`), so that held degrees of freedom (ideal motors, sticking joint
-//! friction) and the implicit terms of an integrator are in it for nothing. Nothing is soft: no gain, no penalty, no drift to tune. After each
-//! accepted sub-step the world projects positions and velocities in the metric of the mass matrix.
+//! The Lagrange multipliers λ of all constraints solve one mixed complementarity problem. With w = J v̇ + J̇ v at the
+//! acceleration level (or J v⁺/h at the velocity level):
 //!
-//! | file | what |
+//! M v̇ = τ + Jᵀλ; w = 0 for bilateral rows; 0 ≤ λₙ ⊥ wₙ ≥ 0 for unilateral rows; |λ_t| ≤ μ λₙ opposing w_t for
+//! friction.
+//!
+//! Eliminating v̇ leaves w = G λ + b with the Delassus matrix G = J M⁻¹ Jᵀ, built from the factors that the
+//! articulated-body recursion leaves (`delassus`); prescribed degrees of freedom (velocity motors, sticking joint
+//! friction) and the implicit terms of an integrator are thereby included. The problem is solved by an active-set
+//! method with a warm start; where that does not converge, by ADMM. Rigid constraints are not regularised:
+//! there is no stiffness, penalty or stabilisation gain. After each accepted sub-step the world projects positions and velocities
+//! onto the constraints in the metric of the mass matrix.
+//!
+//! | file | content |
 //! |---|---|
-//! | `row` | rows in world coordinates, their rates, their Jacobians |
-//! | `loop_joint` | loops and couplings |
-//! | `delassus` | A, and M⁻¹ times a vector |
-//! | `dense` | elimination with rank |
-//! | `cone` | friction: blocks and groups |
-//! | `active_set` | what a guess about them leaves unknown |
-//! | `admm` | the solution without a guess |
-//! | `solver` | the problem of one instant |
-//! | `impact` | impacts, projections, points of contact |
-//! | `memory` | who does what |
-//! | `events` | what the world asks of a mechanism: touch, strike, project |
+//! | `row` | constraint rows in world coordinates, their rates and Jacobians |
+//! | `loop_joint` | rows and residuals of loop joints |
+//! | `delassus` | Delassus matrix G; products with M⁻¹ |
+//! | `dense` | elimination that reveals the rank |
+//! | `cone` | unilateral constraints, friction groups, contact modes |
+//! | `active_set` | linear system of the current active set |
+//! | `admm` | ADMM for the same problem, without an active set |
+//! | `solver` | solution of one problem: active set first, then ADMM |
+//! | `impact` | impacts, contact points |
+//! | `projection` | projection of positions and velocities |
+//! | `warm_start` | multipliers and contact modes kept between evaluations; fallback for Zeno behaviour |
 //!
-//! Sources: keys `featherstone2008` (chapter 8, loops; section 11, contact), `acary2008` (chapters 3 and 13).
+//! What the world asks of a constrained mechanism (detect contacts, apply an impact, project) is in `crate::mechanism`.
+//!
+//! Sources: keys `featherstone2008` (chapter 8, loops; chapter 11, contact), `acary2008` (chapters 3 and 13).
 
 mod active_set;
 mod admm;
@@ -28,6 +38,7 @@ mod delassus;
 mod dense;
 mod impact;
 mod loop_joint;
+mod projection;
 pub(crate) mod row;
 mod solver;
 #[cfg(test)]
@@ -50,53 +61,53 @@ use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
 use warm_start::WarmStart;
 
-/// A gap below this is closed `[m]` or `[rad]`: what projection leaves is a thousandth of it.
+/// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
 pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;
 
-/// Rows of contacts that memory is reserved for beforehand.
+/// Number of contact rows for which memory is reserved beforehand.
 const RESERVED: usize = 48;
 
-/// What the rows are asked for.
+/// Level at which the constraints are solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Level {
-    /// Accelerations; contacts do as they are classified.
+    /// Accelerations; contact modes are those classified at the start of the sub-step.
     Acceleration,
     /// Velocities at the end of a step of length h `[s]`, impacts included.
     Velocity(f64),
 }
 
-/// A contact as it is now.
+/// Contact point with its force.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPoint {
     /// Index of the pair.
     pub pair: usize,
     /// Indices of the two surfaces; the force is on the first one.
     pub surfaces: [usize; 2],
-    /// Where `[m]`, world axes.
+    /// Position `[m]`, world axes.
     pub point: Vec3<f64>,
-    /// From the second surface to the first.
+    /// Unit normal from the second surface to the first, world axes.
     pub normal: Vec3<f64>,
-    /// On the first surface's body `[N]`, world axes.
+    /// Force on the first surface's body `[N]`, world axes.
     pub force: Vec3<f64>,
     /// Torque of rolling and spinning friction on it [N·m].
     pub torque: Vec3<f64>,
-    /// Distance `[m]`.
+    /// Signed distance `[m]`.
     pub distance: f64,
 }
 
-/// The constraints of one world and all they need.
+/// Constraints of one world with all working memory.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints<R> {
-    /// What is where, and what it does.
+    /// Warm start and classification of every slot.
     pub memory: WarmStart<R>,
     pub candidates: Vec<Option<ContactCandidate>>,
-    /// Spots of a later instant, to look for what has touched.
+    /// Candidates of a later instant, for the detection of new contacts.
     pub later_candidates: Vec<Option<ContactCandidate>>,
     pub detector: Detector,
     pub motions: Motions<R>,
     inverse_mass: delassus::InverseMass<R>,
     pub rows: Vec<Row<R>>,
-    /// How far each row's constraint is from holding: gaps, openings.
+    /// Constraint residual of each row: signed distance, position error of a loop joint.
     pub residual: Vec<R>,
     pub n_free: usize,
     pub blocks: Vec<UnilateralConstraint<R>>,
@@ -146,7 +157,7 @@ impl<R: Real> Constraints<R> {
             sub_step: 0.0,
             solver: Solver::default(),
         };
-        // what is more than this in contact at once grows the memory, once for every new record
+        // more contacts than this at once enlarge the memory, once for every new maximum
         let groups = |p: &Pair| 1 + 2 * usize::from(p.material.friction > 0.0);
         let of_contacts: usize = set.pairs.iter().map(|p| p.slots * groups(p)).sum();
         new.reserve(set.n_bilateral() + set.limits.len() + of_contacts.min(RESERVED), model.n_v());
@@ -167,8 +178,8 @@ impl<R: Real> Constraints<R> {
         self.solver.reserve(m);
     }
 
-    /// Makes the accelerations that forward dynamics found obey the constraints. Out of line: mechanisms without constraints have no room
-    /// for it in their loop.
+    /// Adds the constraint forces to the accelerations that forward dynamics found. Out of line, so that mechanisms
+    /// without constraints do not carry it in their loop.
     #[allow(clippy::too_many_arguments)]
     #[inline(never)]
     pub fn apply(
@@ -184,7 +195,7 @@ impl<R: Real> Constraints<R> {
             kinematics::chain_poses(model, scratch);
             self.motions.place(model, scratch, v);
         }
-        // a step at velocity level starts where it was last asked what touches: poses and twists stand
+        // at velocity level the poses and twists of the last contact detection stand
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
         if self.rows.is_empty() {
             return;
@@ -202,7 +213,8 @@ impl<R: Real> Constraints<R> {
         self.push(model, scratch, v_dot, has_drives);
     }
 
-    /// b of a step at velocity level: (J v)/h + J v̇, room left to what is not there yet, bounce for what arrives.
+    /// Vector b at velocity level: (J v)/h + J v̇, relaxed by the remaining distance of open constraints, with
+    /// restitution for impacts.
     fn velocity_level_rates(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
         let n = model.n_v();
         let per_h = R::splat(1.0 / h);
@@ -222,16 +234,18 @@ impl<R: Real> Constraints<R> {
             let bounce = restitution(model, block.slot);
             let has_impact = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
             if speed.lane(0) < -rest_speed && bounce > 0.0 && has_impact {
-                // from where it is: to let it arrive first would take its speed
+                // from the present distance: to close it first would take the approach velocity away
                 self.b[i] += speed * per_h * R::splat(bounce);
             } else if self.residual[i].lane(0) > CLOSED_DISTANCE {
-                // what is closed but for rounding has no room: several gaps of one face would contradict each other
+                // a distance that is zero but for rounding is not used: several distances of one face would contradict
+                // each other
                 self.b[i] += self.residual[i] * per_h * per_h;
             }
         }
     }
 
-    /// Rows, residuals and blocks of what is closed, at the poses of `scratch` and the twists of `motions`.
+    /// Assembles rows, residuals and unilateral constraints of everything closed, at the poses of `scratch` and the
+    /// twists of `motions`.
     pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, slides: bool) {
         let set = &*model.constraints;
         self.rows.clear();
@@ -297,7 +311,7 @@ impl<R: Real> Constraints<R> {
             let rate = self.motions.rate(&normal, v);
             let k = R::splat(material.stiffness);
             let force = -(k * at.distance) * (R::one() - R::splat(material.dissipation) * rate);
-            // it never pulls
+            // no adhesion
             force.max(R::zero())
         });
         let (t1, t2) = tangents(n);
@@ -346,7 +360,7 @@ impl<R: Real> Constraints<R> {
         self.residual.push(residual);
     }
 
-    /// Direction against the velocity of a group of rows; the last one where there is none.
+    /// Unit direction opposite to the velocity of a group of rows, and the speed; `last` where the velocity is zero.
     fn direction_against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
         let mut u = [R::zero(); 2];
         for k in 0..dim {
@@ -361,7 +375,7 @@ impl<R: Real> Constraints<R> {
         (u.map(|x| -(x * inverse)), speed)
     }
 
-    /// Turns the two rows of a sliding group into one along the sliding and one across it; notes its speed.
+    /// Rotates the two rows of a sliding group to one along and one across the sliding direction; stores the speed.
     fn align(&mut self, group: &mut FrictionGroup<R>, speed: R) {
         let (i, j) = (group.row, group.row + 1);
         let (one, two, d) = (self.rows[i], self.rows[j], group.direction);
@@ -371,7 +385,8 @@ impl<R: Real> Constraints<R> {
         group.give = Some(speed);
     }
 
-    /// Of the groups that slide, those that do so slowly: their speed becomes what the solver needs.
+    /// Compliance across the sliding direction of groups that slide so slowly that friction can turn their velocity
+    /// within the step.
     fn find_slow_sliding(&mut self) {
         let m = self.rows.len();
         let h = self.sub_step;
@@ -388,7 +403,7 @@ impl<R: Real> Constraints<R> {
         }
     }
 
-    /// Jacobian and A of the rows.
+    /// Jacobian and Delassus matrix of the rows.
     pub fn assemble_delassus(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         let (m, n) = (self.rows.len(), model.n_v());
         self.solver.reserve(m);
@@ -407,7 +422,7 @@ impl<R: Real> Constraints<R> {
         self.memory.keep(&self.blocks, &self.lambda);
     }
 
-    /// Adds what the forces do to accelerations and reactions.
+    /// Adds the response to the constraint forces to accelerations and reactions.
     fn push(&mut self, model: &Model<R>, scratch: &mut Scratch<R>, v_dot: &mut [R], has_drives: bool) {
         let n = model.n_v();
         self.torque.fill(R::zero());
@@ -425,7 +440,7 @@ impl<R: Real> Constraints<R> {
         }
     }
 
-    /// Power taken from the mechanism by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
+    /// Power dissipated by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
     pub fn dissipation(&self, v: &[R]) -> R {
         let n = v.len();
         let mut sum = R::zero();

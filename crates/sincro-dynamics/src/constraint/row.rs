@@ -1,9 +1,9 @@
-//! Rows of constraints: what each wants of the velocities, in world coordinates.
+//! Constraint rows in world coordinates: Jacobians, rates and accelerations.
 //!
-//! A row is J v = Wₐ·Vₐ − W_b·V_b, with V the twist of a link and W a wrench of unit strength, both about the world's origin in
-//! world axes, or a sum of joint rates. Its rate is J v̇ + J̇ v = Wₐ·Aₐ − W_b·A_b + Ẇₐ·Vₐ − Ẇ_b·V_b, with A the spatial acceleration: no
-//! centripetal or Coriolis term is written anywhere. The world has no twist, and the acceleration that gravity gives the base of the
-//! recursions.
+//! A row is J v = Wₐ·Vₐ − W_b·V_b, with V the twist of a link and W a wrench of unit magnitude, both about the world's
+//! origin in world axes, or a sum of joint rates. Its rate is J v̇ + J̇ v = Wₐ·Aₐ − W_b·A_b + Ẇₐ·Vₐ − Ẇ_b·V_b, with A
+//! the spatial acceleration, so that no centripetal or Coriolis term appears. The world has no twist, and the
+//! acceleration that gravity gives the base of the recursions. Source: key `featherstone2008`, chapters 2 and 8.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -1,9 +1,11 @@
-//! The constraint problem of one instant: w = A λ + b with free rows, normal rows and discs of friction.
+//! Solution of the frictional contact problem w = G λ + b: active set first, then ADMM.
 //!
-//! Who lets go, sticks or slips is guessed from the last solution; the forces then follow from one linear system ([`super::active_set`]), solved with its
-//! rank revealed ([`Dense`]), as a correction to the last ones, so that redundant contacts keep the share they had. If the forces fit the guess,
-//! that was all. If not, what does not fit is changed, a few times, which for directions of slipping is Newton's method. If that does not help,
-//! the problem is solved without a guess ([`super::admm`]), and the linear system makes its result exact.
+//! The active set (contact modes) starts from the warm start; the multipliers follow from one linear system
+//! ([`super::active_set`]), solved with its rank revealed ([`Dense`]), as a correction of the last ones, so that
+//! redundant contacts keep their share. If the multipliers satisfy the complementarity conditions, the problem is
+//! solved. If not, the violated modes are changed, a few times; for slip directions this is Newton's method. If that
+//! does not converge, ADMM ([`super::admm`]) finds the solution without an active set, and the linear system of the
+//! modes it implies makes it exact.
 
 use sincro_math::Real;
 
@@ -12,32 +14,32 @@ use super::admm::{Admm, activate_all};
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use super::dense::{Dense, RANK};
 
-/// Share of the largest force or rate that counts as zero in judging a guess.
+/// Complementarity tolerance, relative to the largest force or rate.
 const SLACK: f64 = 1e-9;
 
-/// Share of the largest rate that may be left where there should be none: redundant contacts whose gaps differ by rounding contradict each other by
-/// as much; a guess that contradicts itself leaves far more.
+/// Tolerance of rates that must be zero, relative to the largest rate: redundant contacts whose distances differ by
+/// rounding contradict each other by as much; an inconsistent active set leaves far more.
 const HELD_RATE: f64 = 1e-6;
 
-/// Share of the largest rate that elimination may leave without another look.
+/// Relative rate above which a solution of the linear system is refined once.
 const REFINED: f64 = 1e-12;
 
-/// Changes of a guess before splitting decides.
+/// Maximum number of mode updates before ADMM is used.
 const MAX_MODE_UPDATES: usize = 8;
 
-/// Iterations of splitting before its result is tried as a guess, the first time; then twice as many, and so on.
+/// Iterations of ADMM before its active set is tried the first time; doubled after each trial.
 const FIRST_ITERATIONS: usize = 25;
 
-/// What solving took.
+/// Solver statistics since the world was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolverReport {
     /// Problems solved.
     pub solved: u64,
-    /// Problems that no guess solved.
+    /// Problems solved by ADMM.
     pub split: u64,
-    /// Problems whose forces do not fit their laws within a share of 1e-9.
+    /// Problems whose complementarity residual exceeds 1e-9.
     pub not_converged: u64,
-    /// The largest misfit among those, as a share of the largest force or rate.
+    /// Largest complementarity residual among those, relative to the largest force or rate (dimensionless).
     pub worst_residual: f64,
 }
 
@@ -51,9 +53,9 @@ pub(crate) struct Solver<R> {
     all_active: Vec<UnilateralConstraint<R>>,
     start: Vec<R>,
     pub report: SolverReport,
-    /// Scaled pivots below this are dropped in corrections.
+    /// Rank tolerance of corrections.
     pub rank: f64,
-    /// Rows without bounds that the last linear system found redundant.
+    /// Bilateral rows that the last linear system found redundant.
     pub redundant: usize,
 }
 
@@ -69,7 +71,7 @@ impl<R: Real> Solver<R> {
         self.all_active.reserve(more(self.all_active.len()));
     }
 
-    /// Finds λ, which holds the last solution (or zeros) before, and the state of the blocks.
+    /// Finds λ, which holds the warm start (or zeros) before, and the contact modes.
     pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         self.report.solved += 1;
         self.rank = RANK;
@@ -82,7 +84,7 @@ impl<R: Real> Solver<R> {
             return;
         }
         self.report.split += 1;
-        // from nothing, so that redundant contacts share alike: what they had did not fit
+        // from zero, so that redundant contacts share the load evenly: the warm start did not fit
         lambda.fill(R::zero());
         activate_all(blocks);
         let mut all_active = core::mem::take(&mut self.all_active);
@@ -114,7 +116,7 @@ impl<R: Real> Solver<R> {
         self.all_active = all_active;
     }
 
-    /// Corrects, and changes what does not fit, until everything fits; says whether it does.
+    /// Active-set iteration: corrects the multipliers and updates violated modes; returns true on convergence.
     fn iterate_active_set(
         &mut self,
         problem: &ContactProblem<'_, R>,
@@ -135,7 +137,7 @@ impl<R: Real> Solver<R> {
         false
     }
 
-    /// Once more, where elimination left more than rounding.
+    /// Repeats the correction where elimination left more than rounding.
     fn refine(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
         let small = Tolerances::of(problem, lambda).none;
         let rates = &self.active_set.rates;
@@ -147,7 +149,7 @@ impl<R: Real> Solver<R> {
         }
     }
 
-    /// The linear system of the guess.
+    /// Solves the linear system of the current active set.
     pub fn correct(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
         self.active_set.take(problem.n_free, blocks, lambda);
         self.active_set.find_rates(problem, lambda);
@@ -159,7 +161,7 @@ impl<R: Real> Solver<R> {
         self.active_set.change(blocks, &self.delta, lambda);
     }
 
-    /// Notes what can be seen of every block.
+    /// Records the observable change of every constraint.
     fn mark_effects(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) {
         let small = 10.0 * Tolerances::of(problem, lambda).rate;
         let rates = &self.active_set.rates;
@@ -177,7 +179,7 @@ impl<R: Real> Solver<R> {
         }
     }
 
-    /// How far forces and rates are from their laws, as a share of the largest.
+    /// Complementarity residual relative to the largest rate (dimensionless); counted if it exceeds the tolerance.
     fn record_residual(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
         self.active_set.find_rates(problem, lambda);
         let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
@@ -191,7 +193,7 @@ impl<R: Real> Solver<R> {
             for group in block.groups.iter().flatten().filter(|g| !g.slides && !block.open) {
                 let w = pair(group, &self.active_set.rates);
                 let d = group.direction.map(|d| d.lane(0));
-                // what sticks has no rate, what slips none but against its force
+                // a sticking group has no rate, a slipping one none but against its force
                 worst = worst.max(match group.grip {
                     ContactMode::Stick => norm(w),
                     ContactMode::Slip => (w[0] * d[1] - w[1] * d[0]).abs().max(w[0] * d[0] + w[1] * d[1]),
@@ -206,7 +208,7 @@ impl<R: Real> Solver<R> {
     }
 }
 
-/// What counts as zero beside the largest force and the largest rate.
+/// Absolute tolerances of one problem.
 #[derive(Clone, Copy)]
 struct Tolerances {
     force: f64,
@@ -216,7 +218,8 @@ struct Tolerances {
 }
 
 impl Tolerances {
-    /// Forces are measured by what would undo the largest rate of the lightest, too: where everything lets go, nothing else gives them a size.
+    /// The force scale includes the force that would stop the largest rate of the lightest row: where everything opens,
+    /// nothing else gives forces a scale.
     fn of<R: Real>(problem: &ContactProblem<'_, R>, lambda: &[R]) -> Self {
         let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
         let m = problem.m();
@@ -227,7 +230,7 @@ impl Tolerances {
     }
 }
 
-/// Changes what does not fit; says whether anything did not.
+/// Updates the contact modes that violate the complementarity conditions; returns true if any did.
 fn update_modes<R: Real>(
     problem: &ContactProblem<'_, R>,
     rates: &[R],
@@ -245,7 +248,7 @@ fn update_modes<R: Real>(
             continue;
         }
         let (normal, rate) = (lambda[block.row].lane(0), rates[block.row].lane(0));
-        // where the guess contradicts itself, the linear system leaves rates that should be none
+        // an inconsistent active set leaves rates that should be zero
         if block.given.is_none() && (normal < -small.force || rate > small.held) {
             block.open = true;
             changed = true;
@@ -277,9 +280,9 @@ fn update_friction_mode<R: Real>(
         return speed > small.held;
     }
     if speed <= small.rate {
-        // at its limit and still; what can turn must not have turned beyond it
+        // at its limit without a rate; a direction that can turn must not have turned beyond the limit
         let beyond = size > limit + small.force;
-        // and what gives way has no reason to creep
+        // and a compliant direction must not creep
         let creeps = group.give.is_some() && speed > small.none && size > 0.0;
         if beyond || creeps {
             group.slip(force.map(|x| R::splat(x / size)), None);
@@ -291,7 +294,7 @@ fn update_friction_mode<R: Real>(
         group.stick();
         return true;
     }
-    // turn the force against what it is about to do
+    // turn the force against the impending slip
     let turned = norm([rate[0] + speed * d[0], rate[1] + speed * d[1]]);
     if turned <= SLACK * speed {
         return false;
@@ -301,7 +304,7 @@ fn update_friction_mode<R: Real>(
     true
 }
 
-/// The numbers of a group in a list over rows.
+/// Components of a group in a list over rows.
 fn pair<R: Real>(group: &FrictionGroup<R>, list: &[R]) -> [f64; 2] {
     std::array::from_fn(|k| if k < group.dim { list[group.row + k].lane(0) } else { 0.0 })
 }

@@ -1,4 +1,4 @@
-//! The laws of contact, looked at in the solver's results for problems of every kind.
+//! The laws of contact, checked on the solver's results for random problems of every kind.
 
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
@@ -45,7 +45,7 @@ fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstra
     (0..count).map(block).collect()
 }
 
-/// How far forces and rates are from the laws of contact, as shares of the largest.
+/// Complementarity residual relative to the largest force and rate.
 fn residual(problem: &ContactProblem<'_, f64>, blocks: &[UnilateralConstraint<f64>], lambda: &[f64]) -> f64 {
     let m = lambda.len();
     let w: Vec<f64> =

@@ -1,20 +1,21 @@
-//! What the solver remembers of each slot from one evaluation to the next: forces, and who let go, stuck or slipped.
+//! Warm start of the solver: multipliers and contact modes of each slot, kept from one evaluation to the next.
 //!
-//! | per slot | meaning | kept in the state |
+//! | per slot | meaning | part of the state |
 //! |---|---|---|
-//! | forces | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
-//! | code | 0 never seen, else 1 + 1·open + 2, 4, 8·slipping group + 16·what can be seen of it | yes |
+//! | multipliers | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
+//! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group + 16·observable change | yes |
 //! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
 //!
-//! The last number is [`ZenoFallback`].
+//! The last number is the [`ZenoFallback`].
 
 use sincro_math::Real;
 
 use super::cone::{ContactMode, UnilateralConstraint};
 use crate::model::{SLOT_LEN, warm_start_len};
 
-/// After a tick in which events came too thick, how many of the next are made at velocity level without trying, and how many are left of them: more every
-/// time, until a tick goes well. A heap that comes to rest would cost a hundred located events a tick otherwise.
+/// Fallback for Zeno behaviour (event storms): after a tick with too many events the next `pause` ticks are made at
+/// velocity level without event location, `left` of which remain. The pause doubles until a tick succeeds; a heap that
+/// comes to rest would otherwise cost a hundred located events a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ZenoFallback {
     pub pause: u32,
@@ -22,10 +23,10 @@ pub(crate) struct ZenoFallback {
 }
 
 impl ZenoFallback {
-    /// Most ticks without trying.
+    /// Maximum number of ticks without event location.
     const MOST: u32 = 32;
 
-    /// After one more tick with too many events.
+    /// Fallback after one more tick with too many events.
     pub fn lost(self) -> Self {
         let pause = (2 * self.pause).clamp(1, Self::MOST);
         Self { pause, left: pause }
@@ -34,12 +35,12 @@ impl ZenoFallback {
 
 #[derive(Clone, Debug)]
 pub(crate) struct WarmStart<R> {
-    /// As in the state.
+    /// Multipliers and codes, as in the state.
     pub numbers: Vec<R>,
     closed: Vec<bool>,
     slides: Vec<[bool; 3]>,
     directions: Vec<[[R; 2]; 3]>,
-    /// Codes at the start of a sub-step: who changes is an event.
+    /// Codes at the start of a sub-step; a change of the observable part is an event.
     start: Vec<f64>,
     start_directions: Vec<[[R; 2]; 3]>,
     /// Groups that slide against the direction they had at the start.
@@ -82,8 +83,8 @@ impl<R: Real> WarmStart<R> {
         self.directions[slot][group]
     }
 
-    /// Takes the direction of a sliding group's friction. Within a sub-step it does not turn round: the force goes on smoothly until the
-    /// instant of reversal has been located.
+    /// Sets the direction of a sliding group's friction. Within a sub-step it does not reverse: the force continues
+    /// smoothly until the instant of reversal has been located.
     pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
         let start = self.start_directions[slot][group];
         let turned = (direction[0] * start[0] + direction[1] * start[1]).lane(0) < 0.0;
@@ -93,7 +94,7 @@ impl<R: Real> WarmStart<R> {
         direction
     }
 
-    /// Classifies a slot; what is not closed is forgotten.
+    /// Classifies a slot; the warm start of one that is not closed is cleared.
     pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
         self.closed[slot] = closed;
         self.slides[slot] = slides;
@@ -107,7 +108,7 @@ impl<R: Real> WarmStart<R> {
         self.numbers[slot * SLOT_LEN + 6].lane(0) as u32
     }
 
-    /// Gives the blocks what they did and the forces they had.
+    /// Restores modes and multipliers of the last solution.
     pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         for block in blocks {
             let code = self.code(block.slot);
@@ -135,7 +136,7 @@ impl<R: Real> WarmStart<R> {
         }
     }
 
-    /// Remembers a solution.
+    /// Stores a solution.
     pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
         for block in blocks {
             let kept = &mut self.numbers[block.slot * SLOT_LEN..(block.slot + 1) * SLOT_LEN];
@@ -154,7 +155,7 @@ impl<R: Real> WarmStart<R> {
         }
     }
 
-    /// Notes who does what at the start of a sub-step.
+    /// Records the modes at the start of a sub-step.
     pub fn mark_start(&mut self) {
         for slot in 0..self.start.len() {
             self.start[slot] = f64::from(self.code(slot));
@@ -162,20 +163,20 @@ impl<R: Real> WarmStart<R> {
         self.start_directions.copy_from_slice(&self.directions);
     }
 
-    /// Whether a closed slot does something else than at the start of the sub-step.
+    /// Returns true if the observable mode of a closed slot differs from the start of the sub-step.
     pub fn has_changed(&self) -> bool {
         let closed = || (0..self.start.len()).filter(|slot| self.closed[*slot]);
         closed().any(|slot| effect(self.start[slot] as u32) != effect(self.code(slot)))
             || closed().any(|slot| self.has_reversed(slot))
     }
 
-    /// Whether a sliding group now slides the other way.
+    /// Returns true if a sliding group has reversed.
     fn has_reversed(&self, slot: usize) -> bool {
         (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
     }
 }
 
-/// What of a code can be seen from outside.
+/// Observable part of a code.
 fn effect(code: u32) -> u32 {
     code.saturating_sub(1) >> 4
 }

@@ -1,10 +1,12 @@
-//! How a contact moves: the gap between a point of one body, rounded by a radius, and a feature of another.
+//! Contact candidates and contact kinematics: signed distance between a point of one body, rounded by a radius, and a
+//! feature of another.
 //!
-//! Every smooth contact of the shapes here is one of these: a ball, the end of a capsule or a corner against a plane, a point or a line, the
-//! rim of a disc against a plane. The gap g, the normal n (from b to a) and the contact point C satisfy ġ = n·(v_a(C) − v_b(C)); with
-//! ṅ and Ċ given here the rest follows from the rows ([`crate::constraint`]), curvature included.
+//! Every smooth contact of the shapes here has this form: a sphere, the end of a capsule or a vertex against a plane, a
+//! point or a line, the rim of a disc against a plane. The signed distance g (gap function), the normal n (from b to a)
+//! and the contact point C satisfy ġ = n·(v_a(C) − v_b(C)); with ṅ and Ċ given here the acceleration level follows from
+//! the rows ([`crate::constraint`]), curvature included. Source: key `acary2008`, chapter 3.
 //!
-//! | feature | gap | ṅ |
+//! | feature | signed distance g | ṅ |
 //! |---|---|---|
 //! | plane (o, n) | n·(P − o) − r | ω_b × n |
 //! | point o | \|P − o\| − r | (Ḋ − n (n·Ḋ))/\|D\|, D = P − o |
@@ -15,7 +17,7 @@ use sincro_math::Real;
 use crate::joint::WORLD;
 use crate::spatial::{Motion, Pose, Vec3};
 
-/// What the point of body a may touch, in link axes of body b.
+/// Feature of body b that the point of body a may touch, in link axes of b.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Feature {
     Plane { origin: Vec3<f64>, normal: Vec3<f64> },
@@ -23,7 +25,7 @@ pub(crate) enum Feature {
     Line { origin: Vec3<f64>, direction: Vec3<f64> },
 }
 
-/// A possible point of contact between two links.
+/// Contact candidate: a possible point of contact between two links.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ContactCandidate {
     pub a: u32,
@@ -39,7 +41,7 @@ pub(crate) struct ContactCandidate {
     pub feature: Feature,
 }
 
-/// A spot at one instant, world axes.
+/// Contact kinematics of a candidate at one instant, world axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactKinematics<R> {
     pub distance: R,
@@ -116,7 +118,7 @@ impl ContactCandidate {
         }
     }
 
-    /// From the vector D to the point P from what it may touch.
+    /// Contact kinematics from the vector D, which leads from the feature to the point P.
     fn of_distance<R: Real>(&self, p: Vec3<R>, p_dot: Vec3<R>, d: Vec3<R>, d_dot: Vec3<R>) -> ContactKinematics<R> {
         let length = d.norm();
         let inverse = R::one() / length;
@@ -133,7 +135,8 @@ impl ContactCandidate {
     }
 }
 
-/// The lowest point of a disc's rim over a plane: C = P + r u, u = −(n − (n·a) a)/s, s its length; gap = n·(P − o) − r s.
+/// The lowest point of a disc's rim over a plane: C = P + r u, u = −(n − (n·a) a)/s, s its length; gap = n·(P − o) − r
+/// s.
 fn rim<R: Real>(
     height: R,
     (p, p_dot): (Vec3<R>, Vec3<R>),

@@ -1,4 +1,4 @@
-//! From poses to spots: where the surfaces of each pair are closest.
+//! Contact detection from the poses of the links: broad phase by bounding spheres, then the narrow phase of each pair.
 
 use super::candidate::{ContactCandidate, Feature};
 use super::manifold::Manifolds;
@@ -11,7 +11,7 @@ use crate::spatial::{Pose, Vec3};
 /// Sine of the tilt below which a cylinder on its end is held to stand on four points of its rim.
 const STANDS: f64 = 1e-6;
 
-/// Finds spots; its memory grows to the largest manifold it has seen.
+/// Contact detector; its memory grows to the largest manifold it has seen.
 #[derive(Clone, Debug)]
 pub(crate) struct Detector {
     points: Vec<(Vec<Vec3<f64>>, f64)>,
@@ -19,7 +19,7 @@ pub(crate) struct Detector {
     manifolds: Manifolds,
     polytopes: Vec<Option<Polytope>>,
     clipper: FaceClipper,
-    /// Pairs that are told not to touch.
+    /// Pairs that are ignored.
     pub ignored: Vec<bool>,
 }
 
@@ -35,7 +35,8 @@ impl Detector {
         }
     }
 
-    /// Writes the spots of every pair into its slots; none where nothing is near (closer than `margin` `[m]`).
+    /// Writes the contact candidates of every pair into its slots; none where the surfaces are farther apart than
+    /// `margin` `[m]`.
     pub fn detect(
         &mut self,
         colliders: &[Collider],
@@ -74,12 +75,12 @@ impl Detector {
         }
     }
 
-    /// Centre and radius of a ball that holds surface `k`, in the world.
+    /// Bounding sphere of surface `k`: centre in the world and radius `[m]`.
     pub fn ball(&self, k: usize, c: &Collider, poses: &[Pose<f64>]) -> (Vec3<f64>, f64) {
         (center(c, poses), self.reach[k])
     }
 
-    /// Whether balls around the two surfaces are closer than `margin` `[m]`.
+    /// Broad phase: returns true if the bounding spheres of the two surfaces are closer than `margin` `[m]`.
     pub fn is_near(&self, pair: &Pair, (a, b): (&Collider, &Collider), poses: &[Pose<f64>], margin: f64) -> bool {
         if let Surface::HalfSpace = b.surface {
             return b.pose.rot.col(2).dot(center(a, poses) - b.pose.pos) <= self.reach[pair.a] + margin;
@@ -89,7 +90,7 @@ impl Detector {
     }
 }
 
-/// Centre of a surface's ball, in the world.
+/// Centre of a surface's bounding sphere, in the world.
 fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
     if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) }
 }
@@ -107,7 +108,7 @@ fn candidate(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature:
     ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
 }
 
-/// Spot of a point that face clipping or crossing edges gave.
+/// Contact candidate of a point that face clipping or crossing edges gave.
 fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> ContactCandidate {
     let (a, b) = if found.is_on_first { (a, b) } else { (b, a) };
     candidate(a, b, found.point, 0.0, Feature::Plane { origin: found.origin, normal: found.normal })
@@ -152,7 +153,7 @@ fn balls(a: &Collider, b: &Collider) -> ContactCandidate {
     ContactCandidate { radius_a: ra, ..candidate(a, b, a.pose.pos, ra + rb, feature) }
 }
 
-/// The face, edge or corner of the cuboid that is closest to the ball's centre; from inside, the nearest face.
+/// Face, edge or vertex of the cuboid that is closest to the sphere's centre; from inside, the nearest face.
 fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>)) -> ContactCandidate {
     let radius = a.ball().unwrap_or(0.0);
     let Surface::Solid(Shape::Cuboid { size }) = b.surface else { unreachable!("the pair is a ball on a cuboid") };

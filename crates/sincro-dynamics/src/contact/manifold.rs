@@ -1,8 +1,8 @@
-//! Pairs without a closed form of their own: manifolds of the collision library parry, which nothing else here sees.
+//! Contact manifolds of the pairs without a closed form, from the collision library parry.
 //!
-//! A point of a manifold becomes a spot: a rounded point of one body over a plane of the other, so that balls, capsules and the flanks of cylinders
-//! keep their curvature, and flat faces are exact. What the library remembers from one call to the next is thrown away, because a result must
-//! not depend on the past.
+//! A point of a manifold becomes a contact candidate: a rounded point of one body over a plane of the other, so that
+//! spheres, capsules and the flanks of cylinders keep their curvature, and flat faces are exact. The library's memory
+//! between calls is discarded, because a result must not depend on the past.
 
 use parry3d_f64::math::{Pose as LibraryPose, Vector};
 use parry3d_f64::query::{
@@ -27,7 +27,7 @@ pub(crate) struct Manifolds {
     shapes: Vec<Option<ParryShape>>,
     pairs: Vec<Vec<ContactManifold<(), ()>>>,
     workspace: Option<ContactManifoldsWorkspace>,
-    /// Distance, spot and place on the first surface of every point found.
+    /// Distance, candidate and point on the first surface of every point found.
     found: Vec<(f64, ContactCandidate, Vec3<f64>)>,
 }
 
@@ -45,7 +45,7 @@ impl Manifolds {
         Self { shapes: shapes.collect(), pairs: vec![Vec::new(); pairs.len()], workspace: None, found: Vec::new() }
     }
 
-    /// Writes the spots of pair `k`: the deepest ones, in the library's order.
+    /// Writes the candidates of pair `k`: the deepest ones, in the library's order.
     pub fn find(
         &mut self,
         k: usize,
@@ -102,7 +102,7 @@ impl Manifolds {
     }
 }
 
-/// The deepest spots, in the order found.
+/// Writes the deepest candidates, in the order found.
 fn fill(found: &mut Vec<(f64, ContactCandidate, Vec3<f64>)>, slots: &mut [Option<ContactCandidate>]) {
     while found.len() > slots.len() {
         let shallowest = (1..found.len()).fold(0, |worst, k| if found[k].0 > found[worst].0 { k } else { worst });
@@ -117,7 +117,8 @@ fn is_convex(c: &Collider) -> bool {
     matches!(c.surface, Surface::Solid(_) | Surface::Hull(_) | Surface::HalfSpace)
 }
 
-/// A spot from the points of two surfaces that are closest, and the normals out of each; all in the surfaces' own frames.
+/// Contact candidate from the closest points of two surfaces and the outward normals there, all in the surfaces' own
+/// frames.
 fn candidate(
     (a, p_a, n_a): (&Collider, Vec3<f64>, Vec3<f64>),
     (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>),
@@ -157,12 +158,12 @@ fn over_plane((a, core): (&Collider, Core), (b, p_b, n_b): (&Collider, Vec3<f64>
     }
 }
 
-/// What is inside a rounded surface at a point of it.
+/// Core of a rounded surface under one of its points: centre of curvature and radius.
 #[derive(Clone, Copy)]
 struct Core {
     point: Vec3<f64>,
     radius: f64,
-    /// Where the core is a line.
+    /// Direction of the core where it is a line.
     axis: Option<Vec3<f64>>,
 }
 

@@ -1,10 +1,18 @@
-//! What touches what: shapes with a material, pairs of them, and the spots where a pair may touch.
+//! Contact detection: colliders with their materials, pairs of them, and contact candidates.
 //!
-//! Contact is asked for: a shape takes part if it has a [`Material`]. Two such shapes are a pair unless they are fixed to one another, joined directly by
-//! a joint, or in the same group. A pair has as many slots as it may have points of contact, so that states have a fixed length.
+//! A shape takes part in contact if it has a [`Material`]. Two such shapes form a pair unless they are fixed to one
+//! another, joined directly by a joint, or in the same group. A pair has a fixed number of slots, the most contact
+//! points it may have, so that states have a fixed length.
 //!
-//! Friction of a pair is the geometric mean of the two coefficients (nothing sticks to what is frictionless), restitution the larger one; lengths of
-//! rolling and spinning friction the larger one; compliances are added.
+//! Broad phase: bounding spheres of the pair against a margin (`detect`). Narrow phase, by kind of pair: closed forms
+//! for points, cylinders and spheres against planes and cuboids (`detect`), separating axes and face clipping for
+//! convex polytopes ([`crate::geometry`], `sat`), contact manifolds of the collision library for the rest (`manifold`).
+//! Every contact candidate is a rounded point of one body against a plane, line or point of the other (`candidate`),
+//! which gives signed distance, normal and their rates exactly, curvature included.
+//!
+//! The contact law of a pair combines two materials: the geometric mean of the friction coefficients (nothing sticks to
+//! a frictionless surface), the larger restitution, the larger lengths of rolling and spinning friction, the sum of the
+//! compliances.
 
 pub(crate) mod candidate;
 mod detect;
@@ -18,7 +26,7 @@ use crate::geometry::Shape;
 use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
-/// How a surface answers to contact.
+/// Contact properties of one surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Coulomb's coefficient.
@@ -52,7 +60,7 @@ impl Default for Material {
 }
 
 impl Material {
-    /// What two surfaces do to each other.
+    /// Contact law of a pair of surfaces.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {
@@ -67,7 +75,7 @@ impl Material {
     }
 }
 
-/// A surface where it is fixed.
+/// Collider: a surface fixed in a link or the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider {
     /// Name of the body.
@@ -84,14 +92,14 @@ pub struct Collider {
     pub material: Material,
 }
 
-/// Two surfaces that may touch.
+/// Pair of colliders that may come into contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     /// Index of the surface whose points touch.
     pub a: usize,
     /// Index of the surface that is touched.
     pub b: usize,
-    /// What they do to each other.
+    /// Contact law of the pair.
     pub material: Material,
     /// First slot.
     pub first: usize,
@@ -100,7 +108,7 @@ pub struct Pair {
     kind: PairKind,
 }
 
-/// How the spots of a pair are found.
+/// Narrow-phase algorithm of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PairKind {
     /// Rounded points of a against the plane b.
@@ -117,11 +125,12 @@ enum PairKind {
     General,
 }
 
-/// Most points of a manifold between two solids.
+/// Maximum number of points of a contact manifold between two solids.
 const MANIFOLD: usize = 8;
 
 impl Collider {
-    /// Rounded points that stand for the surface over a plane, in the link: corners, ends of a capsule; none for others.
+    /// Rounded points that represent the surface over a plane, in the link: vertices, ends of a capsule; none for
+    /// others.
     fn points(&self) -> (Vec<Vec3<f64>>, f64) {
         let at = |p: [f64; 3]| self.pose.point(Vec3(p));
         match &self.surface {
@@ -168,7 +177,7 @@ pub(crate) fn pairs(colliders: &[Collider], joined: impl Fn(u32, u32) -> bool) -
     pairs
 }
 
-/// Who touches whom, and how it is found; none for two things that cannot touch.
+/// Roles of two colliders, their narrow-phase algorithm and number of slots; none if they cannot touch.
 fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, PairKind, usize)> {
     let fixed = |k: usize| !matches!(colliders[k].surface, Surface::Solid(_) | Surface::Hull(_));
     if fixed(i) && fixed(j) {

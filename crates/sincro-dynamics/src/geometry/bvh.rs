@@ -1,13 +1,14 @@
-//! Triangles in a tree of boxes: what is far is not looked at.
+//! Bounding volume hierarchy: triangles in a binary tree of axis-aligned boxes, traversed nearest first. Source: key
+//! `ericson2004`, chapter 6.
 
 use super::gjk::gjk;
 use super::support::{Core, ON, POINT, Placed};
 use crate::spatial::{Pose, Vec3};
 
-/// Triangles that are not divided any more.
+/// Maximum number of triangles in a leaf.
 const LEAF: usize = 4;
 
-/// Triangles, their boxes in a binary tree.
+/// Triangles and the boxes that bound them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bvh {
     triangles: Vec<[Vec3<f64>; 3]>,
@@ -26,7 +27,7 @@ struct Node {
 }
 
 impl Bvh {
-    /// Of triangles.
+    /// Builds the hierarchy of triangles, divided at the median along the longest axis.
     pub fn new(mut triangles: Vec<[Vec3<f64>; 3]>) -> Self {
         let mut nodes = Vec::new();
         let n = triangles.len();
@@ -36,12 +37,13 @@ impl Bvh {
         Self { triangles, nodes }
     }
 
-    /// All of them.
+    /// All triangles.
     pub fn triangles(&self) -> &[[Vec3<f64>; 3]] {
         &self.triangles
     }
 
-    /// Looks at all triangles that may be nearer to `center` than `reach` more than what is returned by `look` for the nearest so far, beginning with `max_distance`.
+    /// Visits all triangles whose box is nearer to `center` than `reach` plus a bound, which begins with `max_distance`
+    /// and becomes the smallest distance that `look` returned.
     pub fn visit(
         &self,
         center: Vec3<f64>,
@@ -82,7 +84,7 @@ impl Bvh {
         }
     }
 
-    /// Normal of the triangle at a point; of several the one that faces `towards` most.
+    /// Normal of the triangle at a point; of several, the one that faces `towards` most.
     pub fn normal_near(&self, p: Vec3<f64>, towards: Vec3<f64>) -> Vec3<f64> {
         let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
         let off = |triangle: &[Vec3<f64>; 3]| {
@@ -109,14 +111,14 @@ impl Bvh {
 }
 
 impl Node {
-    /// From a point to the box.
+    /// Distance of a point from the box `[m]`.
     fn distance(&self, p: Vec3<f64>) -> f64 {
         let off: Vec3<f64> = Vec3(std::array::from_fn(|k| (self.low[k] - p[k]).max(p[k] - self.high[k]).max(0.0)));
         off.norm()
     }
 }
 
-/// Adds the node of some triangles, of which `first` is the first in the whole, and all below it.
+/// Appends the node of some triangles, the first of which has index `first` in the whole, and all nodes below it.
 fn divide(triangles: &mut [[Vec3<f64>; 3]], first: usize, nodes: &mut Vec<Node>) {
     let corners = || triangles.iter().flatten();
     let bound = |k: usize, f: fn(f64, f64) -> f64, start: f64| corners().map(|c| c[k]).fold(start, f);

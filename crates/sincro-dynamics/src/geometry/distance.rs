@@ -1,5 +1,6 @@
-//! Distances: the closest points of two surfaces, and of a surface and a point. 0 where solids meet; a mesh or height field is its triangles and has no
-//! inside. Balls, capsules, cuboids, hulls, half spaces and triangles are exact to rounding, cylinders and cones to about 1e-12 of their size.
+//! Closest points of two surfaces, and of a surface and a point. The distance is 0 where solids overlap; a mesh or
+//! height field is the set of its triangles and has no inside. Spheres, capsules, cuboids, hulls, half spaces and
+//! triangles are exact to rounding, cylinders and cones to about 1e-12 of their size.
 
 use super::Geometry;
 use super::bvh::Bvh;
@@ -7,15 +8,15 @@ use super::gjk::{Convex, Separation, gjk};
 use super::support::{Core, POINT, Placed, Solid};
 use crate::spatial::{Pose, Vec3};
 
-/// How far the normals of two half spaces may be from opposite for a distance between them.
+/// Tolerance on opposite normals of two half spaces that have a distance between them.
 const OPPOSITE: f64 = 1e-12;
 
 /// The closest points of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// `[m]`; 0 if they meet.
+    /// Distance `[m]`; 0 if they overlap.
     pub distance: f64,
-    /// On the first and on the second, in the frame of the first `[m]`; one point of both if they meet.
+    /// Points on the first and on the second, in the frame of the first `[m]`; one common point if they overlap.
     pub points: [Vec3<f64>; 2],
 }
 
@@ -30,7 +31,8 @@ impl Closest {
 }
 
 impl Geometry {
-    /// The closest points of this surface and another one, whose frame stands at `x_ab` in this one's, if they are within `max_distance` `[m]`.
+    /// Returns the closest points of this surface and another one, whose frame stands at `x_ab` in this one's, if they
+    /// are within `max_distance` `[m]`.
     #[must_use]
     pub fn closest(&self, other: &Self, x_ab: &Pose<f64>, max_distance: f64) -> Option<Closest> {
         let place = |core, radius, pose| Placed { core, radius, pose };
@@ -55,7 +57,8 @@ impl Geometry {
         found.filter(|closest| closest.distance <= max_distance)
     }
 
-    /// The point of this surface that is closest to `p`, which is the second; both in this surface's frame.
+    /// Returns the point of this surface that is closest to `p`, and `p` as the second point; both in this surface's
+    /// frame.
     #[must_use]
     pub fn closest_to(&self, p: Vec3<f64>) -> Option<Closest> {
         let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };

@@ -75,7 +75,7 @@ pub(super) fn parts(geometry: &Geometry) -> Vec<Placed<'_>> {
     }
 }
 
-/// How far along `n` a part goes.
+/// Extent of a part along `n`.
 pub(super) fn along(part: &Placed<'_>, n: Vec3<f64>) -> f64 {
     n.dot(part.support(n)) + part.radius
 }

@@ -1,17 +1,18 @@
-//! Volumes that proximity sensors look into, in the frame of the sensor: z is where it looks. What of them is nearer to the origin than some radius is
-//! convex, and knows its farthest point in every direction: what `proximity` needs.
+//! Fields of view of proximity sensors, in the frame of the sensor: z is the axis of view. The part of a volume within
+//! some radius about the origin is convex and has a support mapping, which is all that [`FieldOfView::detect`] needs.
 //!
-//! All but the pyramid are their section with the plane of z and one direction across, u: lines and a circle about the origin.
+//! All volumes but the pyramid are described by their section with the plane of z and one direction across, u: lines
+//! and a circle about the origin.
 
 use sincro_math::elementary::sin_cos;
 
 use super::gjk::Convex;
 use crate::spatial::Vec3;
 
-/// How far out of a volume a point may be to be on its boundary, by the size of the volume.
+/// Tolerance of points on the boundary of a volume, relative to its size.
 const ON: f64 = 1e-12;
 
-/// What a proximity sensor looks into, along z of its own frame.
+/// Volume of a field of view, along z of the sensor's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Volume {
     /// A line.
@@ -42,7 +43,7 @@ pub enum Volume {
     },
 }
 
-/// A volume with its near and far end.
+/// Field of view: a volume with its near and far end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldOfView {
     pub(super) volume: Volume,
@@ -50,7 +51,7 @@ pub struct FieldOfView {
     pub(super) offset: f64,
     /// Its far end `[m]`: z of flat ones, radius of round ones.
     pub(super) end: f64,
-    /// The farthest of its points from the origin `[m]`.
+    /// Distance of its farthest point from the origin `[m]`.
     pub(super) reach: f64,
     bounds: Bounds,
 }
@@ -63,15 +64,15 @@ enum Bounds {
     Planes([(Vec3<f64>, f64); 6]),
 }
 
-/// What of a field is within a radius about the origin.
+/// Part of a field of view within a radius about the origin.
 pub(super) struct Within<'a> {
     pub field: &'a FieldOfView,
     pub radius: f64,
 }
 
 impl FieldOfView {
-    /// A volume from `offset` to `offset` + `range` before the sensor `[m]`; none unless all its numbers are finite, lengths not negative, the range
-    /// positive, angles within (0, π].
+    /// Makes a volume from `offset` to `offset` + `range` before the sensor `[m]`; none unless all numbers are finite,
+    /// lengths not negative, the range positive, angles within (0, π].
     #[must_use]
     pub fn new(volume: Volume, offset: f64, range: f64) -> Option<Self> {
         let end = offset + range;
@@ -118,31 +119,31 @@ impl FieldOfView {
         (fits && valid).then_some(Self { volume, offset, end, reach, bounds })
     }
 
-    /// What it looks into.
+    /// Volume.
     #[must_use]
     pub fn volume(&self) -> Volume {
         self.volume
     }
 
-    /// Where it begins before the sensor `[m]`.
+    /// Distance of its near end from the sensor `[m]`.
     #[must_use]
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// How far it goes from there `[m]`.
+    /// Length from its near to its far end `[m]`.
     #[must_use]
     pub fn range(&self) -> f64 {
         self.end - self.offset
     }
 
-    /// The farthest that anything can be seen at `[m]`.
+    /// Largest distance of detection from the origin `[m]`.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Whether a point is in it.
+    /// Returns true if a point is in the field of view.
     #[must_use]
     pub fn contains(&self, p: Vec3<f64>) -> bool {
         let slack = ON * self.reach;
@@ -190,7 +191,8 @@ impl Convex for Within<'_> {
     }
 }
 
-/// Both points of a line n·p = b at the distance `radius` from the origin, its direction being `t`; a line that just misses counts as touching.
+/// Both points of a line n·p = b at the distance `radius` from the origin, its direction being `t`; a line that just
+/// misses counts as touching.
 fn on_circle([n, m]: [f64; 2], b: f64, radius: f64) -> Option<[[f64; 2]; 2]> {
     let square = radius * radius - b * b;
     if square < -ON * radius * radius {
@@ -200,7 +202,7 @@ fn on_circle([n, m]: [f64; 2], b: f64, radius: f64) -> Option<[[f64; 2]; 2]> {
     Some([1.0, -1.0].map(|sign| [b * n - sign * half * m, b * m + sign * half * n]))
 }
 
-/// The farthest point along `d` of what some lines and a circle enclose.
+/// Support mapping of the intersection of half planes and a circle.
 fn in_section(lines: &[([f64; 2], f64); 4], radius: f64, d: [f64; 2]) -> [f64; 2] {
     let mut best = ([0.0; 2], f64::NEG_INFINITY);
     let mut look = |p: [f64; 2], skip: [usize; 2]| {
@@ -230,7 +232,7 @@ fn in_section(lines: &[([f64; 2], f64); 4], radius: f64, d: [f64; 2]) -> [f64; 2
     best.0
 }
 
-/// The farthest point along `d` of what some planes and a ball enclose.
+/// Support mapping of the intersection of half spaces and a sphere.
 fn in_planes(planes: &[(Vec3<f64>, f64); 6], radius: f64, d: Vec3<f64>) -> Vec3<f64> {
     let mut best = (Vec3::zero(), f64::NEG_INFINITY);
     let mut look = |p: Vec3<f64>, skip: [usize; 3]| {

@@ -1,42 +1,43 @@
-//! The gap between two convex sets: their points that are closest to each other, known by nothing but the farthest point of each in any
-//! direction. For distances and proximity sensors; a few hundred nanoseconds for boxes.
+//! GJK: distance and closest points of two convex sets, each known by its support mapping alone. For distances and
+//! proximity sensors; a few hundred nanoseconds for boxes.
 //!
-//! v(k+1) is the point of the simplex of at most four points of A − B that is closest to the origin (Gilbert, Johnson, Keerthi 1988); the next point
-//! is the farthest one against v. The end is where v·(v − w) is nothing any more: |v| is then within that of the distance. The simplex is searched
-//! for its closest part by trying all of them, which no rounding can lead astray.
+//! v(k+1) is the point closest to the origin of a simplex of at most four points of A − B; the next point is the
+//! support point of A − B along −v. The iteration ends when v·(v − w) vanishes: |v| then equals the distance to within
+//! that. The closest part of the simplex is found by trying all its faces, which no rounding error can mislead. Source:
+//! E. G. Gilbert, D. W. Johnson, S. S. Keerthi, 1988; key `ericson2004`, section 9.5.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | w = a − b | a point of A − B with the points of A and B that it comes from |
 //! | v | the point of the simplex closest to the origin |
-//! | λ | its weights |
+//! | λ | its barycentric coordinates |
 
 use crate::spatial::Vec3;
 
-/// Relative error of a distance at which the search ends; curved sets are approached point by point, polytopes end before.
+/// Relative error of a distance at which the iteration ends; curved sets converge point by point, polytopes end before.
 const ENOUGH: f64 = 1e-14;
-/// Steps after which the search ends whatever is reached; boxes need about 5, cylinders on their rims about 30.
+/// Iteration limit; boxes need about 5, cylinders on their rims about 30.
 const MAX_ITERATIONS: usize = 300;
 /// Gram determinants below this, by the squares of their edges, are those of simplices without extent.
 const FLAT: f64 = 1e-26;
 
-/// How far apart the two ways to the closest point of a simplex may be, by its size, for it to count.
+/// Tolerance between the two expressions for the closest point of a simplex, relative to its size.
 const SOUND: f64 = 1e-13;
 
-/// A convex set that knows its farthest point in a direction.
+/// Convex set with its support mapping.
 pub(super) trait Convex {
-    /// The point farthest along `d`, of any length but zero.
+    /// Support mapping: the point of the set farthest along `d`, of any length but zero.
     fn support(&self, d: Vec3<f64>) -> Vec3<f64>;
-    /// A point that is in it or near it.
+    /// A point in the set or near it, for the first direction.
     fn interior_point(&self) -> Vec3<f64>;
 }
 
-/// Two points closest to each other: none of them, but one of both sets, if the sets meet.
+/// Closest points of two sets; one common point if they overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Separation {
-    /// `[m]`, 0 if the sets meet.
+    /// Distance `[m]`, 0 if the sets overlap.
     pub distance: f64,
-    /// On the first and the second set; the same if they meet.
+    /// Points on the first and the second set; the same if they overlap.
     pub points: [Vec3<f64>; 2],
 }
 
@@ -52,7 +53,7 @@ struct Simplex {
     corners: [Corner; 4],
     weights: [f64; 4],
     n: usize,
-    /// That point; not from the weights, because it must be at right angles to the simplex even where it is tiny.
+    /// Closest point; not from the weights, because it must be perpendicular to the simplex even where that is tiny.
     v: Vec3<f64>,
 }
 
@@ -107,14 +108,14 @@ impl Simplex {
         parts.fold(Vec3::zero(), |sum, (c, weight)| sum + of(c).scale(*weight))
     }
 
-    /// The sets meet where the two points are.
+    /// Common point of overlapping sets.
     fn meeting(&self) -> Separation {
         let [a, b] = self.points();
         Separation { distance: 0.0, points: [(a + b).scale(0.5); 2] }
     }
 
-    /// The smallest part of this simplex and one more corner that holds the point closest to the origin; none if the origin is inside all
-    /// four: their weights are then those of the origin.
+    /// Smallest face of this simplex and one more vertex that contains the point closest to the origin; none if the
+    /// origin is inside all four: the weights are then those of the origin.
     fn take(&mut self, new: Corner) -> Option<Self> {
         let n = self.n;
         let mut best: Option<(f64, Self)> = None;
@@ -139,13 +140,15 @@ impl Simplex {
         best.map(|(_, found)| found)
     }
 
-    /// Whether the weights give the point that the simplex's direction gives: corners that coincide but for rounding have no direction.
+    /// Returns true if the weights give the point that the simplex's direction gives: vertices that coincide but for
+    /// rounding have no direction.
     fn is_sound(&self) -> bool {
         let size = self.corners[..self.n].iter().fold(0.0_f64, |size, c| size.max(c.w.norm()));
         (self.sum(|c| c.w) - self.v).norm() <= SOUND * size
     }
 
-    /// Where two corners nearly coincide, as on curved sets, the normal of a triangle is as exact as the edge between them.
+    /// Reorders the vertices of a triangle: where two nearly coincide, as on curved sets, its normal is as accurate as
+    /// the edge between them.
     fn begin_with_shortest_edge(&mut self) {
         let length = |i: usize, j: usize| {
             let edge = self.corners[i].w - self.corners[j].w;
@@ -159,7 +162,8 @@ impl Simplex {
         }
     }
 
-    /// Weights of the point of the affine hull that is closest to the origin; whether all of them are positive.
+    /// Finds the barycentric coordinates of the point of the affine hull closest to the origin; returns true if all are
+    /// positive.
     fn set_mass_properties(&mut self) -> bool {
         if self.n == 3 {
             self.begin_with_shortest_edge();

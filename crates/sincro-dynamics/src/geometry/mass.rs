@@ -20,7 +20,8 @@ impl MassProperties {
         eigenvalues(&Sym3(self.inertia))
     }
 
-    /// By how much the largest principal moment exceeds the sum of the others, relative to it; no rigid body has more than 0.
+    /// By how much the largest principal moment exceeds the sum of the others, relative to it; no rigid body has more
+    /// than 0.
     #[must_use]
     pub fn triangle_excess(&self) -> f64 {
         let [a, b, c] = self.principal_moments();

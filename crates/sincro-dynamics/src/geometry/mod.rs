@@ -1,7 +1,24 @@
-//! Surfaces to look at: what a ray hits first, what is closest, what a proximity sensor sees. No part of a step; sensors and clients ask.
+//! Geometry of surfaces: shapes with their mass properties, support mappings, distances, ray casts, fields of view of
+//! proximity sensors.
 //!
-//! Rays have closed forms on solids, hulls are cut by the planes of their faces, meshes and height fields are the collision library's. Distances are
-//! those of convex sets (`gjk`), triangle by triangle for meshes and height fields (`bvh`).
+//! A [`Geometry`] is a surface prepared for queries. Ray casts have closed forms on solids, hulls are cut by the planes
+//! of their faces, meshes and height fields use the collision library. Distances are those of convex sets by GJK on
+//! support mappings, and triangle by triangle for meshes and height fields in a bounding volume hierarchy. No query is
+//! part of a step; contact detection uses the surfaces and the separating axes only.
+//!
+//! | file | content |
+//! |---|---|
+//! | `shape`, `mass`, `polyhedron`, `surface` | solids, mass properties, triangle meshes, surfaces of colliders |
+//! | `support` | support mappings of the convex surfaces |
+//! | `gjk` | distance of two convex sets |
+//! | `bvh` | bounding volume hierarchy of triangles |
+//! | `sat` | separating axes and face clipping of convex polytopes |
+//! | `distance` | closest points of two surfaces, or of a surface and a point |
+//! | `ray_cast` | ray casts against solids |
+//! | `field_of_view`, `proximity` | volumes of proximity sensors, and the detection in them |
+//! | `parry` | conversion to the collision library |
+//!
+//! Source: C. Ericson, key `ericson2004`, chapters 4 to 6 and 9.
 
 mod bvh;
 mod distance;
@@ -39,37 +56,37 @@ pub use surface::Surface;
 /// A ray: a point and a direction of length one, in whatever frame is said.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts `[m]`.
+    /// Origin `[m]`.
     pub origin: Vec3<f64>,
-    /// Where it goes, length one.
+    /// Direction, length one.
     pub direction: Vec3<f64>,
 }
 
 impl Ray {
-    /// The point at a distance `[m]` from its start.
+    /// Returns the point at a distance `[m]` from the origin.
     #[must_use]
     pub fn at(&self, distance: f64) -> Vec3<f64> {
         self.origin + self.direction.scale(distance)
     }
 }
 
-/// Where a ray enters a surface.
+/// Hit of a ray cast: the point where a ray enters a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// From the ray's start `[m]`.
+    /// Distance from the ray's origin `[m]`.
     pub distance: f64,
-    /// Out of the surface, length one, in the frame of the ray.
+    /// Outward unit normal, in the frame of the ray.
     pub normal: Vec3<f64>,
 }
 
-/// A surface, ready to be looked at.
+/// Surface prepared for ray casts, distances and detection.
 #[derive(Clone)]
 pub struct Geometry {
     surface: Surface,
     library: ParryShape,
-    /// Of a hull: outward normals and distances from the origin.
+    /// Outward normals of a hull's faces and their distances from the origin.
     faces: Vec<(Vec3<f64>, f64)>,
-    /// Of a mesh or height field: its triangles.
+    /// Triangles of a mesh or height field.
     bvh: Bvh,
     reach: f64,
 }
@@ -81,7 +98,7 @@ impl std::fmt::Debug for Geometry {
 }
 
 impl Geometry {
-    /// A surface; none if it has no extent that can be computed with, such as a flat hull.
+    /// Prepares a surface; none if it has no extent that can be computed with, such as a flat hull.
     #[must_use]
     pub fn new(surface: Surface) -> Option<Self> {
         let library = ParryShape::of(&surface)?;
@@ -107,13 +124,14 @@ impl Geometry {
         &self.surface
     }
 
-    /// Radius of a ball about the frame's origin that holds it `[m]`; infinite for a half space.
+    /// Radius of the bounding sphere about the frame's origin `[m]`; infinite for a half space.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Where a ray, given in the surface's frame, enters it from outside within `max_distance` `[m]`; what starts inside a solid does not see it.
+    /// Ray cast: the first point within `max_distance` `[m]` where a ray, given in the surface's frame, enters the
+    /// surface from outside. A ray that starts inside a solid does not hit it.
     #[must_use]
     pub fn cast_ray(&self, ray: &Ray, max_distance: f64) -> Option<Hit> {
         let hit = match &self.surface {

@@ -1,5 +1,5 @@
-//! Surfaces as the collision library parry has them. Its cylinders, cones and height fields have their axis along y: axes are exchanged in
-//! cyclic order.
+//! Surfaces as shapes of the collision library parry. Its cylinders, cones and height fields have their axis along y:
+//! axes are exchanged in cyclic order.
 
 use parry3d_f64::math::{Pose as LibraryPose, Vector};
 use parry3d_f64::shape::{SharedShape, TriMeshFlags};
@@ -8,12 +8,12 @@ use parry3d_f64::utils::Array2;
 use super::{Shape, Surface};
 use crate::spatial::{Mat3, Pose, Quat, Vec3};
 
-/// A surface as the library has it, and where its frame stands in the surface's own.
+/// Shape of the library, and the pose of its frame in the surface's own.
 #[derive(Clone)]
 pub(crate) struct ParryShape {
     /// The shape.
     pub shape: SharedShape,
-    /// Where its frame stands in the surface's own.
+    /// Pose of its frame in the surface's own.
     pub pose: Pose<f64>,
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct ParryShape {
 const CYCLIC: Mat3<f64> = Mat3([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
 
 impl ParryShape {
-    /// A surface; none if the library refuses it.
+    /// Converts a surface; none if the library refuses it.
     pub fn of(surface: &Surface) -> Option<Self> {
         let points = |list: &[[f64; 3]]| list.iter().map(|p| Vector::from_array(*p)).collect::<Vec<_>>();
         let plain = |shape: SharedShape| Some(Self { shape, pose: Pose::identity() });
@@ -69,7 +69,7 @@ impl ParryShape {
     }
 }
 
-/// A pose as the library has it.
+/// Converts a pose.
 pub(crate) fn parry_pose(x: &Pose<f64>) -> LibraryPose {
     let q = Quat::from_matrix(&x.rot);
     let mut pose = LibraryPose::IDENTITY;
@@ -78,7 +78,7 @@ pub(crate) fn parry_pose(x: &Pose<f64>) -> LibraryPose {
     pose
 }
 
-/// A vector of the library's as ours.
+/// Converts a vector of the library.
 pub(crate) fn vec3(v: Vector) -> Vec3<f64> {
     Vec3([v.x, v.y, v.z])
 }

@@ -1,8 +1,9 @@
-//! Triangle meshes: whether they enclose a volume, what it weighs, and the convex hull of points.
+//! Triangle meshes: test for a closed surface, mass properties, convex hull of points.
 //!
-//! A mesh encloses a volume if every edge is run through once in each direction and the corners of each triangle are counter-clockwise seen from
-//! outside. Its mass properties are sums over the tetrahedra of one corner with each triangle, exact but for rounding: of a tetrahedron with corners
-//! 0, a, b, c and D = det(a, b, c) the volume is D/6, the first moment D/24·s and the second D/120·(a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
+//! A mesh encloses a volume if every edge is traversed once in each direction and the corners of each triangle are
+//! counter-clockwise seen from outside. Its mass properties are sums over the tetrahedra of one corner with each
+//! triangle, exact but for rounding: of a tetrahedron with corners 0, a, b, c and D = det(a, b, c) the volume is D/6,
+//! the first moment D/24·s and the second D/120·(a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +19,7 @@ const FLAT: f64 = 1e-12;
 /// Volume of a hull over the cube of its extent below which it is flat.
 const NO_VOLUME: f64 = 1e-9;
 
-/// Why a mesh encloses no volume. Corners and triangles are counted from 0.
+/// Defect that keeps a mesh from enclosing a volume. Corners and triangles are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MeshDefect {
     /// A corner is not a number, or infinite.
@@ -54,7 +55,7 @@ pub enum MeshDefect {
     },
 }
 
-/// What keeps a mesh from enclosing a volume, in the order of its triangles; empty if it does.
+/// Defects of a mesh, in the order of its triangles; empty if it encloses a volume.
 #[must_use]
 pub fn defects(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<MeshDefect> {
     let bad = (0..corners.len()).filter(|k| !corners[*k].iter().all(|x| x.is_finite()));
@@ -96,7 +97,7 @@ fn is_flat(corners: [[f64; 3]; 3]) -> bool {
     x.cross(y).norm() <= FLAT * longest
 }
 
-/// Mass, centre of mass and inertia of what a closed mesh encloses, at a density [kg/m³].
+/// Returns mass, centre of mass and inertia of the volume inside a closed mesh, at a density [kg/m³].
 #[must_use]
 pub fn mass_properties(corners: &[[f64; 3]], triangles: &[[u32; 3]], density: f64) -> MassProperties {
     // seen from one of its corners, so that a mesh far from its origin loses no digits
@@ -125,7 +126,7 @@ pub fn mass_properties(corners: &[[f64; 3]], triangles: &[[u32; 3]], density: f6
 /// Corners `[m]` and triangles.
 pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
-/// The convex hull of points, counter-clockwise seen from outside; none if they span no volume.
+/// Convex hull of points, counter-clockwise seen from outside; none if they span no volume.
 #[must_use]
 pub fn convex_hull(points: &[[f64; 3]]) -> Option<Triangles> {
     if points.len() < 4 || !points.iter().flatten().all(|x| x.is_finite()) {

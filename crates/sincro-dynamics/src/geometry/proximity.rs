@@ -1,9 +1,11 @@
-//! What a proximity sensor sees of a surface: the point inside its volume that is closest to its origin.
+//! Detection by a proximity sensor: the point of a surface inside its field of view that is closest to its origin.
 //!
-//! If the closest point of a convex surface is inside the volume, it is that. If not, it lies on the boundary of the volume: then what of the volume is
-//! within a radius r just touches the surface. Their distance f(r) is convex and falls to zero where it is wanted, so that secants from below never pass
-//! it where the volume grows evenly; where they do, halving takes over. It ends at 1e-13 of the size. Meshes and height fields are their triangles, each of
-//! which is convex. Rays have their own closed forms. What the origin, or the middle of the near end, is inside of is not seen.
+//! If the closest point of a convex surface is inside the field of view, it is the detection. If not, the detection
+//! lies on the boundary of the field of view: the part of it within a radius r then just touches the surface. The
+//! distance f(r) of the two is convex and decreases to zero at the detection, so that secants from below never pass it
+//! where the volume grows evenly; where they do, bisection takes over. The iteration ends at 1e-13 of the size. Meshes
+//! and height fields are sets of triangles, each of which is convex. Rays have their own closed forms. A solid that
+//! contains the origin, or the centre of the near end, is not detected.
 
 use super::distance::closest_points;
 use super::field_of_view::{FieldOfView, Volume, Within};
@@ -12,24 +14,25 @@ use super::support::{Core, POINT, Placed, Solid, normal_at};
 use super::{Geometry, Ray};
 use crate::spatial::{Pose, Vec3};
 
-/// Distance of volume and surface at which the search ends, by the size of the volume.
+/// Distance between volume and surface at which the iteration ends, relative to the size of the volume.
 const TOUCHES: f64 = 1e-13;
-/// Secants and halvings at most.
+/// Iteration limit of secants and bisections.
 const MAX_ITERATIONS: usize = 120;
 
-/// What a sensor sees, in its own frame.
+/// Detection of a proximity sensor, in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detection {
-    /// From the sensor's origin `[m]`.
+    /// Distance from the sensor's origin `[m]`.
     pub distance: f64,
-    /// The point seen `[m]`.
+    /// Detected point `[m]`.
     pub point: Vec3<f64>,
-    /// Out of the surface there, length one.
+    /// Outward unit normal there.
     pub normal: Vec3<f64>,
 }
 
 impl FieldOfView {
-    /// The point of a surface in the volume that is closest to the origin, within `max_distance` `[m]`; the surface's frame stands at `x_sg` in the sensor's.
+    /// Detects the point of a surface in the field of view that is closest to the origin, within `max_distance` `[m]`;
+    /// the surface's frame stands at `x_sg` in the sensor's.
     #[must_use]
     pub fn detect(&self, geometry: &Geometry, x_sg: &Pose<f64>, max_distance: f64) -> Option<Detection> {
         let max_distance = max_distance.min(self.reach);
@@ -72,7 +75,7 @@ impl FieldOfView {
         Some(Detection { distance, point: Vec3([0.0, 0.0, distance]), normal: x_sg.rot.mul_vec(hit.normal) })
     }
 
-    /// The closest point of a convex set; if it is a solid, none where the sensor is in it.
+    /// Closest point of a convex set; of a solid, none where the sensor is inside it.
     fn closest_in_convex(&self, set: &Placed<'_>, is_solid: bool) -> Option<Vec3<f64>> {
         let at = |p: Vec3<f64>| Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
         let start = Vec3([0.0, 0.0, self.offset]);
@@ -111,7 +114,8 @@ impl FieldOfView {
         })
     }
 
-    /// The point where what is within a radius first touches a set: `apart` tells how far they are apart, not above 0 if they meet, and the set's point.
+    /// First contact of the growing volume with a set: `apart` returns their distance, not above 0 if they overlap, and
+    /// the set's point.
     fn first_contact(&self, least: f64, apart: impl Fn(&Within<'_>) -> (f64, Vec3<f64>)) -> Option<Vec3<f64>> {
         let look = |radius: f64| apart(&Within { field: self, radius });
         let enough = TOUCHES * self.reach;

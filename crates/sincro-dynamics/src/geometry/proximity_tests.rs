@@ -1,4 +1,5 @@
-//! What proximity sensors see: closed forms, and that nothing of a surface in the volume is nearer.
+//! Detections of proximity sensors against closed forms, and no point of the surface in the field of view nearer than
+//! the detection.
 
 use std::f64::consts::PI;
 
@@ -27,7 +28,7 @@ fn fields() -> Vec<FieldOfView> {
     volumes.into_iter().map(|(volume, offset)| FieldOfView::new(volume, offset, 1.3).unwrap()).collect()
 }
 
-/// How far a point is from the field.
+/// Distance of a point from the field of view.
 fn off(field: &FieldOfView, p: Vec3<f64>) -> f64 {
     let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
     gjk(&Within { field, radius: field.reach() }, &point).distance

@@ -1,10 +1,10 @@
-//! Where rays enter solids: closed forms, in the solid's own frame.
+//! Ray casts against solids: closed forms for the point where a ray enters, in the solid's own frame.
 
 use super::Shape;
 use super::{Hit, Ray};
 use crate::spatial::Vec3;
 
-/// A solid.
+/// Ray cast against a solid.
 pub(super) fn solid(shape: &Shape, ray: &Ray) -> Option<Hit> {
     match *shape {
         Shape::Sphere { radius } => ball(Vec3::zero(), radius, ray),
@@ -15,12 +15,12 @@ pub(super) fn solid(shape: &Shape, ray: &Ray) -> Option<Hit> {
     }
 }
 
-/// Everything below z = 0.
+/// Ray cast against the half space z ≤ 0.
 pub(super) fn half_space(ray: &Ray) -> Option<Hit> {
     planes([(Vec3([0.0, 0.0, 1.0]), 0.0)].into_iter(), ray)
 }
 
-/// What is behind all of some planes: outward normals and distances from the origin.
+/// Ray cast against the intersection of half spaces: outward normals and distances from the origin.
 pub(super) fn planes(planes: impl Iterator<Item = (Vec3<f64>, f64)>, ray: &Ray) -> Option<Hit> {
     let mut enters: Option<Hit> = None;
     let mut leaves = f64::INFINITY;

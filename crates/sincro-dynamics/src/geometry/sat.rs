@@ -1,11 +1,13 @@
-//! Faces on faces: points of contact between two convex polytopes.
+//! Separating axes and face clipping: contact points of two convex polytopes.
 //!
-//! The direction in which two polytopes are farthest apart (or least inside each other) is the normal of a face of one of them, or across an edge of each
-//! (separating axes; key `gottschalk1996`). A face is taken wherever an edge pair is no better by more than a tolerance: two boxes that lie on each other
-//! have both, equal but for rounding, and only the faces hold the boxes level. The face of the other that looks against it is cut to its outline; the
-//! corners that are left are the points.
+//! The direction of largest separation (or least penetration) of two polytopes is the normal of a face of one of them,
+//! or perpendicular to an edge of each (separating axis theorem; key `gottschalk1996`). A face is chosen wherever an
+//! edge pair is no better by more than a tolerance: two boxes that lie on each other have both, equal but for rounding,
+//! and only the faces keep the boxes level. The opposing face of the other polytope (incident face) is clipped against
+//! the side planes of the first one (reference face); the vertices that remain are the contact points.
 //!
-//! A point is a material one of the body whose face was cut, over the plane of the other: exact for flat faces that lie, tilt and slide.
+//! A point is a material point of the body whose face was clipped, over the plane of the other: exact for flat faces
+//! that rest, tilt and slide.
 
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::ConvexPolyhedron;
@@ -13,16 +15,16 @@ use parry3d_f64::shape::ConvexPolyhedron;
 use super::{Shape, Surface};
 use crate::spatial::{Pose, Vec3};
 
-/// Distances below this make no difference between directions, and points closer than this are one `[m]`.
+/// Tolerance between the separations of two directions, and distance of points that are merged `[m]`.
 const ALIKE: f64 = 1e-6;
 
-/// How far outside of an outline a point still counts as on it `[m]`.
+/// Tolerance of points outside of an outline `[m]`.
 const ON_OUTLINE: f64 = 1e-9;
 
 /// Sine of the angle between two edges below which they are parallel.
 const PARALLEL: f64 = 1e-6;
 
-/// Edges beyond which hulls are left to the general algorithm: all pairs are looked at.
+/// Maximum number of edges; hulls with more are left to the general algorithm, since all pairs of edges are tested.
 const MAX_EDGES: usize = 90;
 
 #[derive(Clone, Copy, Debug)]
@@ -109,7 +111,7 @@ pub(crate) struct PointOnPlane {
     pub normal: Vec3<f64>,
 }
 
-/// The second polytope in the frame of the first one's link, and room for outlines.
+/// Working memory: the second polytope in the frame of the first one's link, and outlines.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FaceClipper {
     vertices: Vec<Vec3<f64>>,
@@ -136,7 +138,7 @@ impl Placed<'_> {
         self.shape.loops[first..first + len].iter().map(|k| self.vertices[*k])
     }
 
-    /// The face that another polytope is farthest in front of, and how far.
+    /// Face with the largest separation from another polytope, and that separation.
     fn best_face(&self, other: &[Vec3<f64>]) -> (usize, f64) {
         let mut best = (0, f64::NEG_INFINITY);
         for face in 0..self.shape.faces.len() {
@@ -152,8 +154,8 @@ impl Placed<'_> {
 }
 
 impl FaceClipper {
-    /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`; `x_ab` is the
-    /// pose of b's link in a's.
+    /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`;
+    /// `x_ab` is the pose of b's link in a's.
     pub fn find(
         &mut self,
         a: &Polytope,
@@ -202,7 +204,8 @@ impl FaceClipper {
     }
 }
 
-/// The outline of the other's face that looks against a face, cut to the outline of that face, without doubles.
+/// Clips the incident face, the face of `other` that opposes a face most, to the outline of that face; merges
+/// coincident points.
 fn cut_outline(
     lead: &Placed<'_>,
     face: usize,
@@ -243,7 +246,7 @@ fn cut_outline(
     core::mem::swap(outline, cut);
 }
 
-/// Leaves at most `max_distance` points: those are taken out first whose absence takes the least area away.
+/// Reduces the points to `max_points`: those go first whose removal reduces the area least.
 fn thin_out(points: &mut Vec<Vec3<f64>>, max_points: usize) {
     while points.len() > max_points {
         let n = points.len();
@@ -256,7 +259,7 @@ fn thin_out(points: &mut Vec<Vec3<f64>>, max_points: usize) {
     }
 }
 
-/// The pair of edges across which the polytopes are farthest apart: edges, normal from two to one, distance.
+/// Pair of edges with the largest separation: edges, normal from two to one, separation.
 fn best_edges(one: &Placed<'_>, two: &Placed<'_>) -> Option<([usize; 2], Vec3<f64>, f64)> {
     let mut best: Option<([usize; 2], Vec3<f64>, f64)> = None;
     for (i, e) in one.shape.edges.iter().enumerate() {
@@ -284,7 +287,8 @@ fn best_edges(one: &Placed<'_>, two: &Placed<'_>) -> Option<([usize; 2], Vec3<f6
     best
 }
 
-/// Whether the arcs that two edges are on the sphere of normals cross: only then can they touch. The arc from a to b has its pole along the edge.
+/// Returns true if the arcs of two edges on the Gauss map cross: only then can they touch. The arc from a to b has its
+/// pole along the edge.
 fn arcs_cross((a, b, u): (Vec3<f64>, Vec3<f64>, Vec3<f64>), (c, d): (Vec3<f64>, Vec3<f64>), w: Vec3<f64>) -> bool {
     let (at_c, at_d) = (c.dot(u), d.dot(u));
     let (at_a, at_b) = (a.dot(w), b.dot(w));
@@ -296,7 +300,7 @@ fn arcs_cross((a, b, u): (Vec3<f64>, Vec3<f64>, Vec3<f64>), (c, d): (Vec3<f64>, 
     c.dot(ba) * b.dot(dc) > 0.0
 }
 
-/// Two edges that cross: the first one's nearest point over a plane through the second one.
+/// Contact point of two crossing edges: the first one's nearest point over a plane through the second one.
 fn edge_point(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64>, x_ab: &Pose<f64>) -> PointOnPlane {
     let line = |placed: &Placed<'_>, k: usize| {
         let [from, to] = placed.shape.edges[k].ends.map(|v| placed.vertices[v]);

@@ -1,6 +1,7 @@
 //! Solid shapes and their mass properties from density.
 //!
-//! Frames are centred on the centre of mass; axes of symmetry lie along z. Source of the formulas: key `meriam2015`, table D/4.
+//! Frames are centred on the centre of mass; axes of symmetry lie along z. Source of the formulas: key `meriam2015`,
+//! table D/4.
 
 use core::f64::consts::PI;
 
@@ -100,7 +101,8 @@ fn capsule_moments(density: f64, r: f64, l: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Volume integrals over a fine grid of the shape's bounding box: mass, axial and transverse moment, height of the centre.
+    /// Volume integrals over a fine grid of the shape's bounding box: mass, axial and transverse moment, height of the
+    /// centre.
     fn by_integration(inside: impl Fn(f64, f64) -> bool, r_max: f64, z: (f64, f64)) -> (f64, f64, f64, f64) {
         let (n_r, n_z) = (2000, 2000);
         let (dr, dz) = (r_max / f64::from(n_r), (z.1 - z.0) / f64::from(n_z));

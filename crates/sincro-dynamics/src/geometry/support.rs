@@ -1,4 +1,5 @@
-//! Surfaces as what distances are computed of: convex sets with a rounding, a half space, or triangles in a tree of boxes.
+//! Support mappings of the convex surfaces: each is a core with a rounding radius; half spaces and sets of triangles
+//! are kept apart. Source: key `ericson2004`, section 9.5.
 
 use super::Geometry;
 use super::bvh::Bvh;
@@ -6,10 +7,10 @@ use super::gjk::Convex;
 use super::{Shape, Surface};
 use crate::spatial::{Pose, Vec3};
 
-/// Faces whose distance from a point differs by less than this share it `[m]`.
+/// Tolerance in the distances of faces from a point that they share `[m]`.
 pub(super) const ON: f64 = 1e-9;
 
-/// A surface as its parts; all in the frame of the surface.
+/// Surface by kind of distance query, in the frame of the surface.
 pub(super) enum Solid<'a> {
     Convex(Core<'a>, f64),
     /// Everything below z = 0.
@@ -17,7 +18,7 @@ pub(super) enum Solid<'a> {
     Triangles(&'a Bvh),
 }
 
-/// What is inside the rounding of a convex surface.
+/// Core of a rounded convex surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Core<'a> {
     Point,
@@ -33,7 +34,7 @@ pub(super) enum Core<'a> {
     Triangle([Vec3<f64>; 3]),
 }
 
-/// A core where it stands.
+/// Core at a pose, with its rounding radius.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed<'a> {
     pub core: Core<'a>,
@@ -63,7 +64,7 @@ impl Geometry {
 }
 
 impl Core<'_> {
-    /// In its own frame.
+    /// Support mapping in its own frame.
     pub(super) fn support(&self, d: Vec3<f64>) -> Vec3<f64> {
         let end = |half: f64, x: f64| if x >= 0.0 { half } else { -half };
         let rim = |radius: f64, z: f64| {
@@ -115,7 +116,8 @@ impl Convex for Placed<'_> {
     }
 }
 
-/// Direction out of a surface at a point of it, in the surface's frame: of several, where edges and corners are, the one that faces `towards` most.
+/// Outward normal of a surface at a point of it, in the surface's frame: of several, at edges and vertices, the one
+/// that faces `towards` most.
 pub(super) fn normal_at(geometry: &Geometry, p: Vec3<f64>, towards: Vec3<f64>) -> Vec3<f64> {
     let across = (p[0] * p[0] + p[1] * p[1]).sqrt();
     let outwards = if across > 0.0 { Vec3([p[0] / across, p[1] / across, 0.0]) } else { Vec3([1.0, 0.0, 0.0]) };
@@ -151,7 +153,8 @@ fn unit(v: Vec3<f64>) -> Vec3<f64> {
     v.scale(1.0 / v.norm().max(f64::MIN_POSITIVE))
 }
 
-/// Of faces, each with its distance from a point and its normal, the normal of one that the point lies on: the one that faces `towards` most.
+/// Normal of a face that a point lies on, from pairs of distance and normal: of several, the one that faces `towards`
+/// most.
 fn facing(faces: impl Iterator<Item = (f64, Vec3<f64>)> + Clone, towards: Vec3<f64>) -> Vec3<f64> {
     let least = faces.clone().fold(f64::INFINITY, |least, (off, _)| least.min(off));
     let mut best = (f64::NEG_INFINITY, Vec3([0.0, 0.0, 1.0]));

@@ -3,7 +3,7 @@
 use super::Shape;
 use crate::spatial::Vec3;
 
-/// The geometry of a surface.
+/// Geometry of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
     /// A solid.
@@ -14,7 +14,8 @@ pub enum Surface {
     Hull(Vec<[f64; 3]>),
     /// A closed triangle mesh: vertices `[m]` and counter-clockwise triangles; fixed in the world.
     Mesh(Vec<[f64; 3]>, Vec<[u32; 3]>),
-    /// Heights `[m]` over a grid centred on the frame, row by row along x, extents along x and y `[m]`; fixed in the world.
+    /// Heights `[m]` over a grid centred on the frame, row by row along x, extents along x and y `[m]`; fixed in the
+    /// world.
     HeightField {
         /// Points along x.
         columns: usize,
@@ -26,7 +27,7 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// Radius of a ball about the frame's origin that holds it `[m]`; infinite for a half space.
+    /// Radius of the bounding sphere about the frame's origin `[m]`; infinite for a half space.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let length = |p: &[f64; 3]| Vec3(*p).norm();

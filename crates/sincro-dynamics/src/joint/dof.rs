@@ -9,7 +9,7 @@ pub struct Dof<R> {
     pub armature: R,
     /// Spring stiffness [N·m/rad] or [N/m].
     pub stiffness: R,
-    /// Where the spring is at rest `[rad]` or `[m]`.
+    /// Rest position of the spring `[rad]` or `[m]`.
     pub rest: R,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: R,

@@ -1,4 +1,5 @@
-//! Free joint: S = 1, six degrees of freedom; rates are the link's twist against its parent in link axes, angular first.
+//! Free joint: S = 1, six degrees of freedom; rates are the link's twist against its parent in link axes, angular
+//! first.
 
 use sincro_math::Real;
 

@@ -1,17 +1,18 @@
-//! Links as the recursions see them: a rigid body, the stage that joins it to its parent, and the transforms across that joint.
+//! Links as the recursions see them: a rigid body, the stage that joins it to its parent, and the transforms across
+//! that joint.
 
 use sincro_math::Real;
 
 use super::{Placement, Stage, StageKind};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
-/// No parent: the link moves against the world.
+/// Index of the world among links: no parent.
 pub(crate) const WORLD: u32 = u32::MAX;
 
-/// How a link's origin lies off its parent's: products by zero are not computed.
+/// Direction of the offset between a link's origin and its parent's; products by zero are not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shift {
-    /// It does not.
+    /// No offset.
     None,
     /// Along the parent's x axis.
     X,
@@ -19,22 +20,22 @@ pub(crate) enum Shift {
     Y,
     /// Along the parent's z axis.
     Z,
-    /// Anywhere.
+    /// Any direction.
     Any,
 }
 
-/// One moving link and the stage that joins it to its parent.
+/// Moving link and the stage that joins it to its parent.
 #[derive(Clone, Copy, Debug)]
 pub struct Link<R> {
     pub(crate) parent: u32,
     pub(crate) kind: StageKind,
-    /// Whether `base_rotation` is not the identity.
+    /// True if `base_rotation` is not the identity.
     pub(crate) turned: bool,
-    /// Where the link's origin can lie off its parent's.
+    /// Direction of the offset of the link's origin from its parent's.
     pub(crate) shift: Shift,
-    /// Whether other links hang on it.
+    /// True if it has child links.
     pub(crate) has_children: bool,
-    /// Whether it is the first of its siblings that a tip-to-base pass meets.
+    /// True if it is the first of its siblings that a tip-to-base pass meets.
     pub(crate) is_last_child: bool,
     /// First coordinate in q.
     pub(crate) q_idx: u32,
@@ -50,7 +51,7 @@ pub struct Link<R> {
     pub(crate) axis: Vec3<R>,
     /// Advance of a screw [m/rad].
     pub(crate) pitch: R,
-    /// Of everything merged into the link, about its origin.
+    /// Inertia of everything merged into the link, about its origin.
     pub(crate) inertia: RigidInertia<R>,
 }
 
@@ -73,7 +74,7 @@ impl<R: Real> Link<R> {
         self.v_idx as usize
     }
 
-    /// Whether the link moves freely against its parent.
+    /// Returns true if the link moves freely against its parent.
     pub fn is_free(&self) -> bool {
         self.kind == StageKind::Free
     }

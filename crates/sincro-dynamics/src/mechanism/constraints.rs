@@ -1,4 +1,5 @@
-//! What a world asks of a constrained mechanism between integration steps: what touches, what an impact does, what drift must be taken away.
+//! Operations of a constrained mechanism between integration steps: contact detection, impacts, projection, zero
+//! crossings of contacts.
 
 use crate::constraint::{CLOSED_DISTANCE, Constraints};
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
@@ -9,38 +10,38 @@ use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::spatial::{Pose, Vec3};
 
-/// Speeds below this are none, in deciding what sticks and what arrives [m/s] or [rad/s].
+/// Speed below which a contact neither slides nor approaches [m/s] or [rad/s].
 pub(crate) const ZERO_SPEED: f64 = 1e-8;
 
-/// Positions and rates of constraints are projected to this `[m]`, [m/s].
+/// Projection tolerance of positions and rates `[m]`, [m/s].
 const PROJECTED: f64 = 1e-12;
 
-/// After steps at velocity level, which are of first order, to this.
+/// Projection tolerance after steps at velocity level, which are of first order.
 const PROJECTED_ROUGHLY: f64 = 1e-10;
 
-/// Most iterations of a projection of positions.
+/// Iteration limit of a projection of positions.
 const MAX_PROJECTIONS: usize = 12;
 
-/// What stands at the start of a sub-step.
+/// Result of contact detection at the start of a sub-step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ContactStatus {
-    /// Whether something rigid that touches arrives: an impact.
+    /// True if a closed rigid contact or limit approaches faster than rest: an impact is due.
     pub has_impact: bool,
 }
 
-/// Who counts as closed.
+/// Rule by which a contact or limit counts as closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ActivationRule {
-    /// What touches and does not leave.
+    /// Closed and not separating.
     Touching,
-    /// What touches at all, for an impact.
+    /// Closed, for an impact.
     All,
-    /// What may touch within a step `[s]` at velocity level.
+    /// Closed now or possibly within a step `[s]` at velocity level.
     Within(f64),
 }
 
 impl Mechanism<f64> {
-    /// Finds what touches at the chart's origin for velocities `v`, and classifies it.
+    /// Detects contacts at the chart's origin for velocities `v`, and classifies every slot.
     pub(crate) fn detect_contacts(&mut self, v: &[f64], closing: ActivationRule) -> ContactStatus {
         let Some(c) = self.constraints.as_deref_mut() else { return ContactStatus::default() };
         let (model, scratch) = (&self.model, &mut self.scratch);
@@ -92,7 +93,8 @@ impl Mechanism<f64> {
         touch
     }
 
-    /// Whether something that was apart has come together (and still approaches), in the state last evaluated.
+    /// Zero crossing of a signed distance: returns true if an open contact or limit has closed and still approaches, in
+    /// the state last evaluated.
     pub(crate) fn has_new_contact(&mut self, v: &[f64]) -> bool {
         let Some(c) = self.constraints.as_deref_mut() else { return false };
         let set = &*self.model.constraints;
@@ -120,13 +122,14 @@ impl Mechanism<f64> {
         false
     }
 
-    /// Whether a compliant contact has ended, in the state last evaluated.
+    /// Returns true if a compliant contact has opened, in the state last evaluated.
     pub(crate) fn has_compliant_contact_opened(&self) -> bool {
         let Some(c) = self.constraints.as_deref() else { return false };
         c.blocks.iter().any(|b| b.given.is_some() && c.residual[b.row] > 0.0)
     }
 
-    /// What an impulse meets: forward dynamics at rest without forces, held degrees of freedom as marked.
+    /// Factors the mass matrix for impulses: forward dynamics at rest without forces, prescribed degrees of freedom as
+    /// marked.
     fn factor(&mut self, q_is_base: bool) {
         self.torque.fill(0.0);
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
@@ -150,8 +153,8 @@ impl Mechanism<f64> {
         self.constraint_change = change;
     }
 
-    /// An impact at the chart's origin: changes `v`, returns the energy lost `[J]`. Held degrees of freedom are those marked; the scratch has their
-    /// impulses as reactions.
+    /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of
+    /// freedom are those marked; the scratch has their impulses as reactions.
     pub(crate) fn apply_impact(&mut self, v: &mut [f64]) -> f64 {
         self.detect_contacts(v, ActivationRule::All);
         self.factor(true);
@@ -166,8 +169,8 @@ impl Mechanism<f64> {
         c.impact(&self.model, v, &mut self.scratch, !self.drives.is_empty())
     }
 
-    /// Takes drift away: positions (`y` begins with the chart's zero displacement) until all gaps of what holds are closed, then rates. What holds is what the
-    /// last evaluation found.
+    /// Projection: removes the drift of positions (`y` begins with the chart's zero displacement) until the residuals
+    /// of all closed constraints vanish, then that of rates. The closed constraints are those of the last evaluation.
     pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
         let n = self.model.n_v();
         let enough = if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
@@ -177,10 +180,10 @@ impl Mechanism<f64> {
                 return;
             }
             let c = self.constraints.as_deref_mut().expect("prepared");
-            // sticking has no place to be, only no speed
+            // a sticking contact has no position to keep, only a zero rate
             c.keep_equations(false, !sticking);
             let worst = c.worst(&y[n..2 * n]).0;
-            // close to a singular position there may be something that must not be taken away
+            // close to a singular position there may be a residual that must not be removed
             if worst <= enough || worst > 0.5 * last {
                 break;
             }
@@ -202,7 +205,7 @@ impl Mechanism<f64> {
         if sticking {
             c.keep_equations(true, false);
         } else {
-            // at velocity level what bounces has its speed already
+            // at velocity level restitution has set the rates already
             c.keep_loop_joints();
         }
         if c.worst(&y[n..2 * n]).1 <= PROJECTED {
@@ -218,7 +221,7 @@ impl Mechanism<f64> {
         self.constraint_change = change;
     }
 
-    /// Number of equations of closures that follow from others, at the chart's origin.
+    /// Number of redundant equations of loop joints and gears, at the chart's origin.
     pub(crate) fn redundant(&mut self, y: &[f64]) -> usize {
         if !self.prepare(y, false) {
             return 0;
@@ -233,7 +236,7 @@ impl Mechanism<f64> {
         self.constraints.as_deref().map_or(0, |c| c.solver.redundant)
     }
 
-    /// Rows at the chart's origin; false if there are none.
+    /// Assembles the rows at the chart's origin; returns false if there are none.
     fn prepare(&mut self, y: &[f64], first: bool) -> bool {
         let n = self.model.n_v();
         let Some(c) = self.constraints.as_deref_mut() else { return false };
@@ -246,14 +249,15 @@ impl Mechanism<f64> {
         !c.rows.is_empty()
     }
 
-    /// Notes who does what and in which direction, as last evaluated.
+    /// Records contact modes and slip directions, as last evaluated.
     pub(crate) fn mark_start(&mut self) {
         if let Some(c) = &mut self.constraints {
             c.memory.mark_start();
         }
     }
 
-    /// Whether a contact let go, gripped, slipped or reversed since [`Mechanism::mark_start`], in the state last evaluated.
+    /// Returns true if a contact has opened, stuck, slipped or reversed since [`Mechanism::mark_start`], in the state
+    /// last evaluated.
     pub(crate) fn has_changed(&self) -> bool {
         let Some(c) = self.constraints.as_deref() else { return false };
         c.memory.has_changed() || self.has_compliant_contact_opened()
@@ -261,16 +265,16 @@ impl Mechanism<f64> {
 }
 
 impl Constraints<f64> {
-    /// The greatest speed of a point of surface `k` [m/s], at most; after the motions were placed.
+    /// Upper bound of the speed of any point of surface `k` [m/s], after the motions were placed.
     pub(crate) fn speed(&self, k: usize, collider: &Collider, poses: &[Pose<f64>]) -> f64 {
         let (at, reach) = self.detector.ball(k, collider, poses);
         let spin = self.motions.twist_of(collider.link).ang.norm();
-        // what is fixed may be endless
+        // a fixed surface may be unbounded
         let around = if spin > 0.0 { spin * reach } else { 0.0 };
         self.motions.velocity_of(collider.link, at).norm() + around
     }
 
-    /// That of all surfaces.
+    /// Upper bound of the speed of all surfaces [m/s].
     fn fastest(&self, colliders: &[Collider], poses: &[Pose<f64>]) -> f64 {
         colliders.iter().enumerate().map(|(k, collider)| self.speed(k, collider, poses)).fold(0.0, f64::max)
     }
@@ -285,7 +289,7 @@ fn relative(c: &Constraints<f64>, candidate: &ContactCandidate, point: Vec3<f64>
     c.motions.velocity_of(candidate.a, point) - c.motions.velocity_of(candidate.b, point)
 }
 
-/// Which groups of friction rows slide.
+/// Friction groups that slide.
 fn slides(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>, pair: &Pair) -> [bool; 3] {
     let (t1, t2) = tangents(at.normal);
     let v = relative(c, candidate, at.point);

@@ -1,10 +1,14 @@
-//! The mechanism as a system to integrate: model, commands and drives put together into dy/dt = f(t, y).
+//! The mechanism as a system to integrate: model, commands, drives and constraints as dy/dt = f(t, y).
 //!
-//! y = (δ, v, totals): displacement of the coordinates in the chart of the step (`n_v`), velocities (`n_v`), and, if they are
-//! tracked, the totals of [`State`]: work, dissipation, impulse of each motor; last the states of rotors.
+//! y = (δ, v, totals, rotors): displacement of the generalized coordinates in the chart of the step (`n_v`), velocities
+//! (`n_v`), and, if they are tracked, the totals of [`State`]: work, dissipation, impulse of each motor; last the
+//! states of rotors.
 //!
-//! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child axes.
-//! Source: key `iserles2000`, sections 2.5 and 3.
+//! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child
+//! axes. Source: key `iserles2000`, sections 2.5 and 3.
+//!
+//! A mechanism owns its model and its latched commands besides working memory: [`State`] and [`Scratch`] are not yet
+//! separated from it.
 
 pub(crate) mod constraints;
 mod torques;
@@ -28,13 +32,13 @@ use torques::{TorqueInput, joint_torques};
 #[derive(Clone, Debug)]
 pub struct Mechanism<R> {
     pub(crate) model: Model<R>,
-    /// Latched commands: of motors, then of external forces.
+    /// Latched commands: of motors, then of external forces, then of rotors.
     pub commands: Vec<R>,
-    /// What each drive does: 0 holds, ±1 pulls with its limit.
+    /// State of each drive: 0 locked, ±1 saturated.
     pub drives: Vec<R>,
-    /// Whether work, dissipation and motor impulses are integrated along.
+    /// True if work, dissipation and motor impulses are integrated.
     tracks_totals: bool,
-    /// Where in y the states of rotors stand.
+    /// Range of the states of rotors in y.
     rotor_states: (usize, usize),
     /// q₀ of the chart.
     pub(crate) base: Vec<R>,
@@ -44,21 +48,21 @@ pub struct Mechanism<R> {
     pub(crate) locked_mask: Vec<R>,
     pub(crate) prescribed_acceleration: Vec<R>,
     external: Vec<Force<R>>,
-    /// Pushes from outside the model, until they are taken away.
+    /// External forces from outside the model, until they are removed.
     pushes: Vec<Push<R>>,
-    /// What drag elements take in the last evaluation `[W]`.
+    /// Power dissipated by drag elements in the last evaluation `[W]`.
     air_dissipation: R,
-    /// The first rotor without a number for its load in the last evaluation.
+    /// First rotor whose load was not a number in the last evaluation.
     without_load: Option<usize>,
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
     pub(crate) constraints: Option<Box<Constraints<R>>>,
-    /// Memory of projections and impacts.
+    /// Working memory of projections and impacts.
     pub(crate) constraint_change: Vec<R>,
 }
 
 impl<R: Real> Mechanism<R> {
-    /// For `model`; the totals are integrated if asked for.
+    /// Makes the mechanism of `model`; totals are integrated if `tracks_totals`.
     #[must_use]
     pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
         let zero = vec![R::zero(); model.n_v()];
@@ -81,7 +85,7 @@ impl<R: Real> Mechanism<R> {
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
-            // what branches is not done in lanes
+            // constraints branch, which lanes cannot
             constraints: if R::LANES == 1 { Constraints::new(&model) } else { None },
             model,
         }
@@ -147,12 +151,12 @@ impl<R: Real> Mechanism<R> {
         x.rotors.copy_from_slice(&y[self.rotor_states()]);
     }
 
-    /// Whether work, dissipation and motor impulses are integrated along.
+    /// Returns true if work, dissipation and motor impulses are integrated.
     pub(crate) fn tracks_totals(&self) -> bool {
         self.tracks_totals
     }
 
-    /// Where in y the states of rotors stand.
+    /// Range of the states of rotors in y.
     #[inline(always)]
     #[must_use]
     pub fn rotor_states(&self) -> core::ops::Range<usize> {
@@ -164,7 +168,7 @@ impl<R: Real> Mechanism<R> {
         &self.base
     }
 
-    /// Moves the chart's origin without looking at y.
+    /// Sets the chart's origin; y is not changed.
     pub(crate) fn set_base(&mut self, q: &[R]) {
         self.base.copy_from_slice(q);
     }
@@ -200,7 +204,7 @@ impl<R: Real> Mechanism<R> {
         &mut self.scratch
     }
 
-    /// Marks the degrees of freedom whose drives hold, with zero acceleration; says whether there are any.
+    /// Marks the degrees of freedom whose drives are locked, with zero acceleration.
     #[inline(always)]
     pub fn mark_locked(&mut self) {
         let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
@@ -215,7 +219,7 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Whether a degree of freedom is held, as last marked.
+    /// Returns true if a degree of freedom is locked, as last marked.
     #[must_use]
     pub fn is_locked(&self, dof: usize) -> bool {
         self.locked_mask[dof].lane(0) > 0.5
@@ -278,13 +282,13 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Whether anything pushes on links from outside, now.
+    /// Returns true if external forces act on links now.
     #[inline(always)]
     fn has_external(&self) -> bool {
         self.model.has_external() || !self.pushes.is_empty()
     }
 
-    /// Adds a push, to those on the same point of the same link if there are any.
+    /// Adds an external force, to those on the same point of the same link if there are any.
     pub(crate) fn push(&mut self, push: Push<R>) {
         self.external.resize(self.model.links.len(), Force::zero());
         match self.pushes.iter_mut().find(|p| p.link == push.link && p.point == push.point) {
@@ -296,7 +300,7 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Takes all pushes away.
+    /// Removes all external forces.
     pub(crate) fn release(&mut self) {
         self.pushes.clear();
         if !self.model.has_external() {
@@ -304,7 +308,7 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Replaces a motor, the degree of freedom kept. Drives that stay keep what they do; a new one holds.
+    /// Replaces a motor, the degree of freedom kept. Drives that remain keep their state; a new one is locked.
     pub(crate) fn set_motor(&mut self, index: usize, motor: Motor<R>) {
         let was_drive = self.model.motors[index].is_drive();
         self.model.motors[index] = Motor { dof: self.model.motors[index].dof, ..motor };
@@ -324,7 +328,7 @@ impl<R: Real> Mechanism<R> {
         self.without_load
     }
 
-    /// What rotors and drag elements do; after kinematics.
+    /// Adds the wrenches of rotors and drag elements; after kinematics.
     #[inline(always)]
     fn air_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
         if !self.model.feels_air() {
@@ -404,8 +408,8 @@ impl<R: Real> Mechanism<R> {
         rates[1] = dissipation;
     }
 
-    /// Torque of the friction drive `i` in the last evaluation: its limit where it pulls; where it holds, the reaction as far as
-    /// its limit goes (a motor that holds the same joint gives the rest).
+    /// Torque of the friction drive `i` in the last evaluation: its limit if saturated; if locked, the reaction up to
+    /// its limit (a motor that locks the same joint gives the rest).
     #[inline(always)]
     pub(crate) fn friction_torque(&self, i: usize) -> R {
         let drive = self.model.drives[i];
@@ -427,7 +431,7 @@ impl<R: Real> Mechanism<R> {
             let mut locked = self.scratch.reaction[drive.dof];
             for f in 0..d {
                 if self.model.drives[f].dof == drive.dof {
-                    // friction that holds the same joint takes its share first
+                    // friction that locks the same joint takes its share first
                     let share = self.friction_torque(f);
                     locked -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
                 }
@@ -462,7 +466,7 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Velocity changes by the impulses that change the held degrees of freedom as marked; reactions are impulses.
+    /// Velocity changes by the impulses that bring about the prescribed changes as marked; reactions are impulses.
     #[inline(always)]
     pub(crate) fn impulse(&mut self, change: &mut [R]) {
         self.torque.fill(R::zero());

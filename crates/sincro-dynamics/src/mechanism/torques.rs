@@ -1,4 +1,5 @@
-//! Sum of the joint torques of all elements at one instant, and their terms in the diagonal of a linearly implicit step.
+//! Sum of the joint torques of all elements at one instant, and their terms in the diagonal of a linearly implicit
+//! step.
 
 use sincro_math::Real;
 
@@ -6,7 +7,7 @@ use crate::actuation::{damper, spring};
 use crate::integrate::Implicit;
 use crate::model::Model;
 
-/// Joint torques of all elements at one instant, and what they add to the mass matrix in a linearly implicit step.
+/// State at which joint torques are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TorqueInput<'a, R> {
     pub t: f64,
@@ -46,7 +47,7 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
         diagonal[k] += implicit;
     }
     for (drive, &saturation) in model.drives.iter().zip(at.drives) {
-        // a holding drive (0) gives what its constraint needs; the others pull at their limit
+        // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
         if let Some(limit) = model.drive_limit(drive) {
             torque[drive.dof] += saturation * limit;
         }

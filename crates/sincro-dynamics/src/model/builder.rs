@@ -12,8 +12,8 @@ use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
 
-/// Approach slower than this does not bounce, unless told otherwise [m/s]: a bounce from here is 5e-8 m high under gravity. Without it a
-/// ball would bounce infinitely often in finite time.
+/// Default rest speed [m/s]: slower approach has no restitution; a bounce from here is 5e-8 m high under gravity.
+/// Without it a ball would bounce infinitely often in finite time (Zeno behaviour).
 pub const REST_SPEED: f64 = 1e-3;
 
 /// One object of the tree under construction; [`NodeId::WORLD`] is its root.
@@ -25,8 +25,8 @@ impl NodeId {
     pub const WORLD: Self = Self(0);
 }
 
-/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none"; springs, friction, torques and
-/// motors need one-degree-of-freedom coordinates (not ball or free).
+/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none"; springs, friction, torques
+/// and motors need one-degree-of-freedom coordinates (not ball or free).
 #[derive(Clone, Debug)]
 pub struct JointSpec {
     /// Kind and axes.
@@ -41,11 +41,12 @@ pub struct JointSpec {
     pub friction: Vec<f64>,
     /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
-    /// Of a fixed joint: whether the wrench through it is measured. It then is a link of its own, whose six degrees of freedom are held.
+    /// True for a fixed joint through which the wrench is measured: it is then a link of its own, whose six degrees of
+    /// freedom are locked.
     pub sensor: bool,
-    /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`, and the restitution of the stops.
+    /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`.
     pub limits: Vec<(f64, f64)>,
-    /// Speed of leaving a stop over speed of arriving, 0 to 1.
+    /// Restitution of the limits: speed after over speed before, 0 to 1.
     pub limit_restitution: f64,
     /// Motor, for a joint with one degree of freedom; its command is an input of the world.
     pub motor: Option<Motor<f64>>,
@@ -84,24 +85,24 @@ pub struct ForceSpec {
     pub force: [Signal; 3],
     /// Torque components [N·m] over time.
     pub torque: [Signal; 3],
-    /// Whether the components turn with the body; else they are along the world's axes.
+    /// True if the components turn with the body; else they are along the world's axes.
     pub in_body: bool,
-    /// Whether six commands (force, then torque) are added to it.
+    /// True if six commands (force, then torque) are added to it.
     pub is_input: bool,
 }
 
 /// A rotor on a body or frame; the thrust axis is z of its own frame.
 #[derive(Clone, Debug)]
 pub struct RotorSpec {
-    /// How thrust and torque follow from speed and motion.
+    /// Aerodynamic law.
     pub law: RotorLaw,
     /// Density of the air [kg/m³].
     pub density: f64,
-    /// What gives its speed.
+    /// Source of its speed.
     pub drive: RotorDrive,
 }
 
-/// What gives a rotor its speed.
+/// Source of a rotor's speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RotorDrive {
     /// A command is its speed [rad/s].
@@ -110,11 +111,11 @@ pub enum RotorDrive {
     Lag {
         /// τ `[s]`, positive.
         time_constant: f64,
-        /// Where it starts [rad/s].
+        /// Initial speed [rad/s].
         initial: f64,
     },
-    /// It turns with a revolute joint that carries it, about that joint's axis: the rate of the joint is its speed, and the reaction
-    /// of the air goes through the joint.
+    /// It turns with a revolute joint that carries it, about that joint's axis: the rate of the joint is its speed, and
+    /// the reaction of the air goes through the joint.
     Joint(NodeId),
 }
 
@@ -139,18 +140,18 @@ pub(crate) enum NodeKind {
     Drag(Box<DragSpec>),
 }
 
-/// A closure to be added.
+/// Loop joint to be added.
 #[derive(Clone, Debug)]
 pub struct LoopJointSpec {
-    /// How the ends are kept together.
+    /// Kind of the loop joint.
     pub kind: LoopJointKind,
-    /// The ends: bodies, frames, or the world.
+    /// The two bodies or frames joined; either may be the world.
     pub ends: [NodeId; 2],
-    /// Frames in the ends that are kept together.
+    /// Frames in them that the joint keeps together.
     pub poses: [Pose<f64>; 2],
 }
 
-/// A coupling of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
+/// Gear (mimic) constraint of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug)]
 pub struct GearSpec {
     /// The joints.
@@ -230,7 +231,7 @@ impl ModelBuilder {
         self.add(name, parent, pose, NodeKind::Frame)
     }
 
-    /// The air moves: rotors and drag elements feel it.
+    /// Sets the wind, which rotors and drag elements feel.
     pub fn wind(&mut self, wind: Wind) {
         self.wind = Some(Arc::new(wind));
     }
@@ -255,17 +256,17 @@ impl ModelBuilder {
         self.colliders.push((on, pose, surface, material));
     }
 
-    /// Adds a closure of a loop.
+    /// Adds a loop joint.
     pub fn loop_joint(&mut self, name: &str, spec: LoopJointSpec) {
         self.loop_joints.push((name.into(), spec));
     }
 
-    /// Adds a coupling of two joints.
+    /// Adds a gear (mimic) constraint between two joints.
     pub fn gear(&mut self, name: &str, spec: GearSpec) {
         self.gears.push((name.into(), spec));
     }
 
-    /// Approach slower than this does not bounce [m/s].
+    /// Sets the rest speed [m/s]: slower approach has no restitution.
     pub fn set_rest_speed(&mut self, speed: f64) {
         self.rest_speed = speed;
     }

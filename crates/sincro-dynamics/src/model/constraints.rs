@@ -3,7 +3,7 @@
 use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;
 
-/// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
+/// Numbers per slot in [`crate::state::State::contacts`]: six multipliers and the contact mode.
 pub const SLOT_LEN: usize = 7;
 
 /// A frame fixed in a link.
@@ -17,16 +17,16 @@ pub struct Anchor {
     pub pose: Pose<f64>,
 }
 
-/// How two anchors are kept together.
+/// Kind of a loop joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LoopJointKind {
-    /// Their origins coincide.
+    /// Coincident origins (a ball joint).
     Point,
-    /// Their origins coincide and their z axes agree.
+    /// Coincident origins and parallel z axes (a revolute joint).
     Hinge,
-    /// They coincide.
+    /// Coincident frames (a fixed joint).
     Weld,
-    /// Their origins keep a distance `[m]`.
+    /// Constant distance of the origins `[m]`.
     Distance(f64),
 }
 
@@ -43,12 +43,12 @@ impl LoopJointKind {
     }
 }
 
-/// A closure of a loop.
+/// Loop joint: a constraint that closes a kinematic loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopJoint {
     /// Name given by the user.
     pub name: String,
-    /// How.
+    /// Kind.
     pub kind: LoopJointKind,
     /// One end.
     pub a: Anchor,
@@ -56,7 +56,7 @@ pub struct LoopJoint {
     pub b: Anchor,
 }
 
-/// Two coordinates that move together: q₂ = ratio·q₁ + offset.
+/// Gear (mimic) constraint between two coordinates: q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GearConstraint {
     /// Name given by the user.
@@ -65,13 +65,13 @@ pub struct GearConstraint {
     pub dofs: [usize; 2],
     /// Coordinates in q of the two.
     pub coordinates: [usize; 2],
-    /// Of the rates, v₂ over v₁.
+    /// Ratio of the rates, v₂ over v₁.
     pub ratio: f64,
     /// `[rad]` or `[m]`.
     pub offset: f64,
 }
 
-/// A limit of a joint.
+/// Joint limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     /// Degree of freedom.
@@ -82,29 +82,29 @@ pub struct Limit {
     pub sign: f64,
     /// `[rad]` or `[m]`.
     pub bound: f64,
-    /// Speed of leaving over speed of arriving.
+    /// Restitution: speed after over speed before.
     pub restitution: f64,
 }
 
 /// All constraints of a model; numbers are the same in every lane.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConstraintSet {
-    /// Loops.
+    /// Loop joints.
     pub loop_joints: Vec<LoopJoint>,
-    /// Couplings of joints.
+    /// Gear constraints.
     pub gears: Vec<GearConstraint>,
-    /// Limits of joints: the first slots.
+    /// Joint limits: the first slots.
     pub limits: Vec<Limit>,
-    /// Surfaces that can touch.
+    /// Colliders.
     pub colliders: Vec<Collider>,
-    /// Pairs of them; their slots come after the limits'.
+    /// Pairs of colliders; their slots come after the limits'.
     pub pairs: Vec<Pair>,
-    /// Approach slower than this does not bounce [m/s].
+    /// Rest speed [m/s]: slower approach has no restitution.
     pub rest_speed: f64,
 }
 
 impl ConstraintSet {
-    /// Whether there are none.
+    /// Returns true if there are no constraints.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.loop_joints.is_empty() && self.gears.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
@@ -128,7 +128,7 @@ impl ConstraintSet {
         warm_start_len(self.n_slots())
     }
 
-    /// Number of rows of closures and couplings.
+    /// Number of bilateral rows: of loop joints and gears.
     #[must_use]
     pub fn n_bilateral(&self) -> usize {
         self.loop_joints.iter().map(|c| c.kind.rows()).sum::<usize>() + self.gears.len()

@@ -1,17 +1,17 @@
-//! What can be wrong with a model.
+//! Diagnostics of the builder: errors and warnings about the objects of a model.
 
 use super::NodeId;
 
-/// How bad it is.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The model cannot be built.
     Error,
-    /// It can, but the user should know.
+    /// The model can be built, with numbers that are probably not meant.
     Warning,
 }
 
-/// One finding about one object.
+/// Diagnostic about one object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// Error or warning.
@@ -20,8 +20,8 @@ pub struct Diagnostic {
     pub node: Option<NodeId>,
     /// Name of the property, as the builder's fields are called (`mass`, `axis`, …).
     pub field: &'static str,
-    /// What is wrong, with the value.
+    /// Defect, with the value.
     pub message: String,
-    /// How to mend it.
+    /// Correction that would help.
     pub help: String,
 }

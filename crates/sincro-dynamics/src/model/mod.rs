@@ -1,10 +1,14 @@
-//! The compiled model: immutable, flat, shared by every world that has it.
+//! The model: a kinematic tree compiled to a flat list of links, with its force elements and constraints.
 //!
-//! [`ModelBuilder`] takes the tree as the user names it; [`ModelBuilder::build`] checks everything, reports all problems at
-//! once and compiles: fixed joints and bodies hung on bodies are merged into *links*, universal and planar joints become
-//! chains of one-degree-of-freedom stages, and every link frame is chosen parallel to its parent's (at q = 0) with the
-//! joint's axis on a coordinate axis wherever the geometry allows, because that is what the recursions do fastest.
-//! [`Names`] keeps the way back from the user's objects to links and coordinates.
+//! [`ModelBuilder`] takes the tree as the user names it; [`ModelBuilder::build`] checks everything, reports all
+//! diagnostics at once and compiles: fixed joints and bodies fixed to bodies are merged into *links*, universal and
+//! planar joints become chains of one-degree-of-freedom stages, and every link frame is chosen parallel to its parent's
+//! (at q = 0) with the joint's axis on a coordinate axis wherever the geometry allows, because that is cheapest in the
+//! recursions. [`Names`] maps the user's objects to links and coordinates.
+//!
+//! The structure of a model never changes. Its numbers are not yet immutable: a [`World`](crate::world::World) owns a
+//! copy of its model, in which masses, gravity, joint limits, gears, materials and motors can be set between two steps
+//! (`parameters`). Names and constraints are shared between copies until one of them changes.
 
 pub(crate) mod builder;
 mod constraints;
@@ -38,7 +42,8 @@ use crate::aero::wind::Wind;
 use crate::joint::WORLD;
 use crate::spatial::Vec3;
 
-/// A compiled model. Numbers are of type `R`: one world's, or several worlds' packed into lanes ([`Model::pack`]).
+/// Compiled model. Numbers are of type `R`: those of one world, or of several worlds packed into lanes
+/// ([`Model::pack`]).
 #[derive(Clone, Debug)]
 pub struct Model<R> {
     pub(crate) links: Vec<Link<R>>,
@@ -87,8 +92,8 @@ impl<R: Real> Model<R> {
         &self.motors
     }
 
-    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them, then one for each
-    /// rotor that does not turn with a joint: its speed [rad/s].
+    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them,
+    /// then one for each rotor that does not turn with a joint: its speed [rad/s].
     #[must_use]
     pub fn n_commands(&self) -> usize {
         let of_rotors = self.rotors.iter().filter(|r| r.speed.command().is_some()).count();
@@ -119,7 +124,7 @@ impl<R: Real> Model<R> {
         self.wind.as_deref()
     }
 
-    /// Whether anything feels the air.
+    /// Returns true if an element feels the air.
     pub(crate) fn feels_air(&self) -> bool {
         !self.rotors.is_empty() || !self.drags.is_empty()
     }
@@ -130,7 +135,7 @@ impl<R: Real> Model<R> {
         &self.wrenches
     }
 
-    /// Whether anything pushes on links from outside.
+    /// Returns true if external forces may act on links.
     pub(crate) fn has_external(&self) -> bool {
         !self.wrenches.is_empty() || self.feels_air()
     }
@@ -141,7 +146,7 @@ impl<R: Real> Model<R> {
         &self.drives
     }
 
-    /// Closures, couplings, limits and contacts.
+    /// Loop joints, gears, joint limits and contacts.
     #[must_use]
     pub fn constraints(&self) -> &ConstraintSet {
         &self.constraints
@@ -153,14 +158,14 @@ impl<R: Real> Model<R> {
         self.drives.len()
     }
 
-    /// Whether degree of freedom `dof` moves one coordinate of its own (not part of a ball or free joint).
+    /// Returns true if degree of freedom `dof` moves one coordinate of its own (not part of a ball or free joint).
     #[inline(always)]
     #[must_use]
     pub fn has_scalar_coordinate(&self, dof: usize) -> bool {
         self.dofs[dof].q_idx != WORLD
     }
 
-    /// Whether there are ball or free joints. Without them coordinates and velocities match one to one.
+    /// Returns true if there are ball or free joints. Without them coordinates and velocities match one to one.
     #[inline(always)]
     #[must_use]
     pub fn has_quaternions(&self) -> bool {
@@ -208,7 +213,8 @@ impl<R: Real> Model<R> {
 }
 
 impl Model<f64> {
-    /// The first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if there is none.
+    /// Next time event: the first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if
+    /// there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         if self.applied.is_empty() && self.wrenches.is_empty() && self.wind.is_none() {

@@ -1,4 +1,4 @@
-//! The way back from the user's objects to links and coordinates.
+//! Names: from the user's joints, bodies and frames to links and coordinates.
 
 use super::NodeId;
 use crate::joint::JointKind;

@@ -10,7 +10,7 @@ use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedFrom};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
-/// Why models cannot share lanes: the named part has another structure.
+/// Error of [`Model::pack`]: the models differ in the structure of the named part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackError(pub &'static str);
 

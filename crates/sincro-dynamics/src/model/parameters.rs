@@ -1,5 +1,5 @@
-//! What of a compiled model may become another number between two steps: masses, gravity, bounds of stops, laws of couplings, materials of pairs. What
-//! there is, and what hangs on what, stays.
+//! Parameters of a compiled model that may change between two steps: masses, gravity, bounds of joint limits, gears,
+//! materials of pairs. The structure never changes.
 
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ pub(crate) fn carried(pose: &Pose<f64>, mass: &MassProperties) -> RigidInertia<f
 }
 
 impl Model<f64> {
-    /// Gives a link the inertia of its bodies: all of them, by their index among the frames of the names and in that order. The same bits come out
-    /// as if the model had been built with them.
+    /// Sets the mass properties of a link from those of its bodies: all of them, by their index among the frames of the
+    /// names and in that order. Gives the same bits as a model built with them.
     pub(crate) fn set_mass_properties(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
         let names = Arc::make_mut(&mut self.names);
         let mut sum = RigidInertia::zero();
@@ -26,7 +26,7 @@ impl Model<f64> {
         self.links[link].inertia = sum;
     }
 
-    /// Takes over what another model of the same scene has as numbers that may change. Its motors are not among them.
+    /// Copies the parameters of another model of the same structure. Its motors are not among them.
     pub fn copy_parameters_from(&mut self, other: &Self) {
         for (own, new) in self.links.iter_mut().zip(&other.links) {
             own.inertia = new.inertia;

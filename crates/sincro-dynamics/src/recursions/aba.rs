@@ -1,13 +1,14 @@
 //! Forward dynamics: joint accelerations from torques, in time proportional to the number of links.
 //!
-//! Articulated-body algorithm. Source: key `featherstone2008`, section 7.3, table 7.1. Deviations:
+//! Articulated-body algorithm: v̇ = M⁻¹ (τ − c). Source: key `featherstone2008`, section 7.3, table 7.1. Deviations:
 //!
-//! - Degrees of freedom of one joint are eliminated one after the other (rank-one updates instead of a block inverse), so that
-//!   one piece of code serves every joint.
-//! - A degree of freedom can be *held*: its acceleration is given and the torque for it is found (hybrid dynamics, section 9.2).
-//!   Ideal velocity motors and sticking friction are held degrees of freedom; this costs nothing extra and is exact.
-//! - A diagonal matrix is added to the mass matrix: armature, and what a linearly implicit integrator adds for springs and
-//!   dampers.
+//! - Degrees of freedom of one joint are eliminated one after the other (rank-one updates instead of a block inverse),
+//!   so that one piece of code serves every joint.
+//! - A degree of freedom can be *prescribed*: its acceleration is given and the torque for it is found (hybrid
+//!   dynamics, section 9.2). Locked drives (ideal velocity motors, sticking friction) are prescribed degrees of
+//!   freedom; this costs nothing extra and is exact.
+//! - A diagonal matrix is added to the mass matrix: armature, and what a linearly implicit integrator adds for springs
+//!   and dampers.
 //!
 //! | symbol here | meaning | source |
 //! |---|---|---|
@@ -23,7 +24,7 @@ use crate::scratch::{DofScratch, LinkScratch, Scratch};
 use crate::spatial::{ArticulatedInertia, Force, Motion};
 use crate::state::State;
 
-/// What forward dynamics is asked for. Lengths are `n_q` for `q`, `n_v` for everything else but `external`.
+/// Inputs of forward dynamics. Lengths are `n_q` for `q`, `n_v` for everything else but `external`.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a, R> {
     /// Coordinates.
@@ -34,26 +35,26 @@ pub struct Input<'a, R> {
     pub torque: &'a [R],
     /// Added to the diagonal of the mass matrix [kg·m²] or `[kg]`.
     pub diagonal: &'a [R],
-    /// Held degrees of freedom, if any.
+    /// Prescribed degrees of freedom, if any.
     pub prescribed: Option<Prescribed<'a, R>>,
     /// External wrench on each link, link axes, about the link's origin.
     pub external: Option<&'a [Force<R>]>,
-    /// Whether gravity acts (an impulse feels none).
+    /// True if gravity acts (an impulse feels none).
     pub gravity: bool,
 }
 
 /// Degrees of freedom whose acceleration is prescribed.
 #[derive(Clone, Copy, Debug)]
 pub struct Prescribed<'a, R> {
-    /// 1 for held, 0 for free.
+    /// 1 for prescribed, 0 for free.
     pub mask: &'a [R],
-    /// Prescribed acceleration [rad/s²] or [m/s²]; read where held.
+    /// Prescribed acceleration [rad/s²] or [m/s²]; read where the mask is 1.
     pub acceleration: &'a [R],
 }
 
 /// Joint accelerations `v_dot` [rad/s²] or [m/s²] (`n_v`): `(M + diagonal)·v̇ = torque + gravity + external − bias`.
 ///
-/// Afterwards [`Scratch::reaction`] has the torque that each held degree of freedom needed.
+/// Afterwards [`Scratch::reaction`] has the torque that each prescribed degree of freedom needed.
 #[inline(always)]
 pub fn forward_dynamics<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>, v_dot: &mut [R]) {
     R::run_hot(ForwardDynamics { model, input, scratch, v_dot });
@@ -186,7 +187,7 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
     }
 }
 
-/// What a link shows to its parent while one degree of freedom after the other gives way.
+/// Articulated inertia and bias force of a link while its degrees of freedom are eliminated one after the other.
 struct Remainder<R> {
     ia: ArticulatedInertia<R>,
     pa: Force<R>,
@@ -198,7 +199,7 @@ impl<R: Real> Remainder<R> {
     fn eliminate_dof<S: Stage>(&mut self, link: &Link<R>, j: usize, input: &Input<'_, R>, dofs: &mut [DofScratch<R>]) {
         let dof = &mut dofs[j];
         eliminate::<S, R>(link, j, &self.ia, &self.pa, input, link.v_idx as usize + j, dof);
-        // Ia = IA − U Uᵀ/D,  pa = pA + U u/D   (held: Ia = IA, pa = pA + U·acceleration)
+        // Ia = IA − U Uᵀ/D,  pa = pA + U u/D   (prescribed: Ia = IA, pa = pA + U·acceleration)
         let ku = dof.u.scale(dof.inv_d);
         if !self.is_root {
             self.ia = self.ia.minus_outer(&dof.u, &ku);
@@ -313,7 +314,8 @@ fn advance<S: Stage, R: Real>(
 }
 
 /// D of every degree of freedom at a state: the inertia that a torque on it meets with everything else left free
-/// [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an explicit integrator.
+/// [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an explicit
+/// integrator.
 #[must_use]
 pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
     let n = model.n_v();

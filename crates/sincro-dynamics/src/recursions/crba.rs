@@ -1,7 +1,7 @@
 //! The joint-space mass matrix.
 //!
-//! Composite-rigid-body algorithm. Source: key `featherstone2008`, section 6.2, table 6.2. Cost: links × depth. For analysis; no step
-//! needs it.
+//! Composite-rigid-body algorithm. Source: key `featherstone2008`, section 6.2, table 6.2. Cost: links × depth. For
+//! analysis; no step needs it.
 
 use sincro_math::Real;
 

@@ -30,7 +30,8 @@ impl<R: Real> StageVisitor for Place<'_, R> {
     }
 }
 
-/// Poses of all link frames in the world into [`Scratch::link_poses`], joints taken as last configured by any recursion.
+/// Poses of all link frames in the world into [`Scratch::link_poses`], joints taken as last configured by any
+/// recursion.
 pub(crate) fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
     for i in 0..model.links.len() {
         let link = &model.links[i];
@@ -102,15 +103,16 @@ pub fn frame_pose<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Pose<R>
     frame.link.map_or(frame.pose, |link| scratch.poses[link].compose(&frame.pose))
 }
 
-/// Velocity of a frame after [`motions`]: angular velocity [rad/s] and velocity of the frame's origin [m/s], world axes.
+/// Velocity of a frame after [`motions`]: angular velocity [rad/s] and velocity of the frame's origin [m/s], world
+/// axes.
 pub fn frame_velocity<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
     let Some(link) = frame.link else { return Motion::zero() };
     let (v, rot) = (scratch.links[link].v, &scratch.poses[link].rot);
     Motion { ang: rot.mul_vec(v.ang), lin: rot.mul_vec(v.lin + v.ang.cross(frame.pose.pos)) }
 }
 
-/// Acceleration of a frame after [`motions`]: angular [rad/s²] and that of the point at its origin [m/s²], world axes, gravity not
-/// included (a body at rest has none).
+/// Acceleration of a frame after [`motions`]: angular [rad/s²] and that of the point at its origin [m/s²], world axes,
+/// gravity not included (a body at rest has none).
 pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
     let Some(link) = frame.link else { return Motion::zero() };
     let (v, a, rot) = (scratch.links[link].v, scratch.links[link].a, &scratch.poses[link].rot);
@@ -120,8 +122,8 @@ pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) ->
     Motion { ang: rot.mul_vec(a.ang), lin: rot.mul_vec(lin) }
 }
 
-/// Jacobian of a frame at `q`: 6 × `n_v`, row by row (angular velocity, then velocity of the frame's origin, world axes), so that
-/// `J·v` is [`frame_velocity`].
+/// Jacobian of a frame at `q`: 6 × `n_v`, row by row (angular velocity, then velocity of the frame's origin, world
+/// axes), so that `J·v` is [`frame_velocity`].
 pub fn jacobian<R: Real>(model: &Model<R>, q: &[R], frame: &Attached<R>, scratch: &mut Scratch<R>, out: &mut [R]) {
     let n = model.n_v();
     out.fill(R::zero());

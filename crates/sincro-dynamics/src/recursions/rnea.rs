@@ -1,7 +1,7 @@
 //! Inverse dynamics: the joint torques that given accelerations take.
 //!
-//! Recursive Newton–Euler algorithm. Source: key `featherstone2008`, section 5.3, table 5.1. Gravity enters as an upward
-//! acceleration of the base. Cost: linear in the number of links.
+//! Recursive Newton–Euler algorithm. Source: key `featherstone2008`, section 5.3, table 5.1. Gravity enters as an
+//! upward acceleration of the base. Cost: linear in the number of links.
 
 use sincro_math::{Real, Task};
 
@@ -11,9 +11,11 @@ use crate::recursions::aba::joint_motion;
 use crate::scratch::{LinkScratch, Scratch};
 use crate::spatial::{Force, Motion, Vec3};
 
-/// Joint torques `torque` [N·m] or forces `[N]` (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity − external`.
+/// Joint torques `torque` [N·m] or forces `[N]` (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity −
+/// external`.
 ///
-/// Springs, dampers and armature are not part of it. `external`: wrench on each link, link axes, about the link's origin.
+/// Springs, dampers and armature are not part of it. `external`: wrench on each link, link axes, about the link's
+/// origin.
 #[inline(always)]
 pub fn inverse_dynamics<R: Real>(
     model: &Model<R>,

@@ -1,5 +1,5 @@
-//! Constraints within a tick: impacts at the start of a sub-step, events that end it, projection after it, and steps at velocity level where events
-//! come too thick.
+//! Constraints within a tick: impacts at the start of a sub-step, events that end it, projection after it, and steps at
+//! velocity level as a fallback for Zeno behaviour.
 
 use super::{Stop, World};
 use crate::actuation::DriveKind;
@@ -8,17 +8,17 @@ use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, System};
 use crate::mechanism::constraints::ActivationRule;
 
-/// Impacts in a row at one instant (a blow that runs through a stack) before what is left counts as inelastic.
+/// Maximum number of successive impacts at one instant (propagation through a stack); the rest counts as inelastic.
 const MAX_IMPACTS: usize = 50;
 
-/// Events of contacts in one tick beyond which the rest of it is done at velocity level.
+/// Number of contact events in one tick beyond which its rest is made at velocity level.
 pub(super) const MAX_CONTACT_EVENTS: usize = 400;
 
-/// Steps at velocity level that the rest of such a tick is divided into.
+/// Number of steps at velocity level into which the rest of such a tick is divided.
 const FINE_STEPS: u32 = 16;
 
 impl World {
-    /// How ticks with too many events were met lately.
+    /// Fallback for Zeno behaviour as of the last ticks.
     pub(super) fn zeno_fallback(&self) -> ZenoFallback {
         self.mechanism.constraints.as_ref().map_or_else(ZenoFallback::default, |c| c.memory.zeno_fallback())
     }
@@ -29,12 +29,12 @@ impl World {
         }
     }
 
-    /// Whether there are closures, limits or contacts.
+    /// Returns true if there are loop joints, gears, limits or contacts.
     pub(super) fn is_constrained(&self) -> bool {
         self.mechanism.constraints.is_some()
     }
 
-    /// Finds what touches and lets it bounce or come to rest.
+    /// Detects contacts and applies impacts until none is due.
     pub(super) fn resolve_impacts(&mut self) {
         if !self.is_constrained() {
             return;
@@ -49,7 +49,7 @@ impl World {
         self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Touching);
     }
 
-    /// An impact: rates jump, the totals get what is lost and what ideal motors put in.
+    /// Applies an impact: rates jump; the totals get the energy lost and the impulses of ideal motors.
     pub(super) fn apply_impact(&mut self) {
         if !self.is_constrained() {
             return;
@@ -77,7 +77,7 @@ impl World {
         }
     }
 
-    /// Forces at the start of a sub-step, after everything has been classified; drift is taken away.
+    /// Evaluates constraint forces at the start of a sub-step, after classification, and records the contact modes.
     pub(super) fn resolve_contact_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         if !self.is_constrained() {
             return;
@@ -87,13 +87,13 @@ impl World {
         self.mechanism.mark_start();
     }
 
-    /// Whether a limit or contact should have changed.
+    /// Returns true if a limit or contact has changed its mode (zero crossing).
     pub(super) fn has_contact_event(&mut self) -> bool {
         let n = self.model().n_v();
         self.mechanism.has_changed() || self.mechanism.has_new_contact(&self.y[n..2 * n])
     }
 
-    /// Takes the drift of a sub-step away, sticking what sticks.
+    /// Projects onto the constraints after a sub-step, rates of sticking contacts included.
     pub(super) fn project(&mut self) {
         if self.is_constrained() {
             self.mechanism.mark_locked();
@@ -101,7 +101,7 @@ impl World {
         }
     }
 
-    /// The rest of a tick, `span` from `t`, in steps at velocity level.
+    /// Makes the rest of a tick, `span` from `t`, in steps at velocity level.
     pub(super) fn finish_at_velocity_level<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
@@ -116,7 +116,7 @@ impl World {
         Ok(())
     }
 
-    /// One step of semi-implicit Euler, contacts at velocity level; drives are as they are.
+    /// Makes one step of semi-implicit Euler with contacts at velocity level; states of drives are kept.
     fn velocity_level_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
@@ -142,7 +142,7 @@ impl World {
         Ok(())
     }
 
-    /// After a step at velocity level: what presses and has gone in is brought out, closures are closed.
+    /// Projects after a step at velocity level: penetrating contacts and loop joints.
     pub(super) fn project_penetrations(&mut self) {
         if self.is_constrained() {
             self.mechanism.mark_locked();

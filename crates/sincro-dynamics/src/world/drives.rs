@@ -1,6 +1,6 @@
-//! Drives within a tick: jumps at its start, who holds and who pulls, events that end a sub-step.
+//! Drives within a tick: velocity jumps at its start, locked and saturated modes, events that end a sub-step.
 //!
-//! What a drive is: [`crate::actuation::drive`].
+//! The law of a drive: [`crate::actuation::drive`].
 
 use super::{Stop, World};
 use crate::actuation::DriveKind;
@@ -11,7 +11,7 @@ use crate::integrate::Control;
 const SAME_VELOCITY: f64 = 1e-12;
 
 impl World {
-    /// Velocity that each drive wants during this tick.
+    /// Latches the target velocity of each drive for this tick.
     pub(super) fn latch_target_velocities(&mut self) {
         for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
             self.target_velocities[i] =
@@ -23,7 +23,7 @@ impl World {
         self.mechanism.model.drive_limit(&self.mechanism.model.drives[drive]).is_none()
     }
 
-    /// The jump at the start of a tick and the state of the drives after it.
+    /// Applies the velocity jumps at the start of a tick and resolves the modes of the drives after them.
     pub(super) fn start_tick<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         if self.mechanism.drives.is_empty() {
             return;
@@ -37,7 +37,7 @@ impl World {
         self.resolve_actuator_modes(t, system);
     }
 
-    /// Unlimited motors take their commanded velocity at once.
+    /// Brings unlimited motors to their target velocity at once.
     fn reach_target_velocities(&mut self) {
         for i in 0..self.target_velocities.len() {
             self.jumps[i] = self.is_unlimited(i);
@@ -50,8 +50,8 @@ impl World {
         }
     }
 
-    /// Brings the drives marked in `jumps` to their velocity by an impulse that leaves every other generalised momentum as it is;
-    /// unlimited motors keep what they have.
+    /// Brings the drives marked in `jumps` to their target velocity by an impulse that leaves every other generalised
+    /// momentum unchanged; unlimited motors keep their velocity.
     fn apply_impulse(&mut self) {
         let n = self.model().n_v();
         let mut needed = false;
@@ -80,7 +80,7 @@ impl World {
         }
     }
 
-    /// Adds the work and the impulses of a strike to the totals: ΔT = Σ λ·(mean of the velocities before and after).
+    /// Adds work and impulses of a velocity jump to the totals: ΔT = Σ λ·(mean of the velocities before and after).
     fn add_impulses_to_totals(&mut self) {
         let n = self.model().n_v();
         if !self.mechanism.tracks_totals() {
@@ -103,7 +103,7 @@ impl World {
         }
     }
 
-    /// Decides for each limited drive whether it holds: those at their velocity hold if their limit allows it.
+    /// Resolves the mode of each limited drive: those at their target velocity are locked if their limit allows it.
     pub(super) fn resolve_actuator_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         for i in 0..self.target_velocities.len() {
             if !self.is_unlimited(i) {
@@ -124,7 +124,7 @@ impl World {
         }
     }
 
-    /// Wanted minus present velocity of a drive, zero within rounding.
+    /// Velocity error of a drive, target minus present velocity, zero within rounding.
     fn velocity_error(&self, i: usize) -> f64 {
         let v = self.velocity(self.mechanism.model.drives[i].dof);
         let missing = self.target_velocities[i] - v;
@@ -135,7 +135,8 @@ impl World {
         }
     }
 
-    /// Lets go of the holding drives whose reaction in the last evaluation exceeds their limit; says whether any did.
+    /// Saturates the locked drives whose reaction in the last evaluation exceeds their limit; returns true if there
+    /// were any.
     fn saturate_overloaded(&mut self) -> bool {
         let mut released = false;
         for i in 0..self.target_velocities.len() {
@@ -147,7 +148,7 @@ impl World {
         released
     }
 
-    /// The reaction on a holding drive, if the drives that hold its joint cannot give it together.
+    /// Reaction on a locked drive, if the drives that lock its joint cannot give it together.
     fn overload(&self, i: usize) -> Option<f64> {
         if self.mechanism.drives[i] != 0.0 {
             return None;
@@ -167,8 +168,8 @@ impl World {
         (0..self.target_velocities.len()).any(|i| !self.is_unlimited(i))
     }
 
-    /// Whether a limited drive is past the point where it should have changed: it pulled beyond its velocity, or holds more than
-    /// its limit.
+    /// Zero crossing of drives and contacts: returns true if a saturated drive passed its target velocity, a locked one
+    /// exceeds its limit, or a contact has changed.
     pub(super) fn has_event<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
         let crossed = (0..self.target_velocities.len()).any(|i| {
             let saturation = self.mechanism.drives[i];
@@ -189,7 +190,8 @@ impl World {
         (0..self.target_velocities.len()).any(|i| self.overload(i).is_some())
     }
 
-    /// Finds the first instant in (t, t + h] at which a drive must change, goes there and changes it.
+    /// Locates by bisection the first instant in (t, t + h] at which a drive or contact changes mode, goes there and
+    /// changes it.
     pub(super) fn locate_event<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
@@ -205,7 +207,8 @@ impl World {
             if self.has_event(t + middle, system) { bad = middle } else { good = middle }
         }
         self.repeat_step(t, bad, control, system)?;
-        // a pulling drive that has just passed its velocity is brought back to it, momentum and impulses kept right
+        // a saturated drive that has just passed its target velocity is brought back to it, momentum and impulses kept
+        // consistent
         for i in 0..self.target_velocities.len() {
             let saturation = self.mechanism.drives[i];
             self.jumps[i] = !self.is_unlimited(i) && saturation != 0.0 && self.velocity_error(i) * saturation < 0.0;
@@ -217,7 +220,7 @@ impl World {
         Ok(t + bad)
     }
 
-    /// Holding drives reach their velocity within `h`.
+    /// Prescribes the accelerations by which locked drives reach their target velocity within `h`.
     pub(super) fn mark_targets(&mut self, h: f64) {
         self.mechanism.mark_locked();
         let n = self.model().n_v();
@@ -229,7 +232,8 @@ impl World {
         }
     }
 
-    /// After a trial step: overloaded drives let go, drives that passed their velocity hold; says whether any changed.
+    /// Updates the modes after a trial step: overloaded drives saturate, drives that passed their target velocity lock;
+    /// returns true if any changed.
     pub(super) fn update_drive_modes(&mut self) -> bool {
         if self.saturate_overloaded() {
             return true;

@@ -1,10 +1,13 @@
-//! One world that advances from tick to tick.
+//! A world: one mechanism with its state and integrator, advanced from tick to tick.
 //!
-//! [`World::advance`] is stage 4 of the step: commands are latched before it, and it takes the state from t to t + h, in as many
-//! sub-steps as the method and the events need. Three kinds of event end a sub-step: a corner of an input signal, known beforehand,
-//! and, located by bisection, a drive that changes between holding and pulling, and a contact or limit that closes, opens, grips or slips.
+//! [`World::advance`] is stage 4 of the step: commands are latched before it, and it takes the state from t to t + h,
+//! in as many sub-steps as the method and the events need. Three kinds of event end a sub-step: a time event of an
+//! input signal, known beforehand, and two zero crossings that are located by bisection: a drive that changes between
+//! locked and saturated, and a contact or joint limit that closes, opens, sticks or slips.
 //!
-//! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
+//! After a failure the state is that of the last sub-step that could be made, everything finite.
+//!
+//! A world owns its model, state, mechanism and the working memory of its method; they are not yet separate values.
 
 mod contacts;
 mod drives;
@@ -29,13 +32,13 @@ use contacts::MAX_CONTACT_EVENTS;
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
-/// Changes of drives in one tick beyond which they are said to chatter.
+/// Maximum number of changes of drives in one tick; more are called chatter.
 const MAX_EVENTS: usize = 10_000;
 
-/// Constraint problems without a fitting solution beyond which a run stops.
+/// Maximum number of constraint problems without convergence in a run.
 const MAX_UNSOLVED: u64 = 100_000;
 
-/// How a world is integrated.
+/// Integration method with its working memory.
 #[derive(Clone, Debug)]
 pub enum Method {
     /// Semi-implicit Euler, fixed step, order 1.
@@ -61,35 +64,35 @@ pub enum MethodKind {
     Stiff,
 }
 
-/// Why a world stopped.
+/// Reason for which a world stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
     /// The integrator could not go on.
     Integration(Failure),
     /// Too many constraint problems had no solution that fits.
     Unsolved {
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
-        /// The largest misfit, as a share of the largest force or rate.
+        /// Largest complementarity residual, relative to the largest force or rate.
         residual: f64,
     },
     /// Drives changed state too often within one tick.
     Chatter {
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
     },
 }
 
-/// Counts of what was done since the world was made.
+/// Step statistics since the world was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepStatistics {
     /// Sub-steps accepted.
     pub steps: u64,
-    /// Changes of drives, limits and contacts located.
+    /// Located changes of drives, limits and contacts.
     pub events: u64,
     /// Impacts.
     pub impacts: u64,
-    /// Ticks that were finished at velocity level because events came too thick.
+    /// Ticks finished at velocity level because of Zeno behaviour.
     pub fallback_ticks: u64,
 }
 
@@ -114,7 +117,7 @@ pub struct World {
     statistics: StepStatistics,
 }
 
-/// A world looked at: kinematics are computed, nothing can be changed.
+/// Outputs of a world at one instant: kinematics are computed, nothing can be changed.
 #[derive(Clone, Copy, Debug)]
 pub struct Observation<'a> {
     /// The state.
@@ -145,12 +148,12 @@ impl Observation<'_> {
         friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
     }
 
-    /// Points of contact that press now, with their forces.
+    /// Contact points with their forces.
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
         contacts_of(self.mechanism)
     }
 
-    /// How far closure `k` is open (couplings after closures) `[m]` or `[rad]`.
+    /// Constraint residual of loop joint `k` (gears after loop joints) `[m]` or `[rad]`.
     #[must_use]
     pub fn residual(&self, k: usize) -> f64 {
         let set = self.model().constraints();
@@ -164,7 +167,7 @@ impl Observation<'_> {
         }
     }
 
-    /// Torque [N·m] or force `[N]` of the stops on a degree of freedom now.
+    /// Torque [N·m] or force `[N]` of the joint limits on a degree of freedom.
     #[must_use]
     pub fn limit_torque(&self, dof: usize) -> f64 {
         self.mechanism.constraints.as_deref().map_or(0.0, |c| c.limit_torque(self.model(), dof))
@@ -215,7 +218,8 @@ impl World {
         Self::with_attachment(model, state, kind, control, tracks_totals, 0)
     }
 
-    /// As [`World::with_totals`], for an [`CoupledSystem`] with `n_states` states, to be given to [`World::advance_with`].
+    /// As [`World::with_totals`], for a [`CoupledSystem`] with `n_states` states, to be given to
+    /// [`World::advance_with`].
     #[must_use]
     pub fn with_attachment(
         model: Model<f64>,
@@ -263,24 +267,25 @@ impl World {
         self.mechanism.model()
     }
 
-    /// What was done so far.
+    /// Step statistics so far.
     #[must_use]
     pub fn statistics(&self) -> StepStatistics {
         self.statistics
     }
 
-    /// What the constraint solver did so far, if there is one.
+    /// Solver statistics so far, if there are constraints.
     #[must_use]
     pub fn solver_report(&self) -> Option<SolverReport> {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
     }
 
-    /// Points of contact that press, as of the last [`World::rates`] or [`World::observe`].
+    /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`].
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
         contacts_of(&self.mechanism)
     }
 
-    /// Torque or force that a held degree of freedom needed in the last [`World::rates`] or [`World::observe`] [N·m], `[N]`.
+    /// Torque [N·m] or force `[N]` that a locked degree of freedom needed in the last [`World::rates`] or
+    /// [`World::observe`].
     #[must_use]
     pub fn reaction(&self, dof: usize) -> f64 {
         self.mechanism.scratch.reaction[dof]
@@ -305,18 +310,19 @@ impl World {
         }
     }
 
-    /// Divides every fixed step into `n` equal ones, and lets no method with error control take longer ones; commands are still latched once
-    /// a tick. For estimating errors.
+    /// Divides every fixed step into `n` equal ones, and lets no method with error control take longer ones; commands
+    /// are still latched once a tick. For estimating errors.
     pub fn set_substeps(&mut self, n: u32) {
         self.substeps = n.max(1);
     }
 
-    /// Decides which drives hold at the start of a run, velocities as they are (nothing jumps before the first command).
+    /// Resolves drives and contacts at the start of a run, velocities as they are (nothing jumps before the first
+    /// command).
     pub fn initialize(&mut self, t: f64) {
         self.initialize_with(t, &mut NoCoupling);
     }
 
-    /// As [`World::initialize`], with an attachment.
+    /// As [`World::initialize`], with a coupled system.
     pub fn initialize_with<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         self.load(system);
         self.latch_target_velocities();
@@ -326,7 +332,7 @@ impl World {
         self.mechanism.store(&self.y, &mut self.state);
     }
 
-    /// Everything that can be looked at in the present state.
+    /// Computes accelerations and kinematics in the present state and returns the outputs.
     pub fn observe(&mut self, t: f64) -> Observation<'_> {
         self.rates(t);
         self.mechanism.update_kinematics(&self.state, &self.accelerations);
@@ -355,19 +361,19 @@ impl World {
         self.advance_with(t, h, &mut NoCoupling)
     }
 
-    /// As [`World::advance`], together with what is attached; the world was made for as many states
+    /// As [`World::advance`], together with a coupled system; the world was made for as many states
     /// ([`World::with_attachment`]).
     ///
     /// # Errors
     ///
-    /// As [`World::advance`]; the attachment's states are then those of the last instant reached, too.
+    /// As [`World::advance`]; the states of the coupled system are then those of the last instant reached, too.
     pub fn advance_with<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        // what the last tick ended at is behind
+        // the time event at the end of the last tick has passed
         system.set_time_event(f64::INFINITY);
         self.count_particles(h);
         self.load(system);
@@ -387,7 +393,7 @@ impl World {
         Ok(())
     }
 
-    /// The first rotor whose law gave what is not a number in the last evaluation: only the printed script does.
+    /// First rotor whose load was not a number in the last evaluation: only the printed script can give one.
     #[must_use]
     pub fn rotor_without_load(&self) -> Option<usize> {
         self.mechanism.rotor_without_load()
@@ -400,7 +406,7 @@ impl World {
         self.model().rotors()[rotor].speed.value(v, commands, rotors)
     }
 
-    /// What each stock propeller throws during this tick.
+    /// Sets the mass flow of each stock propeller for this tick.
     fn count_particles(&mut self, h: f64) {
         for rotor in &self.mechanism.model.rotors {
             if let (RotorLaw::Stock(propeller), SpeedFrom::Particles { state, .. }) = (&rotor.law, rotor.speed) {
@@ -422,26 +428,26 @@ impl World {
         (&self.accelerations, self.mechanism.motor_torque())
     }
 
-    /// Lets somebody look at the state as an attachment does.
+    /// Calls `look` with the state view of the present state.
     pub fn with_state_view<T>(&mut self, t: f64, look: impl FnOnce(StateView<'_, f64>) -> T) -> T {
         let (state, mechanism) = (&self.state, &mut self.mechanism);
         let State { q, v, rotors, commands, .. } = state;
         look(StateView { t, model: &mechanism.model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
     }
 
-    /// Pushes on a link from now on, until [`World::release`]; pushes at one point add up. Not part of the state: who pushes
-    /// over one step only leaves nothing behind.
+    /// Applies an external force to a link from now on, until [`World::release`]; forces at one point add up. Not part
+    /// of the state: a force that acts over one step leaves nothing behind.
     pub fn push(&mut self, push: Push<f64>) {
         self.mechanism.push(push);
     }
 
-    /// Takes all pushes away.
+    /// Removes all external forces.
     pub fn release(&mut self) {
         self.mechanism.release();
     }
 
-    /// Replaces a motor between two steps; its joint stays, its command and the state of the other drives too. A motor that
-    /// becomes a drive holds its velocity from the next step on.
+    /// Replaces a motor between two steps; its joint stays, its command and the state of the other drives too. A motor
+    /// that becomes a drive is locked from the next step on.
     ///
     /// # Panics
     ///
@@ -461,7 +467,7 @@ impl World {
         &mut self.mechanism
     }
 
-    /// Lays the chart at the state and writes y, the attachment's states included.
+    /// Lays the chart at the state and writes y, the states of the coupled system included.
     fn load<A: CoupledSystem<f64> + ?Sized>(&mut self, system: &mut A) {
         self.mechanism.load(&self.state, &mut self.y);
         let own = self.mechanism.dim();
@@ -482,7 +488,7 @@ impl World {
         self.y[self.model().n_v() + dof]
     }
 
-    /// Sub-steps over `span` from `start`, ending at corners of signals and at events of drives.
+    /// Makes sub-steps over `span` from `start`, ending at time events and at events of drives and contacts.
     fn sub_steps<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         start: f64,
@@ -524,7 +530,7 @@ impl World {
             }
             let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
-                // the attachment has last seen a trial state: its own is the one that was kept
+                // the coupled system has last seen a trial state: its own is the saved one
                 let own = self.mechanism.dim();
                 self.mechanism.load(&self.state, &mut self.y);
                 self.y[own..].copy_from_slice(&self.attached_before);
@@ -596,7 +602,7 @@ impl World {
         self.mechanism.set_base(&self.base_before);
     }
 
-    /// From the kept sub-step start, exactly `h` further.
+    /// Repeats the integration from the saved start of the sub-step, exactly `h` further.
     fn repeat_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
@@ -616,8 +622,8 @@ impl World {
         Ok(())
     }
 
-    /// Semi-implicit Euler with drives as engines have them: over the whole step a drive either reaches its velocity exactly or
-    /// pulls with its limit. Which, is found by trying.
+    /// Semi-implicit Euler with drives at velocity level: over the whole step a drive either reaches its target
+    /// velocity exactly or is saturated. The modes are found by iteration.
     fn euler_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,

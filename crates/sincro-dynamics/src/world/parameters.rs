@@ -1,4 +1,5 @@
-//! A world whose model gets other numbers between two steps: masses, gravity, bounds of stops, laws of couplings, what pairs of surfaces do to each other.
+//! Parameter changes of a world between two steps: masses, gravity, bounds of joint limits, gears, contact laws of
+//! pairs.
 
 use std::sync::Arc;
 
@@ -9,12 +10,13 @@ use crate::model::{MassProperties, Model};
 use crate::recursions::kinematics;
 use crate::spatial::Vec3;
 
-/// Surfaces closer than this are near, however slow they are `[m]`.
+/// Distance below which surfaces count as near whatever their speed `[m]`.
 const NEAR: f64 = 1e-3;
 
 impl World {
-    /// Gives the bodies of a link other masses: all its bodies, by their index among the frames of the names, in that order. Coordinates and rates
-    /// stay; the energy that this gives or takes away is work, unless no step has been made yet.
+    /// Sets the mass properties of the bodies of a link: all its bodies, by their index among the frames of the names,
+    /// in that order. Coordinates and rates stay; the change of energy is counted as work, unless no step has been made
+    /// yet.
     ///
     /// # Panics
     ///
@@ -27,7 +29,7 @@ impl World {
         }
     }
 
-    /// Sets gravity [m/s²], world axes; the energy that this gives or takes away is work, unless no step has been made yet.
+    /// Sets gravity [m/s²], world axes; the change of energy is counted as work, unless no step has been made yet.
     pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
         let before = self.mechanical_energy();
         self.mechanism.model.gravity = gravity;
@@ -41,8 +43,8 @@ impl World {
         energy_at(&mechanism.model, &self.state.q, &self.state.v, &mut mechanism.scratch).total()
     }
 
-    /// Moves the stops of a degree of freedom that has them `[rad]` or `[m]`: lower and upper, as far as there is one. Says whether there was one
-    /// for each that is given.
+    /// Sets the joint limits of a degree of freedom that has them `[rad]` or `[m]`: lower and upper. Returns false, and
+    /// changes nothing, if the bounds given are not those that exist.
     pub fn set_limits(&mut self, dof: usize, bounds: [Option<f64>; 2]) -> bool {
         let has =
             |sign: f64, model: &Model<f64>| model.constraints.limits.iter().any(|l| l.dof == dof && l.sign == sign);
@@ -58,7 +60,7 @@ impl World {
         true
     }
 
-    /// Gives coupling `k` another ratio and offset `[rad]` or `[m]`.
+    /// Sets ratio and offset `[rad]` or `[m]` of gear `k`.
     ///
     /// # Panics
     ///
@@ -68,8 +70,8 @@ impl World {
         (coupling.ratio, coupling.offset) = (ratio, offset);
     }
 
-    /// Says of a pair of surfaces whether they pass through each other from now on, and what they do to each other if not. What has touched and may
-    /// not any more lets go at once: a contact stores nothing.
+    /// Sets the contact law of a pair of surfaces, or ignores the pair from now on. A contact stores nothing: an
+    /// ignored one ends at once.
     ///
     /// # Panics
     ///
@@ -85,8 +87,9 @@ impl World {
         }
     }
 
-    /// Writes the pairs of surfaces that may come to touch within `h` `[s]` as everything now moves and falls: balls around them are closer than twice
-    /// what their two surfaces go at most, and four times the fall.
+    /// Broad phase over one step: writes the pairs of surfaces that may come into contact within `h` `[s]`, whose
+    /// bounding spheres are closer than twice the distance that the two surfaces travel at most, plus four times the
+    /// fall.
     pub fn near(&mut self, h: f64, found: &mut Vec<usize>) {
         found.clear();
         let mechanism = &mut self.mechanism;

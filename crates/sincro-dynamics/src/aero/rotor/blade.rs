@@ -1,14 +1,15 @@
-//! The blade-element momentum rotor: thrust and torque of a rigid rotor with constant chord and pitch, from its speed and
-//! the velocity of its hub.
+//! The blade-element momentum rotor: thrust and torque of a rigid rotor with constant chord and pitch, from its speed
+//! and the velocity of its hub.
 //!
-//! One square root of an equation in one unknown ([`super::momentum`]), then two polynomials; about a hundred operations.
+//! One square root of an equation in one unknown ([`super::momentum`]), then two polynomials; about a hundred
+//! operations.
 //!
 //! T = 2ρA (S − k₁V w), S = k₁θ₀(⅔V² + h²);
 //! Q = ρAR [σ(c₀ + c₂θ₀²)(V² + h²)/8 + 4k₁w(Vθ₀/3 − w/2) + ¼σc₂w(w − 4θ₀V/3)].
 //!
-//! Source: key `leishman2006`, blade elements with a uniform inflow (linear lift, drag c₀ + c₂α², small angles, no tip loss,
-//! no reversed flow), averaged over a turn; the inflow from momentum after key `glauert1926`. In axial flight the middle
-//! term of QΩ is T w. Written with velocities instead of ratios to ΩR, so that it stays finite at Ω = 0.
+//! Source: key `leishman2006`, blade elements with a uniform inflow (linear lift, drag c₀ + c₂α², small angles, no tip
+//! loss, no reversed flow), averaged over a turn; the inflow from momentum after key `glauert1926`. In axial flight the
+//! middle term of QΩ is T w. Written with velocities instead of ratios to ΩR, so that it stays finite at Ω = 0.
 //!
 //! | symbol | meaning | unit | usual symbol |
 //! |---|---|---|---|
@@ -22,7 +23,8 @@
 //! | w | inflow | m/s | λV |
 //!
 //! A rotor that turns backwards is its mirror image: T(Ω, v) = −T(−Ω, −v), and so w and Q. The mirror jumps at Ω = 0 if
-//! there is velocity in the plane; a rotor at rest is outside what the theory says anything about ([`Validity::Standing`]).
+//! there is velocity in the plane; a rotor at rest is outside what the theory says anything about
+//! ([`Validity::Standing`]).
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -41,7 +43,7 @@ pub struct Drag {
     pub k_cd: f64,
 }
 
-/// What a rotor is made of.
+/// Geometry and section coefficients of a rotor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorSpec {
     /// Radius `[m]`.
@@ -56,11 +58,11 @@ pub struct RotorSpec {
     pub collective_pitch: f64,
     /// Drag of a section.
     pub drag: Drag,
-    /// Which way it turns at positive speed.
+    /// Sense of rotation at positive speed.
     pub spin: Spin,
 }
 
-/// Whether the theory holds where it was asked.
+/// Range of validity in which a load was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Validity {
     /// It does.
@@ -174,7 +176,7 @@ impl Rotor {
         })
     }
 
-    /// What it was made of.
+    /// Geometry and section coefficients the rotor was made from.
     #[must_use]
     pub fn spec(&self) -> &RotorSpec {
         &self.spec
@@ -192,11 +194,11 @@ impl Rotor {
         self.solidity
     }
 
-    /// Thrust, torque, inflow and power in air of `density` [kg/m³], at `speed` [rad/s] (negative: backwards), with the hub
-    /// moving at `velocity` [m/s] relative to the air, in the rotor's axes.
+    /// Thrust, torque, inflow and power in air of `density` [kg/m³], at `speed` [rad/s] (negative: backwards), with the
+    /// hub moving at `velocity` [m/s] relative to the air, in the rotor's axes.
     ///
-    /// Finite for finite arguments (velocities beyond [`MAX_VELOCITY`](super::MAX_VELOCITY) count as that); NaN for others. On dual numbers the
-    /// derivatives are exact.
+    /// Finite for finite arguments (velocities beyond [`MAX_VELOCITY`](super::MAX_VELOCITY) count as that); NaN for
+    /// others. On dual numbers the derivatives are exact.
     #[inline(always)]
     pub fn evaluate<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>) -> Load<R> {
         let Flow { mirror, tip, balance } = self.flow(speed, velocity);
@@ -213,7 +215,8 @@ impl Rotor {
         Load { thrust: mirror * thrust, torque: mirror * reaction, inflow: mirror * w, power: drag * tip }
     }
 
-    /// Whether `load`, which [`Rotor::evaluate`] gave for the same arguments, can be believed; the first lane alone is looked at.
+    /// Range of validity of `load`, which [`Rotor::evaluate`] gave for the same arguments; only the first lane is
+    /// examined.
     #[must_use]
     pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>, load: &Load<R>) -> Validity {
         let flow = self.flow(speed.lane(0), Vec3(velocity.0.map(|x| x.lane(0))));

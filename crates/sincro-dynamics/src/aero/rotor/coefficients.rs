@@ -1,7 +1,8 @@
 //! Rotors by their coefficients: constant ones, and ones measured over the advance ratio.
 //!
-//! Source: key `leishman2006`, coefficients of propellers: T = ρ n²D⁴ c_T(J), Q = ρ n²D⁵ c_Q(J), J = v/(nD), with n = Ω/2π turns
-//! a second, D the diameter and v the velocity along the axis. A rotor that turns backwards is its mirror image.
+//! Source: key `leishman2006`, coefficients of propellers: T = ρ n²D⁴ c_T(J), Q = ρ n²D⁵ c_Q(J), J = v/(nD), with n =
+//! Ω/2π turns a second, D the diameter and v the velocity along the axis. A rotor that turns backwards is its mirror
+//! image.
 
 use core::f64::consts::TAU;
 
@@ -25,7 +26,7 @@ pub struct ConstantCoefficients {
     pub thrust: f64,
     /// Torque by the square of the speed, k [N·m·s²/rad²].
     pub torque: f64,
-    /// Which way it turns at positive speed.
+    /// Sense of rotation at positive speed.
     pub spin: Spin,
 }
 
@@ -92,13 +93,13 @@ impl CoefficientTable {
         if problems.is_empty() { Ok(Self { diameter, spin, rows }) } else { Err(problems) }
     }
 
-    /// Which way it turns at positive speed.
+    /// Sense of rotation at positive speed.
     #[must_use]
     pub fn spin(&self) -> Spin {
         self.spin
     }
 
-    /// Whether the advance ratio is one that was measured, and the propeller turns; the first lane alone is looked at.
+    /// Range of validity: outside the table where the advance ratio was not measured; only the first lane is examined.
     #[must_use]
     pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Validity {
         let by_turn = speed.lane(0) * (self.diameter / TAU);
@@ -110,8 +111,8 @@ impl CoefficientTable {
         if is_inside { Validity::Valid } else { Validity::OutsideTable }
     }
 
-    /// Thrust, torque and power in air of `density` [kg/m³] at `speed` [rad/s], the hub moving at `velocity` [m/s] relative to
-    /// the air in the rotor's axes, of which only z counts; no inflow.
+    /// Thrust, torque and power in air of `density` [kg/m³] at `speed` [rad/s], the hub moving at `velocity` [m/s]
+    /// relative to the air in the rotor's axes, of which only z counts; no inflow.
     #[inline(always)]
     pub fn evaluate<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>) -> Load<R> {
         let d = self.diameter;

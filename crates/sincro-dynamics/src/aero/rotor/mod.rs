@@ -27,7 +27,7 @@ pub use stock::StockPropeller;
 
 use sincro_math::Real;
 
-/// Which way a rotor turns at positive speed, seen from above (against the thrust axis).
+/// Sense of rotation at positive speed, seen from above (against the thrust axis).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Spin {
     /// Counter-clockwise: the angular velocity is along +z, the reaction along −z.
@@ -48,7 +48,7 @@ impl Spin {
     }
 }
 
-/// What a rotor does at one instant.
+/// Load of a rotor at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load<R> {
     /// Force on the hub along the thrust axis `[N]`.
@@ -58,12 +58,12 @@ pub struct Load<R> {
     /// Air through the disc relative to the hub, along −z `[m/s]`: climb and induced velocity together; 0 where the
     /// model has none.
     pub inflow: R,
-    /// What the shaft delivers to the air `[W]`; negative in a windmill.
+    /// Power that the shaft delivers to the air `[W]`; negative in a windmill.
     pub power: R,
 }
 
-/// Largest velocity `[m/s]` and speed `[rad/s]` that are taken as they are: beyond it the squares and cubes of the equations would overflow.
-/// Far beyond any physics, where only finiteness is promised.
+/// Largest velocity `[m/s]` and speed `[rad/s]` that are taken as they are: beyond it the squares and cubes of the
+/// equations would overflow. Far beyond any physics, where only finiteness is promised.
 pub const MAX_VELOCITY: f64 = 1e60;
 
 /// `x` limited to ±[`MAX_VELOCITY`]; what is not finite becomes NaN, because a limit hides no failure.
@@ -73,7 +73,7 @@ fn limited<R: Real>(x: R) -> R {
     x.clamp_abs(R::splat(MAX_VELOCITY)) + R::zero() * x
 }
 
-/// What is wrong with a number that must be within [least, most], if anything; `unit` may be empty.
+/// Describes a number outside of [least, most]; none if it is within. `unit` may be empty.
 fn outside(name: &str, x: f64, (least, most): (f64, f64), unit: &str) -> Option<String> {
     let within = x >= least && x <= most;
     let gap = if unit.is_empty() { "" } else { " " };

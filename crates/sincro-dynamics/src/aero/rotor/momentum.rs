@@ -16,12 +16,12 @@
 //! | a | thrust that a unit of inflow costs, k₁ΩR | m/s | σ Clα/8 ΩR |
 //! | S | thrust without inflow | m²/s² | |
 //!
-//! The squared equation is a quartic with a closed form, but that loses its root in forward flight (a resolvent with three
-//! real roots), so the root is bracketed instead. How many roots: f′√(w² + h²) = g(w) = 2w² − v w + h² + a√(w² + h²) is
-//! convex, so f rises, falls at most once in between, and rises again. For w ≥ max(v, 0) it rises.
+//! The squared equation is a quartic with a closed form, but that loses its root in forward flight (a resolvent with
+//! three real roots), so the root is bracketed instead. How many roots: f′√(w² + h²) = g(w) = 2w² − v w + h² + a√(w² +
+//! h²) is convex, so f rises, falls at most once in between, and rises again. For w ≥ max(v, 0) it rises.
 //!
-//! The polishing step w ← w − f(w)/f′(w), with the root as a constant, gives a dual number dw = −(∂f/∂p dp)/f′: the derivative
-//! by the implicit function theorem, exact.
+//! The polishing step w ← w − f(w)/f′(w), with the root as a constant, gives a dual number dw = −(∂f/∂p dp)/f′: the
+//! derivative by the implicit function theorem, exact.
 
 use sincro_math::Real;
 
@@ -96,8 +96,8 @@ impl Balance<f64> {
         self.rising_root(least, most, most)
     }
 
-    /// The root for h = 0 with the same S, of w² − (v − a)w − S: an upper bound of the root for h > 0 where that is above
-    /// max(v, 0), because √(w² + h²) ≥ w there; exact in axial flight.
+    /// The root for h = 0 with the same S, of w² − (v − a)w − S: an upper bound of the root for h > 0 where that is
+    /// above max(v, 0), because √(w² + h²) ≥ w there; exact in axial flight.
     fn axial_root(&self) -> f64 {
         let b = self.climb - self.relief;
         let root = (b * b + 4.0 * self.supply).max(0.0).sqrt();

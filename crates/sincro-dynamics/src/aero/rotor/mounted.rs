@@ -8,7 +8,7 @@ use crate::aero::drag::velocity_in_air;
 use crate::aero::wind::Air;
 use crate::spatial::{Force, Motion, Pose, Vec3};
 
-/// How thrust and torque follow from speed and motion.
+/// Aerodynamic law of a rotor: thrust and torque from speed and motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RotorLaw {
     /// Blade elements and momentum.
@@ -24,7 +24,7 @@ pub enum RotorLaw {
 }
 
 impl RotorLaw {
-    /// Which way it turns at positive speed; none where the law knows no sense of rotation.
+    /// Sense of rotation at positive speed; none where the law has none.
     #[must_use]
     pub fn spin(&self) -> Option<Spin> {
         match self {
@@ -36,7 +36,7 @@ impl RotorLaw {
     }
 }
 
-/// Where the speed of a rotor [rad/s] comes from.
+/// Source of a rotor's speed [rad/s].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedFrom<R> {
     /// It is this command.
@@ -45,18 +45,18 @@ pub enum SpeedFrom<R> {
     Lag {
         /// The command.
         command: usize,
-        /// Which of the states of rotors it is.
+        /// Index among the states of rotors.
         state: usize,
         /// τ `[s]`.
         time_constant: R,
-        /// Where it starts.
+        /// Initial speed [rad/s].
         initial: R,
     },
-    /// Of a stock propeller: the velocity of its particles [m/s] is this command.
+    /// Velocity of the particles of a stock propeller [m/s], which is this command.
     Particles {
         /// The command.
         command: usize,
-        /// Which of the states of rotors is the mass thrown during the present tick, by its length [kg/s].
+        /// Index among the states of rotors of the mass flow during the present tick [kg/s].
         state: usize,
     },
     /// It turns with a joint.
@@ -88,13 +88,13 @@ impl<R: Real> SpeedFrom<R> {
         }
     }
 
-    /// Whether the load changes at once when the command does.
+    /// Returns true if the load is a direct feedthrough of the command.
     #[must_use]
     pub fn follows_at_once(&self) -> bool {
         matches!(self, Self::Command(_) | Self::Particles { .. })
     }
 
-    /// Which of the states of rotors it has, if any.
+    /// Index among the states of rotors, if it has one.
     #[must_use]
     pub fn state(&self) -> Option<usize> {
         match *self {
@@ -157,7 +157,7 @@ pub struct MountedRotor<R> {
     pub pose: Pose<R>,
     /// Its law.
     pub law: RotorLaw,
-    /// Where its speed comes from.
+    /// Source of its speed.
     pub speed: SpeedFrom<R>,
     /// Density of the air [kg/m³].
     pub density: f64,
@@ -196,7 +196,8 @@ impl<R: Real> MountedRotor<R> {
         Force { ang: axis.scale(load.torque) + self.pose.pos.cross(lin), lin }
     }
 
-    /// Whether the law holds there; the first lane alone is looked at. Constant coefficients and V-REP's particles never say no.
+    /// Range of validity of a load; only the first lane is examined. Constant coefficients and V-REP's particles are
+    /// always valid.
     #[must_use]
     pub fn validity(&self, speed: R, hub: &Hub<'_, R>, load: &Load<R>) -> Validity {
         match &self.law {

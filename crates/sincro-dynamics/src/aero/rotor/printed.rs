@@ -1,7 +1,7 @@
 //! A published script for the same rotor, with its defects: to compare against, never to fly with.
 //!
-//! Source: key `morales2019`, section 6.1.2, line by line; NaN where the script gives NaN. What is wrong in it, compared with
-//! [`super::Rotor`], whose equations it means to solve by Ferrari's closed form:
+//! Source: key `morales2019`, section 6.1.2, line by line; NaN where the script gives NaN. What is wrong in it,
+//! compared with [`super::Rotor`], whose equations it means to solve by Ferrari's closed form:
 //!
 //! 1. The thrust axis is the third row of the rotation matrix; it is the third column.
 //! 2. The sign of a term of A₃; 3. the resolvent's b₁ and b₂; 4. d₃ lacks A₁. All three are harmless without forward
@@ -24,7 +24,7 @@ use crate::spatial::{Mat3, Vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrintedScript(RotorSpec);
 
-/// What the script returns.
+/// Results of the script.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Printed<R> {
     /// `[N]`
@@ -49,8 +49,8 @@ impl PrintedScript {
         super::Rotor::new(spec).map(|rotor| Self(*rotor.spec()))
     }
 
-    /// The script's thrust and torque, which it puts on the airframe as it stands: positive about the thrust axis. Power is the
-    /// torque by the speed.
+    /// The script's thrust and torque, which it puts on the airframe as it stands: positive about the thrust axis.
+    /// Power is the torque by the speed.
     #[inline(always)]
     pub fn load<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>, rotation: &Mat3<R>) -> Load<R> {
         let out = evaluate(&self.0, density, speed, velocity, rotation);

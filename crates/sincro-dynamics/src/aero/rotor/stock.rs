@@ -1,13 +1,14 @@
 //! V-REP's stock propeller: a jet of imaginary particles.
 //!
-//! Each step it throws n whole particles of mass m = ρ π d³/6 downwards with velocity u; the force over a step of length
-//! Δt is n m u/Δt, the torque −0.002 u. The particles are N a second, and what is left of one is carried to the next
-//! step, so n flutters by one from step to step; the mean force is N m u.
+//! Each step it throws n whole particles of mass m = ρ π d³/6 downwards with velocity u; the force over a step of
+//! length Δt is n m u/Δt, the torque −0.002 u. The particles are N a second, and what is left of one is carried to the
+//! next step, so n flutters by one from step to step; the mean force is N m u.
 //!
 //! Source: key `morales2019`, section 6.1.1, and the child script of V-REP's model of a propeller.
 //!
-//! Ours deviates in the carry: with the step as the decimal fraction that was typed, n = ⌊N (k+1)Δt⌋ − ⌊N kΔt⌋ in integers, so
-//! that the particles up to t are ⌊N t⌋ exactly, after a year as after a second, and there is no carry to store.
+//! Ours deviates in the carry: with the step as the decimal fraction that was typed, n = ⌊N (k+1)Δt⌋ − ⌊N kΔt⌋ in
+//! integers, so that the particles up to t are ⌊N t⌋ exactly, after a year as after a second, and there is no carry to
+//! store.
 
 use core::f64::consts::PI;
 
@@ -26,8 +27,8 @@ pub struct ExactStep {
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
 impl ExactStep {
-    /// The shortest decimal fraction that has the bits of `seconds`, or those bits themselves if it has none of sixteen digits; zero
-    /// for what is not positive and finite, and for less than 1e-22 s.
+    /// The shortest decimal fraction that has the bits of `seconds`, or those bits themselves if it has none of sixteen
+    /// digits; zero for what is not positive and finite, and for less than 1e-22 s.
     #[must_use]
     pub fn new(seconds: f64) -> Self {
         if !(seconds > 0.0 && seconds < 1e9) {
@@ -84,7 +85,7 @@ impl Default for StockPropeller {
 }
 
 impl StockPropeller {
-    /// What is wrong with the numbers, one sentence each; empty if nothing is.
+    /// Describes every number out of range, one sentence each; empty if there is none.
     #[must_use]
     pub fn problems(&self) -> Vec<String> {
         let mut out = Vec::new();
