@@ -34,6 +34,7 @@ pub mod contact;
 pub mod coupled;
 pub mod energy;
 pub mod geometry;
+pub mod ids;
 pub mod initial;
 pub mod integrate;
 pub mod joint;

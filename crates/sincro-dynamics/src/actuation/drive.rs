@@ -9,13 +9,15 @@
 //! Law: |τ| ≤ τ_max, and τ = τ_max sign(v* − v) where v ≠ v*. Source: key `acary2008`, chapter 3 (friction as a set-valued
 //! law).
 
+use crate::ids::MotorId;
+
 /// Source of a set-valued joint torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveKind {
     /// Coulomb friction of the joint.
     Friction,
     /// Velocity or position motor of this index.
-    Motor(usize),
+    Motor(MotorId),
     /// Lock without a limit: a degree of freedom of a force sensor.
     Lock,
 }

@@ -293,7 +293,7 @@ pub(super) fn massless_joints(model: &Model<f64>) -> Vec<Diagnostic> {
     for (dof, &inertia) in inertias.iter().enumerate() {
         // relative to rounding of the largest: 1e-12 kg·m² beside 1 kg·m² is a legitimate inertia, 1e-18 is not
         if inertia.is_nan() || inertia <= 1e-17 * scale {
-            let joint = &model.names.joints[model.names.dof_joint[dof]];
+            let joint = model.names.joint_info(model.names.dof_joint[dof]);
             found.error(
                 joint.node,
                 "axis",

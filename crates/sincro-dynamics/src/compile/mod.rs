@@ -11,6 +11,7 @@ use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
 use crate::contact::{self, Collider};
+use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
 use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
@@ -245,8 +246,8 @@ impl Compiler<'_> {
             .iter()
             .map(|(node, pose, surface, material)| {
                 let Anchor { name, link, pose } = anchor(*node, pose);
-                let frame = self.names.frames.iter().position(|f| f.node == *node).unwrap_or(usize::MAX);
-                Collider { name, frame, link, pose, surface: surface.clone(), material: *material }
+                let body = self.names.frames.iter().position(|f| f.node == *node).map(BodyId::new);
+                Collider { name, body, link, pose, surface: surface.clone(), material: *material }
             })
             .collect();
         let parent = |link: u32| self.model.links[link as usize].parent;
@@ -275,7 +276,7 @@ impl Compiler<'_> {
         for stage in stages {
             carrier = self.stage(carrier, &stage);
         }
-        let joint = self.names.joints.len();
+        let joint = JointId::new(self.names.joints.len());
         let (n_q, n_v) = (self.model.n_q - q_idx, self.model.dofs.len() - v_idx);
         self.names.dof_joint.extend(std::iter::repeat_n(joint, n_v));
         for k in 0..n_v {
@@ -283,7 +284,7 @@ impl Compiler<'_> {
         }
         let motor = spec.motor.map(|motor| {
             self.model.motors.push(Motor { dof: v_idx, ..motor });
-            self.model.motors.len() - 1
+            MotorId::new(self.model.motors.len() - 1)
         });
         let name = self.nodes[node.0 as usize].name.clone();
         let (base, moving) = (at.attached(), carrier.attached());

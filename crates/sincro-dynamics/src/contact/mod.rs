@@ -23,6 +23,7 @@ use crate::geometry::sat::Polytope;
 pub(crate) use detect::Detector;
 
 use crate::geometry::Shape;
+use crate::ids::BodyId;
 use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
@@ -80,8 +81,8 @@ impl Material {
 pub struct Collider {
     /// Name of the body.
     pub name: String,
-    /// Its index among the frames of the model's names; `usize::MAX` for the world itself.
-    pub frame: usize,
+    /// Id of the body or frame; none for the world itself.
+    pub body: Option<BodyId>,
     /// The link, `WORLD` for none.
     pub(crate) link: u32,
     /// In the link, or the world.

@@ -18,6 +18,7 @@ use sincro_math::Real;
 use crate::actuation::{Drive, DriveKind, Motor, Push, damper, friction};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::{Constraints, Level};
+use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Implicit, System};
 use crate::joint::StageKind;
 use crate::model::Model;
@@ -53,7 +54,7 @@ pub struct Mechanism<R> {
     /// Power dissipated by drag elements in the last evaluation `[W]`.
     air_dissipation: R,
     /// First rotor whose load was not a number in the last evaluation.
-    without_load: Option<usize>,
+    without_load: Option<RotorId>,
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
     pub(crate) constraints: Option<Box<Constraints<R>>>,
@@ -309,9 +310,9 @@ impl<R: Real> Mechanism<R> {
     }
 
     /// Replaces a motor, the degree of freedom kept. Drives that remain keep their state; a new one is locked.
-    pub(crate) fn set_motor(&mut self, index: usize, motor: Motor<R>) {
-        let was_drive = self.model.motors[index].is_drive();
-        self.model.motors[index] = Motor { dof: self.model.motors[index].dof, ..motor };
+    pub(crate) fn set_motor(&mut self, id: MotorId, motor: Motor<R>) {
+        let was_drive = self.model.motor(id).is_drive();
+        self.model.motors[id.index()] = Motor { dof: self.model.motor(id).dof, ..motor };
         if was_drive == motor.is_drive() {
             return;
         }
@@ -324,7 +325,7 @@ impl<R: Real> Mechanism<R> {
     }
 
     /// The first rotor whose law gave what is not a number in the last evaluation.
-    pub(crate) fn rotor_without_load(&self) -> Option<usize> {
+    pub(crate) fn rotor_without_load(&self) -> Option<RotorId> {
         self.without_load
     }
 
@@ -342,7 +343,7 @@ impl<R: Real> Mechanism<R> {
             let speed = rotor.speed.value(v, &self.commands, rotors);
             let load = rotor.load(speed, rotors, &rotor.hub(twist, x_wl, air.as_ref()));
             if matches!(rotor.law, RotorLaw::Printed(_)) && !(load.thrust.is_finite() && load.torque.is_finite()) {
-                self.without_load = self.without_load.or(Some(k));
+                self.without_load = self.without_load.or(Some(RotorId::new(k)));
             }
             self.external[rotor.link] += rotor.wrench(&load);
         }
@@ -428,6 +429,7 @@ impl<R: Real> Mechanism<R> {
         for d in 0..self.model.drives.len() {
             let drive = self.model.drives[d];
             let DriveKind::Motor(i) = drive.kind else { continue };
+            let i = i.index();
             let mut locked = self.scratch.reaction[drive.dof];
             for f in 0..d {
                 if self.model.drives[f].dof == drive.dof {

@@ -4,6 +4,7 @@ use sincro_math::Real;
 
 use super::Model;
 use crate::actuation::{Drive, DriveKind};
+use crate::ids::MotorId;
 use crate::joint::JointKind;
 
 impl<R: Real> Model<R> {
@@ -13,7 +14,7 @@ impl<R: Real> Model<R> {
         let limit = match drive.kind {
             DriveKind::Lock => return None,
             DriveKind::Friction => self.dofs[drive.dof].friction,
-            DriveKind::Motor(i) => self.motors[i].max_torque,
+            DriveKind::Motor(i) => self.motor(i).max_torque,
         };
         limit.is_finite().then_some(limit)
     }
@@ -23,7 +24,10 @@ impl<R: Real> Model<R> {
     pub(crate) fn target_velocity(&self, drive: &Drive, q: &[R], commands: &[R]) -> R {
         match drive.kind {
             DriveKind::Friction | DriveKind::Lock => R::zero(),
-            DriveKind::Motor(i) => self.motors[i].target_velocity(q[self.dofs[drive.dof].q_idx as usize], commands[i]),
+            DriveKind::Motor(i) => {
+                let q = q[self.dofs[drive.dof].q_idx as usize];
+                self.motor(i).target_velocity(q, commands[i.index()])
+            }
         }
     }
 
@@ -33,7 +37,7 @@ impl<R: Real> Model<R> {
         let friction = self.dofs.iter().enumerate().filter(|(_, d)| d.friction != zero);
         let friction = friction.map(|(dof, _)| Drive { dof, kind: DriveKind::Friction });
         let motors = self.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
-        let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(i) });
+        let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(MotorId::new(i)) });
         let sensors = self.names.joints.iter().filter(|j| j.kind == JointKind::Fixed);
         let locked = sensors.flat_map(|j| (j.v_idx..j.v_idx + j.n_v).map(|dof| Drive { dof, kind: DriveKind::Lock }));
         friction.chain(motors).chain(locked).collect()

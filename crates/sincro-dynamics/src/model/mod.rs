@@ -23,6 +23,7 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 pub use crate::geometry::{MassProperties, Shape};
+pub use crate::ids::{BodyId, JointId, MotorId, RotorId};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
     BodySpec, DragSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
@@ -110,6 +111,26 @@ impl<R: Real> Model<R> {
     #[must_use]
     pub fn rotors(&self) -> &[MountedRotor<R>] {
         &self.rotors
+    }
+
+    /// Motor of that id.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such motor.
+    #[must_use]
+    pub fn motor(&self, id: MotorId) -> &Motor<R> {
+        &self.motors[id.index()]
+    }
+
+    /// Rotor of that id.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such rotor.
+    #[must_use]
+    pub fn rotor(&self, id: RotorId) -> &MountedRotor<R> {
+        &self.rotors[id.index()]
     }
 
     /// The drag elements.

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::{MassProperties, Model};
+use crate::ids::BodyId;
 use crate::spatial::{Pose, RigidInertia, Sym3, Vec3};
 
 /// The inertia of a body that stands at `pose` in its link, about the link's origin.
@@ -15,11 +16,11 @@ pub(crate) fn carried(pose: &Pose<f64>, mass: &MassProperties) -> RigidInertia<f
 impl Model<f64> {
     /// Sets the mass properties of a link from those of its bodies: all of them, by their index among the frames of the
     /// names and in that order. Gives the same bits as a model built with them.
-    pub(crate) fn set_mass_properties(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
+    pub(crate) fn set_mass_properties(&mut self, link: usize, bodies: &[(BodyId, MassProperties)]) {
         let names = Arc::make_mut(&mut self.names);
         let mut sum = RigidInertia::zero();
-        for (frame, mass) in bodies {
-            let info = &mut names.frames[*frame];
+        for (body, mass) in bodies {
+            let info = &mut names.frames[body.index()];
             sum = sum.plus(&carried(&info.pose, mass));
             info.body = Some((mass.center_of_mass, mass.mass));
         }

@@ -69,6 +69,7 @@ impl World {
         self.y[2 * n + 1] += lost;
         for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
             let DriveKind::Motor(motor) = drive.kind else { continue };
+            let motor = motor.index();
             if self.is_unlimited(i) {
                 let impulse = self.mechanism.scratch.reaction[drive.dof];
                 self.y[2 * n] += impulse * self.y[n + drive.dof];

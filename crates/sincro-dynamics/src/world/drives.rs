@@ -96,6 +96,7 @@ impl World {
                 DriveKind::Lock => {}
                 DriveKind::Friction => self.y[2 * n + 1] -= work,
                 DriveKind::Motor(motor) => {
+                    let motor = motor.index();
                     self.y[2 * n] += work;
                     self.y[2 * n + 2 + motor] += impulse;
                 }

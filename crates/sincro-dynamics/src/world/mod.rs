@@ -20,6 +20,7 @@ use crate::constraint::warm_start::ZenoFallback;
 use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::energy::{Energy, energy, momentum};
+use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::ActivationRule;
@@ -395,15 +396,15 @@ impl World {
 
     /// First rotor whose load was not a number in the last evaluation: only the printed script can give one.
     #[must_use]
-    pub fn rotor_without_load(&self) -> Option<usize> {
+    pub fn rotor_without_load(&self) -> Option<RotorId> {
         self.mechanism.rotor_without_load()
     }
 
     /// Speed of a rotor in the present state [rad/s].
     #[must_use]
-    pub fn rotor_speed(&self, rotor: usize) -> f64 {
+    pub fn rotor_speed(&self, rotor: RotorId) -> f64 {
         let State { v, commands, rotors, .. } = &self.state;
-        self.model().rotors()[rotor].speed.value(v, commands, rotors)
+        self.model().rotor(rotor).speed.value(v, commands, rotors)
     }
 
     /// Sets the mass flow of each stock propeller for this tick.
@@ -451,10 +452,10 @@ impl World {
     ///
     /// # Panics
     ///
-    /// If there is no motor of that index.
-    pub fn set_motor(&mut self, index: usize, motor: Motor<f64>) {
+    /// If there is no motor of that id.
+    pub fn set_motor(&mut self, id: MotorId, motor: Motor<f64>) {
         self.mechanism.drives.copy_from_slice(&self.state.drives);
-        self.mechanism.set_motor(index, motor);
+        self.mechanism.set_motor(id, motor);
         let n = self.mechanism.drives.len();
         self.state.drives.resize(n, 0.0);
         self.state.drives.copy_from_slice(&self.mechanism.drives);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::World;
 use crate::contact::Material;
 use crate::energy::energy_at;
+use crate::ids::BodyId;
 use crate::model::{MassProperties, Model};
 use crate::recursions::kinematics;
 use crate::spatial::Vec3;
@@ -21,7 +22,7 @@ impl World {
     /// # Panics
     ///
     /// If there is no such link or frame.
-    pub fn set_mass_properties(&mut self, link: usize, bodies: &[(usize, MassProperties)]) {
+    pub fn set_mass_properties(&mut self, link: usize, bodies: &[(BodyId, MassProperties)]) {
         let before = self.mechanical_energy();
         self.mechanism.model.set_mass_properties(link, bodies);
         if self.state.tick > 0 {

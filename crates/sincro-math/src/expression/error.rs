@@ -65,7 +65,7 @@ pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
 const MAX_COMPARED: usize = 64;
 
 /// Edit distance: number of letters that must be inserted, removed, replaced or swapped with their neighbour to turn
-/// `a` into `b`, without
+/// `a` into `b`, without regard to case.
 fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (letters(a), letters(b));
     // rows of the table of distances between beginnings of a and of b: the row before last, the last, the current one

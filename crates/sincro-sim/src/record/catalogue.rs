@@ -135,7 +135,7 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             list.vector(&format!("{name}.acceleration"), &XYZ, "m/s²", |k| Probe::Acceleration(v + 3 + k));
         }
     }
-    if let Some(motor) = joint.motor {
+    if let Some(motor) = joint.motor.map(sincro_dynamics::ids::MotorId::index) {
         let is_length = matches!(joint.kind, JointKind::Prismatic { .. });
         let units = if is_length { LENGTH.0 } else { ANGLE.0 };
         let torque = units[3];
@@ -187,7 +187,7 @@ fn contact_signals(list: &mut List, model: &Model<f64>) {
     use ContactQuantity as Q;
     let set = model.constraints();
     for (i, frame) in model.names().frames.iter().enumerate() {
-        if !set.colliders.iter().any(|c| c.frame == i) {
+        if !set.colliders.iter().any(|c| c.body.is_some_and(|body| body.index() == i)) {
             continue;
         }
         let at = |quantity: Q| move |k: usize| Probe::Contact(quantity, i, k);

@@ -380,7 +380,8 @@ impl Assembly {
         }
         for joint in &model.names().joints {
             let Some(index) = self.objects.iter().position(|o| o.path == joint.name) else { continue };
-            if let (Some(motor), ObjectKind::Joint { motor: known, .. }) = (joint.motor, &mut self.objects[index].kind)
+            if let (Some(motor), ObjectKind::Joint { motor: known, .. }) =
+                (joint.motor.map(sincro_dynamics::ids::MotorId::index), &mut self.objects[index].kind)
             {
                 *known = Some(motor);
                 commands[motor] = self.commands.remove(&index).expect("a joint with a motor has a command");

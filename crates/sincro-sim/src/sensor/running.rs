@@ -207,7 +207,8 @@ impl Sensor {
         let colliders = &seen.model.constraints().colliders;
         let (mut force, mut torque, mut n) = (Vec3::zero(), Vec3::zero(), 0);
         for point in points {
-            let [a, b] = point.surfaces.map(|s| colliders[s].frame);
+            let [a, b] =
+                point.surfaces.map(|s| colliders[s].body.map_or(usize::MAX, sincro_dynamics::ids::BodyId::index));
             // the force is on the first surface's body
             let (sign, other) = match (a == self.of, b == self.of) {
                 (true, false) => (1.0, b),

@@ -1,7 +1,7 @@
 //! What clients and scripts change of the model: masses, bounds of stops, laws of couplings, whether a body touches. Each change is kept with the run
 //! that has it.
 
-use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::model::{BodyId, MassProperties};
 use sincro_dynamics::spatial::Vec3;
 
 use super::table::{Handle, Kind, Table};
@@ -83,7 +83,8 @@ impl Desk<'_> {
         };
         let frames = self.world.model().names().frames.iter().enumerate();
         let carried = frames.filter(|(_, f)| f.link == Some(link) && f.body.is_some());
-        let bodies: Vec<(usize, MassProperties)> = carried.filter_map(|(k, f)| Some((k, of(&f.name)?))).collect();
+        let bodies: Vec<(BodyId, MassProperties)> =
+            carried.filter_map(|(k, f)| Some((BodyId::new(k), of(&f.name)?))).collect();
         self.world.set_mass_properties(link, &bodies);
         self.moved();
         Ok(())

@@ -122,7 +122,7 @@ impl Desk<'_> {
             return Err(Refusal(format!("{name} would be {x}, expected a number that is not negative")));
         }
         self.table.joint_mut(handle)?.drive = Some(motor);
-        self.world.set_motor(index, motor);
+        self.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
         self.moved();
         Ok(())
     }

@@ -573,7 +573,7 @@ impl Session {
                 && desk.world.model().motors()[index]
                     != (sincro_dynamics::actuation::Motor { dof: joint.v_idx, ..motor })
             {
-                desk.world.set_motor(index, motor);
+                desk.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
             }
         }
     }

@@ -17,7 +17,7 @@ impl Desk<'_> {
 
     /// Speed of a rotor [rad/s].
     pub(super) fn rotor_speed(&self, rotor: usize) -> f64 {
-        self.world.rotor_speed(rotor)
+        self.world.rotor_speed(sincro_dynamics::ids::RotorId::new(rotor))
     }
 
     /// What a rotor was told [rad/s].
