@@ -1,16 +1,16 @@
 //! Bodies in moving air: terminal velocity, wind's work, lag and spinning joints in closed form, power balances.
 
+use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::aero::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
+use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
 use sincro_dynamics::energy::energy_at;
-use sincro_dynamics::force::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
-use sincro_dynamics::force::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{
     BodySpec, DragSpec, JointSpec, Model, ModelBuilder, NodeId, RotorDrive, RotorSpec, Shape,
 };
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_dynamics::state::State;
-use sincro_dynamics::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::world::{MethodKind, World};
 
 use crate::mechanisms::{ALL, run};
@@ -268,7 +268,7 @@ fn a_driven_rotor_turns_its_airframe_by_the_airs_torque() {
     (x.v[1], x.commands[0]) = (500.0, 500.0);
     let rotor = model.rotors()[0].clone();
     let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
-    world.settle_start(0.0);
+    world.initialize(0.0);
     let (v_dot, torque) = world.rates(0.0);
     let (v_dot, torque) = (v_dot.to_vec(), torque[0]);
     let RotorLaw::Blade(law) = &rotor.law else { unreachable!() };
@@ -369,7 +369,7 @@ fn gusts_are_corners_and_end_where_they_said() {
     let wind = Wind::new([0.0; 3], Profile::Constant, vec![gust(1.0, false), gust(2.5, true)], None).unwrap();
     let mut t = -1.0;
     let corners: Vec<f64> = core::iter::from_fn(|| {
-        t = wind.next_corner(t);
+        t = wind.next_time_event(t);
         t.is_finite().then_some(t)
     })
     .collect();

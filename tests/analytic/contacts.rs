@@ -55,7 +55,7 @@ fn a_ball_bounces_as_its_closed_form_says() {
         let n = 200;
         run(&mut world, end / f64::from(n), n);
         assert!((world.state.q[2] - expected).abs() < 1e-9, "{kind:?} {:e}", world.state.q[2] - expected);
-        assert_eq!(world.effort().impacts, 3, "{kind:?}");
+        assert_eq!(world.statistics().impacts, 3, "{kind:?}");
     }
 }
 
@@ -82,7 +82,7 @@ fn a_block_sticks_just_below_the_critical_angle_and_slides_just_above() {
             let x = placed(&model, tilt, 0.025);
             let start = x.q.clone();
             let mut world = World::new(model, x, kind, 1e-10, 1e-3);
-            world.settle_start(0.0);
+            world.initialize(0.0);
             run(&mut world, 0.01, 100);
             let moved: f64 =
                 (0..3).map(|k| (world.state.q[k] - start[k]) * (world.state.q[k] - start[k])).sum::<f64>().sqrt();
@@ -105,12 +105,12 @@ fn a_ball_slips_then_rolls() {
         let mut x = placed(&model, 0.0, r);
         x.v[3] = v0;
         let mut world = World::new(model, x, kind, 1e-10, 1e-3);
-        world.settle_start(0.0);
+        world.initialize(0.0);
         let t = 2.0 * v0 / (7.0 * mu * G);
         run(&mut world, 0.5 / f64::from(n), n);
         let slipped = v0 * t - 0.5 * mu * G * t * t;
         assert!((world.state.q[2] - r).abs() < 1e-11, "{kind:?}");
-        assert_eq!(world.effort().events, 1, "{kind:?}");
+        assert_eq!(world.statistics().events, 1, "{kind:?}");
         (world.state.q[0] - slipped - 5.0 / 7.0 * v0 * (0.5 - t)).abs()
     };
     for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
@@ -165,7 +165,7 @@ fn free_collisions_keep_momentum_and_lose_what_restitution_says() {
         let lost = energy - seen.energy().total();
         assert!((lost - seen.state.totals[1]).abs() < 1e-9, "{friction} {restitution} {lost:e}");
         assert!(if restitution == 1.0 { lost.abs() < 1e-9 } else { lost > 1e-3 }, "{friction} {restitution} {lost:e}");
-        assert!(world.effort().impacts >= 1);
+        assert!(world.statistics().impacts >= 1);
     }
 }
 
@@ -212,7 +212,7 @@ fn solids_stand_on_a_plane_as_they_should() {
         Quat::exp(Vec3(turn)).write(&mut x.q[3..7]);
         let start = x.q.clone();
         let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-9, 1e-3);
-        world.settle_start(0.0);
+        world.initialize(0.0);
         run(&mut world, 0.02, 50);
         let seen = world.observe(1.0);
         let force: f64 = seen.contacts().map(|c| c.force[2]).sum();
@@ -257,7 +257,7 @@ fn a_tumbling_box_never_gains_energy_and_its_books_balance() {
     Quat::exp(Vec3([0.5, -0.3, 0.2])).write(&mut x.q[3..7]);
     x.v.copy_from_slice(&[3.0, -5.0, 2.0, 0.5, 0.2, 0.0]);
     let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);
-    world.settle_start(0.0);
+    world.initialize(0.0);
     let start = world.observe(0.0).energy().total();
     let (mut energy, mut lost) = (start, 0.0);
     for k in 0..150 {
@@ -270,7 +270,7 @@ fn a_tumbling_box_never_gains_energy_and_its_books_balance() {
         (energy, lost) = (now, dissipated);
     }
     let report = world.solver_report().unwrap();
-    assert_eq!((report.not_converged, world.effort().rough_ticks), (0, 0), "{report:?}");
+    assert_eq!((report.not_converged, world.statistics().fallback_ticks), (0, 0), "{report:?}");
 }
 
 #[test]
@@ -308,7 +308,7 @@ fn friction_only_takes_energy_at_every_point_at_every_instant() {
     Quat::exp(Vec3([0.5, -0.3, 0.2])).write(&mut x.q[3..7]);
     x.v.copy_from_slice(&[3.0, -5.0, 2.0, 0.5, 0.2, 0.0]);
     let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);
-    world.settle_start(0.0);
+    world.initialize(0.0);
     let mut slips = 0;
     for k in 0..150 {
         world.advance(0.01 * f64::from(k), 0.01).unwrap();

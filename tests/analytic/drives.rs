@@ -1,6 +1,6 @@
 //! Velocity motors and Coulomb friction: exact tracking, impulses, saturation, sticking.
 
-use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;

@@ -1,12 +1,12 @@
 //! Stops of joints, closed loops and couplings against closed forms.
 
-use sincro_dynamics::constraint::ClosureKind;
+use sincro_dynamics::constraint::LoopJointKind;
+use sincro_dynamics::initial;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{
-    BodySpec, ClosureSpec, CouplingSpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape,
+    BodySpec, GearSpec, JointSpec, LoopJointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape,
 };
 use sincro_dynamics::spatial::{Pose, Vec3};
-use sincro_dynamics::start;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
 
@@ -24,7 +24,7 @@ fn a_cart_bounces_between_its_stops() {
         run(&mut world, 0.01, 300);
         // 0.5 s to the upper stop, 2 s back at half the speed, then a quarter of it
         assert!((world.state.q[0] - (-0.5 + 0.25 * 0.5)).abs() < 1e-12, "{kind:?} {}", world.state.q[0]);
-        assert_eq!(world.effort().impacts, 2, "{kind:?}");
+        assert_eq!(world.statistics().impacts, 2, "{kind:?}");
     }
 }
 
@@ -53,12 +53,12 @@ fn pendulum(length: f64) -> (Model<f64>, State<f64>) {
     let z = b.joint("z", x, Pose::identity(), along([0.0, 0.0, 1.0]));
     let mass = MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
     let bob = b.body("bob", z, Pose::identity(), BodySpec { mass });
-    let spec = ClosureSpec {
-        kind: ClosureKind::Distance(length),
+    let spec = LoopJointSpec {
+        kind: LoopJointKind::Distance(length),
         ends: [bob, NodeId::WORLD],
         poses: [Pose::identity(), Pose::identity()],
     };
-    b.closure("string", spec);
+    b.loop_joint("string", spec);
     let model = b.build().unwrap().0;
     let mut x = State::new(&model);
     x.q[0] = length * libm::sin(1.0);
@@ -90,11 +90,11 @@ fn a_closed_loop_keeps_the_order_of_the_integrator_and_does_not_drift() {
     let error = |kind: MethodKind, n: u32| {
         let (model, x) = pendulum(0.8);
         let mut world = World::new(model, x, kind, 1e-12, 1e-3);
-        world.settle_start(0.0);
+        world.initialize(0.0);
         let mut worst = 0.0_f64;
         for k in 0..n {
             world.advance(3.0 / f64::from(n) * f64::from(k), 3.0 / f64::from(n)).unwrap();
-            let open = start::openings(world.model(), &world.state)[0].distance;
+            let open = initial::constraint_residuals(world.model(), &world.state)[0].distance;
             worst = worst.max(open);
         }
         assert!(worst < 1e-10, "{kind:?} drifts {worst:e}");
@@ -123,7 +123,7 @@ fn a_coupling_makes_two_shafts_one() {
     b.body("first", one, Pose::identity(), wheel(0.3));
     let two = b.joint("two", NodeId::WORLD, Pose::translation(Vec3([1.0, 0.0, 0.0])), shaft(0.0));
     b.body("second", two, Pose::identity(), wheel(0.05));
-    b.coupling("gear", CouplingSpec { joints: [one, two], ratio: -3.0, offset: 0.0 });
+    b.gear("gear", GearSpec { joints: [one, two], ratio: -3.0, offset: 0.0 });
     let model = b.build().unwrap().0;
     for kind in LOCATING {
         let mut world = World::new(model.clone(), State::new(&model), kind, 1e-10, 1e-3);
@@ -151,8 +151,8 @@ fn redundant_equations_are_counted() {
     let tip = b.frame("tip", right, Pose::translation(Vec3([0.0, 0.0, 1.0])));
     let turn = sincro_dynamics::spatial::Mat3::rotation::<0>(-1.0, 0.0);
     let pose = Pose { rot: turn, pos: Vec3::zero() };
-    b.closure("pin", ClosureSpec { kind: ClosureKind::Hinge, ends: [end, tip], poses: [pose, pose] });
+    b.loop_joint("pin", LoopJointSpec { kind: LoopJointKind::Hinge, ends: [end, tip], poses: [pose, pose] });
     let model = b.build().unwrap().0;
-    let freedom = start::freedom(&model, &State::new(&model));
-    assert_eq!((freedom.of_tree, freedom.equations, freedom.redundant, freedom.left()), (3, 5, 3, 1));
+    let freedom = initial::mobility(&model, &State::new(&model));
+    assert_eq!((freedom.tree_dofs, freedom.equations, freedom.redundant, freedom.dofs()), (3, 5, 3, 1));
 }

@@ -1,6 +1,6 @@
 //! Small mechanisms that several tests share.
 
-use sincro_dynamics::force::Motor;
+use sincro_dynamics::actuation::Motor;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape};
 use sincro_dynamics::signal::Signal;

@@ -1,7 +1,7 @@
 //! Power in equals energy rate, for all force elements together and for each.
 
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::energy::energy_at;
-use sincro_dynamics::force::{Motor, MotorMode};
 use sincro_dynamics::model::{JointSpec, Model};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;

@@ -1,10 +1,11 @@
 //! Rotors against computed tables, hover in closed form, and what the published script gives.
 //!
-//! `states.csv` of the scene `rotor-bemt` and `rotor-inflow-grid.csv` were computed independently (Brent's method in Python) with twelve digits;
-//! the columns of the printed script are a transcription that was compared with the Lua text in a Lua interpreter.
+//! `states.csv` of the scene `rotor-bemt` and `rotor-inflow-grid.csv` were computed independently (Brent's method in
+//! Python) with twelve digits; the columns of the printed script are a transcription that was compared with the Lua
+//! text in a Lua interpreter.
 
-use sincro_dynamics::force::rotor::{CoefficientTable, TableRow};
-use sincro_dynamics::force::rotor::{Drag, Rotor, RotorSpec, Spin, StockPropeller, Validity, printed};
+use sincro_dynamics::aero::rotor::{CoefficientTable, TableRow};
+use sincro_dynamics::aero::rotor::{Drag, Rotor, RotorSpec, Spin, StockPropeller, Validity, printed};
 use sincro_dynamics::spatial::{Mat3, Vec3};
 
 const TABLE: &str = include_str!("../../scenes/rotor-bemt/states.csv");
@@ -39,7 +40,8 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
     text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect()
 }
 
-/// States of the table: speed, forward and vertical velocity, thrust, torque, inflow, flag, the printed script's thrust.
+/// States of the table: speed, forward and vertical velocity, thrust, torque, inflow, flag, the printed script's
+/// thrust.
 fn states() -> Vec<Vec<f64>> {
     // the first two columns are times of the scene
     rows(TABLE).into_iter().map(|row| row[2..].to_vec()).collect()

@@ -1,6 +1,6 @@
 //! Wind: profiles and gusts in closed form; turbulence has the variance and the autocorrelation of Dryden's spectra.
 
-use sincro_dynamics::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, dryden_scales};
+use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, dryden_scales};
 use sincro_math::{Dual, Lanes, Real};
 
 fn turbulent(seed: u64) -> Wind {
@@ -80,7 +80,8 @@ fn turbulence_has_the_variance_and_autocorrelation_of_dryden() {
             worst[which] = worst[which].max(error);
         }
     }
-    // the variance to what the finite time leaves of products of neighbouring harmonics; the rest to two harmonics of 64
+    // the variance to what the finite time leaves of products of neighbouring harmonics; the rest to two harmonics of
+    // 64
     assert!(worst[0] < 0.02 && worst[1] < 2.0 / 64.0, "{worst:?}");
 }
 

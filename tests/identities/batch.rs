@@ -1,7 +1,7 @@
 //! World k of a batch has the bits it would have alone.
 
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
-use sincro_dynamics::force::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{BodySpec, JointSpec, Model, ModelBuilder, NodeId, Shape};
 use sincro_dynamics::signal::Signal;

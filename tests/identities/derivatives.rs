@@ -13,7 +13,7 @@ fn accelerations<R: sincro_math::Real>(model: &Model<f64>, q: &[R], v: &[R], tor
     let mut scratch = Scratch::new(&model);
     let diagonal: Vec<R> = model.dofs().iter().map(|d| d.armature).collect();
     let mut v_dot = vec![R::zero(); v.len()];
-    let input = Input { q, v, torque, diagonal: &diagonal, held: None, external: None, gravity: true };
+    let input = Input { q, v, torque, diagonal: &diagonal, prescribed: None, external: None, gravity: true };
     forward_dynamics(&model, &input, &mut scratch, &mut v_dot);
     v_dot
 }

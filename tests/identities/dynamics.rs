@@ -1,6 +1,6 @@
 //! Forward and inverse dynamics, mass matrix, kinematics and energy against each other.
 
-use sincro_dynamics::aba::{Held, Input, forward_dynamics};
+use sincro_dynamics::aba::{Input, Prescribed, forward_dynamics};
 use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::energy::{energy, energy_at, momentum};
 use sincro_dynamics::kinematics::{self, Attached};
@@ -58,7 +58,7 @@ fn inverse_dynamics_undoes_forward_dynamics() {
             v: &c.x.v,
             torque: &torque,
             diagonal: &diagonal,
-            held: None,
+            prescribed: None,
             external: Some(&external),
             gravity: true,
         };
@@ -83,9 +83,16 @@ fn a_held_joint_has_its_acceleration_and_names_the_torque_for_it() {
         let mask: Vec<f64> = (0..n).map(|_| f64::from(u8::from(c.r.below(3) == 0))).collect();
         let acceleration: Vec<f64> = (0..n).map(|_| c.r.unit()).collect();
         let diagonal = armature(&c.model);
-        let held = Some(Held { mask: &mask, acceleration: &acceleration });
-        let input =
-            Input { q: &c.x.q, v: &c.x.v, torque: &torque, diagonal: &diagonal, held, external: None, gravity: true };
+        let prescribed = Some(Prescribed { mask: &mask, acceleration: &acceleration });
+        let input = Input {
+            q: &c.x.q,
+            v: &c.x.v,
+            torque: &torque,
+            diagonal: &diagonal,
+            prescribed,
+            external: None,
+            gravity: true,
+        };
         let mut v_dot = vec![0.0; n];
         forward_dynamics(&c.model, &input, &mut c.scratch, &mut v_dot);
         let reaction = c.scratch.reaction().to_vec();
@@ -167,7 +174,7 @@ fn energy_changes_by_the_power_of_the_torques() {
             v: &c.x.v,
             torque: &torque,
             diagonal: &diagonal,
-            held: None,
+            prescribed: None,
             external: None,
             gravity: true,
         };
@@ -207,7 +214,7 @@ fn momentum_of_a_tree_that_floats_freely_changes_by_gravity_alone() {
             v: &c.x.v,
             torque: &zero,
             diagonal: &diagonal,
-            held: None,
+            prescribed: None,
             external: None,
             gravity: true,
         };

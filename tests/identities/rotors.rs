@@ -1,6 +1,6 @@
 //! What holds for every rotor in every state.
 
-use sincro_dynamics::force::rotor::{Drag, Load, Rotor, RotorSpec, Spin, Validity};
+use sincro_dynamics::aero::rotor::{Drag, Load, Rotor, RotorSpec, Spin, Validity};
 use sincro_dynamics::spatial::Vec3;
 use sincro_math::{Dual, LaneVisitor, Lanes, Real, lanes};
 

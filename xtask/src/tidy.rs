@@ -1,6 +1,7 @@
 //! Checks that no compiler makes: that the tree is as `ARCHITECTURE.md` says, that arrows point down, that the thinking
 //! crates stay pure, that keys of references resolve.
 
+use crate::modules;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -75,6 +76,9 @@ pub fn check(root: &Path) -> bool {
     crate::words::check(root, &texts, &mut found);
     crate::package::inclusions(root, &texts, &mut found);
     crate::package::manifests(root, &mut found);
+    let relative = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string();
+    let named: Vec<(String, String)> = texts.iter().map(|(path, text)| (relative(path), text.clone())).collect();
+    modules::check(&named, &mut found);
     tree(root, &mut found);
     arrows(root, &mut found);
     scenes(root, &mut found);

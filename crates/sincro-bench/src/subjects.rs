@@ -7,7 +7,7 @@
 use std::hint::black_box;
 
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
-use sincro_dynamics::constraint::SLOT;
+use sincro_dynamics::constraint::SLOT_LEN;
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
@@ -79,7 +79,7 @@ pub(super) fn picture(scene: &Scene) -> Subject {
 pub(super) fn world(scene: &Scene, method: MethodKind, accuracy: f64, totals: bool) -> World {
     let control = Control::new(accuracy, (STEP * 0.1).min(1e-3));
     let mut world = World::with_totals((*scene.model).clone(), scene.initial.clone(), method, control, totals);
-    world.settle_start(0.0);
+    world.initialize(0.0);
     world
 }
 
@@ -154,7 +154,7 @@ impl Stepper {
             self.advance();
             // the normal force that the step found for each slot, limits first
             let limits = self.world.model().constraints().limits.len();
-            let forces = self.world.state.contacts.iter().step_by(SLOT).enumerate();
+            let forces = self.world.state.contacts.iter().step_by(SLOT_LEN).enumerate();
             for (slot, _) in forces.filter(|(_, force)| **force > 0.0) {
                 *(if slot < limits { &mut active_limits } else { &mut points }) += 1;
             }
@@ -217,7 +217,7 @@ pub(super) fn forward(scene: &Scene) -> Subject {
             v: &state.v,
             torque: &torque,
             diagonal: &diagonal,
-            held: None,
+            prescribed: None,
             external: None,
             gravity: true,
         };

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use sincro_coppelia::session::{Handle, Phase, Reference, Search, Session, Value};
-use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::actuation::MotorMode;
 use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::run::{Manner, Watch, simulate};

@@ -1,15 +1,16 @@
 //! Many worlds of one structure, several at a time in the lanes of vector registers.
 //!
-//! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has the bits
-//! that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do together (drives with a
-//! limit, inputs with corners: each world would want its own sub-steps) is done one world at a time; the result does not tell.
+//! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has
+//! the bits that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do
+//! together (drives with a limit, inputs with corners: each world would want its own sub-steps) is done one world at a
+//! time; the result does not tell.
 //!
 //! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
 
 use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
-use crate::force::rotor::SpeedFrom;
+use crate::aero::rotor::SpeedFrom;
 use crate::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, PackError};
@@ -21,13 +22,14 @@ use crate::world::{MethodKind, Stop, World};
 pub struct BatchWorld {
     /// Its model; all worlds of a batch have the same structure.
     pub model: Model<f64>,
-    /// Where it starts, and after the run where it has got to.
+    /// Initial state, and after the run the final one.
     pub state: State<f64>,
     /// Commands of every motor for every tick, tick by tick; empty: those in `state` throughout.
     pub commands: Vec<f64>,
-    /// Why it stopped before the end, if it did.
+    /// Reason why it stopped before the end, if it did.
     pub stop: Option<Stop>,
-    /// Coordinates and velocities at every recorded tick, one after the other (`n_q + n_v` a record); the start is the first.
+    /// Coordinates and velocities at every recorded tick, one after the other (`n_q + n_v` a record); the start is the
+    /// first.
     pub record: Vec<f64>,
 }
 
@@ -39,7 +41,7 @@ impl BatchWorld {
     }
 }
 
-/// How all worlds of a batch are advanced.
+/// Method, step and length of a batch, the same for all its worlds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BatchSettings {
     /// A fixed-step method.
@@ -77,11 +79,11 @@ pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<()
 
 fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     let end = settings.h * f64::from(settings.n_steps);
-    let unlimited = world.model.drives.iter().all(|d| d.limit(&world.model).is_none());
+    let unlimited = world.model.drives.iter().all(|d| world.model.drive_limit(d).is_none());
     // particles are counted for each world
     let counts = world.model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. }));
     let is_free = world.model.constraints().is_empty();
-    unlimited && is_free && !counts && world.model.next_corner(-1.0) >= end
+    unlimited && is_free && !counts && world.model.next_time_event(-1.0) >= end
 }
 
 /// One world by itself.
@@ -132,8 +134,8 @@ impl LaneVisitor for Bundle<'_> {
         let model = Model::<R>::pack(&models)?;
         let mechanism = Mechanism::new(model, false);
         let dim = mechanism.dim();
-        let jump = vec![R::zero(); mechanism.model().n_v()];
-        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], jump, mechanism };
+        let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
+        let mut lanes = LaneWorlds { y: vec![R::zero(); dim], reach_target_velocities, mechanism };
         lanes.load(worlds);
         match settings.method {
             MethodKind::SemiImplicitEuler => lanes.run(&mut SemiImplicitEuler::new(dim), worlds, settings),
@@ -149,7 +151,7 @@ impl LaneVisitor for Bundle<'_> {
 struct LaneWorlds<R> {
     mechanism: Mechanism<R>,
     y: Vec<R>,
-    jump: Vec<R>,
+    reach_target_velocities: Vec<R>,
 }
 
 impl<R: Real> LaneWorlds<R> {
@@ -225,39 +227,40 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// Marks what the drives hold for this tick: Euler reaches the velocity within the step, the others jump first.
+    /// Prescribes the locked degrees of freedom for this tick: Euler reaches the target velocity within the step, the
+    /// others jump first.
     #[inline(always)]
     fn drive(&mut self, is_euler: bool, h: f64) {
         let n_v = self.mechanism.model().n_v();
-        self.mechanism.mark_held();
+        self.mechanism.mark_locked();
         for i in 0..self.mechanism.drives.len() {
             let dof = self.mechanism.model.drives[i].dof;
-            let missing = self.wanted(i) - self.y[n_v + dof];
+            let missing = self.target_velocities(i) - self.y[n_v + dof];
             let scale = if is_euler { R::splat(h) } else { R::one() };
-            self.mechanism.held_acceleration[dof] = missing / scale;
+            self.mechanism.prescribed_acceleration[dof] = missing / scale;
         }
         if is_euler {
             return;
         }
-        self.mechanism.impulse(&mut self.jump);
+        self.mechanism.impulse(&mut self.reach_target_velocities);
         for k in 0..n_v {
-            self.y[n_v + k] += self.jump[k];
+            self.y[n_v + k] += self.reach_target_velocities[k];
         }
         self.set_driven_velocities();
-        self.mechanism.mark_held();
+        self.mechanism.mark_locked();
     }
 
     #[inline(always)]
-    fn wanted(&self, i: usize) -> R {
+    fn target_velocities(&self, i: usize) -> R {
         let drive = &self.mechanism.model.drives[i];
-        drive.wanted(&self.mechanism.model, self.mechanism.base(), &self.mechanism.commands)
+        self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
     }
 
     #[inline(always)]
     fn set_driven_velocities(&mut self) {
         let n_v = self.mechanism.model().n_v();
         for i in 0..self.mechanism.drives.len() {
-            self.y[n_v + self.mechanism.model.drives[i].dof] = self.wanted(i);
+            self.y[n_v + self.mechanism.model.drives[i].dof] = self.target_velocities(i);
         }
     }
 

@@ -2,18 +2,18 @@
 
 use sincro_math::Real;
 
-use crate::force::{gravity, spring};
-use crate::kinematics;
+use crate::actuation::spring;
 use crate::model::Model;
+use crate::recursions::kinematics;
 use crate::scratch::Scratch;
-use crate::spatial::Force;
+use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 
 /// Mechanical energy `[J]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy<R> {
     /// ½ vᵀ M v, armature included.
     pub kinetic: R,
-    /// Of gravity, zero at the world's origin, and of springs, zero at rest.
+    /// Potential energy of gravity, zero at the world's origin, and of springs, zero at rest.
     pub potential: R,
 }
 
@@ -31,7 +31,7 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
     for (i, link) in model.links.iter().enumerate() {
         let twist = &scratch.links[i].v;
         e.kinetic += half * twist.dot(&link.inertia.mul(twist));
-        e.potential += gravity::energy(model.gravity, &link.inertia, &scratch.poses[i]);
+        e.potential += gravity_energy(model.gravity, &link.inertia, &scratch.poses[i]);
     }
     for (k, dof) in model.dofs.iter().enumerate() {
         e.kinetic += half * dof.armature * v[k] * v[k];
@@ -40,6 +40,13 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
         }
     }
     e
+}
+
+/// Potential energy −m g·c `[J]` of a link whose frame stands at `pose` in the world; zero at the world's origin.
+#[inline(always)]
+fn gravity_energy<R: Real>(gravity: Vec3<R>, inertia: &RigidInertia<R>, pose: &Pose<R>) -> R {
+    let first_moment = pose.rot.mul_vec(inertia.moment) + pose.pos.scale(inertia.mass);
+    -gravity.dot(first_moment)
 }
 
 /// Momentum of all bodies about the world's origin, world axes: angular [kg·m²/s], linear [kg·m/s]; after

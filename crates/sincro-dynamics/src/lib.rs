@@ -1,8 +1,8 @@
 //! What bodies do: the dynamics of kinematic trees in joint coordinates.
 //!
-//! A [`model::Model`] is built once and immutable; a [`state::State`] is exactly what must be saved to continue a run bit for
-//! bit; a [`scratch::Scratch`] holds what can be recomputed at any time. Every algorithm is a function of the three and
-//! is written once over [`Real`](sincro_math::Real).
+//! A [`model::Model`] is built once and immutable; a [`state::State`] is exactly what must be saved to continue a run
+//! bit for bit; a [`scratch::Scratch`] holds what can be recomputed at any time. Every algorithm is a function of the
+//! three and is written once over [`Real`](sincro_math::Real).
 //!
 //! | want | see |
 //! |---|---|
@@ -22,30 +22,30 @@
 //! | what is integrated along, such as a diagram | [`attachment`] |
 //! | many worlds at once | [`batch`] |
 //!
-//! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z). No files,
-//! clocks, threads or logs in this crate.
+//! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z).
+//! No files, clocks, threads or logs in this crate.
 
-pub mod aba;
-pub mod attachment;
+pub mod actuation;
+pub mod aero;
 pub mod batch;
+mod compile;
 pub mod constraint;
 pub mod contact;
-pub mod crba;
-pub mod drive;
+pub mod coupled;
 pub mod energy;
-pub mod force;
 pub mod geometry;
+pub mod ids;
+pub mod initial;
 pub mod integrate;
 pub mod joint;
-pub mod kinematics;
 pub mod mechanism;
 pub mod model;
-pub mod rnea;
+pub mod recursions;
 pub mod scratch;
 pub mod signal;
 pub mod spatial;
-pub mod start;
 pub mod state;
 pub mod stiffness;
-pub mod wind;
 pub mod world;
+
+pub use recursions::{aba, crba, kinematics, rnea};

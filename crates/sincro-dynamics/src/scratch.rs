@@ -1,5 +1,5 @@
-//! Working memory of the recursions. It holds nothing that cannot be recomputed from model and state, and may be dropped at any
-//! time; it is allocated once and never grows.
+//! Working memory of the recursions. It holds nothing that cannot be recomputed from model and state, and may be
+//! dropped at any time; it is allocated once and never grows.
 
 use sincro_math::Real;
 
@@ -50,7 +50,7 @@ pub struct DofScratch<R> {
 pub struct Scratch<R> {
     pub(crate) links: Vec<LinkScratch<R>>,
     pub(crate) dofs: Vec<DofScratch<R>>,
-    /// Poses of the link frames in the world, [`crate::kinematics::poses`].
+    /// Poses of the link frames in the world, [`crate::recursions::kinematics::poses`].
     pub(crate) poses: Vec<Pose<R>>,
     /// Inertia of each link with everything hanging on it held rigid (mass matrix).
     pub(crate) composite: Vec<RigidInertia<R>>,
@@ -59,7 +59,7 @@ pub struct Scratch<R> {
 }
 
 impl<R: Real> Scratch<R> {
-    /// Twist of a link in link axes about its origin, after [`motions`](crate::kinematics::motions).
+    /// Twist of a link in link axes about its origin, after [`motions`](crate::recursions::kinematics::motions).
     #[must_use]
     pub fn twist(&self, link: usize) -> crate::spatial::Motion<R> {
         self.links[link].v
@@ -83,13 +83,14 @@ impl<R: Real> Scratch<R> {
         size_of_val(&*self.links) + size_of_val(&*self.dofs) + size_of_val(&*self.poses) + size_of_val(&*self.reaction)
     }
 
-    /// Poses of the link frames in the world, as last computed by [`crate::kinematics::poses`].
+    /// Poses of the link frames in the world, as last computed by [`crate::recursions::kinematics::poses`].
     #[must_use]
     pub fn link_poses(&self) -> &[Pose<R>] {
         &self.poses
     }
 
-    /// Torque that each held degree of freedom needed beyond the given one in the last [`crate::aba::forward_dynamics`].
+    /// Torque that each held degree of freedom needed beyond the given one in the last
+    /// [`crate::recursions::aba::forward_dynamics`].
     #[must_use]
     pub fn reaction(&self) -> &[R] {
         &self.reaction

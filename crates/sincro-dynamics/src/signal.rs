@@ -20,13 +20,13 @@ pub enum Signal {
     },
     /// `from` until `start`, then rising by `slope` a second, constant again from `until`.
     Ramp {
-        /// Where it begins `[s]`.
+        /// Start of the ramp `[s]`.
         start: f64,
         /// Rise [1/s].
         slope: f64,
         /// Value at and before the start.
         from: f64,
-        /// Where it ends `[s]`; infinite for never.
+        /// End of the ramp `[s]`; infinite for never.
         until: f64,
     },
     /// `offset + amplitude·sin(angular_frequency·t + phase)`.
@@ -102,10 +102,10 @@ impl Signal {
         }
     }
 
-    /// The first instant after `t` at which the signal or its slope jumps, so that no integration step straddles it;
-    /// infinite if there is none.
+    /// Next time event: the first instant after `t` at which the signal or its slope jumps, so that no integration step
+    /// straddles it; infinite if there is none.
     #[must_use]
-    pub fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_time_event(&self, t: f64) -> f64 {
         let after = |x: f64| if x > t + SAME_INSTANT { x } else { f64::INFINITY };
         match *self {
             Self::Constant(_) | Self::Sine { .. } => f64::INFINITY,
@@ -156,7 +156,7 @@ mod tests {
         let pulse = Signal::Pulse { period: 1.0, width: 0.25, low: 0.0, high: 1.0, start: 0.5 };
         let mut t = 0.0;
         let corners: Vec<f64> = std::iter::from_fn(|| {
-            t = pulse.next_corner(t);
+            t = pulse.next_time_event(t);
             Some(t)
         })
         .take(4)

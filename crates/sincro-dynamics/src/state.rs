@@ -1,4 +1,7 @@
-//! The state of a world: exactly what must be kept to continue bit for bit.
+//! The state of a world: the numbers that a snapshot needs to continue bit for bit.
+//!
+//! The step-size control of a method with error control ([`World::control`](crate::world::World::control)) and
+//! parameters changed during a run are not yet part of it; snapshots keep them beside the state.
 
 use sincro_math::Real;
 
@@ -6,17 +9,17 @@ use crate::joint::StageKind;
 use crate::model::Model;
 use crate::spatial::{Quat, Vec3};
 
-/// Everything that changes.
+/// State of a world: generalized coordinates and velocities, commands, modes, warm start, totals.
 ///
 /// | field | meaning | length |
 /// |---|---|---|
 /// | `q` | joint coordinates `[rad]`, `[m]`, quaternions (w, x, y, z) | `n_q` |
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
-/// | `commands` | latched commands: of motors, then six of each external force that takes them, then of rotors | [`Model::n_commands`] |
-/// | `drives` | what each drive does: holding (0) or pulling its limit up (+1) or down (−1) | drives |
-/// | `contacts` | what the constraint solver starts from: forces and grip of each limit and contact ([`crate::constraint::SLOT`] numbers), and one of the world's | 7 × slots + 1, 0 without slots |
+/// | `commands` | latched: of motors, six of each external force that takes them, of rotors | [`Model::n_commands`] |
+/// | `drives` | state of each drive: locked (0) or saturated upwards (+1) or downwards (−1) | drives |
+/// | `contacts` | warm start: multipliers, contact modes, fallback | 7 × slots + 1, 0 without slots |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
-/// | `rotors` | speed of each rotor with a lag; of a stock propeller what it throws this tick | rotors that have one |
+/// | `rotors` | speed of each rotor with a lag; of a stock propeller its mass flow this tick | rotors that have one |
 /// | `tick` | base steps done | |
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<R> {
@@ -32,7 +35,8 @@ pub struct State<R> {
     pub contacts: Vec<R>,
     /// Integrated work `[J]`, dissipation `[J]`, and impulse of each motor [N·m·s].
     pub totals: Vec<R>,
-    /// Speed of each rotor with a lag [rad/s]; mass that a stock propeller throws during the present tick, by its length [kg/s].
+    /// Speed of each rotor with a lag [rad/s]; mass that a stock propeller throws during the present tick, by its
+    /// length [kg/s].
     pub rotors: Vec<R>,
     /// Base steps since the start.
     pub tick: u64,
@@ -76,9 +80,9 @@ impl<R: Real> State<R> {
     }
 }
 
-/// `out = q ⊕ step`: coordinates moved by `step` (`n_v`) in the tangent: added to plain coordinates; for a quaternion the
-/// rotation by the step's angular part in child axes; a free joint's position moves by its linear part turned into parent
-/// axes. `out` may not overlap `q`.
+/// `out = q ⊕ step`: coordinates moved by `step` (`n_v`) in the tangent: added to plain coordinates; for a quaternion
+/// the rotation by the step's angular part in child axes; a free joint's position moves by its linear part turned into
+/// parent axes. `out` may not overlap `q`.
 #[inline(always)]
 pub fn displace<R: Real>(model: &Model<R>, q: &[R], step: &[R], out: &mut [R]) {
     if !model.has_quaternions() {

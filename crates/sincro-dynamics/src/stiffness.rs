@@ -1,12 +1,12 @@
-//! How fast springs and dampers of joints act on the inertia they meet: what an explicit method must resolve.
+//! Stiffness estimate: rates of springs and dampers of joints, which an explicit method must resolve.
 //!
-//! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything beyond left
-//! free ([`crate::aba::joint_inertias`]), the faster root of D s² + c s + k = 0. It is an estimate: coupling between joints is left
-//! out, and D changes with the pose.
+//! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything
+//! beyond left free ([`crate::recursions::aba::joint_inertias`]), the rate is that of the faster root of D s² + c s + k
+//! = 0. Coupling between joints is neglected, and D changes with the pose.
 
-use crate::aba::joint_inertias;
-use crate::force::MotorMode;
+use crate::actuation::MotorMode;
 use crate::model::Model;
+use crate::recursions::aba::joint_inertias;
 use crate::state::State;
 
 /// |h·λ| up to which RK4 is stable on the negative real axis. Source: key `hairer1996`, section IV.2.
@@ -27,11 +27,12 @@ pub struct Stiffness {
     pub inertia: f64,
 }
 
-/// The fastest spring or damper at a state, none if there is none. Joints held by ideal velocity motors are left out.
+/// Returns the fastest spring or damper at a state, none if there is none. Joints with ideal velocity motors are left
+/// out.
 #[must_use]
 pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     let inertias = joint_inertias(model, state);
-    let held = |dof: usize| model.drives().iter().any(|d| d.dof == dof && d.limit(model).is_none());
+    let held = |dof: usize| model.drives().iter().any(|d| d.dof == dof && model.drive_limit(d).is_none());
     let each = model.dofs().iter().enumerate().filter(|(k, _)| !held(*k)).map(|(k, dof)| {
         let (mut stiffness, mut damping) = (dof.stiffness, dof.damping);
         for motor in model.motors().iter().filter(|m| m.dof == k && m.mode == MotorMode::Spring) {

@@ -1,7 +1,7 @@
 //! A value and its exact partial derivatives, carried through every operation: forward-mode differentiation.
 //!
-//! Used to linearise: a computation written over [`Real`] and run on `Dual<N>` returns, beside its value, the derivatives
-//! by `N` chosen inputs, to rounding. The value has the bits of the same computation on `f64`.
+//! Used to linearise: a computation written over [`Real`] and run on `Dual<N>` returns, beside its value, the
+//! derivatives by `N` chosen inputs, to rounding. The value has the bits of the same computation on `f64`.
 //!
 //! Notation: `x = value + Σ partials[i]·εᵢ` with `εᵢ εⱼ = 0`, so `f(x) = f(value) + f′(value) Σ partials[i]·εᵢ`.
 

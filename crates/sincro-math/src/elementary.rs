@@ -1,15 +1,16 @@
 //! Elementary functions with the same bits for scalars and lanes, on every platform.
 //!
-//! Sine and cosine are the hot ones: one branch-free polynomial, written once for scalars and lanes. The rest comes from the pure-Rust `libm` crate.
+//! Sine and cosine are the hot ones: one branch-free polynomial, written once for scalars and lanes. The rest comes
+//! from the pure-Rust `libm` crate.
 //!
-//! Method of [`sin_cos`]: Cody–Waite reduction by π/2 in three parts, then the minimax polynomials of degree 13 (sine) and 14
-//! (cosine) on [−π/4, π/4]. Source of the coefficients: key `ng-fdlibm`. Beyond [`REDUCTION_LIMIT`] the reduction would lose
-//! digits, and the lanes concerned go to `libm`.
+//! Method of [`sin_cos`]: Cody–Waite reduction by π/2 in three parts, then the minimax polynomials of degree 13 (sine)
+//! and 14 (cosine) on [−π/4, π/4]. Source of the coefficients: key `ng-fdlibm`. Beyond [`REDUCTION_LIMIT`] the
+//! reduction would lose digits, and the lanes concerned go to `libm`.
 //!
 //! Absolute error of [`sin_cos`], measured against thirty digits (`tests/sin_cos_accuracy.rs`): 8.4e-17 for |x| ≤ π/4,
-//! 1.2e-16 up to 100 rad, 1.3e-16 up to 10⁴ rad, 1.57e-16 up to the limit. The roundings of the method add up to less than
-//! 0.8 units in the last place of 1, 1.78e-16: two in the reduction, one in the sum, the rest small. Near their zeros both
-//! keep a relative error of 2.4e-16.
+//! 1.2e-16 up to 100 rad, 1.3e-16 up to 10⁴ rad, 1.57e-16 up to the limit. The roundings of the method add up to less
+//! than 0.8 units in the last place of 1, 1.78e-16: two in the reduction, one in the sum, the rest small. Near their
+//! zeros both keep a relative error of 2.4e-16.
 //!
 //! The functions of one or two arguments below return the value and the derivatives there, as [`Real::map`] and
 //! [`Real::map2`] take them:
@@ -27,8 +28,8 @@
 
 use crate::Real;
 
-/// Largest |angle| `[rad]` reduced by the fast path: below it the quotient has at most 20 bits, so that its product with
-/// each 33-bit part of π/2 is exact.
+/// Largest |angle| `[rad]` reduced by the fast path: below it the quotient has at most 20 bits, so that its product
+/// with each 33-bit part of π/2 is exact.
 pub const REDUCTION_LIMIT: f64 = 1.0e6;
 
 // π/2 = PIO2_1 + PIO2_2 + PIO2_3: the first two have 33 significant bits.
@@ -68,7 +69,7 @@ pub(crate) trait Bits: Real {
     /// `self` with the sign flipped where bit `BIT` of `n` is set.
     fn flip_by<const BIT: u32>(self, n: Self) -> Self;
 
-    /// Whether |self| is below `limit` in every lane (a NaN is not).
+    /// Returns true if |self| is below `limit` in every lane (a NaN is not).
     fn all_below(self, limit: f64) -> bool;
 }
 
@@ -239,8 +240,8 @@ pub fn pow(base: f64, exponent: f64) -> (f64, f64, f64) {
     (power, by_base, by_exponent)
 }
 
-/// What is left of `x` after taking away whole multiples of `modulus`, with the sign of the modulus (as in Lua and
-/// Python), and its derivatives by `x` and by the modulus; NaN where the modulus is zero.
+/// Remainder of `x` after division by `modulus`, with the sign of the modulus (as in Lua and Python), and its
+/// derivatives by `x` and by the modulus; NaN where the modulus is zero.
 #[must_use]
 pub fn modulo(x: f64, modulus: f64) -> (f64, f64, f64) {
     let rest = libm::fmod(x, modulus);

@@ -3,12 +3,10 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::elementary;
-
 /// A real number: `f64`, a bundle of lanes, or a dual number.
 ///
-/// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch looks
-/// at one lane at a time ([`Real::lane`]).
+/// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch
+/// looks at one lane at a time ([`Real::lane`]).
 pub trait Real:
     Copy
     + Debug
@@ -26,7 +24,7 @@ pub trait Real:
     + SubAssign
     + MulAssign
 {
-    /// How many worlds stand side by side: 1 for `f64` and dual numbers.
+    /// Number of lanes: 1 for `f64` and dual numbers.
     const LANES: usize;
 
     /// The constant `x`, in every lane and without derivatives.
@@ -59,8 +57,9 @@ pub trait Real:
     /// derivatives by `x` and by `y`.
     fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self;
 
-    /// Runs a hot computation compiled for the best registers of this processor: lanes for their own instruction set, scalars for
-    /// the thirty-two registers of AVX-512. There is one compiled copy of a task for each kind of number, whoever calls it.
+    /// Runs a hot computation compiled for the best registers of this processor: lanes for their own instruction set,
+    /// scalars for the thirty-two registers of AVX-512. There is one compiled copy of a task for each kind of number,
+    /// whoever calls it.
     #[inline(always)]
     fn run_hot<T: Task>(task: T) -> T::Output {
         task.run()
@@ -96,7 +95,7 @@ pub trait Real:
         self.min(limit).max(-limit)
     }
 
-    /// Whether every lane is finite.
+    /// Returns true if every lane is finite.
     #[inline(always)]
     fn is_finite(self) -> bool {
         (0..Self::LANES).all(|k| self.lane(k).is_finite())
@@ -105,82 +104,9 @@ pub trait Real:
 
 /// A computation handed to [`Real::run_hot`]. `run` must be `#[inline(always)]`, and so must be what it calls.
 pub trait Task {
-    /// What it yields.
+    /// Result type.
     type Output;
 
-    /// Does it.
+    /// Runs the computation.
     fn run(self) -> Self::Output;
-}
-
-impl Real for f64 {
-    const LANES: usize = 1;
-
-    #[inline(always)]
-    fn run_hot<T: Task>(task: T) -> T::Output {
-        crate::lanes::run_scalar(task)
-    }
-
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        x
-    }
-
-    #[inline(always)]
-    fn from_lanes(mut f: impl FnMut(usize) -> f64) -> Self {
-        f(0)
-    }
-
-    #[inline(always)]
-    fn lane(self, _: usize) -> f64 {
-        self
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-
-    #[inline(always)]
-    fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self {
-        if self < bound { then } else { otherwise }
-    }
-
-    #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
-        f(self).0
-    }
-
-    #[inline(always)]
-    fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self {
-        f(self, other).0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_limit_does_not_hide_that_a_number_is_not_one() {
-        assert!(Real::min(f64::NAN, 1.0).is_nan());
-        assert!(Real::max(f64::NAN, 1.0).is_nan());
-        assert!(f64::NAN.clamp_abs(1.0).is_nan());
-    }
-
-    #[test]
-    fn smaller_and_larger() {
-        assert_eq!((Real::min(1.0, 2.0), Real::min(2.0, 1.0)), (1.0, 1.0));
-        assert_eq!((Real::max(1.0, 2.0), Real::max(2.0, 1.0)), (2.0, 2.0));
-        assert_eq!((3.0.clamp_abs(2.0), (-3.0).clamp_abs(2.0)), (2.0, -2.0));
-    }
 }

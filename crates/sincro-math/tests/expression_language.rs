@@ -1,4 +1,4 @@
-//! What formulas mean, and how wrong ones are refused.
+//! Meaning of formulas, and refusal of wrong ones.
 
 use sincro_math::expression::{Expression, MAX_DEPTH, MAX_LENGTH, ParseError};
 

@@ -46,7 +46,7 @@ impl Wide {
         Self { hi: -self.hi, lo: -self.lo }
     }
 
-    /// How far `x` is from this number.
+    /// Distance of `x` from this number.
     fn distance(self, x: f64) -> f64 {
         let rest = self.plus(Self { hi: -x, lo: 0.0 });
         (rest.hi + rest.lo).abs()

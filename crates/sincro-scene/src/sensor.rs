@@ -17,7 +17,7 @@
 //! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
 //! N/√(sample time).
 
-use sincro_dynamics::geometry::{Field, Volume};
+use sincro_dynamics::geometry::{FieldOfView, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};
 
 use crate::problem::Located;
@@ -100,9 +100,9 @@ pub struct Errors {
 impl SensorKind {
     /// What a proximity sensor looks into; none for others.
     #[must_use]
-    pub fn field(self) -> Option<Field> {
+    pub fn field(self) -> Option<FieldOfView> {
         match self {
-            Self::Proximity { volume, offset, range, .. } => Field::new(volume, offset, range),
+            Self::Proximity { volume, offset, range, .. } => FieldOfView::new(volume, offset, range),
             _ => None,
         }
     }

@@ -7,7 +7,7 @@ use std::any::Any;
 use std::fmt;
 
 use sincro_blocks::runner::State;
-use sincro_dynamics::attachment::Attachment;
+use sincro_dynamics::coupled::CoupledSystem;
 use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 
@@ -170,7 +170,7 @@ pub trait Controller: Any + Send + fmt::Debug {
 
     /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been made with room
     /// for its states, as it is for the diagram: a controller that is attached later has none.
-    fn continuous(&mut self) -> Option<&mut dyn Attachment<f64>> {
+    fn continuous(&mut self) -> Option<&mut dyn CoupledSystem<f64>> {
         None
     }
 

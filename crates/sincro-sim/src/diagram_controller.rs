@@ -2,13 +2,13 @@
 //!
 //! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
 //! are latched from that instant on ([`Controller::latch`]), and memory is updated ([`Controller::latched`]). Between ticks the diagram is an
-//! [`Attachment`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
+//! [`CoupledSystem`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
 
 use std::sync::Arc;
 
 use sincro_blocks::instance::Number;
 use sincro_blocks::runner::{Runner, State};
-use sincro_dynamics::attachment::{Attachment, Response, Seen};
+use sincro_dynamics::coupled::{CoupledSystem, Response, StateView};
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State as WorldState;
@@ -68,7 +68,7 @@ impl<R: Number> DiagramController<R> {
         self.wiring.program().is_continuous()
     }
 
-    fn read_state(&mut self, seen: &mut Seen<'_, R>, is_minor: bool) {
+    fn read_state(&mut self, seen: &mut StateView<'_, R>, is_minor: bool) {
         if self.wiring.early.is_empty() {
             return;
         }
@@ -85,7 +85,7 @@ impl<R: Number> DiagramController<R> {
         }
     }
 
-    fn read_response(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, is_minor: bool) {
+    fn read_response(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, is_minor: bool) {
         kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
         let view = View::of(seen);
         for reading in self.wiring.late.iter().filter(|r| r.is_minor || !is_minor) {
@@ -120,18 +120,24 @@ impl<R: Number> DiagramController<R> {
         new
     }
 
-    /// As [`Attachment::drive`]; `perturbed` is a signal and its change.
-    pub fn drive_whole(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R], perturbed: Option<(usize, R)>) {
+    /// As [`CoupledSystem::find_commands`]; `perturbed` is a signal and its change.
+    pub fn drive_whole(
+        &mut self,
+        seen: &mut StateView<'_, R>,
+        z: &[R],
+        commands: &mut [R],
+        perturbed: Option<(usize, R)>,
+    ) {
         self.runner.state.continuous.copy_from_slice(z);
         self.read_state(seen, false);
         self.runner.evaluate_continuous(self.tick, seen.t, false, perturbed);
         self.write_commands(commands, true);
     }
 
-    /// As [`Attachment::slope`].
+    /// As [`CoupledSystem::slope`].
     pub fn slope_whole(
         &mut self,
-        seen: &mut Seen<'_, R>,
+        seen: &mut StateView<'_, R>,
         response: Response<'_, R>,
         slope: &mut [R],
         perturbed: Option<(usize, R)>,
@@ -157,7 +163,7 @@ impl DiagramController<f64> {
             world.rates(t);
         }
         self.read_tick_sums(world, tick);
-        world.with_seen(t, |mut seen| self.read_state(&mut seen, false));
+        world.with_state_view(t, |mut seen| self.read_state(&mut seen, false));
         self.runner.evaluate(tick, t);
         if !self.wiring.late.is_empty() {
             self.look_late(world, tick, t);
@@ -192,7 +198,7 @@ impl DiagramController<f64> {
         let (accelerations, torques) =
             (core::mem::take(&mut self.late_accelerations), core::mem::take(&mut self.late_torque));
         let response = Response { accelerations: &accelerations, motor_torque: &torques };
-        world.with_seen(t, |mut seen| self.read_response(&mut seen, response, false));
+        world.with_state_view(t, |mut seen| self.read_response(&mut seen, response, false));
         (self.late_accelerations, self.late_torque) = (accelerations, torques);
         world.state.commands.copy_from_slice(&self.held);
         self.runner.evaluate_late(tick, t);
@@ -249,7 +255,7 @@ impl Controller for DiagramController<f64> {
         self.runner.update(tick, t);
     }
 
-    fn continuous(&mut self) -> Option<&mut dyn Attachment<f64>> {
+    fn continuous(&mut self) -> Option<&mut dyn CoupledSystem<f64>> {
         if self.is_continuous() { Some(self) } else { None }
     }
 
@@ -258,7 +264,7 @@ impl Controller for DiagramController<f64> {
         if !self.is_continuous() {
             return;
         }
-        at.world.with_seen(at.t, |mut seen| self.read_state(&mut seen, true));
+        at.world.with_state_view(at.t, |mut seen| self.read_state(&mut seen, true));
         self.runner.minor(self.tick, at.t, self.corner);
         self.write_commands(&mut at.world.state.commands, true);
     }
@@ -289,27 +295,27 @@ impl Controller for DiagramController<f64> {
     }
 }
 
-impl<R: Number + Real> Attachment<R> for DiagramController<R> {
+impl<R: Number + Real> CoupledSystem<R> for DiagramController<R> {
     fn states(&mut self) -> &mut [R] {
         &mut self.runner.state.continuous
     }
 
-    fn set_corner(&mut self, corner: f64) {
+    fn set_time_event(&mut self, corner: f64) {
         self.corner = corner;
     }
 
-    fn next_corner(&self, t: f64) -> f64 {
+    fn next_time_event(&self, t: f64) -> f64 {
         self.wiring.program().next_time_event(t)
     }
 
-    fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
+    fn find_commands(&mut self, seen: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {
         self.runner.state.continuous.copy_from_slice(z);
         self.read_state(seen, true);
         self.runner.minor(self.tick, seen.t, self.corner);
         self.write_commands(commands, true);
     }
 
-    fn slope(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
+    fn slope(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
         if z.is_empty() {
             return;
         }
@@ -321,7 +327,7 @@ impl<R: Number + Real> Attachment<R> for DiagramController<R> {
         self.runner.derivatives(self.tick, seen.t, self.corner, slope);
     }
 
-    fn decay(&mut self, decay: &mut [R]) {
+    fn negated_jacobian_diagonal(&mut self, decay: &mut [R]) {
         self.runner.neg_jacobian_diagonal(self.tick, 0.0, decay);
     }
 }

@@ -1,6 +1,6 @@
 //! Proximity sensors: what of all pieces of a scene is closest inside a volume.
 
-use sincro_dynamics::geometry::Field;
+use sincro_dynamics::geometry::FieldOfView;
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Pose, Vec3};
@@ -13,7 +13,7 @@ use sincro_scene::sensor::SensorSpec;
 #[derive(Clone, Debug)]
 pub struct Eye {
     /// Its volume.
-    pub field: Field,
+    pub field: FieldOfView,
     /// Objects that it sees, by index; empty: all that it is not fixed to.
     pub with: Vec<usize>,
     /// Object that carries it.
@@ -78,7 +78,7 @@ impl Eye {
         for piece in pieces {
             let x_ep = x_ew.compose(&kinematics::frame_pose(scratch, &piece.at));
             let limit = best.map_or(most, |best| best.distance);
-            if let Some(seen) = self.field.nearest(&piece.geometry, &x_ep, limit)
+            if let Some(seen) = self.field.detect(&piece.geometry, &x_ep, limit)
                 && best.is_none_or(|best| seen.distance < best.distance)
             {
                 let (distance, point, normal) = (seen.distance, seen.point, seen.normal);

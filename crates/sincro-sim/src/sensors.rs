@@ -2,8 +2,8 @@
 
 use sincro_blocks::library::sources::random::{gaussian, splitmix};
 use sincro_blocks::program::seed_of;
-use sincro_dynamics::attachment::Seen;
 use sincro_dynamics::constraint::ContactPoint;
+use sincro_dynamics::coupled::StateView;
 use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
@@ -90,7 +90,7 @@ impl Sensors {
             return;
         }
         let (list, values, zero, scenery) = (&self.list, &mut self.values, &self.zero, &self.scenery);
-        world.with_seen(t, |seen| {
+        world.with_state_view(t, |seen| {
             kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
             for sensor in list.iter().filter(due) {
                 let made = controllers.iter().flat_map(|controller| controller.pieces());
@@ -114,7 +114,7 @@ impl Sensors {
             self.points.extend(world.contacts());
         }
         let (list, values, accelerations, points) = (&self.list, &mut self.values, &self.accelerations, &self.points);
-        world.with_seen(t, |seen| {
+        world.with_state_view(t, |seen| {
             kinematics::motions(seen.model, seen.q, seen.v, accelerations, seen.scratch);
             for sensor in list.iter().filter(due) {
                 sensor.measure(&seen, tick / sensor.every, points, &mut values[sensor.first..][..sensor.n]);
@@ -125,7 +125,7 @@ impl Sensors {
 
 impl Sensor {
     /// Sample `k`, after the kinematics.
-    fn measure(&self, seen: &Seen<'_, f64>, k: u64, points: &[ContactPoint], y: &mut [f64]) {
+    fn measure(&self, seen: &StateView<'_, f64>, k: u64, points: &[ContactPoint], y: &mut [f64]) {
         let noise = |component: usize| gaussian(splitmix(self.seed, component as u64), k);
         let three = |first: usize, x: Vec3<f64>, errors: &Errors, scale: f64| -> [f64; 3] {
             core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * noise(first + i))
@@ -168,7 +168,7 @@ impl Sensor {
     /// Sample `k` of a sensor that looks, after the kinematics.
     fn look<'a>(
         &self,
-        seen: &Seen<'_, f64>,
+        seen: &StateView<'_, f64>,
         pieces: impl Iterator<Item = &'a sincro_scene::scenery::Piece>,
         k: u64,
     ) -> Option<Detection> {
@@ -197,7 +197,7 @@ impl Sensor {
     /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that press with more than `threshold`.
     fn touch(
         &self,
-        seen: &Seen<'_, f64>,
+        seen: &StateView<'_, f64>,
         points: &[ContactPoint],
         origin: Vec3<f64>,
         threshold: f64,
@@ -205,7 +205,8 @@ impl Sensor {
         let colliders = &seen.model.constraints().colliders;
         let (mut force, mut torque, mut n) = (Vec3::zero(), Vec3::zero(), 0);
         for point in points {
-            let [a, b] = point.surfaces.map(|s| colliders[s].frame);
+            let [a, b] =
+                point.surfaces.map(|s| colliders[s].body.map_or(usize::MAX, sincro_dynamics::ids::BodyId::index));
             // the force is on the first surface's body
             let (sign, other) = match (a == self.of, b == self.of) {
                 (true, false) => (1.0, b),

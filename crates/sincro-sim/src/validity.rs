@@ -1,6 +1,6 @@
 //! Where rotors leave what their theory holds for: counted at the end of every base step, under the commands of that step.
 
-use sincro_dynamics::force::rotor::Validity;
+use sincro_dynamics::aero::rotor::Validity;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::World;
@@ -41,7 +41,7 @@ impl Register {
             return;
         }
         let Self { counts, zero } = self;
-        world.with_seen(t, |seen| {
+        world.with_state_view(t, |seen| {
             kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
             let air = seen.model.wind().map(|wind| wind.at(t));
             for (rotor, counts) in seen.model.rotors().iter().zip(counts) {

@@ -136,7 +136,7 @@ fn motors_and_commands_are_paired() {
     let scene = with_scene(&(joint("z", 1.0) + &joint("a", 2.0) + &joint("m", 3.0))).scene;
     assert_eq!(scene.commands, [1.0, 2.0, 3.0].map(Signal::Constant));
     for (name, motor) in [("/z", 0), ("/a", 1), ("/m", 2)] {
-        assert_eq!(scene.model.names().joint(name).unwrap().motor, Some(motor));
+        assert_eq!(scene.model.names().joint(name).unwrap().motor.map(|id| id.index()), Some(motor));
         assert!(matches!(scene.object(name).unwrap().kind, ObjectKind::Joint { motor: Some(m), .. } if m == motor));
     }
 }

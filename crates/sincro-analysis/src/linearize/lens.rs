@@ -1,7 +1,7 @@
 //! The equations of motion as one function, on any numbers: (x, u) → (ẋ, y).
 
 use sincro_blocks::instance::Number;
-use sincro_dynamics::attachment::{Attachment, Coupled, Response, Seen};
+use sincro_dynamics::coupled::{Coupled, CoupledSystem, Response, StateView};
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::mechanism::Mechanism;
@@ -60,9 +60,9 @@ impl<R: Number> Lens<R> {
         let state = at.state().clone();
         let (n_v, own, n_rotors) = (model.n_v(), mechanism.dim(), model.n_rotor_states());
         mechanism.drives = state.drives.iter().map(|x| R::splat(*x)).collect();
-        mechanism.mark_held();
+        mechanism.mark_locked();
         let places: Vec<usize> = (0..n_v)
-            .chain((0..n_v).filter(|&k| !mechanism.is_held(k) || state.drives.is_empty()).map(|k| n_v + k))
+            .chain((0..n_v).filter(|&k| !mechanism.is_locked(k) || state.drives.is_empty()).map(|k| n_v + k))
             .chain(own - n_rotors..own + z.len())
             .collect();
         let (all_axes, all_values) = describe(loaded, at, &state, &z);
@@ -135,7 +135,7 @@ impl<R: Number> Lens<R> {
             tick: self.state.tick,
         };
         self.mechanism.load(&x, &mut self.y);
-        self.mechanism.mark_held();
+        self.mechanism.mark_locked();
         let z = self.values[self.places.iter().filter(|&&p| p < self.own).count()..].iter();
         for (y, z) in self.y[self.own..].iter_mut().zip(z) {
             *y = R::splat(*z);
@@ -152,8 +152,11 @@ impl<R: Number> Lens<R> {
             }
         }
         debug_assert!(self.y.len() >= 2 * n_v, "displacements and velocities first");
-        let mut system =
-            Coupled { mechanism: &mut self.mechanism, attachment: &mut self.watch, decay: &mut self.decay };
+        let mut system = Coupled {
+            mechanism: &mut self.mechanism,
+            system: &mut self.watch,
+            negated_jacobian_diagonal: &mut self.decay,
+        };
         system.slope(self.t, &self.y, &mut self.slope);
         self.rates = self.places.iter().map(|&p| self.slope[p]).collect();
         self.watch.restore(&self.signals);
@@ -231,18 +234,18 @@ impl<R: Number> Watch<R> {
     }
 }
 
-impl<R: Number> Attachment<R> for Watch<R> {
+impl<R: Number> CoupledSystem<R> for Watch<R> {
     fn states(&mut self) -> &mut [R] {
         self.control.as_mut().map_or(&mut [], |c| c.states())
     }
 
-    fn set_corner(&mut self, _: f64) {}
+    fn set_time_event(&mut self, _: f64) {}
 
-    fn next_corner(&self, _: f64) -> f64 {
+    fn next_time_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
 
-    fn drive(&mut self, seen: &mut Seen<'_, R>, z: &[R], commands: &mut [R]) {
+    fn find_commands(&mut self, seen: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {
         if let Some(control) = &mut self.control {
             control.drive_whole(seen, z, commands, self.perturbed);
             // sampled commands are part of the operating point, with whatever was added to them
@@ -254,7 +257,7 @@ impl<R: Number> Attachment<R> for Watch<R> {
         }
     }
 
-    fn slope(&mut self, seen: &mut Seen<'_, R>, response: Response<'_, R>, _: &[R], slope: &mut [R]) {
+    fn slope(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, _: &[R], slope: &mut [R]) {
         if let Some(control) = &mut self.control {
             control.slope_whole(seen, response, slope, self.perturbed);
         }
@@ -270,7 +273,7 @@ impl<R: Number> Attachment<R> for Watch<R> {
         }
     }
 
-    fn decay(&mut self, _: &mut [R]) {}
+    fn negated_jacobian_diagonal(&mut self, _: &mut [R]) {}
 }
 
 /// Names, units and values of displacements, velocities, states of rotors and continuous states of the diagram.

@@ -89,7 +89,7 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
 
 /// Joints that friction holds where the scene is: no small force moves them.
 fn note_friction(loaded: &Loaded, at: &LockStep, notes: &mut Vec<String>) {
-    use sincro_dynamics::drive::DriveKind;
+    use sincro_dynamics::actuation::drive::DriveKind;
     let drives = loaded.scene.model.drives().iter().zip(&at.state().drives);
     let stuck = drives.filter(|(drive, pull)| drive.kind == DriveKind::Friction && **pull == 0.0);
     let names: Vec<String> =

@@ -1,6 +1,6 @@
 //! Bodies: mass, velocity of the centre of mass, forces for the coming step.
 
-use sincro_dynamics::force::Push;
+use sincro_dynamics::actuation::Push;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::MassProperties;

@@ -1,7 +1,7 @@
 //! What clients and scripts change of the model: masses, bounds of stops, laws of couplings, whether a body touches. Each change is kept with the run
 //! that has it.
 
-use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::model::{BodyId, MassProperties};
 use sincro_dynamics::spatial::Vec3;
 
 use super::table::{Handle, Kind, Table};
@@ -71,8 +71,9 @@ impl Desk<'_> {
         };
         let frames = self.world.model().names().frames.iter().enumerate();
         let carried = frames.filter(|(_, f)| f.link == Some(link) && f.body.is_some());
-        let bodies: Vec<(usize, MassProperties)> = carried.filter_map(|(k, f)| Some((k, of(&f.name)?))).collect();
-        self.world.weigh(link, &bodies);
+        let bodies: Vec<(BodyId, MassProperties)> =
+            carried.filter_map(|(k, f)| Some((BodyId::new(k), of(&f.name)?))).collect();
+        self.world.set_mass_properties(link, &bodies);
         self.moved();
         Ok(())
     }
@@ -143,7 +144,7 @@ impl Desk<'_> {
         if !(offset.is_finite() && factor.is_finite() && factor != 0.0) {
             return Err(Refusal(format!("offset {offset} and factor {factor}: expected numbers, the factor not zero")));
         }
-        let couplings = &self.world.model().constraints().couplings;
+        let couplings = &self.world.model().constraints().gears;
         let found = couplings.iter().position(|c| c.dofs == [of.v_idx, joint.v_idx]);
         let Some(k) = found else {
             let master = &self.table.entry(master)?.path;
@@ -163,7 +164,7 @@ impl Desk<'_> {
                 "`{path}` stands at {now}, the new law has it at {wanted}: stop the run first"
             )));
         }
-        self.world.set_coupling(k, factor, offset);
+        self.world.set_gear(k, factor, offset);
         self.moved();
         self.change(handle, "coupling", vec![factor, offset])
     }

@@ -60,7 +60,7 @@ impl<'a> Desk<'a> {
             return;
         }
         let zero = std::mem::take(&mut self.table.zero);
-        self.world.with_seen(self.t, |seen| kinematics::motions(seen.model, seen.q, seen.v, &zero, seen.scratch));
+        self.world.with_state_view(self.t, |seen| kinematics::motions(seen.model, seen.q, seen.v, &zero, seen.scratch));
         self.table.zero = zero;
         self.is_located = true;
     }
@@ -72,12 +72,12 @@ impl<'a> Desk<'a> {
 
     pub(super) fn place(&mut self, frame: &Attached<f64>) -> Pose<f64> {
         self.locate();
-        self.world.with_seen(self.t, |seen| kinematics::frame_pose(seen.scratch, frame))
+        self.world.with_state_view(self.t, |seen| kinematics::frame_pose(seen.scratch, frame))
     }
 
     pub(super) fn twist(&mut self, frame: &Attached<f64>) -> Motion<f64> {
         self.locate();
-        self.world.with_seen(self.t, |seen| kinematics::frame_velocity(seen.scratch, frame))
+        self.world.with_state_view(self.t, |seen| kinematics::frame_velocity(seen.scratch, frame))
     }
 
     /// Pose of the frame that a pose of `handle` is given against, in the world.

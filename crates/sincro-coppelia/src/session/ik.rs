@@ -281,7 +281,7 @@ impl Desk<'_> {
 
     /// A motor in position or spring mode gets it as its target while a run is on; any other joint is put there.
     pub(super) fn apply(&mut self, joint: Handle, q: f64) -> Result<(), Refusal> {
-        use sincro_dynamics::force::MotorMode::{Position, Spring};
+        use sincro_dynamics::actuation::MotorMode::{Position, Spring};
         let has_target = matches!(self.joint_mode(joint)?, Position | Spring);
         if self.table.phase != Phase::Stopped && has_target {
             return self.set_target_position(joint, q);

@@ -3,7 +3,7 @@
 //! V-REP's motors in the words of this program: motor off is `free`, velocity control `velocity`, position control `position`, spring-damper
 //! control `spring`, force control `torque`. A target that the present mode does not use is kept for when the mode changes.
 
-use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 
 use super::table::{Handle, JointEntry};
@@ -122,7 +122,7 @@ impl Desk<'_> {
             return Err(Refusal(format!("{name} would be {x}, expected a number that is not negative")));
         }
         self.table.joint_mut(handle)?.drive = Some(motor);
-        self.world.set_motor(index, motor);
+        self.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
         self.moved();
         Ok(())
     }
@@ -239,7 +239,7 @@ impl Desk<'_> {
     /// There is no such joint.
     pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, Refusal> {
         let joint = self.table.joint(handle)?;
-        let mut couplings = self.world.model().constraints().couplings.iter();
+        let mut couplings = self.world.model().constraints().gears.iter();
         let Some(coupling) = couplings.find(|c| c.dofs[1] == joint.v_idx) else { return Ok(None) };
         let master = self.table.joints().iter().find(|j| j.v_idx == coupling.dofs[0]);
         Ok(master.map(|master| (master.handle, coupling.offset, coupling.ratio)))

@@ -375,7 +375,7 @@ impl Session {
     fn settle(&mut self, start: &State<f64>) {
         let initial = &self.loaded.scene.initial;
         if start.q != initial.q || start.v != initial.v {
-            self.lockstep.world().settle_start(0.0);
+            self.lockstep.world().initialize(0.0);
         }
     }
 
@@ -383,7 +383,7 @@ impl Session {
     fn adopt(&mut self) {
         let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
         let scene = &mut self.loaded.scene;
-        Arc::make_mut(&mut scene.model).take_numbers(self.lockstep.world().model());
+        Arc::make_mut(&mut scene.model).copy_parameters_from(self.lockstep.world().model());
         let table = ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
         for (object, entry) in scene.objects.iter_mut().zip(table.entries()) {
             if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {
@@ -576,9 +576,10 @@ impl Session {
         let desk = self.desk();
         for joint in desk.table.joints() {
             if let (Some(index), Some(motor)) = (joint.motor, joint.drive)
-                && desk.world.model().motors()[index] != (sincro_dynamics::force::Motor { dof: joint.v_idx, ..motor })
+                && desk.world.model().motors()[index]
+                    != (sincro_dynamics::actuation::Motor { dof: joint.v_idx, ..motor })
             {
-                desk.world.set_motor(index, motor);
+                desk.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::actuation::MotorMode;
 
 use super::table::{Handle, Table};
 use super::{Desk, Refusal};

@@ -1,6 +1,6 @@
 //! Parameters of objects, by the numbers that clients use for them. Those of the simulator are in `program.rs`.
 
-use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::actuation::MotorMode;
 
 use super::lens::{vision_float, vision_int};
 use super::program::unknown;
@@ -81,8 +81,9 @@ impl Desk<'_> {
     ///
     /// There is no such object or parameter.
     pub fn object_float(&mut self, handle: Handle, id: i64) -> Result<f64, Refusal> {
-        let motor =
-            |desk: &Self| Ok(desk.joint_motor(handle)?.unwrap_or(sincro_dynamics::force::Motor::new(MotorMode::Free)));
+        let motor = |desk: &Self| {
+            Ok(desk.joint_motor(handle)?.unwrap_or(sincro_dynamics::actuation::Motor::new(MotorMode::Free)))
+        };
         if let (1000.., Kind::Vision(_)) = (id, &self.table.entry(handle)?.kind) {
             return vision_float(&self.table.vision_sensor(handle)?.optics, id);
         }
@@ -94,7 +95,7 @@ impl Desk<'_> {
             }
             2002 => Ok(motor(self)?.kp),
             2012 => self.joint_velocity(handle),
-            2017 => motor(self).map(|m: sincro_dynamics::force::Motor<f64>| m.max_velocity),
+            2017 => motor(self).map(|m: sincro_dynamics::actuation::Motor<f64>| m.max_velocity),
             2018 => Ok(motor(self)?.stiffness),
             2019 => Ok(motor(self)?.damping),
             3005 => Ok(self.mass(handle)?.mass),

@@ -1,6 +1,6 @@
 //! Proximity sensors as clients and scripts have them: what was seen when they were handled last, and what is there now.
 
-use sincro_dynamics::geometry::Field;
+use sincro_dynamics::geometry::FieldOfView;
 
 use super::senses::{Look, handle_of};
 use super::table::{Handle, Kind, WORLD};
@@ -42,7 +42,7 @@ impl Desk<'_> {
                 members.binary_search(&handle_of(piece)).is_ok()
             }
         });
-        let saw = self.world.with_seen(t, |seen| eye.look(&x_we, pieces, seen.scratch, most));
+        let saw = self.world.with_state_view(t, |seen| eye.look(&x_we, pieces, seen.scratch, most));
         Ok(saw.filter(|saw| saw.distance >= blind_below))
     }
 
@@ -121,7 +121,7 @@ impl Desk<'_> {
     /// There are too many objects.
     pub fn create_proximity_sensor(
         &mut self,
-        field: Field,
+        field: FieldOfView,
         is_explicit: bool,
         blind_below: f64,
     ) -> Result<Handle, Refusal> {

@@ -1,7 +1,7 @@
 //! Rotors, as clients and scripts know them: joints with an ideal motor that have a speed and no position. What V-REP's propellers have as
 //! the joint that turns them.
 
-use sincro_dynamics::force::rotor::SpeedFrom;
+use sincro_dynamics::aero::rotor::SpeedFrom;
 
 use super::table::{Handle, Kind};
 use super::{Desk, Refusal};
@@ -17,7 +17,7 @@ impl Desk<'_> {
 
     /// Speed of a rotor [rad/s].
     pub(super) fn rotor_speed(&self, rotor: usize) -> f64 {
-        self.world.rotor_speed(rotor)
+        self.world.rotor_speed(sincro_dynamics::ids::RotorId::new(rotor))
     }
 
     /// What a rotor was told [rad/s].

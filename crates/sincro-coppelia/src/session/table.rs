@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use sincro_dynamics::force::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::MassProperties;

@@ -1,16 +1,18 @@
-//! A small dense system solved by elimination with pivoting, complete where pivots are small: it tells the rank, and what is redundant gets nothing. Rows and columns are
-//! first scaled to a diagonal of one, so that rank does not depend on masses and units.
+//! Dense linear system solved by elimination with pivoting, complete where pivots are small: reveals the rank, and
+//! redundant unknowns get zero. Rows and columns are first scaled to a unit diagonal, so that the rank does not depend
+//! on masses and units.
 
 use sincro_math::{Real, Task};
 
-/// Scaled pivots below this are rounding: their rows depend on the others.
+/// Rank tolerance: scaled pivots below this are rounding, their rows depend on the others.
 pub(crate) const RANK: f64 = 1e-11;
 
-/// Scaled pivots below this are too small to project along: close to a singular position of a loop (0.2° off one for arms of equal length) what is a
-/// thousandth of a micrometre across the loop is a micrometre along it, and taking it away would throw the mechanism off its branch.
+/// Rank tolerance of projections: close to a singular position of a loop (0.2° off one for arms of equal length) an
+/// error of a thousandth of a micrometre across the loop is a micrometre along it, and correcting it would move the
+/// mechanism to another branch.
 pub(crate) const PROJECTION_RANK: f64 = 1e-5;
 
-/// Scaled pivots on the diagonal above this are taken without looking further.
+/// Scaled pivots on the diagonal above this are accepted without a search.
 const LARGE: f64 = 0.05;
 
 /// Matrix, right-hand side and orders of elimination; grows to the largest system it has seen.
@@ -83,7 +85,8 @@ impl<R: Real> Dense<R> {
         }
     }
 
-    /// Solves; unknowns that nothing determines, to the tolerance `rank`, are zero. The matrix is spent.
+    /// Solves the system; unknowns that nothing determines, to the tolerance `rank`, are zero. The matrix is
+    /// overwritten.
     pub fn solve(&mut self, rank: f64, out: &mut [R]) {
         R::run_hot(Elimination { dense: self, rank, out });
     }
@@ -115,8 +118,8 @@ impl<R: Real> Dense<R> {
         }
     }
 
-    /// Row, column and size of the next pivot: the next one unless it is small, else the largest of the diagonal, and where all that is left of it is
-    /// small, the largest of all.
+    /// Row, column and size of the next pivot: the next one unless it is small, else the largest of the diagonal, and
+    /// where all that is left of it is small, the largest of all.
     #[inline(always)]
     fn pivot(&self, k: usize) -> (usize, usize, f64) {
         let n = self.n;

@@ -1,32 +1,31 @@
-//! Impacts, projections, and what there is to see of contacts: what is done with rows outside of the evaluation of rates.
+//! Impacts and contact points: constraint rows outside of the evaluation of rates.
 
-use super::cone::{Block, Grip};
-use super::dense::PROJECTION_RANK;
-use super::guess::Instant;
+use super::active_set::ContactProblem;
+use super::cone::{ContactMode, UnilateralConstraint};
 use super::{Constraints, ContactPoint, dot, pair_of, restitution};
-use crate::contact::feature::tangents;
+use crate::contact::candidate::tangents;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Vec3;
 
 impl Constraints<f64> {
-    /// Velocity changes of an impact: approaching contacts bounce, nothing goes into what it touches, closures stay closed. `scratch` holds what an
-    /// impulse meets. Returns the energy that is lost `[J]`.
+    /// Solves an impact (Newton restitution on approaching contacts, loop joints and closed contacts kept) and adds the
+    /// velocity changes to `v`. `scratch` has the factors of the mass matrix. Returns the energy lost `[J]`.
     pub fn impact(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) -> f64 {
         let n = model.n_v();
-        // no forces of the motion before are meant here
+        // forces of the motion before have no meaning here
         self.lambda.fill(0.0);
         self.blocks.iter_mut().for_each(|b| b.open = false);
         for block in &mut self.blocks {
             for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.grip, group.give) = (false, Grip::Stick, None);
+                (group.slides, group.grip, group.give) = (false, ContactMode::Stick, None);
             }
-            // what is compliant takes its time
+            // a compliant contact transmits no impulse
             if block.given.is_some() {
                 block.given = Some(0.0);
             }
         }
-        self.respond(model, scratch);
+        self.assemble_delassus(model, scratch);
         self.b.clear();
         self.b.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
         self.before.clone_from(&self.b);
@@ -36,9 +35,9 @@ impl Constraints<f64> {
                 self.b[block.row] += restitution(model, block.slot) * self.before[block.row];
             }
         }
-        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.solve(&instant, &mut self.blocks, &mut self.lambda);
-        let mut change = core::mem::take(&mut self.kick);
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+        let mut change = core::mem::take(&mut self.velocity_change);
         change.fill(0.0);
         self.push(model, scratch, &mut change, has_drives);
         let mut lost = 0.0;
@@ -49,84 +48,23 @@ impl Constraints<f64> {
         for (v, change) in v.iter_mut().zip(&change) {
             *v += *change;
         }
-        self.kick = change;
+        self.velocity_change = change;
         lost
     }
 
-    /// Keeps the rows of closures.
-    pub fn keep_closures(&mut self) {
-        self.rows.truncate(self.n_free);
-        self.residual.truncate(self.n_free);
-        self.blocks.clear();
-        self.lambda.clear();
-        self.lambda.resize(self.n_free, 0.0);
-    }
-
-    /// Keeps the rows that hold as equations: closures, what presses (with `inside` only where it has gone in), and with `sticking` what
-    /// sticks.
-    pub fn keep_equations(&mut self, sticking: bool, inside: bool) {
-        let n_free = self.n_free;
-        let mut keep = core::mem::take(&mut self.kept);
-        keep.clear();
-        keep.extend(0..n_free);
-        let residual = &self.residual;
-        let holds = |b: &&Block<f64>| !b.open && b.given.is_none() && (!inside || residual[b.row] < 0.0);
-        for block in self.blocks.iter().filter(holds) {
-            keep.push(block.row);
-            for group in block.groups.iter().flatten() {
-                if sticking && group.grip == Grip::Stick {
-                    keep.extend(group.row..group.row + group.dim);
-                }
-            }
-        }
-        for (into, from) in keep.iter().enumerate() {
-            self.rows[into] = self.rows[*from];
-            self.residual[into] = self.residual[*from];
-        }
-        self.rows.truncate(keep.len());
-        self.residual.truncate(keep.len());
-        self.n_free = keep.len();
-        self.blocks.clear();
-        self.lambda.clear();
-        self.lambda.resize(keep.len(), 0.0);
-        self.kept = keep;
-    }
-
-    /// Largest residual, and largest rate for joint rates `v`, of the rows.
-    pub fn worst(&self, v: &[f64]) -> (f64, f64) {
-        let gap = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        let rate = self.rows.iter().map(|row| self.motions.rate(row, v).abs()).fold(0.0, f64::max);
-        (gap, rate)
-    }
-
-    /// The smallest change (in the metric of the mass matrix) of positions that undoes the residuals, or of rates that stops them.
-    pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
-        self.respond(model, scratch);
-        self.b.clear();
-        match v {
-            Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
-            None => self.b.extend_from_slice(&self.residual),
-        }
-        self.solver.rank = PROJECTION_RANK;
-        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.correct(&instant, &[], &mut self.lambda);
-        out.fill(0.0);
-        self.push(model, scratch, out, false);
-    }
-
-    /// Torque of the stops on a degree of freedom, as of the last evaluation.
+    /// Torque of the joint limits on a degree of freedom, as of the last evaluation.
     pub fn limit_torque(&self, model: &Model<f64>, dof: usize) -> f64 {
         let limits = &model.constraints.limits;
-        let on = |b: &&Block<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
+        let on = |b: &&UnilateralConstraint<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
         self.blocks.iter().filter(on).map(|b| limits[b.slot].sign * self.lambda[b.row]).sum()
     }
 
-    /// Points of contact that press, with their forces, as of the last evaluation.
+    /// Contact points with a force, as of the last evaluation.
     pub fn points(&self, model: &Model<f64>, scratch: &Scratch<f64>) -> impl Iterator<Item = ContactPoint> {
         let set = &model.constraints;
         self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open).filter_map(move |block| {
             let k = block.slot - set.limits.len();
-            let at = self.spots[k]?.gap(scratch, &self.motions);
+            let at = self.candidates[k]?.kinematics(&self.motions.at(scratch));
             let (t1, t2) = tangents(at.normal);
             let mut force = at.normal.scale(self.lambda[block.row]);
             let mut torque = Vec3::zero();
@@ -141,9 +79,17 @@ impl Constraints<f64> {
             }
             let pair = pair_of(set, k);
             let [one, two] = [set.pairs[pair].a, set.pairs[pair].b];
-            // a spot may have its rounded side on either
-            let surfaces = if set.colliders[one].link == self.spots[k]?.a { [one, two] } else { [two, one] };
-            Some(ContactPoint { pair, surfaces, point: at.point, normal: at.normal, force, torque, gap: at.gap })
+            // a candidate may have its rounded side on either surface
+            let surfaces = if set.colliders[one].link == self.candidates[k]?.a { [one, two] } else { [two, one] };
+            Some(ContactPoint {
+                pair,
+                surfaces,
+                point: at.point,
+                normal: at.normal,
+                force,
+                torque,
+                distance: at.distance,
+            })
         })
     }
 }

@@ -1,179 +1,124 @@
-//! The one constraint solver: closed loops, couplings, limits of joints and contacts, over the reduced coordinates.
+//! Constraint solver in generalized coordinates: loop joints, gears, joint limits and contacts with friction.
 //!
-//! M v̇ = τ + Jᵀλ with J v̇ + J̇ v = 0 for closures and 0 ≤ λ ⊥ J v̇ + J̇ v ≥ 0 and friction cones for what only pushes. A = J M⁻¹ Jᵀ is built row
-//! by row from what the articulated-body recursion makes of each (`respond`), so that held degrees of freedom (ideal motors, sticking joint
-//! friction) and the implicit terms of an integrator are in it for nothing. Nothing is soft: no gain, no penalty, no drift to tune. After each
-//! accepted sub-step the world projects positions and velocities in the metric of the mass matrix.
+//! The Lagrange multipliers λ of all constraints solve one mixed complementarity problem. With w = J v̇ + J̇ v at the
+//! acceleration level (or J v⁺/h at the velocity level):
 //!
-//! | file | what |
+//! M v̇ = τ + Jᵀλ; w = 0 for bilateral rows; 0 ≤ λₙ ⊥ wₙ ≥ 0 for unilateral rows; |λ_t| ≤ μ λₙ opposing w_t for
+//! friction.
+//!
+//! Eliminating v̇ leaves w = G λ + b with the Delassus matrix G = J M⁻¹ Jᵀ, built from the factors that the
+//! articulated-body recursion leaves (`delassus`); prescribed degrees of freedom (velocity motors, sticking joint
+//! friction) and the implicit terms of an integrator are thereby included. The problem is solved by an active-set
+//! method with a warm start; where that does not converge, by ADMM. Rigid constraints are not regularised:
+//! there is no stiffness, penalty or stabilisation gain. After each accepted sub-step the world projects positions and velocities
+//! onto the constraints in the metric of the mass matrix.
+//!
+//! | file | content |
 //! |---|---|
-//! | `row` | rows in world coordinates, their rates, their Jacobians |
-//! | `closure` | loops and couplings |
-//! | `respond` | A, and M⁻¹ times a vector |
-//! | `dense` | elimination with rank |
-//! | `cone` | friction: blocks and groups |
-//! | `guess` | what a guess about them leaves unknown |
-//! | `split` | the solution without a guess |
-//! | `solve` | the problem of one instant |
-//! | `impact` | impacts, projections, points of contact |
-//! | `memory` | who does what |
-//! | `events` | what the world asks of a mechanism: touch, strike, project |
+//! | `row` | constraint rows in world coordinates, their rates and Jacobians |
+//! | `loop_joint` | rows and residuals of loop joints |
+//! | `delassus` | Delassus matrix G; products with M⁻¹ |
+//! | `dense` | elimination that reveals the rank |
+//! | `cone` | unilateral constraints, friction groups, contact modes |
+//! | `active_set` | linear system of the current active set |
+//! | `admm` | ADMM for the same problem, without an active set |
+//! | `solver` | solution of one problem: active set first, then ADMM |
+//! | `impact` | impacts, contact points |
+//! | `projection` | projection of positions and velocities |
+//! | `warm_start` | multipliers and contact modes kept between evaluations; fallback for Zeno behaviour |
 //!
-//! Sources: keys `featherstone2008` (chapter 8, loops; section 11, contact), `acary2008` (chapters 3 and 13).
+//! What the world asks of a constrained mechanism (detect contacts, apply an impact, project) is in `crate::mechanism`.
+//!
+//! Sources: keys `featherstone2008` (chapter 8, loops; chapter 11, contact), `acary2008` (chapters 3 and 13).
 
-pub mod closure;
+mod active_set;
+mod admm;
 mod cone;
+mod delassus;
 mod dense;
-pub(crate) mod events;
-mod guess;
 mod impact;
-pub(crate) mod memory;
-mod respond;
+mod loop_joint;
+mod projection;
 pub(crate) mod row;
-mod solve;
-mod split;
+mod solver;
 #[cfg(test)]
 mod tests;
+pub(crate) mod warm_start;
 
 use sincro_math::Real;
 
-pub use closure::{Anchor, Closure, ClosureKind, Coupling};
-pub use solve::SolverReport;
+pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
+pub use solver::SolverReport;
 
-use crate::contact::{Collider, Detector, Pair, feature::Spot, feature::tangents};
-use crate::kinematics;
+use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate::tangents};
 use crate::model::Model;
+use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
-use cone::{Block, Grip, Group};
-use events::CLOSED;
-use guess::Instant;
-use memory::Memory;
+use active_set::ContactProblem;
+use cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use row::{Motions, Row, force_at, force_rate};
-use solve::Solver;
+use solver::Solver;
+use warm_start::WarmStart;
 
-/// Numbers of a slot in [`crate::state::State::contacts`]: six forces and what they do.
-pub const SLOT: usize = 7;
+/// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
+pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;
 
-/// Rows of contacts that memory is reserved for beforehand.
+/// Number of contact rows for which memory is reserved beforehand.
 const RESERVED: usize = 48;
 
-/// A limit of a joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
-    /// Degree of freedom.
-    pub dof: usize,
-    /// Its coordinate in q.
-    pub coordinate: usize,
-    /// +1 for a lower, −1 for an upper limit.
-    pub sign: f64,
-    /// `[rad]` or `[m]`.
-    pub bound: f64,
-    /// Speed of leaving over speed of arriving.
-    pub restitution: f64,
-}
-
-/// All constraints of a model; numbers are the same in every lane.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ConstraintSet {
-    /// Loops.
-    pub closures: Vec<Closure>,
-    /// Couplings of joints.
-    pub couplings: Vec<Coupling>,
-    /// Limits of joints: the first slots.
-    pub limits: Vec<Limit>,
-    /// Surfaces that can touch.
-    pub colliders: Vec<Collider>,
-    /// Pairs of them; their slots come after the limits'.
-    pub pairs: Vec<Pair>,
-    /// Approach slower than this does not bounce [m/s].
-    pub rest_speed: f64,
-}
-
-impl ConstraintSet {
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.closures.is_empty() && self.couplings.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
-    }
-
-    /// Number of slots of contacts.
-    #[must_use]
-    pub fn n_contacts(&self) -> usize {
-        self.pairs.last().map_or(0, |p| p.first + p.slots)
-    }
-
-    /// Number of slots: limits, then contacts.
-    #[must_use]
-    pub fn n_slots(&self) -> usize {
-        self.limits.len() + self.n_contacts()
-    }
-
-    /// Length of [`crate::state::State::contacts`].
-    #[must_use]
-    pub fn n_numbers(&self) -> usize {
-        memory::length(self.n_slots())
-    }
-
-    /// Number of rows of closures and couplings.
-    #[must_use]
-    pub fn n_bilateral(&self) -> usize {
-        self.closures.iter().map(|c| c.kind.rows()).sum::<usize>() + self.couplings.len()
-    }
-}
-
-/// What the rows are asked for.
+/// Level at which the constraints are solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Level {
-    /// Accelerations; contacts do as they are classified.
+    /// Accelerations; contact modes are those classified at the start of the sub-step.
     Acceleration,
     /// Velocities at the end of a step of length h `[s]`, impacts included.
     Velocity(f64),
 }
 
-/// A contact as it is now.
+/// Contact point with its force.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPoint {
     /// Index of the pair.
     pub pair: usize,
     /// Indices of the two surfaces; the force is on the first one.
     pub surfaces: [usize; 2],
-    /// Where `[m]`, world axes.
+    /// Position `[m]`, world axes.
     pub point: Vec3<f64>,
-    /// From the second surface to the first.
+    /// Unit normal from the second surface to the first, world axes.
     pub normal: Vec3<f64>,
-    /// On the first surface's body `[N]`, world axes.
+    /// Force on the first surface's body `[N]`, world axes.
     pub force: Vec3<f64>,
     /// Torque of rolling and spinning friction on it [N·m].
     pub torque: Vec3<f64>,
-    /// Distance `[m]`.
-    pub gap: f64,
+    /// Signed distance `[m]`.
+    pub distance: f64,
 }
 
-/// The constraints of one world and all they need.
+/// Constraints of one world with all working memory.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints<R> {
-    /// What is where, and what it does.
-    pub memory: Memory<R>,
-    pub spots: Vec<Option<Spot>>,
-    /// Spots of a later instant, to look for what has touched.
-    pub later: Vec<Option<Spot>>,
+    /// Warm start and classification of every slot.
+    pub memory: WarmStart<R>,
+    pub candidates: Vec<Option<ContactCandidate>>,
+    /// Candidates of a later instant, for the detection of new contacts.
+    pub later_candidates: Vec<Option<ContactCandidate>>,
     pub detector: Detector,
     pub motions: Motions<R>,
-    response: respond::Response<R>,
+    inverse_mass: delassus::InverseMass<R>,
     pub rows: Vec<Row<R>>,
-    /// How far each row's constraint is from holding: gaps, openings.
+    /// Constraint residual of each row: signed distance, position error of a loop joint.
     pub residual: Vec<R>,
     pub n_free: usize,
-    pub blocks: Vec<Block<R>>,
+    pub blocks: Vec<UnilateralConstraint<R>>,
     jacobian: Vec<R>,
-    innovations: respond::Innovations<R>,
+    delassus_factors: delassus::Delassus<R>,
     a: Vec<R>,
     b: Vec<R>,
     pub lambda: Vec<R>,
     torque: Vec<R>,
     change: Vec<R>,
-    kick: Vec<R>,
+    velocity_change: Vec<R>,
     before: Vec<R>,
     kept: Vec<usize>,
     /// Length of the sub-step that is being made `[s]`; 0: none.
@@ -189,30 +134,30 @@ impl<R: Real> Constraints<R> {
         }
         let n = vec![R::zero(); model.n_v()];
         let mut new = Self {
-            memory: Memory::new(set.n_slots()),
-            spots: vec![None; set.n_contacts()],
-            later: vec![None; set.n_contacts()],
+            memory: WarmStart::new(set.n_slots()),
+            candidates: vec![None; set.n_contacts()],
+            later_candidates: vec![None; set.n_contacts()],
             detector: Detector::new(&set.colliders, &set.pairs),
             motions: Motions::new(model),
-            response: respond::Response::new(model),
+            inverse_mass: delassus::InverseMass::new(model),
             rows: Vec::new(),
             residual: Vec::new(),
             n_free: 0,
             blocks: Vec::new(),
             jacobian: Vec::new(),
-            innovations: respond::Innovations::new(model),
+            delassus_factors: delassus::Delassus::new(model),
             a: Vec::new(),
             b: Vec::new(),
             lambda: Vec::new(),
             torque: n.clone(),
             change: n.clone(),
-            kick: n,
+            velocity_change: n,
             before: Vec::new(),
             kept: Vec::new(),
             sub_step: 0.0,
             solver: Solver::default(),
         };
-        // what is more than this in contact at once grows the memory, once for every new record
+        // more contacts than this at once enlarge the memory, once for every new maximum
         let groups = |p: &Pair| 1 + 2 * usize::from(p.material.friction > 0.0);
         let of_contacts: usize = set.pairs.iter().map(|p| p.slots * groups(p)).sum();
         new.reserve(set.n_bilateral() + set.limits.len() + of_contacts.min(RESERVED), model.n_v());
@@ -228,13 +173,13 @@ impl<R: Real> Constraints<R> {
             list.reserve(m);
         }
         self.jacobian.reserve(m * n);
-        self.innovations.reserve(m);
+        self.delassus_factors.reserve(m);
         self.a.reserve(m * m);
         self.solver.reserve(m);
     }
 
-    /// Makes the accelerations that forward dynamics found obey the constraints. Out of line: mechanisms without constraints have no room
-    /// for it in their loop.
+    /// Adds the constraint forces to the accelerations that forward dynamics found. Out of line, so that mechanisms
+    /// without constraints do not carry it in their loop.
     #[allow(clippy::too_many_arguments)]
     #[inline(never)]
     pub fn apply(
@@ -250,26 +195,27 @@ impl<R: Real> Constraints<R> {
             kinematics::chain_poses(model, scratch);
             self.motions.place(model, scratch, v);
         }
-        // a step at velocity level starts where it was last asked what touches: poses and twists stand
+        // at velocity level the poses and twists of the last contact detection stand
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
         if self.rows.is_empty() {
             return;
         }
-        self.respond(model, scratch);
+        self.assemble_delassus(model, scratch);
         self.b.clear();
         match level {
             Level::Acceleration => {
                 self.motions.accelerate(model, scratch);
                 self.b.extend(self.rows.iter().map(|row| self.motions.acceleration(row, v_dot)));
             }
-            Level::Velocity(h) => self.ask_velocities(model, h, v, v_dot),
+            Level::Velocity(h) => self.velocity_level_rates(model, h, v, v_dot),
         }
         self.solve();
         self.push(model, scratch, v_dot, has_drives);
     }
 
-    /// b of a step at velocity level: (J v)/h + J v̇, room left to what is not there yet, bounce for what arrives.
-    fn ask_velocities(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
+    /// Vector b at velocity level: (J v)/h + J v̇, relaxed by the remaining distance of open constraints, with
+    /// restitution for impacts.
+    fn velocity_level_rates(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
         let n = model.n_v();
         let per_h = R::splat(1.0 / h);
         for i in 0..self.rows.len() {
@@ -286,27 +232,29 @@ impl<R: Real> Constraints<R> {
             let row = &self.jacobian[i * n..(i + 1) * n];
             let speed = dot(row, v);
             let bounce = restitution(model, block.slot);
-            let arrives = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
-            if speed.lane(0) < -rest_speed && bounce > 0.0 && arrives {
-                // from where it is: to let it arrive first would take its speed
+            let has_impact = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
+            if speed.lane(0) < -rest_speed && bounce > 0.0 && has_impact {
+                // from the present distance: to close it first would take the approach velocity away
                 self.b[i] += speed * per_h * R::splat(bounce);
-            } else if self.residual[i].lane(0) > CLOSED {
-                // what is closed but for rounding has no room: several gaps of one face would contradict each other
+            } else if self.residual[i].lane(0) > CLOSED_DISTANCE {
+                // a distance that is zero but for rounding is not used: several distances of one face would contradict
+                // each other
                 self.b[i] += self.residual[i] * per_h * per_h;
             }
         }
     }
 
-    /// Rows, residuals and blocks of what is closed, at the poses of `scratch` and the twists of `motions`.
+    /// Assembles rows, residuals and unilateral constraints of everything closed, at the poses of `scratch` and the
+    /// twists of `motions`.
     pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, slides: bool) {
         let set = &*model.constraints;
         self.rows.clear();
         self.residual.clear();
         self.blocks.clear();
-        for closure in &set.closures {
+        for closure in &set.loop_joints {
             closure.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
         }
-        for coupling in &set.couplings {
+        for coupling in &set.gears {
             let [one, two] = coupling.dofs.map(|k| k as u32);
             let ratio = R::splat(coupling.ratio);
             self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
@@ -317,37 +265,53 @@ impl<R: Real> Constraints<R> {
         for (slot, limit) in set.limits.iter().enumerate() {
             if self.memory.is_closed(slot) {
                 let sign = R::splat(limit.sign);
-                self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::model::WORLD, R::zero())]));
+                self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::joint::WORLD, R::zero())]));
                 self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
                 let row = self.rows.len() - 1;
-                self.blocks.push(Block { slot, row, open: false, given: None, groups: [None; 3], effect: 0 });
+                self.blocks.push(UnilateralConstraint {
+                    slot,
+                    row,
+                    open: false,
+                    given: None,
+                    groups: [None; 3],
+                    effect: 0,
+                });
             }
         }
         for pair in &set.pairs {
             for k in pair.first..pair.first + pair.slots {
                 let slot = set.limits.len() + k;
-                if let (true, Some(spot)) = (self.memory.is_closed(slot), self.spots[k]) {
-                    self.contact(slot, &spot, pair, v, scratch, slides);
+                if let (true, Some(candidate)) = (self.memory.is_closed(slot), self.candidates[k]) {
+                    self.contact(slot, &candidate, pair, v, scratch, slides);
                 }
             }
         }
         self.lambda.clear();
         self.lambda.resize(self.rows.len(), R::zero());
-        self.memory.recall(&mut self.blocks, &mut self.lambda);
+        self.memory.restore(&mut self.blocks, &mut self.lambda);
     }
 
-    fn contact(&mut self, slot: usize, spot: &Spot, pair: &Pair, v: &[R], scratch: &Scratch<R>, slides: bool) {
-        let at = spot.gap(scratch, &self.motions);
+    fn contact(
+        &mut self,
+        slot: usize,
+        candidate: &ContactCandidate,
+        pair: &Pair,
+        v: &[R],
+        scratch: &Scratch<R>,
+        slides: bool,
+    ) {
+        let at = candidate.kinematics(&self.motions.at(scratch));
         let row = self.rows.len();
         let (c, n) = (at.point, at.normal);
-        let normal = Row::between(spot.a, spot.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
-        self.add(normal, at.gap);
+        let normal =
+            Row::between(candidate.a, candidate.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
+        self.add(normal, at.distance);
         let material = &pair.material;
         let given = material.stiffness.is_finite().then(|| {
             let rate = self.motions.rate(&normal, v);
             let k = R::splat(material.stiffness);
-            let force = -(k * at.gap) * (R::one() - R::splat(material.dissipation) * rate);
-            // it never pulls
+            let force = -(k * at.distance) * (R::one() - R::splat(material.dissipation) * rate);
+            // no adhesion
             force.max(R::zero())
         });
         let (t1, t2) = tangents(n);
@@ -362,33 +326,33 @@ impl<R: Real> Constraints<R> {
             let axes = if g == 2 { [n, n] } else { [t1, t2] };
             for t in axes.into_iter().take(dim) {
                 let row = if g == 0 {
-                    Row::between(spot.a, spot.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
+                    Row::between(candidate.a, candidate.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
                 } else {
-                    Row::between(spot.a, spot.b, Force { ang: t, lin: zero }, Force::zero())
+                    Row::between(candidate.a, candidate.b, Force { ang: t, lin: zero }, Force::zero())
                 };
                 self.add(row, R::zero());
             }
             let slides = slides && self.memory.slides(slot, g);
-            let mut group = Group {
+            let mut group = FrictionGroup {
                 row: first,
                 dim,
                 coefficient,
                 slides,
-                grip: Grip::Stick,
+                grip: ContactMode::Stick,
                 direction: [R::zero(); 2],
                 give: None,
             };
             if slides {
-                group.grip = Grip::Slip;
-                let (direction, speed) = self.against(first, dim, v, self.memory.direction(slot, g));
-                group.direction = self.memory.steer(slot, g, direction);
+                group.grip = ContactMode::Slip;
+                let (direction, speed) = self.direction_against(first, dim, v, self.memory.direction(slot, g));
+                group.direction = self.memory.set_direction(slot, g, direction);
                 if dim == 2 {
                     self.align(&mut group, speed);
                 }
             }
             groups[g] = Some(group);
         }
-        self.blocks.push(Block { slot, row, open: false, given, groups, effect: 0 });
+        self.blocks.push(UnilateralConstraint { slot, row, open: false, given, groups, effect: 0 });
     }
 
     fn add(&mut self, row: Row<R>, residual: R) {
@@ -396,8 +360,8 @@ impl<R: Real> Constraints<R> {
         self.residual.push(residual);
     }
 
-    /// Direction against the velocity of a group of rows; the last one where there is none.
-    fn against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
+    /// Unit direction opposite to the velocity of a group of rows, and the speed; `last` where the velocity is zero.
+    fn direction_against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
         let mut u = [R::zero(); 2];
         for k in 0..dim {
             u[k] = self.motions.rate(&self.rows[first + k], v);
@@ -411,8 +375,8 @@ impl<R: Real> Constraints<R> {
         (u.map(|x| -(x * inverse)), speed)
     }
 
-    /// Turns the two rows of a sliding group into one along the sliding and one across it; notes its speed.
-    fn align(&mut self, group: &mut Group<R>, speed: R) {
+    /// Rotates the two rows of a sliding group to one along and one across the sliding direction; stores the speed.
+    fn align(&mut self, group: &mut FrictionGroup<R>, speed: R) {
         let (i, j) = (group.row, group.row + 1);
         let (one, two, d) = (self.rows[i], self.rows[j], group.direction);
         self.rows[i] = one.combined(&two, -d[0], -d[1]);
@@ -421,8 +385,9 @@ impl<R: Real> Constraints<R> {
         group.give = Some(speed);
     }
 
-    /// Of the groups that slide, those that do so slowly: their speed becomes what the solver needs.
-    fn find_slow(&mut self) {
+    /// Compliance across the sliding direction of groups that slide so slowly that friction can turn their velocity
+    /// within the step.
+    fn find_slow_sliding(&mut self) {
         let m = self.rows.len();
         let h = self.sub_step;
         for block in &mut self.blocks {
@@ -438,8 +403,8 @@ impl<R: Real> Constraints<R> {
         }
     }
 
-    /// Jacobian and A of the rows.
-    pub fn respond(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
+    /// Jacobian and Delassus matrix of the rows.
+    pub fn assemble_delassus(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         let (m, n) = (self.rows.len(), model.n_v());
         self.solver.reserve(m);
         self.jacobian.clear();
@@ -447,17 +412,17 @@ impl<R: Real> Constraints<R> {
         for (row, j) in self.rows.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
             self.motions.jacobian(model, row, j);
         }
-        self.innovations.products(model, scratch, self.motions.columns(), &self.rows, &mut self.a);
+        self.delassus_factors.products(model, scratch, self.motions.columns(), &self.rows, &mut self.a);
     }
 
     fn solve(&mut self) {
-        self.find_slow();
-        let instant = Instant { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.solve(&instant, &mut self.blocks, &mut self.lambda);
+        self.find_slow_sliding();
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
         self.memory.keep(&self.blocks, &self.lambda);
     }
 
-    /// Adds what the forces do to accelerations and reactions.
+    /// Adds the response to the constraint forces to accelerations and reactions.
     fn push(&mut self, model: &Model<R>, scratch: &mut Scratch<R>, v_dot: &mut [R], has_drives: bool) {
         let n = model.n_v();
         self.torque.fill(R::zero());
@@ -468,14 +433,14 @@ impl<R: Real> Constraints<R> {
         }
         let mut reaction = core::mem::take(&mut scratch.reaction);
         let wanted = has_drives.then_some(&mut reaction[..]);
-        self.response.find(model, scratch, &self.torque, &mut self.change, wanted);
+        self.inverse_mass.find(model, scratch, &self.torque, &mut self.change, wanted);
         scratch.reaction = reaction;
         for (v_dot, change) in v_dot.iter_mut().zip(&self.change) {
             *v_dot += *change;
         }
     }
 
-    /// Power taken from the mechanism by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
+    /// Power dissipated by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
     pub fn dissipation(&self, v: &[R]) -> R {
         let n = v.len();
         let mut sum = R::zero();

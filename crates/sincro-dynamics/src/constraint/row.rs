@@ -1,9 +1,9 @@
-//! Rows of constraints: what each wants of the velocities, in world coordinates.
+//! Constraint rows in world coordinates: Jacobians, rates and accelerations.
 //!
-//! A row is J v = Wₐ·Vₐ − W_b·V_b, with V the twist of a link and W a wrench of unit strength, both about the world's origin in
-//! world axes, or a sum of joint rates. Its rate is J v̇ + J̇ v = Wₐ·Aₐ − W_b·A_b + Ẇₐ·Vₐ − Ẇ_b·V_b, with A the spatial acceleration: no
-//! centripetal or Coriolis term is written anywhere. The world has no twist, and the acceleration that gravity gives the base of the
-//! recursions.
+//! A row is J v = Wₐ·Vₐ − W_b·V_b, with V the twist of a link and W a wrench of unit magnitude, both about the world's
+//! origin in world axes, or a sum of joint rates. Its rate is J v̇ + J̇ v = Wₐ·Aₐ − W_b·A_b + Ẇₐ·Vₐ − Ẇ_b·V_b, with A
+//! the spatial acceleration, so that no centripetal or Coriolis term appears. The world has no twist, and the
+//! acceleration that gravity gives the base of the recursions. Source: key `featherstone2008`, chapters 2 and 8.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -12,8 +12,9 @@
 
 use sincro_math::Real;
 
-use crate::joint::{Stage, StageVisitor};
-use crate::model::{Link, Model, WORLD};
+use crate::contact::candidate::LinkMotions;
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Motion, Vec3};
 
@@ -119,12 +120,17 @@ impl<R: Real> Motions<R> {
         &self.columns
     }
 
-    /// Twist of a link; none for the world.
+    /// Poses of `scratch` with the twists placed here.
+    pub fn at<'a>(&'a self, scratch: &'a Scratch<R>) -> LinkMotions<'a, R> {
+        LinkMotions { poses: &scratch.poses, twists: &self.twist }
+    }
+
+    /// Twist of a link about the world's origin; zero for the world.
     pub fn twist_of(&self, link: u32) -> Motion<R> {
         if link == WORLD { Motion::zero() } else { self.twist[link as usize] }
     }
 
-    /// Velocity of the point of a link that is at `p` in the world.
+    /// Velocity [m/s] of the point of a link that is at `p` in the world.
     pub fn velocity_of(&self, link: u32, p: Vec3<R>) -> Vec3<R> {
         let v = self.twist_of(link);
         v.lin + v.ang.cross(p)

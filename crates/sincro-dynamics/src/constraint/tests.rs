@@ -1,8 +1,8 @@
-//! The laws of contact, looked at in the solver's results for problems of every kind.
+//! The laws of contact, checked on the solver's results for random problems of every kind.
 
-use super::cone::{Block, Grip, Group};
-use super::guess::Instant;
-use super::solve::Solver;
+use super::active_set::ContactProblem;
+use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use super::solver::Solver;
 
 /// Numbers between −1 and 1, always the same.
 struct Numbers(u64);
@@ -21,33 +21,40 @@ fn products(numbers: &mut Numbers, m: usize, n: usize) -> Vec<f64> {
     (0..m * m).map(|k| entry(k / m, k % m)).collect()
 }
 
-fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<Block<f64>> {
-    let tangents = |row: usize| Group {
+fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstraint<f64>> {
+    let tangents = |row: usize| FrictionGroup {
         row,
         dim: 2,
         coefficient: friction,
         slides: false,
-        grip: Grip::Stick,
+        grip: ContactMode::Stick,
         direction: [0.0; 2],
         give: None,
     };
     let block = |k: usize| {
         let row = n_free + 3 * k;
-        Block { slot: k, row, open: false, given: None, groups: [Some(tangents(row + 1)), None, None], effect: 0 }
+        UnilateralConstraint {
+            slot: k,
+            row,
+            open: false,
+            given: None,
+            groups: [Some(tangents(row + 1)), None, None],
+            effect: 0,
+        }
     };
     (0..count).map(block).collect()
 }
 
-/// How far forces and rates are from the laws of contact, as shares of the largest.
-fn misfit(instant: &Instant<'_, f64>, blocks: &[Block<f64>], lambda: &[f64]) -> f64 {
+/// Complementarity residual relative to the largest force and rate.
+fn residual(problem: &ContactProblem<'_, f64>, blocks: &[UnilateralConstraint<f64>], lambda: &[f64]) -> f64 {
     let m = lambda.len();
     let w: Vec<f64> =
-        (0..m).map(|i| instant.b[i] + (0..m).map(|j| instant.a[i * m + j] * lambda[j]).sum::<f64>()).collect();
+        (0..m).map(|i| problem.b[i] + (0..m).map(|j| problem.a[i * m + j] * lambda[j]).sum::<f64>()).collect();
     let (force, rate) = (
         lambda.iter().fold(1e-300, |s: f64, x| s.max(x.abs())),
-        instant.b.iter().fold(0.0, |s: f64, x| s.max(x.abs())),
+        problem.b.iter().fold(0.0, |s: f64, x| s.max(x.abs())),
     );
-    let mut worst = w[..instant.n_free].iter().fold(0.0, |s: f64, x| s.max(x.abs() / rate));
+    let mut worst = w[..problem.n_free].iter().fold(0.0, |s: f64, x| s.max(x.abs() / rate));
     for block in blocks {
         let (normal, leaving) = (lambda[block.row] / force, w[block.row] / rate);
         worst = worst.max(-normal).max(-leaving).max(normal.min(leaving).abs());
@@ -71,10 +78,10 @@ fn solve(numbers: &mut Numbers, count: usize, n: usize, n_free: usize, friction:
     let push: Vec<f64> = (0..m).map(|_| numbers.next()).collect();
     let b: Vec<f64> = (0..m).map(|i| (0..m).map(|j| a[i * m + j] * push[j]).sum()).collect();
     let mut blocks = contacts(count, n_free, friction);
-    let instant = Instant { a: &a, b: &b, n_free };
+    let problem = ContactProblem { a: &a, b: &b, n_free };
     let (mut solver, mut lambda) = (Solver::default(), vec![0.0; m]);
-    solver.solve(&instant, &mut blocks, &mut lambda);
-    (misfit(&instant, &blocks, &lambda), solver.report.not_converged)
+    solver.solve(&problem, &mut blocks, &mut lambda);
+    (residual(&problem, &blocks, &lambda), solver.report.not_converged)
 }
 
 #[test]
@@ -108,7 +115,7 @@ fn where_everything_leaves_there_are_no_forces() {
     let b: Vec<f64> = (0..m).map(|i| if i % 3 == 0 { 1.0 } else { numbers.next() }).collect();
     let mut blocks = contacts(4, 0, 0.7);
     let (mut solver, mut lambda) = (Solver::default(), vec![0.3; m]);
-    solver.solve(&Instant { a: &a, b: &b, n_free: 0 }, &mut blocks, &mut lambda);
+    solver.solve(&ContactProblem { a: &a, b: &b, n_free: 0 }, &mut blocks, &mut lambda);
     assert_eq!(solver.report.not_converged, 0);
     assert!(lambda.iter().all(|x| *x == 0.0), "{lambda:?}");
 }

@@ -1,24 +1,25 @@
-//! From poses to spots: where the surfaces of each pair are closest.
+//! Contact detection from the poses of the links: broad phase by bounding spheres, then the narrow phase of each pair.
 
-use super::feature::{Feature, Spot};
+use super::candidate::{ContactCandidate, Feature};
 use super::manifold::Manifolds;
-use super::polytope::{Clipper, Polytope};
 use super::{Collider, Pair, PairKind, Surface};
-use crate::model::{Shape, WORLD};
+use crate::geometry::Shape;
+use crate::geometry::sat::{FaceClipper, PointOnPlane, Polytope};
+use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
 /// Sine of the tilt below which a cylinder on its end is held to stand on four points of its rim.
 const STANDS: f64 = 1e-6;
 
-/// Finds spots; its memory grows to the largest manifold it has seen.
+/// Contact detector; its memory grows to the largest manifold it has seen.
 #[derive(Clone, Debug)]
 pub(crate) struct Detector {
     points: Vec<(Vec<Vec3<f64>>, f64)>,
     reach: Vec<f64>,
     manifolds: Manifolds,
     polytopes: Vec<Option<Polytope>>,
-    clipper: Clipper,
-    /// Pairs that are told not to touch.
+    clipper: FaceClipper,
+    /// Pairs that are ignored.
     pub ignored: Vec<bool>,
 }
 
@@ -29,22 +30,23 @@ impl Detector {
             reach: colliders.iter().map(|c| c.surface.reach()).collect(),
             manifolds: Manifolds::new(colliders, pairs),
             polytopes: polytopes(colliders, pairs),
-            clipper: Clipper::default(),
+            clipper: FaceClipper::default(),
             ignored: vec![false; pairs.len()],
         }
     }
 
-    /// Writes the spots of every pair into its slots; none where nothing is near (closer than `margin` `[m]`).
+    /// Writes the contact candidates of every pair into its slots; none where the surfaces are farther apart than
+    /// `margin` `[m]`.
     pub fn detect(
         &mut self,
         colliders: &[Collider],
         pairs: &[Pair],
         poses: &[Pose<f64>],
         margin: f64,
-        spots: &mut [Option<Spot>],
+        candidates: &mut [Option<ContactCandidate>],
     ) {
         for (k, pair) in pairs.iter().enumerate() {
-            let slots = &mut spots[pair.first..pair.first + pair.slots];
+            let slots = &mut candidates[pair.first..pair.first + pair.slots];
             slots.fill(None);
             let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
             if self.ignored[k] || !self.is_near(pair, (a, b), poses, margin) {
@@ -59,7 +61,12 @@ impl Detector {
                 PairKind::Polytopes => {
                     let (Some(one), Some(two)) = (&self.polytopes[pair.a], &self.polytopes[pair.b]) else { continue };
                     let of = |c: &Collider| if c.link == WORLD { Pose::identity() } else { poses[c.link as usize] };
-                    self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), margin, slots);
+                    let (max_points, mut free) = (slots.len(), slots.iter_mut());
+                    self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), margin, max_points, |found| {
+                        if let Some(slot) = free.next() {
+                            *slot = Some(point_on_plane(&found, a, b));
+                        }
+                    });
                 }
                 PairKind::General => {
                     self.manifolds.find(k, (pair.a, pair.b), (a, b), (&at(a), &at(b)), margin, slots);
@@ -68,12 +75,12 @@ impl Detector {
         }
     }
 
-    /// Centre and radius of a ball that holds surface `k`, in the world.
+    /// Bounding sphere of surface `k`: centre in the world and radius `[m]`.
     pub fn ball(&self, k: usize, c: &Collider, poses: &[Pose<f64>]) -> (Vec3<f64>, f64) {
         (center(c, poses), self.reach[k])
     }
 
-    /// Whether balls around the two surfaces are closer than `margin` `[m]`.
+    /// Broad phase: returns true if the bounding spheres of the two surfaces are closer than `margin` `[m]`.
     pub fn is_near(&self, pair: &Pair, (a, b): (&Collider, &Collider), poses: &[Pose<f64>], margin: f64) -> bool {
         if let Surface::HalfSpace = b.surface {
             return b.pose.rot.col(2).dot(center(a, poses) - b.pose.pos) <= self.reach[pair.a] + margin;
@@ -83,32 +90,43 @@ impl Detector {
     }
 }
 
-/// Centre of a surface's ball, in the world.
+/// Centre of a surface's bounding sphere, in the world.
 fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
     if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) }
 }
 
 fn polytopes(colliders: &[Collider], pairs: &[Pair]) -> Vec<Option<Polytope>> {
     let wanted = |k: usize| pairs.iter().any(|p| p.kind == PairKind::Polytopes && (p.a == k || p.b == k));
-    colliders.iter().enumerate().map(|(k, c)| wanted(k).then(|| Polytope::of(c)).flatten()).collect()
+    colliders.iter().enumerate().map(|(k, c)| wanted(k).then(|| Polytope::new(&c.surface, &c.pose)).flatten()).collect()
 }
 
 fn plane_of(b: &Collider) -> Feature {
     Feature::Plane { origin: b.pose.pos, normal: b.pose.rot.col(2) }
 }
 
-fn spot(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> Spot {
-    Spot { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
+fn candidate(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> ContactCandidate {
+    ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
 }
 
-fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<Spot>]) {
+/// Contact candidate of a point that face clipping or crossing edges gave.
+fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> ContactCandidate {
+    let (a, b) = if found.is_on_first { (a, b) } else { (b, a) };
+    candidate(a, b, found.point, 0.0, Feature::Plane { origin: found.origin, normal: found.normal })
+}
+
+fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<ContactCandidate>]) {
     let (points, radius) = points;
     for (slot, point) in slots.iter_mut().zip(points) {
-        *slot = Some(spot(a, b, *point, *radius, plane_of(b)));
+        *slot = Some(candidate(a, b, *point, *radius, plane_of(b)));
     }
 }
 
-fn cylinder_on_plane(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>), slots: &mut [Option<Spot>]) {
+fn cylinder_on_plane(
+    a: &Collider,
+    b: &Collider,
+    (at_a, at_b): (&Pose<f64>, &Pose<f64>),
+    slots: &mut [Option<ContactCandidate>],
+) {
     let Surface::Solid(Shape::Cylinder { radius, length }) = a.surface else { return };
     let (n, axis) = (at_b.rot.col(2), at_a.rot.col(2));
     let across = n - axis.scale(n.dot(axis));
@@ -119,24 +137,24 @@ fn cylinder_on_plane(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pos
         let slots = &mut slots[4 * end..4 * end + 4];
         if !stands {
             let rim = Some(a.pose.rot.col(2));
-            slots[0] = Some(Spot { rim, ..spot(a, b, center, radius, plane_of(b)) });
+            slots[0] = Some(ContactCandidate { rim, ..candidate(a, b, center, radius, plane_of(b)) });
             continue;
         }
         for (k, slot) in slots.iter_mut().enumerate() {
             let e = [[radius, 0.0, z], [0.0, radius, z], [-radius, 0.0, z], [0.0, -radius, z]][k];
-            *slot = Some(spot(a, b, a.pose.point(Vec3(e)), 0.0, plane_of(b)));
+            *slot = Some(candidate(a, b, a.pose.point(Vec3(e)), 0.0, plane_of(b)));
         }
     }
 }
 
-fn balls(a: &Collider, b: &Collider) -> Spot {
+fn balls(a: &Collider, b: &Collider) -> ContactCandidate {
     let (ra, rb) = (a.ball().unwrap_or(0.0), b.ball().unwrap_or(0.0));
     let feature = Feature::Point { origin: b.pose.pos };
-    Spot { radius_a: ra, ..spot(a, b, a.pose.pos, ra + rb, feature) }
+    ContactCandidate { radius_a: ra, ..candidate(a, b, a.pose.pos, ra + rb, feature) }
 }
 
-/// The face, edge or corner of the cuboid that is closest to the ball's centre; from inside, the nearest face.
-fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>)) -> Spot {
+/// Face, edge or vertex of the cuboid that is closest to the sphere's centre; from inside, the nearest face.
+fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f64>)) -> ContactCandidate {
     let radius = a.ball().unwrap_or(0.0);
     let Surface::Solid(Shape::Cuboid { size }) = b.surface else { unreachable!("the pair is a ball on a cuboid") };
     let c = at_b.rot.tr_mul_vec(at_a.pos - at_b.pos);
@@ -160,5 +178,5 @@ fn ball_on_cuboid(a: &Collider, b: &Collider, (at_a, at_b): (&Pose<f64>, &Pose<f
             Feature::Plane { origin: in_link(Vec3::along(k, side(k))), normal: b.pose.rot.col(k).scale(sign) }
         }
     };
-    spot(a, b, a.pose.pos, radius, feature)
+    candidate(a, b, a.pose.pos, radius, feature)
 }

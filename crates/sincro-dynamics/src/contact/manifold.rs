@@ -1,18 +1,18 @@
-//! Pairs without a closed form of their own: manifolds of the collision library parry, which nothing else here sees.
+//! Contact manifolds of the pairs without a closed form, from the collision library parry.
 //!
-//! A point of a manifold becomes a spot: a rounded point of one body over a plane of the other, so that balls, capsules and the flanks of cylinders
-//! keep their curvature, and flat faces are exact. What the library remembers from one call to the next is thrown away, because a result must
-//! not depend on the past.
+//! A point of a manifold becomes a contact candidate: a rounded point of one body over a plane of the other, so that
+//! spheres, capsules and the flanks of cylinders keep their curvature, and flat faces are exact. The library's memory
+//! between calls is discarded, because a result must not depend on the past.
 
 use parry3d_f64::math::{Pose as LibraryPose, Vector};
 use parry3d_f64::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
 };
 
-use super::feature::{Feature, Spot};
+use super::candidate::{ContactCandidate, Feature};
 use super::{Collider, Pair, PairKind, Surface};
-use crate::geometry::library::{LibraryShape, library_pose, vec3};
-use crate::model::Shape;
+use crate::geometry::Shape;
+use crate::geometry::parry::{ParryShape, parry_pose, vec3};
 use crate::spatial::{Pose, Vec3};
 
 /// A normal is across an axis if its component along it is below this.
@@ -24,11 +24,11 @@ const SAME_POINT: f64 = 1e-6;
 /// The library's shapes, one manifold list a pair.
 #[derive(Clone)]
 pub(crate) struct Manifolds {
-    shapes: Vec<Option<LibraryShape>>,
+    shapes: Vec<Option<ParryShape>>,
     pairs: Vec<Vec<ContactManifold<(), ()>>>,
     workspace: Option<ContactManifoldsWorkspace>,
-    /// Distance, spot and place on the first surface of every point found.
-    found: Vec<(f64, Spot, Vec3<f64>)>,
+    /// Distance, candidate and point on the first surface of every point found.
+    found: Vec<(f64, ContactCandidate, Vec3<f64>)>,
 }
 
 impl std::fmt::Debug for Manifolds {
@@ -41,11 +41,11 @@ impl Manifolds {
     pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
         let general = |k: usize| pairs.iter().any(|p| p.kind == PairKind::General && (p.a == k || p.b == k));
         let shapes =
-            colliders.iter().enumerate().map(|(k, c)| general(k).then(|| LibraryShape::of(&c.surface)).flatten());
+            colliders.iter().enumerate().map(|(k, c)| general(k).then(|| ParryShape::of(&c.surface)).flatten());
         Self { shapes: shapes.collect(), pairs: vec![Vec::new(); pairs.len()], workspace: None, found: Vec::new() }
     }
 
-    /// Writes the spots of pair `k`: the deepest ones, in the library's order.
+    /// Writes the candidates of pair `k`: the deepest ones, in the library's order.
     pub fn find(
         &mut self,
         k: usize,
@@ -53,7 +53,7 @@ impl Manifolds {
         (a, b): (&Collider, &Collider),
         (at_a, at_b): (&Pose<f64>, &Pose<f64>),
         margin: f64,
-        slots: &mut [Option<Spot>],
+        slots: &mut [Option<ContactCandidate>],
     ) {
         let (Some(one), Some(two)) = (&self.shapes[i], &self.shapes[j]) else { return };
         let (x_1, x_2) = (at_a.compose(&one.pose), at_b.compose(&two.pose));
@@ -72,7 +72,7 @@ impl Manifolds {
         self.workspace = None;
         let (g1, g2) = (&*one.shape.0, &*two.shape.0);
         let done = DefaultQueryDispatcher.contact_manifolds(
-            &library_pose(&x_12),
+            &parry_pose(&x_12),
             g1,
             g2,
             margin,
@@ -94,7 +94,7 @@ impl Manifolds {
                 let p_b = two.pose.point(side(manifold.subshape_pos2(), point.local_p2));
                 // where edges lie on edges, the library finds a corner of each
                 if !self.found.iter().any(|(_, _, known)| (p_a - *known).norm() < SAME_POINT) {
-                    self.found.push((point.dist, spot((a, p_a, n_a), (b, p_b, n_b)), p_a));
+                    self.found.push((point.dist, candidate((a, p_a, n_a), (b, p_b, n_b)), p_a));
                 }
             }
         }
@@ -102,14 +102,14 @@ impl Manifolds {
     }
 }
 
-/// The deepest spots, in the order found.
-fn fill(found: &mut Vec<(f64, Spot, Vec3<f64>)>, slots: &mut [Option<Spot>]) {
+/// Writes the deepest candidates, in the order found.
+fn fill(found: &mut Vec<(f64, ContactCandidate, Vec3<f64>)>, slots: &mut [Option<ContactCandidate>]) {
     while found.len() > slots.len() {
         let shallowest = (1..found.len()).fold(0, |worst, k| if found[k].0 > found[worst].0 { k } else { worst });
         found.remove(shallowest);
     }
-    for (slot, (_, spot, _)) in slots.iter_mut().zip(found) {
-        *slot = Some(*spot);
+    for (slot, (_, candidate, _)) in slots.iter_mut().zip(found) {
+        *slot = Some(*candidate);
     }
 }
 
@@ -117,8 +117,12 @@ fn is_convex(c: &Collider) -> bool {
     matches!(c.surface, Surface::Solid(_) | Surface::Hull(_) | Surface::HalfSpace)
 }
 
-/// A spot from the points of two surfaces that are closest, and the normals out of each; all in the surfaces' own frames.
-fn spot((a, p_a, n_a): (&Collider, Vec3<f64>, Vec3<f64>), (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>)) -> Spot {
+/// Contact candidate from the closest points of two surfaces and the outward normals there, all in the surfaces' own
+/// frames.
+fn candidate(
+    (a, p_a, n_a): (&Collider, Vec3<f64>, Vec3<f64>),
+    (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>),
+) -> ContactCandidate {
     let (core_a, core_b) = (core(a, p_a, n_a), core(b, p_b, n_b));
     if core_a.radius == 0.0 && core_b.radius > 0.0 {
         return over_plane((b, core_b), (a, p_a, n_a));
@@ -131,7 +135,7 @@ fn spot((a, p_a, n_a): (&Collider, Vec3<f64>, Vec3<f64>), (b, p_b, n_b): (&Colli
         Some(axis) => Feature::Line { origin, direction: b.pose.rot.mul_vec(axis) },
         None => Feature::Point { origin },
     };
-    Spot {
+    ContactCandidate {
         a: a.link,
         b: b.link,
         point: a.pose.point(core_a.point),
@@ -142,8 +146,8 @@ fn spot((a, p_a, n_a): (&Collider, Vec3<f64>, Vec3<f64>), (b, p_b, n_b): (&Colli
     }
 }
 
-fn over_plane((a, core): (&Collider, Core), (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>)) -> Spot {
-    Spot {
+fn over_plane((a, core): (&Collider, Core), (b, p_b, n_b): (&Collider, Vec3<f64>, Vec3<f64>)) -> ContactCandidate {
+    ContactCandidate {
         a: a.link,
         b: b.link,
         point: a.pose.point(core.point),
@@ -154,12 +158,12 @@ fn over_plane((a, core): (&Collider, Core), (b, p_b, n_b): (&Collider, Vec3<f64>
     }
 }
 
-/// What is inside a rounded surface at a point of it.
+/// Core of a rounded surface under one of its points: centre of curvature and radius.
 #[derive(Clone, Copy)]
 struct Core {
     point: Vec3<f64>,
     radius: f64,
-    /// Where the core is a line.
+    /// Direction of the core where it is a line.
     axis: Option<Vec3<f64>>,
 }
 

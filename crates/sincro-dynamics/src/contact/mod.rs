@@ -1,24 +1,33 @@
-//! What touches what: shapes with a material, pairs of them, and the spots where a pair may touch.
+//! Contact detection: colliders with their materials, pairs of them, and contact candidates.
 //!
-//! Contact is asked for: a shape takes part if it has a [`Material`]. Two such shapes are a pair unless they are fixed to one another, joined directly by
-//! a joint, or in the same group. A pair has as many slots as it may have points of contact, so that states have a fixed length.
+//! A shape takes part in contact if it has a [`Material`]. Two such shapes form a pair unless they are fixed to one
+//! another, joined directly by a joint, or in the same group. A pair has a fixed number of slots, the most contact
+//! points it may have, so that states have a fixed length.
 //!
-//! Friction of a pair is the geometric mean of the two coefficients (nothing sticks to what is frictionless), restitution the larger one; lengths of
-//! rolling and spinning friction the larger one; compliances are added.
+//! Broad phase: bounding spheres of the pair against a margin (`detect`). Narrow phase, by kind of pair: closed forms
+//! for points, cylinders and spheres against planes and cuboids (`detect`), separating axes and face clipping for
+//! convex polytopes ([`crate::geometry`], `sat`), contact manifolds of the collision library for the rest (`manifold`).
+//! Every contact candidate is a rounded point of one body against a plane, line or point of the other (`candidate`),
+//! which gives signed distance, normal and their rates exactly, curvature included.
+//!
+//! The contact law of a pair combines two materials: the geometric mean of the friction coefficients (nothing sticks to
+//! a frictionless surface), the larger restitution, the larger lengths of rolling and spinning friction, the sum of the
+//! compliances.
 
+pub(crate) mod candidate;
 mod detect;
-pub(crate) mod feature;
 mod manifold;
-pub mod polyhedron;
-mod polytope;
 
+pub use crate::geometry::Surface;
+use crate::geometry::sat::Polytope;
 pub(crate) use detect::Detector;
-use polytope::Polytope;
 
-use crate::model::{Shape, WORLD};
+use crate::geometry::Shape;
+use crate::ids::BodyId;
+use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
-/// How a surface answers to contact.
+/// Contact properties of one surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Coulomb's coefficient.
@@ -52,7 +61,7 @@ impl Default for Material {
 }
 
 impl Material {
-    /// What two surfaces do to each other.
+    /// Contact law of a pair of surfaces.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {
@@ -67,58 +76,13 @@ impl Material {
     }
 }
 
-/// The geometry of a surface.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Surface {
-    /// A solid.
-    Solid(Shape),
-    /// Everything below z = 0 of its frame; fixed in the world.
-    HalfSpace,
-    /// Convex hull of points `[m]`.
-    Hull(Vec<[f64; 3]>),
-    /// A closed triangle mesh: vertices `[m]` and counter-clockwise triangles; fixed in the world.
-    Mesh(Vec<[f64; 3]>, Vec<[u32; 3]>),
-    /// Heights `[m]` over a grid centred on the frame, row by row along x, extents along x and y `[m]`; fixed in the world.
-    HeightField {
-        /// Points along x.
-        columns: usize,
-        /// Heights, `columns` a row.
-        heights: Vec<f64>,
-        /// Extents.
-        size: [f64; 2],
-    },
-}
-
-impl Surface {
-    /// Radius of a ball about the frame's origin that holds it `[m]`; infinite for a half space.
-    #[must_use]
-    pub fn reach(&self) -> f64 {
-        let length = |p: &[f64; 3]| Vec3(*p).norm();
-        match self {
-            Self::Solid(Shape::Sphere { radius }) => *radius,
-            Self::Solid(Shape::Cuboid { size }) => 0.5 * length(size),
-            Self::Solid(Shape::Capsule { radius, length }) => 0.5 * length + radius,
-            Self::Solid(Shape::Cylinder { radius, length }) => (0.25 * length * length + radius * radius).sqrt(),
-            Self::Solid(Shape::Cone { radius, length }) => {
-                (0.75 * length).max((length * length / 16.0 + radius * radius).sqrt())
-            }
-            Self::Hull(points) | Self::Mesh(points, _) => points.iter().map(length).fold(0.0, f64::max),
-            Self::HalfSpace => f64::INFINITY,
-            Self::HeightField { heights, size, .. } => {
-                let top = heights.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-                length(&[0.5 * size[0], 0.5 * size[1], top])
-            }
-        }
-    }
-}
-
-/// A surface where it is fixed.
+/// Collider: a surface fixed in a link or the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider {
     /// Name of the body.
     pub name: String,
-    /// Its index among the frames of the model's names; `usize::MAX` for the world itself.
-    pub frame: usize,
+    /// Id of the body or frame; none for the world itself.
+    pub body: Option<BodyId>,
     /// The link, `WORLD` for none.
     pub(crate) link: u32,
     /// In the link, or the world.
@@ -129,14 +93,14 @@ pub struct Collider {
     pub material: Material,
 }
 
-/// Two surfaces that may touch.
+/// Pair of colliders that may come into contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     /// Index of the surface whose points touch.
     pub a: usize,
     /// Index of the surface that is touched.
     pub b: usize,
-    /// What they do to each other.
+    /// Contact law of the pair.
     pub material: Material,
     /// First slot.
     pub first: usize,
@@ -145,7 +109,7 @@ pub struct Pair {
     kind: PairKind,
 }
 
-/// How the spots of a pair are found.
+/// Narrow-phase algorithm of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PairKind {
     /// Rounded points of a against the plane b.
@@ -162,11 +126,12 @@ enum PairKind {
     General,
 }
 
-/// Most points of a manifold between two solids.
+/// Maximum number of points of a contact manifold between two solids.
 const MANIFOLD: usize = 8;
 
 impl Collider {
-    /// Rounded points that stand for the surface over a plane, in the link: corners, ends of a capsule; none for others.
+    /// Rounded points that represent the surface over a plane, in the link: vertices, ends of a capsule; none for
+    /// others.
     fn points(&self) -> (Vec<Vec3<f64>>, f64) {
         let at = |p: [f64; 3]| self.pose.point(Vec3(p));
         match &self.surface {
@@ -213,7 +178,7 @@ pub(crate) fn pairs(colliders: &[Collider], joined: impl Fn(u32, u32) -> bool) -
     pairs
 }
 
-/// Who touches whom, and how it is found; none for two things that cannot touch.
+/// Roles of two colliders, their narrow-phase algorithm and number of slots; none if they cannot touch.
 fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, PairKind, usize)> {
     let fixed = |k: usize| !matches!(colliders[k].surface, Surface::Solid(_) | Surface::Hull(_));
     if fixed(i) && fixed(j) {
@@ -235,7 +200,9 @@ fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, 
         (true, false) if is(b, cuboid) => (a, b, PairKind::BallOnCuboid, 1),
         (false, true) if is(a, cuboid) => (b, a, PairKind::BallOnCuboid, 1),
         (false, true) => (b, a, PairKind::General, MANIFOLD),
-        _ if [a, b].iter().all(|k| Polytope::of(&colliders[*k]).is_some()) => (a, b, PairKind::Polytopes, MANIFOLD),
+        _ if [a, b].iter().all(|k| Polytope::new(&colliders[*k].surface, &colliders[*k].pose).is_some()) => {
+            (a, b, PairKind::Polytopes, MANIFOLD)
+        }
         _ => (a, b, PairKind::General, MANIFOLD),
     })
 }

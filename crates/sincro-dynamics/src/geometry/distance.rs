@@ -1,21 +1,22 @@
-//! Distances: the closest points of two surfaces, and of a surface and a point. 0 where solids meet; a mesh or height field is its triangles and has no
-//! inside. Balls, capsules, cuboids, hulls, half spaces and triangles are exact to rounding, cylinders and cones to about 1e-12 of their size.
+//! Closest points of two surfaces, and of a surface and a point. The distance is 0 where solids overlap; a mesh or
+//! height field is the set of its triangles and has no inside. Spheres, capsules, cuboids, hulls, half spaces and
+//! triangles are exact to rounding, cylinders and cones to about 1e-12 of their size.
 
 use super::Geometry;
-use super::gap::{Convex, Gap, gap};
-use super::solid::{Core, POINT, Placed, Solid};
-use super::tree::Tree;
+use super::bvh::Bvh;
+use super::gjk::{Convex, Separation, gjk};
+use super::support::{Core, POINT, Placed, Solid};
 use crate::spatial::{Pose, Vec3};
 
-/// How far the normals of two half spaces may be from opposite for a distance between them.
+/// Tolerance on opposite normals of two half spaces that have a distance between them.
 const OPPOSITE: f64 = 1e-12;
 
 /// The closest points of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// `[m]`; 0 if they meet.
+    /// Distance `[m]`; 0 if they overlap.
     pub distance: f64,
-    /// On the first and on the second, in the frame of the first `[m]`; one point of both if they meet.
+    /// Points on the first and on the second, in the frame of the first `[m]`; one common point if they overlap.
     pub points: [Vec3<f64>; 2],
 }
 
@@ -30,46 +31,50 @@ impl Closest {
 }
 
 impl Geometry {
-    /// The closest points of this surface and another one, whose frame stands at `x_ab` in this one's, if they are within `most` `[m]`.
+    /// Returns the closest points of this surface and another one, whose frame stands at `x_ab` in this one's, if they
+    /// are within `max_distance` `[m]`.
     #[must_use]
-    pub fn closest(&self, other: &Self, x_ab: &Pose<f64>, most: f64) -> Option<Closest> {
+    pub fn closest(&self, other: &Self, x_ab: &Pose<f64>, max_distance: f64) -> Option<Closest> {
         let place = |core, radius, pose| Placed { core, radius, pose };
         let x_ba = || x_ab.inverse();
         let found = match (self.solid(), other.solid()) {
             (Solid::Convex(a, r), Solid::Convex(b, s)) => {
-                Some(rounded(&place(a, r, Pose::identity()), &place(b, s, *x_ab)))
+                Some(closest_points(&place(a, r, Pose::identity()), &place(b, s, *x_ab)))
             }
             (Solid::HalfSpace, Solid::Convex(b, s)) => Some(over_half_space(&place(b, s, *x_ab))),
             (Solid::Convex(a, r), Solid::HalfSpace) => Some(over_half_space(&place(a, r, x_ba())).turned().moved(x_ab)),
             (Solid::HalfSpace, Solid::HalfSpace) => Some(half_spaces(x_ab)),
-            (Solid::HalfSpace, Solid::Triangles(tree)) => triangles_over(tree, x_ab),
-            (Solid::Triangles(tree), Solid::HalfSpace) => triangles_over(tree, &x_ba()).map(|c| c.turned().moved(x_ab)),
-            (Solid::Triangles(tree), Solid::Convex(b, s)) => {
-                convex_and_triangles(&place(b, s, *x_ab), other.reach, tree, most).map(Closest::turned)
+            (Solid::HalfSpace, Solid::Triangles(bvh)) => triangles_over(bvh, x_ab),
+            (Solid::Triangles(bvh), Solid::HalfSpace) => triangles_over(bvh, &x_ba()).map(|c| c.turned().moved(x_ab)),
+            (Solid::Triangles(bvh), Solid::Convex(b, s)) => {
+                convex_and_triangles(&place(b, s, *x_ab), other.reach, bvh, max_distance).map(Closest::turned)
             }
-            (Solid::Convex(a, r), Solid::Triangles(tree)) => {
-                convex_and_triangles(&place(a, r, x_ba()), self.reach, tree, most).map(|c| c.moved(x_ab))
+            (Solid::Convex(a, r), Solid::Triangles(bvh)) => {
+                convex_and_triangles(&place(a, r, x_ba()), self.reach, bvh, max_distance).map(|c| c.moved(x_ab))
             }
-            (Solid::Triangles(one), Solid::Triangles(two)) => triangles(one, two, x_ab, most),
+            (Solid::Triangles(one), Solid::Triangles(two)) => triangles(one, two, x_ab, max_distance),
         };
-        found.filter(|closest| closest.distance <= most)
+        found.filter(|closest| closest.distance <= max_distance)
     }
 
-    /// The point of this surface that is closest to `p`, which is the second; both in this surface's frame.
+    /// Returns the point of this surface that is closest to `p`, and `p` as the second point; both in this surface's
+    /// frame.
     #[must_use]
     pub fn closest_to(&self, p: Vec3<f64>) -> Option<Closest> {
         let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };
         match self.solid() {
-            Solid::Convex(core, radius) => Some(rounded(&Placed { core, radius, pose: Pose::identity() }, &point)),
+            Solid::Convex(core, radius) => {
+                Some(closest_points(&Placed { core, radius, pose: Pose::identity() }, &point))
+            }
             Solid::HalfSpace => Some(over_half_space(&point)),
-            Solid::Triangles(tree) => convex_and_triangles(&point, 0.0, tree, f64::INFINITY).map(Closest::turned),
+            Solid::Triangles(bvh) => convex_and_triangles(&point, 0.0, bvh, f64::INFINITY).map(Closest::turned),
         }
     }
 }
 
 /// Two convex sets with their roundings.
-pub(super) fn rounded(a: &Placed<'_>, b: &Placed<'_>) -> Closest {
-    let Gap { distance, points: [p, q] } = gap(a, b);
+pub(super) fn closest_points(a: &Placed<'_>, b: &Placed<'_>) -> Closest {
+    let Separation { distance, points: [p, q] } = gjk(a, b);
     let apart = distance - a.radius - b.radius;
     if distance > 0.0 {
         let towards = (q - p).scale(1.0 / distance);
@@ -86,7 +91,7 @@ pub(super) fn rounded(a: &Placed<'_>, b: &Placed<'_>) -> Closest {
 /// The half space z ≤ 0 and a convex set.
 fn over_half_space(b: &Placed<'_>) -> Closest {
     let down = Vec3([0.0, 0.0, -1.0]);
-    let lowest = b.farthest(down) + down.scale(b.radius);
+    let lowest = b.support(down) + down.scale(b.radius);
     over(lowest)
 }
 
@@ -115,18 +120,18 @@ fn half_spaces(x_ab: &Pose<f64>) -> Closest {
     Closest { distance: 0.0, points: [point; 2] }
 }
 
-fn triangles_over(tree: &Tree, x_ab: &Pose<f64>) -> Option<Closest> {
-    let corners = tree.triangles().iter().flatten().map(|c| x_ab.point(*c));
+fn triangles_over(bvh: &Bvh, x_ab: &Pose<f64>) -> Option<Closest> {
+    let corners = bvh.triangles().iter().flatten().map(|c| x_ab.point(*c));
     corners.reduce(|low, c| if c[2] < low[2] { c } else { low }).map(over)
 }
 
 /// A convex set, within `reach` of its frame's origin, and triangles, in the frame of the triangles; its point first.
-fn convex_and_triangles(a: &Placed<'_>, reach: f64, tree: &Tree, most: f64) -> Option<Closest> {
+fn convex_and_triangles(a: &Placed<'_>, reach: f64, bvh: &Bvh, max_distance: f64) -> Option<Closest> {
     let mut best: Option<Closest> = None;
-    tree.visit(a.pose.pos, reach, most, &mut |triangle, most| {
+    bvh.visit(a.pose.pos, reach, max_distance, &mut |triangle, max_distance| {
         let placed = Placed { core: Core::Triangle(*triangle), radius: 0.0, pose: Pose::identity() };
-        let found = rounded(a, &placed);
-        if found.distance > most || best.is_some_and(|best| found.distance >= best.distance) {
+        let found = closest_points(a, &placed);
+        if found.distance > max_distance || best.is_some_and(|best| found.distance >= best.distance) {
             return None;
         }
         best = Some(found);
@@ -135,13 +140,13 @@ fn convex_and_triangles(a: &Placed<'_>, reach: f64, tree: &Tree, most: f64) -> O
     best
 }
 
-fn triangles(one: &Tree, two: &Tree, x_ab: &Pose<f64>, most: f64) -> Option<Closest> {
+fn triangles(one: &Bvh, two: &Bvh, x_ab: &Pose<f64>, max_distance: f64) -> Option<Closest> {
     if one.triangles().len() > two.triangles().len() {
-        return triangles(two, one, &x_ab.inverse(), most).map(|c| c.turned().moved(x_ab));
+        return triangles(two, one, &x_ab.inverse(), max_distance).map(|c| c.turned().moved(x_ab));
     }
     let (x_ba, mut best) = (x_ab.inverse(), None::<Closest>);
     for triangle in one.triangles() {
-        let limit = best.map_or(most, |best| best.distance);
+        let limit = best.map_or(max_distance, |best| best.distance);
         let corners = triangle.map(|c| x_ba.point(c));
         let middle = (corners[0] + corners[1] + corners[2]).scale(1.0 / 3.0);
         let reach = corners.iter().map(|c| (*c - middle).norm()).fold(0.0, f64::max);

@@ -1,11 +1,11 @@
 //! Distances against closed forms, against planes that separate, and against triangle after triangle.
 
-use super::gap::Convex;
-use super::library::library_pose;
-use super::solid::{Core, Placed, Solid};
+use super::Shape;
+use super::gjk::Convex;
+use super::parry::parry_pose;
+use super::support::{Core, Placed, Solid};
 use super::tests::{Numbers, surfaces};
 use super::*;
-use crate::model::Shape;
 use crate::spatial::{Pose, Quat};
 
 impl Numbers {
@@ -70,14 +70,14 @@ pub(super) fn parts(geometry: &Geometry) -> Vec<Placed<'_>> {
     let placed = |core, radius| Placed { core, radius, pose: Pose::identity() };
     match geometry.solid() {
         Solid::Convex(core, radius) => vec![placed(core, radius)],
-        Solid::Triangles(tree) => tree.triangles().iter().map(|t| placed(Core::Triangle(*t), 0.0)).collect(),
+        Solid::Triangles(bvh) => bvh.triangles().iter().map(|t| placed(Core::Triangle(*t), 0.0)).collect(),
         Solid::HalfSpace => Vec::new(),
     }
 }
 
-/// How far along `n` a part goes.
+/// Extent of a part along `n`.
 pub(super) fn along(part: &Placed<'_>, n: Vec3<f64>) -> f64 {
-    n.dot(part.farthest(n)) + part.radius
+    n.dot(part.support(n)) + part.radius
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn the_tree_finds_what_all_triangles_give() {
                 for one in parts(&a) {
                     for two in parts(b) {
                         let two = Placed { pose, ..two };
-                        least = least.min(super::distance::rounded(&one, &two).distance);
+                        least = least.min(super::distance::closest_points(&one, &two).distance);
                     }
                 }
                 let found = a.closest(b, &pose, f64::INFINITY).unwrap().distance;
@@ -144,7 +144,7 @@ fn distances_are_those_of_the_library_as_far_as_it_goes() {
         for b in &convex {
             for _ in 0..100 {
                 let pose = numbers.pose(1.5);
-                let at = |own: &Geometry, x: &Pose<f64>| library_pose(&x.compose(&own.library.pose));
+                let at = |own: &Geometry, x: &Pose<f64>| parry_pose(&x.compose(&own.library.pose));
                 let (at_a, at_b) = (at(a, &Pose::identity()), at(b, &pose));
                 let (one, two) = (&*a.library.shape.0, &*b.library.shape.0);
                 let theirs = parry3d_f64::query::distance(&at_a, one, &at_b, two).unwrap().distance;

@@ -1,69 +1,93 @@
-//! Surfaces to look at: what a ray hits first, what is closest, what a proximity sensor sees. No part of a step; sensors and clients ask.
+//! Geometry of surfaces: shapes with their mass properties, support mappings, distances, ray casts, fields of view of
+//! proximity sensors.
 //!
-//! Rays have closed forms on solids, hulls are cut by the planes of their faces, meshes and height fields are the collision library's. Distances are
-//! those of convex sets (`gap`), triangle by triangle for meshes and height fields (`tree`).
+//! A [`Geometry`] is a surface prepared for queries. Ray casts have closed forms on solids, hulls are cut by the planes
+//! of their faces, meshes and height fields use the collision library. Distances are those of convex sets by GJK on
+//! support mappings, and triangle by triangle for meshes and height fields in a bounding volume hierarchy. No query is
+//! part of a step; contact detection uses the surfaces and the separating axes only.
+//!
+//! | file | content |
+//! |---|---|
+//! | `shape`, `mass`, `polyhedron`, `surface` | solids, mass properties, triangle meshes, surfaces of colliders |
+//! | `support` | support mappings of the convex surfaces |
+//! | `gjk` | distance of two convex sets |
+//! | `bvh` | bounding volume hierarchy of triangles |
+//! | `sat` | separating axes and face clipping of convex polytopes |
+//! | `distance` | closest points of two surfaces, or of a surface and a point |
+//! | `ray_cast` | ray casts against solids |
+//! | `field_of_view`, `proximity` | volumes of proximity sensors, and the detection in them |
+//! | `parry` | conversion to the collision library |
+//!
+//! Source: C. Ericson, key `ericson2004`, chapters 4 to 6 and 9.
 
+mod bvh;
 mod distance;
 #[cfg(test)]
 mod distance_tests;
-mod gap;
-pub(crate) mod library;
-mod nearest;
+mod field_of_view;
+mod gjk;
+mod mass;
+pub(crate) mod parry;
+pub mod polyhedron;
+mod proximity;
 #[cfg(test)]
-mod nearest_tests;
-mod ray;
-mod solid;
+mod proximity_tests;
+mod ray_cast;
+pub(crate) mod sat;
+mod shape;
+mod support;
+mod surface;
 #[cfg(test)]
 mod tests;
-mod tree;
-mod volume;
 
 use parry3d_f64::query::Ray as LibraryRay;
 
-use crate::contact::Surface;
 use crate::spatial::Vec3;
-use library::{LibraryShape, vec3};
-use tree::Tree;
+use bvh::Bvh;
+use parry::{ParryShape, vec3};
 
 pub use distance::Closest;
-pub use nearest::Sighting;
-pub use volume::{Field, Volume};
+pub use field_of_view::{FieldOfView, Volume};
+pub use mass::MassProperties;
+pub use proximity::Detection;
+pub use shape::Shape;
+pub use surface::Surface;
 
 /// A ray: a point and a direction of length one, in whatever frame is said.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts `[m]`.
+    /// Origin `[m]`.
     pub origin: Vec3<f64>,
-    /// Where it goes, length one.
+    /// Direction, length one.
     pub direction: Vec3<f64>,
 }
 
 impl Ray {
-    /// The point at a distance `[m]` from its start.
+    /// Returns the point at a distance `[m]` from the origin.
     #[must_use]
     pub fn at(&self, distance: f64) -> Vec3<f64> {
         self.origin + self.direction.scale(distance)
     }
 }
 
-/// Where a ray enters a surface.
+/// Hit of a ray cast: the point where a ray enters a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// From the ray's start `[m]`.
+    /// Distance from the ray's origin `[m]`.
     pub distance: f64,
-    /// Out of the surface, length one, in the frame of the ray.
+    /// Outward unit normal, in the frame of the ray.
     pub normal: Vec3<f64>,
 }
 
-/// A surface, ready to be looked at.
+/// Surface prepared for ray casts, distances and detection.
 #[derive(Clone)]
 pub struct Geometry {
     surface: Surface,
-    library: LibraryShape,
-    /// Of a hull: outward normals and distances from the origin.
+    library: ParryShape,
+    /// Outward normals of a hull's faces and their distances from the origin.
     faces: Vec<(Vec3<f64>, f64)>,
-    /// Of a mesh or height field: its triangles.
-    tree: Tree,
+    /// Triangles of a mesh or height field.
+    bvh: Bvh,
     reach: f64,
 }
 
@@ -74,24 +98,24 @@ impl std::fmt::Debug for Geometry {
 }
 
 impl Geometry {
-    /// A surface; none if it has no extent that can be computed with, such as a flat hull.
+    /// Prepares a surface; none if it has no extent that can be computed with, such as a flat hull.
     #[must_use]
     pub fn new(surface: Surface) -> Option<Self> {
-        let library = LibraryShape::of(&surface)?;
+        let library = ParryShape::of(&surface)?;
         let faces = match library.shape.as_convex_polyhedron() {
-            Some(hull) => {
+            Some(convex_hull) => {
                 let of = |k: usize| {
-                    let normal = vec3(hull.faces()[k].normal);
-                    let first = hull.faces()[k].first_vertex_or_edge as usize;
-                    let corner = hull.points()[hull.vertices_adj_to_face()[first] as usize];
+                    let normal = vec3(convex_hull.faces()[k].normal);
+                    let first = convex_hull.faces()[k].first_vertex_or_edge as usize;
+                    let corner = convex_hull.points()[convex_hull.vertices_adj_to_face()[first] as usize];
                     (normal, normal.dot(vec3(corner)))
                 };
-                (0..hull.faces().len()).map(of).collect()
+                (0..convex_hull.faces().len()).map(of).collect()
             }
             None => Vec::new(),
         };
-        let (tree, reach) = (Tree::new(library.triangles()), surface.reach());
-        Some(Self { surface, library, faces, tree, reach })
+        let (bvh, reach) = (Bvh::new(library.triangles()), surface.reach());
+        Some(Self { surface, library, faces, bvh, reach })
     }
 
     /// The surface.
@@ -100,29 +124,30 @@ impl Geometry {
         &self.surface
     }
 
-    /// Radius of a ball about the frame's origin that holds it `[m]`; infinite for a half space.
+    /// Radius of the bounding sphere about the frame's origin `[m]`; infinite for a half space.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Where a ray, given in the surface's frame, enters it from outside within `most` `[m]`; what starts inside a solid does not see it.
+    /// Ray cast: the first point within `max_distance` `[m]` where a ray, given in the surface's frame, enters the
+    /// surface from outside. A ray that starts inside a solid does not hit it.
     #[must_use]
-    pub fn hit(&self, ray: &Ray, most: f64) -> Option<Hit> {
+    pub fn cast_ray(&self, ray: &Ray, max_distance: f64) -> Option<Hit> {
         let hit = match &self.surface {
-            Surface::Solid(shape) => ray::solid(shape, ray),
-            Surface::HalfSpace => ray::half_space(ray),
-            Surface::Hull(_) => ray::planes(self.faces.iter().copied(), ray),
-            Surface::Mesh(..) | Surface::HeightField { .. } => return self.hit_library(ray, most),
+            Surface::Solid(shape) => ray_cast::solid(shape, ray),
+            Surface::HalfSpace => ray_cast::half_space(ray),
+            Surface::Hull(_) => ray_cast::planes(self.faces.iter().copied(), ray),
+            Surface::Mesh(..) | Surface::HeightField { .. } => return self.cast_ray_parry(ray, max_distance),
         };
-        hit.filter(|hit| hit.distance <= most)
+        hit.filter(|hit| hit.distance <= max_distance)
     }
 
-    fn hit_library(&self, ray: &Ray, most: f64) -> Option<Hit> {
-        let LibraryShape { shape, pose } = &self.library;
+    fn cast_ray_parry(&self, ray: &Ray, max_distance: f64) -> Option<Hit> {
+        let ParryShape { shape, pose } = &self.library;
         let local = |v: Vec3<f64>| pose.rot.tr_mul_vec(v).0;
         let theirs = LibraryRay::new(local(ray.origin - pose.pos).into(), local(ray.direction).into());
-        let hit = shape.cast_local_ray_and_get_normal(&theirs, most, false)?;
+        let hit = shape.cast_local_ray_and_get_normal(&theirs, max_distance, false)?;
         let normal = pose.rot.mul_vec(vec3(hit.normal));
         Some(Hit { distance: hit.time_of_impact, normal })
     }

@@ -1,7 +1,7 @@
 //! Rays against the collision library's, which finds them by other ways.
 
+use super::Shape;
 use super::*;
-use crate::model::Shape;
 
 /// Numbers from −1 to 1, always the same.
 pub(super) struct Numbers(pub u64);
@@ -40,10 +40,10 @@ fn rays_enter_where_the_library_says() {
             let origin = numbers.vector().scale(2.0);
             let aim = numbers.vector().scale(0.6) - origin;
             let ray = Ray { origin, direction: aim.scale(1.0 / aim.norm()) };
-            let LibraryShape { shape, pose } = &geometry.library;
+            let ParryShape { shape, pose } = &geometry.library;
             let inside = shape.contains_local_point(pose.rot.tr_mul_vec(ray.origin - pose.pos).0.into());
-            let theirs = if inside { None } else { geometry.hit_library(&ray, 10.0) };
-            match (geometry.hit(&ray, 10.0), theirs) {
+            let theirs = if inside { None } else { geometry.cast_ray_parry(&ray, 10.0) };
+            match (geometry.cast_ray(&ray, 10.0), theirs) {
                 (Some(ours), Some(theirs)) => {
                     hits += 1;
                     let apart = (ours.distance - theirs.distance).abs();
@@ -86,7 +86,7 @@ fn the_point_of_entry_lies_on_the_surface() {
         for _ in 0..5_000 {
             let direction = numbers.vector();
             let ray = Ray { origin: numbers.vector().scale(3.0), direction: direction.scale(1.0 / direction.norm()) };
-            if let Some(hit) = geometry.hit(&ray, 20.0) {
+            if let Some(hit) = geometry.cast_ray(&ray, 20.0) {
                 assert!(on(&surface, ray.at(hit.distance)) < 1e-12, "{surface:?} {ray:?}");
             }
         }
@@ -98,9 +98,9 @@ fn nothing_is_seen_beyond_the_range_or_from_inside() {
     for surface in surfaces() {
         let geometry = Geometry::new(surface).unwrap();
         let down = Ray { origin: Vec3([0.05, 0.02, 5.0]), direction: Vec3([0.0, 0.0, -1.0]) };
-        let hit = geometry.hit(&down, 10.0).unwrap();
-        assert!(geometry.hit(&down, hit.distance - 1e-9).is_none());
-        assert!(geometry.hit(&Ray { origin: down.at(hit.distance + 1e-6), ..down }, 10.0).is_none());
-        assert!(geometry.hit(&Ray { direction: -down.direction, ..down }, 10.0).is_none());
+        let hit = geometry.cast_ray(&down, 10.0).unwrap();
+        assert!(geometry.cast_ray(&down, hit.distance - 1e-9).is_none());
+        assert!(geometry.cast_ray(&Ray { origin: down.at(hit.distance + 1e-6), ..down }, 10.0).is_none());
+        assert!(geometry.cast_ray(&Ray { direction: -down.direction, ..down }, 10.0).is_none());
     }
 }

@@ -1,8 +1,8 @@
 //! Dormand–Prince 5(4): explicit, error-controlled, the field's workhorse for smooth problems.
 //!
-//! Source: key `hairer1993`, section II.5, table 5.2; step size control by proportional–integral feedback, section II.4 and
-//! key `hairer1996`, section IV.2 (β = 0.04). The last stage could be the next step's first; here it
-//! is evaluated again, because motors may have new commands and a snapshot should hold no slopes.
+//! Source: key `hairer1993`, section II.5, table 5.2; step size control by proportional–integral feedback, section II.4
+//! and key `hairer1996`, section IV.2 (β = 0.04). The last stage could be the next step's first; here it is evaluated
+//! again, because motors may have new commands and a snapshot should hold no slopes.
 
 use super::{Control, Failure, System, power, too_small};
 
@@ -40,7 +40,8 @@ impl DormandPrince {
         Self { control, k: std::array::from_fn(|_| zero.clone()), stage: zero.clone(), error: zero }
     }
 
-    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and after.
+    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and
+    /// after.
     ///
     /// # Errors
     ///

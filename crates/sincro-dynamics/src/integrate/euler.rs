@@ -1,5 +1,6 @@
-//! Semi-implicit Euler: new velocity from forces at the old state, new position from the new velocity; joint dampers act at the new
-//! velocity. Order 1. What most engines do: symplectic, so that an undamped swing keeps its amplitude, as long as h·ω < 2.
+//! Semi-implicit Euler: new velocity from forces at the old state, new position from the new velocity; joint dampers
+//! act at the new velocity. Order 1. What most engines do: symplectic, so that an undamped swing keeps its amplitude,
+//! as long as h·ω < 2.
 //!
 //! v⁺ = v + h (M + h D)⁻¹ τ(q, v),  q⁺ = q ⊕ h v⁺, with D the joint dampers.
 

@@ -1,19 +1,21 @@
 //! Extrapolated linearly implicit Euler: the implicit methods of fixed and of variable step.
 //!
-//! One step H is done by 1, 2, 3 … linearly implicit Euler steps of H, H/2, H/3 …; their results have an error expansion in powers
-//! of the small step, and Aitken–Neville elimination takes away one power a row: T_jj has order j, T_jj − T_j,j−1 estimates its
-//! error. Only the base step is implicit, and it costs one forward-dynamics call with a diagonal added to the mass matrix: no
-//! Jacobian, no dense matrix, linear in the number of links. The expansion holds for any stiff part taken implicitly, so that
-//! the order does not depend on it. T_22 (the fixed-step method) is L-stable for the implicit part; T_jj is A(89.7°)-stable.
+//! One step H is done by 1, 2, 3 … linearly implicit Euler steps of H, H/2, H/3 …; their results have an error
+//! expansion in powers of the small step, and Aitken–Neville elimination takes away one power a row: T_jj has order j,
+//! T_jj − T_j,j−1 estimates its error. Only the base step is implicit, and it costs one forward-dynamics call with a
+//! diagonal added to the mass matrix: no Jacobian, no dense matrix, linear in the number of links. The expansion holds
+//! for any stiff part taken implicitly, so that the order does not depend on it. T_22 (the fixed-step method) is
+//! L-stable for the implicit part; T_jj is A(89.7°)-stable.
 //!
-//! Source: key `hairer1996`, section IV.9 (linearly implicit Euler extrapolation, SEULEX), table 9.1; order and step size after
-//! section II.9 of key `hairer1993`, simplified: a step is accepted at the first row that meets the tolerance.
+//! Source: key `hairer1996`, section IV.9 (linearly implicit Euler extrapolation, SEULEX), table 9.1; order and step
+//! size after section II.9 of key `hairer1993`, simplified: a step is accepted at the first row that meets the
+//! tolerance.
 
 use sincro_math::Real;
 
 use super::{Control, Failure, FixedStep, Implicit, System, power, too_small};
 
-/// Most rows of the tableau.
+/// Maximum number of rows of the tableau.
 const MAX_ROWS: usize = 8;
 
 /// The method and its working memory.
@@ -82,7 +84,8 @@ impl<R: Real> FixedStep<R> for Extrapolated<R> {
 }
 
 impl Extrapolated<f64> {
-    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and after.
+    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and
+    /// after.
     ///
     /// # Errors
     ///

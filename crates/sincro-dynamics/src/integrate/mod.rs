@@ -1,8 +1,8 @@
 //! Integrators: from one instant to another.
 //!
-//! An integrator knows nothing of joints. It advances a vector y in the chart that a [`System`] lays at the start of each step, so
-//! that a quaternion is three numbers like any others and stays a unit quaternion exactly; and it works on lanes as on one
-//! world.
+//! An integrator knows nothing of joints. It advances a vector y in the chart that a [`System`] lays at the start of
+//! each step, so that a quaternion is three numbers like any others and stays a unit quaternion exactly; and it works
+//! on lanes as on one world.
 //!
 //! | name | order | for |
 //! |---|---|---|
@@ -24,19 +24,20 @@ pub use rk4::Rk4;
 
 use sincro_math::Real;
 
-/// What can be integrated: dy/dt = f(t, y) in local coordinates.
+/// System of ordinary differential equations dy/dt = f(t, y) in local coordinates.
 pub trait System<R: Real> {
     /// Length of y.
     fn dim(&self) -> usize;
 
-    /// Whether an entry of y takes part in error control; the others are quadratures that nothing depends on.
+    /// Returns true if an entry of y takes part in error control; the others are quadratures that nothing depends on.
     fn is_controlled(&self, k: usize) -> bool;
 
     /// `slope = f(t, y)`.
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]);
 
-    /// One linearly implicit Euler step of length `h` from `y`: `slope` such that the new y is `y + h·slope`. Its dependence on
-    /// h is smooth, which extrapolation lives on; the terms named by `implicit` are taken at the new state.
+    /// One linearly implicit Euler step of length `h` from `y`: `slope` such that the new y is `y + h·slope`. Its
+    /// dependence on h is smooth, which extrapolation lives on; the terms named by `implicit` are taken at the new
+    /// state.
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]);
 
     /// Lays a new chart at `y`, after which the same state is described by what `y` then holds.
@@ -46,7 +47,7 @@ pub trait System<R: Real> {
     fn magnitude(&self, y: &[R], k: usize) -> f64;
 }
 
-/// Which terms a linearly implicit step takes at the new state.
+/// Terms that a linearly implicit step evaluates at the new state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Implicit {
     /// Joint dampers; springs at the old state keep an undamped swing undamped.
@@ -61,24 +62,24 @@ pub trait FixedStep<R: Real> {
     fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]);
 }
 
-/// Why a step could not be made.
+/// Cause of a failed step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Failure {
     /// The state stopped being finite.
     NotFinite {
-        /// Where it happened `[s]`.
+        /// Time of the failure `[s]`.
         t: f64,
     },
     /// Error control asked for a step too small to advance time.
     StepTooSmall {
-        /// Where it happened `[s]`.
+        /// Time of the failure `[s]`.
         t: f64,
         /// The step it asked for `[s]`.
         h: f64,
     },
 }
 
-/// What error-controlled methods share: the tolerance and the proposed next step.
+/// Error control: the tolerance and the proposed next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Local error allowed in a step, relative to max(|y|, 1).

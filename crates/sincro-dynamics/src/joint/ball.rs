@@ -2,8 +2,7 @@
 
 use sincro_math::Real;
 
-use super::{Placement, Stage};
-use crate::model::Link;
+use super::{Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, Quat, RigidInertia, Vec3};
 
 /// Any rotation about the link's origin.

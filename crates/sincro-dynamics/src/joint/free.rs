@@ -1,9 +1,9 @@
-//! Free joint: S = 1, six degrees of freedom; rates are the link's twist against its parent in link axes, angular first.
+//! Free joint: S = 1, six degrees of freedom; rates are the link's twist against its parent in link axes, angular
+//! first.
 
 use sincro_math::Real;
 
-use super::{Ball, Placement, Stage};
-use crate::model::Link;
+use super::{Ball, Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, Quat, RigidInertia, Vec3};
 
 /// Unconstrained motion.

@@ -1,15 +1,18 @@
-//! Joints: how a link may move against its parent.
+//! Joints: the relative motions of a link and its parent.
 //!
-//! Users name eight kinds ([`JointKind`]); universal and planar ones are chains of one-degree-of-freedom joints without mass
-//! in between, and fixed ones are merged away when the model is built. What the recursions see is a [`Stage`]: one file each,
-//! the same verbs in each, and the axis of a rotation a compile-time constant, because an axis-aligned rotation costs a quarter
-//! of a general one.
+//! Users name eight kinds ([`JointKind`]); universal and planar ones are chains of one-degree-of-freedom joints without
+//! mass in between, and fixed ones are merged away when the model is built. The recursions see a [`Stage`]: one file
+//! each with the same operations, and the axis of a rotation a compile-time constant, because an axis-aligned rotation
+//! costs a quarter of a general one.
 //!
-//! Frames of a link: the *base* frame is fixed in the parent link (its placement), the *link* frame moves. Both coincide at
-//! q = 0. The motion subspace S of every stage is constant in the link frame, so its velocity product is `v × S q̇`.
+//! Frames of a link: the *base* frame is fixed in the parent link (its placement), the *link* frame moves. Both
+//! coincide at q = 0. The motion subspace S of every stage is constant in the link frame, so its velocity product is `v
+//! × S q̇`. Source: key `featherstone2008`, chapter 4.
 
 mod ball;
+mod dof;
 mod free;
+mod link;
 mod prismatic;
 mod revolute;
 mod screw;
@@ -17,12 +20,14 @@ mod screw;
 use sincro_math::Real;
 
 pub use ball::Ball;
+pub use dof::Dof;
 pub use free::Free;
+pub use link::Link;
+pub(crate) use link::{Shift, WORLD};
 pub use prismatic::Prismatic;
 pub use revolute::Revolute;
 pub use screw::Screw;
 
-use crate::model::Link;
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// The kinds of joint a user builds with.
@@ -54,8 +59,8 @@ pub enum JointKind {
         /// Second axis, given at zero angles.
         axis2: [f64; 3],
     },
-    /// Any rotation. Coordinates: unit quaternion (w, x, y, z) of the child in the parent; rates: angular velocity of the
-    /// child against the parent in child axes [rad/s].
+    /// Any rotation. Coordinates: unit quaternion (w, x, y, z) of the child in the parent; rates: angular velocity of
+    /// the child against the parent in child axes [rad/s].
     Ball,
     /// Translation along x and y of the joint frame and rotation about z. Coordinates: x, y `[m]`, angle `[rad]`.
     Planar,
@@ -64,7 +69,7 @@ pub enum JointKind {
     Free,
 }
 
-/// What a stage is, as the compiled model stores it.
+/// Kind of a stage, as the compiled model stores it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 #[allow(missing_docs)]
@@ -91,14 +96,15 @@ pub struct Placement<R> {
     pub offset: Vec3<R>,
 }
 
-/// The verbs that every stage has. Zero-sized types implement it; `match` on [`StageKind`] chooses among them.
+/// Operations of a stage. Zero-sized types implement it; `match` on [`StageKind`] chooses among them.
 pub trait Stage {
     /// Coordinates that the stage takes in q.
     const N_Q: usize;
     /// Degrees of freedom, places in v.
     const N_V: usize;
 
-    /// Configuration from the stage's coordinates `q` (`N_Q` of them); writes only what the stage's other verbs read.
+    /// Computes the configuration from the stage's coordinates `q` (`N_Q` of them); writes only what the stage's other
+    /// operations read.
     fn place<R: Real>(link: &Link<R>, q: &[R], at: &mut Placement<R>);
 
     /// Origin of the link frame in the parent's axes, from the parent's origin `[m]`.
@@ -154,7 +160,7 @@ pub trait Stage {
 
 /// A computation that is compiled once for each kind of stage.
 pub trait StageVisitor {
-    /// What it yields.
+    /// Result type.
     type Output;
 
     /// Runs for stage type `S`.
@@ -196,13 +202,13 @@ impl StageKind {
         }
     }
 
-    /// Whether the link's origin stays where its base frame is.
+    /// Returns true if the link's origin stays where its base frame is.
     #[must_use]
     pub fn is_pure_rotation(self) -> bool {
         matches!(self, Self::RevoluteX | Self::RevoluteY | Self::RevoluteZ | Self::Ball)
     }
 
-    /// Whether the (single) coordinate is an angle.
+    /// Returns true if the (single) coordinate is an angle.
     #[must_use]
     pub fn is_rotational(self) -> bool {
         !matches!(self, Self::Prismatic)

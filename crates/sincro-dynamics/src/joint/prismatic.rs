@@ -2,8 +2,7 @@
 
 use sincro_math::Real;
 
-use super::{Placement, Stage};
-use crate::model::Link;
+use super::{Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// Translation along the link's `axis`. Nothing turns, so that the axis need not be on a coordinate axis.

@@ -2,8 +2,7 @@
 
 use sincro_math::Real;
 
-use super::{Placement, Stage, turn_about, turn_rigid_about};
-use crate::model::Link;
+use super::{Link, Placement, Stage, turn_about, turn_rigid_about};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// Rotation about coordinate axis `A` (0 x, 1 y, 2 z).

@@ -2,8 +2,7 @@
 
 use sincro_math::Real;
 
-use super::{Placement, Revolute, Stage};
-use crate::model::Link;
+use super::{Link, Placement, Revolute, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// Rotation about z that advances by the link's pitch [m/rad].

@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use super::{MassProperties, Model, Problem, compile};
-use crate::constraint::ClosureKind;
+use super::LoopJointKind;
+use super::MassProperties;
+use crate::actuation::Motor;
+use crate::aero::rotor::RotorLaw;
+use crate::aero::wind::Wind;
 use crate::contact::{Material, Surface};
-use crate::force::Motor;
-use crate::force::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
-use crate::wind::Wind;
 
-/// Approach slower than this does not bounce, unless told otherwise [m/s]: a bounce from here is 5e-8 m high under gravity. Without it a
-/// ball would bounce infinitely often in finite time.
+/// Default rest speed [m/s]: slower approach has no restitution; a bounce from here is 5e-8 m high under gravity.
+/// Without it a ball would bounce infinitely often in finite time (Zeno behaviour).
 pub const REST_SPEED: f64 = 1e-3;
 
 /// One object of the tree under construction; [`NodeId::WORLD`] is its root.
@@ -25,8 +25,8 @@ impl NodeId {
     pub const WORLD: Self = Self(0);
 }
 
-/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none"; springs, friction, torques and
-/// motors need one-degree-of-freedom coordinates (not ball or free).
+/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none"; springs, friction, torques
+/// and motors need one-degree-of-freedom coordinates (not ball or free).
 #[derive(Clone, Debug)]
 pub struct JointSpec {
     /// Kind and axes.
@@ -41,11 +41,12 @@ pub struct JointSpec {
     pub friction: Vec<f64>,
     /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
-    /// Of a fixed joint: whether the wrench through it is measured. It then is a link of its own, whose six degrees of freedom are held.
+    /// True for a fixed joint through which the wrench is measured: it is then a link of its own, whose six degrees of
+    /// freedom are locked.
     pub sensor: bool,
-    /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`, and the restitution of the stops.
+    /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`.
     pub limits: Vec<(f64, f64)>,
-    /// Speed of leaving a stop over speed of arriving, 0 to 1.
+    /// Restitution of the limits: speed after over speed before, 0 to 1.
     pub limit_restitution: f64,
     /// Motor, for a joint with one degree of freedom; its command is an input of the world.
     pub motor: Option<Motor<f64>>,
@@ -84,24 +85,24 @@ pub struct ForceSpec {
     pub force: [Signal; 3],
     /// Torque components [N·m] over time.
     pub torque: [Signal; 3],
-    /// Whether the components turn with the body; else they are along the world's axes.
+    /// True if the components turn with the body; else they are along the world's axes.
     pub in_body: bool,
-    /// Whether six commands (force, then torque) are added to it.
+    /// True if six commands (force, then torque) are added to it.
     pub is_input: bool,
 }
 
 /// A rotor on a body or frame; the thrust axis is z of its own frame.
 #[derive(Clone, Debug)]
 pub struct RotorSpec {
-    /// How thrust and torque follow from speed and motion.
+    /// Aerodynamic law.
     pub law: RotorLaw,
     /// Density of the air [kg/m³].
     pub density: f64,
-    /// What gives its speed.
+    /// Source of its speed.
     pub drive: RotorDrive,
 }
 
-/// What gives a rotor its speed.
+/// Source of a rotor's speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RotorDrive {
     /// A command is its speed [rad/s].
@@ -110,11 +111,11 @@ pub enum RotorDrive {
     Lag {
         /// τ `[s]`, positive.
         time_constant: f64,
-        /// Where it starts [rad/s].
+        /// Initial speed [rad/s].
         initial: f64,
     },
-    /// It turns with a revolute joint that carries it, about that joint's axis: the rate of the joint is its speed, and the reaction
-    /// of the air goes through the joint.
+    /// It turns with a revolute joint that carries it, about that joint's axis: the rate of the joint is its speed, and
+    /// the reaction of the air goes through the joint.
     Joint(NodeId),
 }
 
@@ -139,20 +140,20 @@ pub(crate) enum NodeKind {
     Drag(Box<DragSpec>),
 }
 
-/// A closure to be added.
+/// Loop joint to be added.
 #[derive(Clone, Debug)]
-pub struct ClosureSpec {
-    /// How the ends are kept together.
-    pub kind: ClosureKind,
-    /// The ends: bodies, frames, or the world.
+pub struct LoopJointSpec {
+    /// Kind of the loop joint.
+    pub kind: LoopJointKind,
+    /// The two bodies or frames joined; either may be the world.
     pub ends: [NodeId; 2],
-    /// Frames in the ends that are kept together.
+    /// Frames in them that the joint keeps together.
     pub poses: [Pose<f64>; 2],
 }
 
-/// A coupling of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
+/// Gear (mimic) constraint of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug)]
-pub struct CouplingSpec {
+pub struct GearSpec {
     /// The joints.
     pub joints: [NodeId; 2],
     /// Ratio of their rates.
@@ -188,8 +189,8 @@ pub struct ModelBuilder {
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) nodes: Vec<Node>,
     pub(crate) colliders: Vec<(NodeId, Pose<f64>, Surface, Material)>,
-    pub(crate) closures: Vec<(String, ClosureSpec)>,
-    pub(crate) couplings: Vec<(String, CouplingSpec)>,
+    pub(crate) loop_joints: Vec<(String, LoopJointSpec)>,
+    pub(crate) gears: Vec<(String, GearSpec)>,
     pub(crate) rest_speed: f64,
 }
 
@@ -203,8 +204,8 @@ impl ModelBuilder {
             wind: None,
             nodes: vec![world],
             colliders: Vec::new(),
-            closures: Vec::new(),
-            couplings: Vec::new(),
+            loop_joints: Vec::new(),
+            gears: Vec::new(),
             rest_speed: REST_SPEED,
         }
     }
@@ -230,7 +231,7 @@ impl ModelBuilder {
         self.add(name, parent, pose, NodeKind::Frame)
     }
 
-    /// The air moves: rotors and drag elements feel it.
+    /// Sets the wind, which rotors and drag elements feel.
     pub fn wind(&mut self, wind: Wind) {
         self.wind = Some(Arc::new(wind));
     }
@@ -255,30 +256,18 @@ impl ModelBuilder {
         self.colliders.push((on, pose, surface, material));
     }
 
-    /// Adds a closure of a loop.
-    pub fn closure(&mut self, name: &str, spec: ClosureSpec) {
-        self.closures.push((name.into(), spec));
+    /// Adds a loop joint.
+    pub fn loop_joint(&mut self, name: &str, spec: LoopJointSpec) {
+        self.loop_joints.push((name.into(), spec));
     }
 
-    /// Adds a coupling of two joints.
-    pub fn coupling(&mut self, name: &str, spec: CouplingSpec) {
-        self.couplings.push((name.into(), spec));
+    /// Adds a gear (mimic) constraint between two joints.
+    pub fn gear(&mut self, name: &str, spec: GearSpec) {
+        self.gears.push((name.into(), spec));
     }
 
-    /// Approach slower than this does not bounce [m/s].
+    /// Sets the rest speed [m/s]: slower approach has no restitution.
     pub fn set_rest_speed(&mut self, speed: f64) {
         self.rest_speed = speed;
-    }
-
-    /// Checks everything and compiles. The second part of the result are the warnings.
-    ///
-    /// # Errors
-    ///
-    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is not
-    /// positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction, armature or
-    /// limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not turn with the joint it
-    /// takes its speed from.
-    pub fn build(&self) -> Result<(Model<f64>, Vec<Problem>), Vec<Problem>> {
-        compile::compile(self)
     }
 }

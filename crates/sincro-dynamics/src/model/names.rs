@@ -1,9 +1,18 @@
-//! The way back from the user's objects to links and coordinates.
+//! Names: from the user's joints, bodies and frames to links and coordinates.
 
 use super::NodeId;
+use crate::ids::{BodyId, JointId, MotorId, RotorId};
 use crate::joint::JointKind;
-use crate::kinematics::Attached;
 use crate::spatial::Pose;
+
+/// A frame fixed in a link (`None`: in the world) at a pose.
+#[derive(Clone, Copy, Debug)]
+pub struct Attached<R> {
+    /// The link, none for the world.
+    pub link: Option<usize>,
+    /// Pose of the frame in the link or the world.
+    pub pose: Pose<R>,
+}
 
 /// A joint as the user built it.
 #[derive(Clone, Debug)]
@@ -22,8 +31,8 @@ pub struct JointInfo {
     pub v_idx: usize,
     /// Number of degrees of freedom.
     pub n_v: usize,
-    /// Index of its motor, if it has one.
-    pub motor: Option<usize>,
+    /// Its motor, if it has one.
+    pub motor: Option<MotorId>,
     /// Its frame on the side of its parent, where the joint starts from.
     pub base: Attached<f64>,
     /// Its frame on the side of what hangs on it: the same at zero coordinates.
@@ -70,7 +79,7 @@ pub struct Names {
     /// Sensors, which are frames too; the model does not measure, it only knows what they are called.
     pub sensors: Vec<SensorInfo>,
     /// For each degree of freedom, the joint it belongs to.
-    pub dof_joint: Vec<usize>,
+    pub dof_joint: Vec<JointId>,
 }
 
 impl Names {
@@ -86,9 +95,53 @@ impl Names {
         self.frames.iter().find(|f| f.name == name)
     }
 
+    /// Id of the joint of that name; none if there is none, or if it is fixed.
+    #[must_use]
+    pub fn joint_id(&self, name: &str) -> Option<JointId> {
+        self.joints.iter().position(|j| j.name == name).map(JointId::new)
+    }
+
+    /// Id of the body or frame of that name.
+    #[must_use]
+    pub fn body_id(&self, name: &str) -> Option<BodyId> {
+        self.frames.iter().position(|f| f.name == name).map(BodyId::new)
+    }
+
+    /// Id of the motor of the joint of that name.
+    #[must_use]
+    pub fn motor_id(&self, joint: &str) -> Option<MotorId> {
+        self.joint(joint)?.motor
+    }
+
+    /// Id of the rotor of that name.
+    #[must_use]
+    pub fn rotor_id(&self, name: &str) -> Option<RotorId> {
+        self.rotors.iter().position(|r| r == name).map(RotorId::new)
+    }
+
+    /// Joint of that id.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such joint.
+    #[must_use]
+    pub fn joint_info(&self, id: JointId) -> &JointInfo {
+        &self.joints[id.index()]
+    }
+
+    /// Body or frame of that id.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such body.
+    #[must_use]
+    pub fn body_info(&self, id: BodyId) -> &FrameInfo {
+        &self.frames[id.index()]
+    }
+
     /// Name of the joint that degree of freedom `dof` belongs to.
     #[must_use]
     pub fn dof_name(&self, dof: usize) -> &str {
-        &self.joints[self.dof_joint[dof]].name
+        &self.joints[self.dof_joint[dof].index()].name
     }
 }

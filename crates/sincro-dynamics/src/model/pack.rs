@@ -5,11 +5,12 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
-use crate::force::rotor::{MountedRotor, SpeedFrom};
-use crate::force::{AirDrag, AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::aero::AirDrag;
+use crate::aero::rotor::{MountedRotor, SpeedFrom};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
-/// Why models cannot share lanes: the named part has another structure.
+/// Error of [`Model::pack`]: the models differ in the structure of the named part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackError(pub &'static str);
 
@@ -153,7 +154,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
         (a.wind == b.wind, "wind"),
-        (a.constraints == b.constraints, "closures, limits and contacts"),
+        (a.constraints == b.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

@@ -1,7 +1,7 @@
 //! Spatial algebra in 3×3 blocks: six-vectors as (angular, linear) pairs, inertias without a dense 6×6 anywhere.
 //!
-//! Everything is generic over [`Real`](sincro_math::Real) and inlined, so that one source serves scalars, lanes and duals.
-//! Source: key `featherstone2008`, chapter 2; angular part first, as there.
+//! Everything is generic over [`Real`](sincro_math::Real) and inlined, so that one source serves scalars, lanes and
+//! duals. Source: key `featherstone2008`, chapter 2; angular part first, as there.
 
 mod inertia;
 mod mat3;

@@ -1,10 +1,11 @@
-//! Poses: where one frame stands in another.
+//! Poses: position and orientation of one frame in another.
 
 use sincro_math::Real;
 
 use super::{Mat3, Vec3};
 
-/// Pose of a frame B in a frame A, `x_ab`: rotation `r_ab` and position `p_ab` `[m]`. Labels cancel: `x_ab * x_bc = x_ac`.
+/// Pose of a frame B in a frame A, `x_ab`: rotation `r_ab` and position `p_ab` `[m]`. Labels cancel: `x_ab * x_bc =
+/// x_ac`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose<R> {
     /// Takes components in B to components in A.

@@ -92,8 +92,8 @@ impl<R: Real> Quat<R> {
 }
 
 impl<R: Real> Quat<R> {
-    /// The quaternion of a rotation matrix, w ≥ 0; exact to rounding for any rotation (Shepperd's choice of pivot). For numbers of
-    /// one lane.
+    /// The quaternion of a rotation matrix, w ≥ 0; exact to rounding for any rotation (Shepperd's choice of pivot). For
+    /// numbers of one lane.
     pub fn from_matrix(m: &Mat3<R>) -> Self {
         debug_assert!(R::LANES == 1, "lanes can differ in their pivot");
         let m = &m.0;

@@ -8,7 +8,7 @@ use super::{Mat3, Vec3};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sym3<R>(pub [R; 6]);
 
-/// Where element (i, j) stands in the packed triangle.
+/// Index of element (i, j) in the packed triangle.
 const PACKED: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
 /// The element at each place of the packed triangle.

@@ -1,25 +1,29 @@
-//! One world that advances from tick to tick.
+//! A world: one mechanism with its state and integrator, advanced from tick to tick.
 //!
-//! [`World::advance`] is stage 4 of the step: commands are latched before it, and it takes the state from t to t + h, in as many
-//! sub-steps as the method and the events need. Three kinds of event end a sub-step: a corner of an input signal, known beforehand,
-//! and, located by bisection, a drive that changes between holding and pulling, and a contact or limit that closes, opens, grips or slips.
+//! [`World::advance`] is stage 4 of the step: commands are latched before it, and it takes the state from t to t + h,
+//! in as many sub-steps as the method and the events need. Three kinds of event end a sub-step: a time event of an
+//! input signal, known beforehand, and two zero crossings that are located by bisection: a drive that changes between
+//! locked and saturated, and a contact or joint limit that closes, opens, sticks or slips.
 //!
-//! What has changed when it fails: the state is that of the last sub-step that could be made, everything finite.
+//! After a failure the state is that of the last sub-step that could be made, everything finite.
+//!
+//! A world owns its model, state, mechanism and the working memory of its method; they are not yet separate values.
 
-mod change;
 mod contacts;
 mod drives;
+mod parameters;
 
-use crate::attachment::{Alone, Attachment, Coupled, Seen};
-use crate::constraint::events::Closing;
-use crate::constraint::memory::Patience;
+use crate::actuation::DriveKind;
+use crate::actuation::{Motor, Push};
+use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::constraint::warm_start::ZenoFallback;
 use crate::constraint::{ContactPoint, SolverReport};
-use crate::drive::DriveKind;
+use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::energy::{Energy, energy, momentum};
-use crate::force::rotor::{RotorLaw, SpeedFrom};
-use crate::force::{Motor, Push};
+use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
+use crate::mechanism::constraints::ActivationRule;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
@@ -29,13 +33,13 @@ use contacts::MAX_CONTACT_EVENTS;
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
-/// Changes of drives in one tick beyond which they are said to chatter.
+/// Maximum number of changes of drives in one tick; more are called chatter.
 const MAX_EVENTS: usize = 10_000;
 
-/// Constraint problems without a fitting solution beyond which a run stops.
+/// Maximum number of constraint problems without convergence in a run.
 const MAX_UNSOLVED: u64 = 100_000;
 
-/// How a world is integrated.
+/// Integration method with its working memory.
 #[derive(Clone, Debug)]
 pub enum Method {
     /// Semi-implicit Euler, fixed step, order 1.
@@ -61,36 +65,36 @@ pub enum MethodKind {
     Stiff,
 }
 
-/// Why a world stopped.
+/// Reason for which a world stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
     /// The integrator could not go on.
     Integration(Failure),
     /// Too many constraint problems had no solution that fits.
     Unsolved {
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
-        /// The largest misfit, as a share of the largest force or rate.
+        /// Largest complementarity residual, relative to the largest force or rate.
         residual: f64,
     },
     /// Drives changed state too often within one tick.
     Chatter {
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
     },
 }
 
-/// Counts of what was done since the world was made.
+/// Step statistics since the world was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Effort {
+pub struct StepStatistics {
     /// Sub-steps accepted.
     pub steps: u64,
-    /// Changes of drives, limits and contacts located.
+    /// Located changes of drives, limits and contacts.
     pub events: u64,
     /// Impacts.
     pub impacts: u64,
-    /// Ticks that were finished at velocity level because events came too thick.
-    pub rough_ticks: u64,
+    /// Ticks finished at velocity level because of Zeno behaviour.
+    pub fallback_ticks: u64,
 }
 
 /// A mechanism, its state and a method.
@@ -103,18 +107,18 @@ pub struct World {
     y: Vec<f64>,
     before: Vec<f64>,
     base_before: Vec<f64>,
-    wanted: Vec<f64>,
+    target_velocities: Vec<f64>,
     jumps: Vec<bool>,
     accelerations: Vec<f64>,
     slope: Vec<f64>,
-    decay: Vec<f64>,
+    negated_jacobian_diagonal: Vec<f64>,
     attached_before: Vec<f64>,
     substeps: u32,
     fallback: Option<SemiImplicitEuler<f64>>,
-    effort: Effort,
+    statistics: StepStatistics,
 }
 
-/// A world looked at: kinematics are computed, nothing can be changed.
+/// Outputs of a world at one instant: kinematics are computed, nothing can be changed.
 #[derive(Clone, Copy, Debug)]
 pub struct Observation<'a> {
     /// The state.
@@ -145,26 +149,26 @@ impl Observation<'_> {
         friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
     }
 
-    /// Points of contact that press now, with their forces.
+    /// Contact points with their forces.
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
         contacts_of(self.mechanism)
     }
 
-    /// How far closure `k` is open (couplings after closures) `[m]` or `[rad]`.
+    /// Constraint residual of loop joint `k` (gears after loop joints) `[m]` or `[rad]`.
     #[must_use]
-    pub fn opening(&self, k: usize) -> f64 {
+    pub fn residual(&self, k: usize) -> f64 {
         let set = self.model().constraints();
-        match set.closures.get(k) {
-            Some(closure) => closure.opening(self.scratch()).0,
+        match set.loop_joints.get(k) {
+            Some(closure) => closure.residual(self.scratch()).0,
             None => {
-                let coupling = &set.couplings[k - set.closures.len()];
+                let coupling = &set.gears[k - set.loop_joints.len()];
                 let [q1, q2] = coupling.coordinates.map(|k| self.state.q[k]);
                 (q2 - coupling.ratio * q1 - coupling.offset).abs()
             }
         }
     }
 
-    /// Torque [N·m] or force `[N]` of the stops on a degree of freedom now.
+    /// Torque [N·m] or force `[N]` of the joint limits on a degree of freedom.
     #[must_use]
     pub fn limit_torque(&self, dof: usize) -> f64 {
         self.mechanism.constraints.as_deref().map_or(0.0, |c| c.limit_torque(self.model(), dof))
@@ -215,7 +219,8 @@ impl World {
         Self::with_attachment(model, state, kind, control, tracks_totals, 0)
     }
 
-    /// As [`World::with_totals`], for an [`Attachment`] with `n_states` states, to be given to [`World::advance_with`].
+    /// As [`World::with_totals`], for a [`CoupledSystem`] with `n_states` states, to be given to
+    /// [`World::advance_with`].
     #[must_use]
     pub fn with_attachment(
         model: Model<f64>,
@@ -245,15 +250,15 @@ impl World {
             y: vec![0.0; dim],
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
-            decay: vec![0.0; n_states],
+            negated_jacobian_diagonal: vec![0.0; n_states],
             attached_before: vec![0.0; n_states],
             substeps: 1,
             fallback,
             base_before,
-            wanted: vec![0.0; n_drives],
+            target_velocities: vec![0.0; n_drives],
             jumps: vec![false; n_drives],
             accelerations,
-            effort: Effort::default(),
+            statistics: StepStatistics::default(),
         }
     }
 
@@ -263,24 +268,25 @@ impl World {
         self.mechanism.model()
     }
 
-    /// What was done so far.
+    /// Step statistics so far.
     #[must_use]
-    pub fn effort(&self) -> Effort {
-        self.effort
+    pub fn statistics(&self) -> StepStatistics {
+        self.statistics
     }
 
-    /// What the constraint solver did so far, if there is one.
+    /// Solver statistics so far, if there are constraints.
     #[must_use]
     pub fn solver_report(&self) -> Option<SolverReport> {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
     }
 
-    /// Points of contact that press, as of the last [`World::rates`] or [`World::observe`].
+    /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`].
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
         contacts_of(&self.mechanism)
     }
 
-    /// Torque or force that a held degree of freedom needed in the last [`World::rates`] or [`World::observe`] [N·m], `[N]`.
+    /// Torque [N·m] or force `[N]` that a locked degree of freedom needed in the last [`World::rates`] or
+    /// [`World::observe`].
     #[must_use]
     pub fn reaction(&self, dof: usize) -> f64 {
         self.mechanism.scratch.reaction[dof]
@@ -305,38 +311,39 @@ impl World {
         }
     }
 
-    /// Divides every fixed step into `n` equal ones, and lets no method with error control take longer ones; commands are still latched once
-    /// a tick. For estimating errors.
+    /// Divides every fixed step into `n` equal ones, and lets no method with error control take longer ones; commands
+    /// are still latched once a tick. For estimating errors.
     pub fn set_substeps(&mut self, n: u32) {
         self.substeps = n.max(1);
     }
 
-    /// Decides which drives hold at the start of a run, velocities as they are (nothing jumps before the first command).
-    pub fn settle_start(&mut self, t: f64) {
-        self.settle_start_with(t, &mut Alone);
+    /// Resolves drives and contacts at the start of a run, velocities as they are (nothing jumps before the first
+    /// command).
+    pub fn initialize(&mut self, t: f64) {
+        self.initialize_with(t, &mut NoCoupling);
     }
 
-    /// As [`World::settle_start`], with an attachment.
-    pub fn settle_start_with<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
-        self.load(attachment);
-        self.latch();
-        self.touch();
-        self.settle(t, attachment);
-        self.settle_contacts(t, attachment);
+    /// As [`World::initialize`], with a coupled system.
+    pub fn initialize_with<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+        self.load(system);
+        self.latch_target_velocities();
+        self.resolve_impacts();
+        self.resolve_actuator_modes(t, system);
+        self.resolve_contact_modes(t, system);
         self.mechanism.store(&self.y, &mut self.state);
     }
 
-    /// Everything that can be looked at in the present state.
+    /// Computes accelerations and kinematics in the present state and returns the outputs.
     pub fn observe(&mut self, t: f64) -> Observation<'_> {
         self.rates(t);
-        self.mechanism.locate(&self.state, &self.accelerations);
+        self.mechanism.update_kinematics(&self.state, &self.accelerations);
         Observation { state: &self.state, accelerations: &self.accelerations, mechanism: &self.mechanism }
     }
 
     /// Bytes that this world takes beside the shared model's numbers.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        let own = self.y.len() * 3 + self.base_before.len() + self.wanted.len() + self.accelerations.len();
+        let own = self.y.len() * 3 + self.base_before.len() + self.target_velocities.len() + self.accelerations.len();
         let method = match &self.method {
             Method::SemiImplicitEuler(_) => self.y.len(),
             Method::Rk4(_) => 5 * self.y.len(),
@@ -352,56 +359,56 @@ impl World {
     ///
     /// When the method cannot go on; the state is then that of the last instant reached.
     pub fn advance(&mut self, t: f64, h: f64) -> Result<(), (f64, Stop)> {
-        self.advance_with(t, h, &mut Alone)
+        self.advance_with(t, h, &mut NoCoupling)
     }
 
-    /// As [`World::advance`], together with what is attached; the world was made for as many states
+    /// As [`World::advance`], together with a coupled system; the world was made for as many states
     /// ([`World::with_attachment`]).
     ///
     /// # Errors
     ///
-    /// As [`World::advance`]; the attachment's states are then those of the last instant reached, too.
-    pub fn advance_with<A: Attachment<f64> + ?Sized>(
+    /// As [`World::advance`]; the states of the coupled system are then those of the last instant reached, too.
+    pub fn advance_with<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h: f64,
-        attachment: &mut A,
+        system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        // what the last tick ended at is behind
-        attachment.set_corner(f64::INFINITY);
-        self.throw_particles(h);
-        self.load(attachment);
+        // the time event at the end of the last tick has passed
+        system.set_time_event(f64::INFINITY);
+        self.count_particles(h);
+        self.load(system);
         self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
-        self.latch();
+        self.latch_target_velocities();
         let reached = if let Method::SemiImplicitEuler(_) = self.method {
             let h = h / f64::from(self.substeps);
-            (0..self.substeps).try_for_each(|k| self.euler_step(t + f64::from(k) * h, h, attachment))
+            (0..self.substeps).try_for_each(|k| self.euler_step(t + f64::from(k) * h, h, system))
         } else {
-            self.begin(t, attachment);
-            self.sub_steps(t, h, attachment)
+            self.start_tick(t, system);
+            self.sub_steps(t, h, system)
         };
         self.mechanism.store(&self.y, &mut self.state);
-        attachment.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
+        system.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
         reached?;
         self.state.tick += 1;
         Ok(())
     }
 
-    /// The first rotor whose law gave what is not a number in the last evaluation: only the printed script does.
+    /// First rotor whose load was not a number in the last evaluation: only the printed script can give one.
     #[must_use]
-    pub fn rotor_without_load(&self) -> Option<usize> {
+    pub fn rotor_without_load(&self) -> Option<RotorId> {
         self.mechanism.rotor_without_load()
     }
 
     /// Speed of a rotor in the present state [rad/s].
     #[must_use]
-    pub fn rotor_speed(&self, rotor: usize) -> f64 {
+    pub fn rotor_speed(&self, rotor: RotorId) -> f64 {
         let State { v, commands, rotors, .. } = &self.state;
-        self.model().rotors()[rotor].speed.value(v, commands, rotors)
+        self.model().rotor(rotor).speed.value(v, commands, rotors)
     }
 
-    /// What each stock propeller throws during this tick.
-    fn throw_particles(&mut self, h: f64) {
+    /// Sets the mass flow of each stock propeller for this tick.
+    fn count_particles(&mut self, h: f64) {
         for rotor in &self.mechanism.model.rotors {
             if let (RotorLaw::Stock(propeller), SpeedFrom::Particles { state, .. }) = (&rotor.law, rotor.speed) {
                 self.state.rotors[state] = propeller.flow(self.state.tick, h);
@@ -413,8 +420,8 @@ impl World {
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);
-        self.mechanism.touch(&self.state.v, Closing::Touching);
-        self.mechanism.mark_held();
+        self.mechanism.detect_contacts(&self.state.v, ActivationRule::Touching);
+        self.mechanism.mark_locked();
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
         self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
@@ -422,37 +429,37 @@ impl World {
         (&self.accelerations, self.mechanism.motor_torque())
     }
 
-    /// Lets somebody look at the state as an attachment does.
-    pub fn with_seen<T>(&mut self, t: f64, look: impl FnOnce(Seen<'_, f64>) -> T) -> T {
+    /// Calls `look` with the state view of the present state.
+    pub fn with_state_view<T>(&mut self, t: f64, look: impl FnOnce(StateView<'_, f64>) -> T) -> T {
         let (state, mechanism) = (&self.state, &mut self.mechanism);
         let State { q, v, rotors, commands, .. } = state;
-        look(Seen { t, model: &mechanism.model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
+        look(StateView { t, model: &mechanism.model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
     }
 
-    /// Pushes on a link from now on, until [`World::release`]; pushes at one point add up. Not part of the state: who pushes
-    /// over one step only leaves nothing behind.
+    /// Applies an external force to a link from now on, until [`World::release`]; forces at one point add up. Not part
+    /// of the state: a force that acts over one step leaves nothing behind.
     pub fn push(&mut self, push: Push<f64>) {
         self.mechanism.push(push);
     }
 
-    /// Takes all pushes away.
+    /// Removes all external forces.
     pub fn release(&mut self) {
         self.mechanism.release();
     }
 
-    /// Replaces a motor between two steps; its joint stays, its command and the state of the other drives too. A motor that
-    /// becomes a drive holds its velocity from the next step on.
+    /// Replaces a motor between two steps; its joint stays, its command and the state of the other drives too. A motor
+    /// that becomes a drive is locked from the next step on.
     ///
     /// # Panics
     ///
-    /// If there is no motor of that index.
-    pub fn set_motor(&mut self, index: usize, motor: Motor<f64>) {
+    /// If there is no motor of that id.
+    pub fn set_motor(&mut self, id: MotorId, motor: Motor<f64>) {
         self.mechanism.drives.copy_from_slice(&self.state.drives);
-        self.mechanism.set_motor(index, motor);
+        self.mechanism.set_motor(id, motor);
         let n = self.mechanism.drives.len();
         self.state.drives.resize(n, 0.0);
         self.state.drives.copy_from_slice(&self.mechanism.drives);
-        self.wanted.resize(n, 0.0);
+        self.target_velocities.resize(n, 0.0);
         self.jumps.resize(n, false);
     }
 
@@ -461,16 +468,20 @@ impl World {
         &mut self.mechanism
     }
 
-    /// Lays the chart at the state and writes y, the attachment's states included.
-    fn load<A: Attachment<f64> + ?Sized>(&mut self, attachment: &mut A) {
+    /// Lays the chart at the state and writes y, the states of the coupled system included.
+    fn load<A: CoupledSystem<f64> + ?Sized>(&mut self, system: &mut A) {
         self.mechanism.load(&self.state, &mut self.y);
         let own = self.mechanism.dim();
-        self.y[own..].copy_from_slice(attachment.states());
+        self.y[own..].copy_from_slice(system.states());
     }
 
     /// f(t, y) into `self.slope`.
-    fn find_slope<A: Attachment<f64> + ?Sized>(&mut self, t: f64, attachment: &mut A) {
-        let mut system = Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
+    fn evaluate_slope<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+        let mut system = Coupled {
+            mechanism: &mut self.mechanism,
+            system,
+            negated_jacobian_diagonal: &mut self.negated_jacobian_diagonal,
+        };
         system.slope(t, &self.y, &mut self.slope);
     }
 
@@ -478,23 +489,27 @@ impl World {
         self.y[self.model().n_v() + dof]
     }
 
-    /// Sub-steps over `span` from `start`, ending at corners of signals and at events of drives.
-    fn sub_steps<A: Attachment<f64> + ?Sized>(
+    /// Makes sub-steps over `span` from `start`, ending at time events and at events of drives and contacts.
+    fn sub_steps<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         start: f64,
         span: f64,
-        attachment: &mut A,
+        system: &mut A,
     ) -> Result<(), (f64, Stop)> {
         let (mut t, end, mut events) = (start, start + span, 0);
-        let patience = self.patience();
-        if patience.left > 0 {
-            self.set_patience(Patience { left: patience.left - 1, ..patience });
-            return self.finish_roughly(start, span, attachment);
+        let zeno_fallback = self.zeno_fallback();
+        if zeno_fallback.left > 0 {
+            self.set_patience(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
+            return self.finish_at_velocity_level(start, span, system);
         }
         while t < end {
-            let jump = attachment.next_corner(t);
-            let corner = self.model().next_corner(t).min(jump).min(end);
-            attachment.set_corner(if jump <= corner + SAME_INSTANT { corner } else { f64::INFINITY });
+            let reach_target_velocities = system.next_time_event(t);
+            let corner = self.model().next_time_event(t).min(reach_target_velocities).min(end);
+            system.set_time_event(if reach_target_velocities <= corner + SAME_INSTANT {
+                corner
+            } else {
+                f64::INFINITY
+            });
             if self.is_constrained() && end - t < 1e-13 * span {
                 break;
             }
@@ -502,9 +517,9 @@ impl World {
             let h_max = if t == start && corner == end { span } else { corner - t };
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
             if self.is_constrained() {
-                self.touch();
-                self.settle(t, attachment);
-                self.settle_contacts(t, attachment);
+                self.resolve_impacts();
+                self.resolve_actuator_modes(t, system);
+                self.resolve_contact_modes(t, system);
                 if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
                     return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
                 }
@@ -512,36 +527,36 @@ impl World {
             let limited = self.has_limited_drives() || self.is_constrained();
             let control = if limited { self.control() } else { None };
             if limited {
-                self.keep();
+                self.save_step_start();
             }
-            let h = self.method_step(t, h_max, attachment).map_err(|failure| (t, Stop::Integration(failure)))?;
+            let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)))?;
             if !self.y.iter().all(|x| x.is_finite()) {
-                // the attachment has last seen a trial state: its own is the one that was kept
+                // the coupled system has last seen a trial state: its own is the saved one
                 let own = self.mechanism.dim();
                 self.mechanism.load(&self.state, &mut self.y);
                 self.y[own..].copy_from_slice(&self.attached_before);
                 return Err((start, Stop::Integration(Failure::NotFinite { t })));
             }
-            self.effort.steps += 1;
+            self.statistics.steps += 1;
             let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
-            if limited && self.is_violated(reached, attachment) {
-                t = self.locate(t, h, control, attachment)?;
+            if limited && self.has_event(reached, system) {
+                t = self.locate_event(t, h, control, system)?;
                 events += 1;
-                self.effort.events += 1;
+                self.statistics.events += 1;
                 if events > MAX_EVENTS {
                     return Err((t, Stop::Chatter { t }));
                 }
                 self.project();
                 if self.is_constrained() && events > MAX_CONTACT_EVENTS {
-                    self.set_patience(patience.lost());
-                    return self.finish_roughly(t, end - t, attachment);
+                    self.set_patience(zeno_fallback.lost());
+                    return self.finish_at_velocity_level(t, end - t, system);
                 }
             } else {
                 self.project();
                 t = reached;
             }
         }
-        self.set_patience(Patience::default());
+        self.set_patience(ZenoFallback::default());
         Ok(())
     }
 
@@ -552,17 +567,21 @@ impl World {
     }
 
     /// One step of the method from `t`, at most `h_max`; y is charted anew. Returns the length made.
-    fn method_step<A: Attachment<f64> + ?Sized>(
+    fn method_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h_max: f64,
-        attachment: &mut A,
+        system: &mut A,
     ) -> Result<f64, Failure> {
         let h = self.control().map_or(h_max, |c| c.h.min(h_max));
         if let Some(constraints) = &mut self.mechanism.constraints {
             constraints.sub_step = h;
         }
-        let system = &mut Coupled { mechanism: &mut self.mechanism, attachment, decay: &mut self.decay };
+        let system = &mut Coupled {
+            mechanism: &mut self.mechanism,
+            system,
+            negated_jacobian_diagonal: &mut self.negated_jacobian_diagonal,
+        };
         let y = &mut self.y;
         match &mut self.method {
             Method::SemiImplicitEuler(m) => m.step(system, t, h_max, y),
@@ -574,7 +593,7 @@ impl World {
         Ok(h_max)
     }
 
-    fn keep(&mut self) {
+    fn save_step_start(&mut self) {
         self.before.copy_from_slice(&self.y);
         self.base_before.copy_from_slice(self.mechanism.base());
     }
@@ -584,13 +603,13 @@ impl World {
         self.mechanism.set_base(&self.base_before);
     }
 
-    /// From the kept sub-step start, exactly `h` further.
-    fn replay<A: Attachment<f64> + ?Sized>(
+    /// Repeats the integration from the saved start of the sub-step, exactly `h` further.
+    fn repeat_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h: f64,
         control: Option<Control>,
-        attachment: &mut A,
+        system: &mut A,
     ) -> Result<(), (f64, Stop)> {
         self.restore();
         if let Some(control) = control {
@@ -598,30 +617,29 @@ impl World {
         }
         let mut done = 0.0;
         while done < h {
-            let step =
-                self.method_step(t + done, h - done, attachment).map_err(|f| (t + done, Stop::Integration(f)))?;
+            let step = self.method_step(t + done, h - done, system).map_err(|f| (t + done, Stop::Integration(f)))?;
             done = if step >= h - done { h } else { done + step };
         }
         Ok(())
     }
 
-    /// Semi-implicit Euler with drives as engines have them: over the whole step a drive either reaches its velocity exactly or
-    /// pulls with its limit. Which, is found by trying.
-    fn euler_step<A: Attachment<f64> + ?Sized>(
+    /// Semi-implicit Euler with drives at velocity level: over the whole step a drive either reaches its target
+    /// velocity exactly or is saturated. The modes are found by iteration.
+    fn euler_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h: f64,
-        attachment: &mut A,
+        system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        self.effort.steps += 1;
+        self.statistics.steps += 1;
         let n = self.model().n_v();
-        self.mechanism.touch(&self.y[n..2 * n], Closing::Within(h));
-        self.keep();
-        for _ in 0..2 * self.wanted.len() + 4 {
+        self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
+        self.save_step_start();
+        for _ in 0..2 * self.target_velocities.len() + 4 {
             self.mark_targets(h);
             self.restore();
-            self.method_step(t, h, attachment).map_err(|f| (t, Stop::Integration(f)))?;
-            if self.wanted.is_empty() || !self.correct_drives() {
+            self.method_step(t, h, system).map_err(|f| (t, Stop::Integration(f)))?;
+            if self.target_velocities.is_empty() || !self.update_drive_modes() {
                 break;
             }
         }
@@ -629,10 +647,10 @@ impl World {
             self.restore();
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
-        self.lift_out();
-        for i in 0..self.wanted.len() {
+        self.project_penetrations();
+        for i in 0..self.target_velocities.len() {
             if self.mechanism.drives[i] == 0.0 {
-                self.y[n + self.mechanism.model.drives[i].dof] = self.wanted[i];
+                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
             }
         }
         Ok(())

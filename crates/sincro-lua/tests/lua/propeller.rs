@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sincro_coppelia::api_controller::ApiController;
 use sincro_coppelia::session::{Reference, Search};
-use sincro_dynamics::force::rotor::{Drag, RotorSpec, Spin, printed};
+use sincro_dynamics::aero::rotor::{Drag, RotorSpec, Spin, printed};
 use sincro_dynamics::spatial::{Mat3, Quat, Vec3};
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::run::{Halt, LockStep};

@@ -1,9 +1,9 @@
-//! Why a formula was refused.
+//! Errors of formulas.
 
 use core::fmt;
 use core::ops::Range;
 
-/// Why and where a formula was refused.
+/// Error of a formula, with its position.
 ///
 /// ```
 /// use sincro_math::expression::Expression;
@@ -14,13 +14,13 @@ use core::ops::Range;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParseError {
-    /// What is wrong: lower case, names in backticks.
+    /// Description: lower case, names in backticks.
     pub message: String,
     /// The bytes of the formula that are wrong; empty at the end of the formula where something is missing.
     pub span: Range<usize>,
     /// The first wrong character, counted from 1.
     pub column: usize,
-    /// How to mend it, where that is known.
+    /// Correction, where it is known.
     pub help: Option<String>,
 }
 
@@ -64,8 +64,8 @@ pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
 /// Longer names are not compared: the work grows with the square of the length.
 const MAX_COMPARED: usize = 64;
 
-/// How many letters must be inserted, removed, replaced or swapped with their neighbour to turn `a` into `b`, without
-/// regard to case.
+/// Edit distance: number of letters that must be inserted, removed, replaced or swapped with their neighbour to turn
+/// `a` into `b`, without regard to case.
 fn edit_distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (letters(a), letters(b));
     // rows of the table of distances between beginnings of a and of b: the row before last, the last, the current one

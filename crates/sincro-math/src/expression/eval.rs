@@ -1,8 +1,8 @@
 //! The compiled form of a formula and its evaluation: a flat program in postfix order, run on a stack.
 //!
-//! Comparisons and conditions are numbers, 1 for true and 0 for false, because lanes can differ: `if` evaluates both its
-//! branches and takes, lane by lane, one of them. What is not a number stays so: a comparison, a logical operation or an `if`
-//! decided by a NaN is NaN, so that a failure reaches the caller instead of becoming a plausible branch.
+//! Comparisons and conditions are numbers, 1 for true and 0 for false, because lanes can differ: `if` evaluates both
+//! its branches and takes, lane by lane, one of them. What is not a number stays so: a comparison, a logical operation
+//! or an `if` decided by a NaN is NaN, so that a failure reaches the caller instead of becoming a plausible branch.
 
 use super::function::Function;
 use crate::{Real, elementary};
@@ -48,7 +48,7 @@ pub(super) enum Binary {
 pub(super) const MAX_WHOLE_POWER: i8 = 8;
 
 impl Op {
-    /// How many numbers it takes from the stack; it leaves one.
+    /// Number of operands it takes from the stack; it leaves one.
     pub(super) fn takes(self) -> usize {
         match self {
             Self::Constant(_) | Self::Value(_) => 0,
@@ -106,7 +106,7 @@ pub(super) fn run<R: Real>(program: &[Op], values: &[R], stack: &mut Vec<R>) -> 
     stack[0]
 }
 
-/// How many numbers the stack of a program holds at most.
+/// Largest number of values on the stack of a program.
 pub(super) fn stack_depth(program: &[Op]) -> usize {
     let (mut depth, mut deepest) = (0, 0);
     for op in program {

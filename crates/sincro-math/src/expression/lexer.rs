@@ -50,7 +50,7 @@ impl<'t> Lexer<'t> {
     }
 }
 
-/// Whether a name may begin with it.
+/// Returns true if a name may begin with it.
 pub(super) fn starts_name(c: char) -> bool {
     c.is_alphabetic() || c == '_'
 }

@@ -30,11 +30,11 @@
 //! | corners | `abs sign floor ceil mod(x, modulus) min(a, b, ...) max(a, b, ...) clamp(x, low, high)` |
 //! | choice | `if(condition, then, otherwise)` |
 //!
-//! Names differ by case. A name given by the caller wins over `pi`, and over a function that is not called; `and`, `or` and
-//! `not` are never names. A power with a whole exponent up to ±8 in the text is computed as a product.
+//! Names differ by case. A name given by the caller wins over `pi`, and over a function that is not called; `and`, `or`
+//! and `not` are never names. A power with a whole exponent up to ±8 in the text is computed as a product.
 //!
-//! A NaN is never hidden: comparisons, logic, `min`, `max`, `clamp` and the condition of `if` pass it on. The branch that
-//! `if` does not take leaves no trace, neither in the value nor in the derivatives.
+//! A NaN is never hidden: comparisons, logic, `min`, `max`, `clamp` and the condition of `if` pass it on. The branch
+//! that `if` does not take leaves no trace, neither in the value nor in the derivatives.
 
 mod error;
 mod eval;
@@ -128,7 +128,7 @@ impl Expression {
         Vec::with_capacity(self.stack_depth)
     }
 
-    /// How many numbers [`Expression::eval`] has in its scratch memory at most.
+    /// Largest number of values in the scratch memory of [`Expression::eval`].
     #[must_use]
     pub fn stack_depth(&self) -> usize {
         self.stack_depth
@@ -150,7 +150,7 @@ impl Expression {
         }
     }
 
-    /// Whether the `slot`-th name given to [`Expression::parse`] appears in the formula.
+    /// Returns true if the `slot`-th name given to [`Expression::parse`] appears in the formula.
     #[must_use]
     pub fn uses(&self, slot: usize) -> bool {
         self.program.iter().any(|op| matches!(op, Op::Value(used) if *used as usize == slot))
@@ -169,7 +169,7 @@ impl fmt::Display for Expression {
     }
 }
 
-/// Whether a formula can refer to something called `text`.
+/// Returns true if a formula can refer to something called `text`.
 ///
 /// ```
 /// use sincro_math::expression::is_name;

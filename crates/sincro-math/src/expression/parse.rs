@@ -1,4 +1,5 @@
-//! From text to program, by precedence climbing: every operator has a level, and an operand is everything of a higher one.
+//! From text to program, by precedence climbing: every operator has a level, and an operand is everything of a higher
+//! one.
 //!
 //! | level | operators |
 //! |---|---|
@@ -22,7 +23,7 @@ const LEVEL_NOT: u8 = 3;
 const LEVEL_COMPARISON: u8 = 4;
 const LEVEL_POWER: u8 = 7;
 
-/// Where the slots of names come from.
+/// Source of the slots of names.
 pub(super) enum Names<'n> {
     /// The slot is the place in this list; another name is an error.
     Known(&'n [&'n str]),
@@ -211,7 +212,7 @@ impl<'t> Parser<'t, '_> {
     }
 }
 
-/// What is refused, and how to mend it.
+/// Error message and correction.
 impl Parser<'_, '_> {
     /// An error at the current token.
     fn fail(&self, message: &str) -> ParseError {

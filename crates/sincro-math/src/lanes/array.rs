@@ -1,7 +1,7 @@
 //! `N` worlds side by side in a plain array: lanes for processors without a vector type of ours.
 //!
-//! Every operation is the scalar one, lane by lane, and Rust never contracts `a*b + c`: lane `k` has the bits of the same
-//! computation on `f64`.
+//! Every operation is the scalar one, lane by lane, and Rust never contracts `a*b + c`: lane `k` has the bits of the
+//! same computation on `f64`.
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -1,10 +1,11 @@
 //! Several worlds side by side in the lanes of vector registers.
 //!
 //! A computation that wants lanes is a [`LaneVisitor`]: generic over the number type, all of it `#[inline(always)]`.
-//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has. A portable binary
-//! so gets vector speed.
+//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has. A
+//! portable binary so gets vector speed.
 //!
-//! The vector types are not nameable outside: whoever holds one has come through the dispatch, on a processor that has it.
+//! The vector types are not nameable outside: whoever holds one has come through the dispatch, on a processor that has
+//! it.
 
 mod array;
 #[cfg(target_arch = "x86_64")]
@@ -17,7 +18,7 @@ use crate::real::Task;
 
 /// A computation over any kind of number. `visit` must be `#[inline(always)]`, and so must be everything it calls.
 pub trait LaneVisitor {
-    /// What it yields.
+    /// Result type.
     type Output;
 
     /// Runs it on numbers of type `R`.

@@ -1,8 +1,8 @@
 //! AVX-512 and AVX2 lanes.
 //!
-//! The intrinsics are `unsafe` because a processor may lack them. The types of this module are private to [`super`]: values of
-//! them exist only inside the functions below that are compiled for the instruction set, and those are called only after
-//! [`level`] has found it on this processor.
+//! The intrinsics are `unsafe` because a processor may lack them. The types of this module are private to [`super`]:
+//! values of them exist only inside the functions below that are compiled for the instruction set, and those are called
+//! only after [`level`] has found it on this processor.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
@@ -14,7 +14,7 @@ use crate::Real;
 use crate::elementary::{self, Bits};
 use crate::real::Task;
 
-/// What this processor has.
+/// Instruction set of this processor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Level {
     Baseline,

@@ -203,7 +203,7 @@ impl<'a> View<'a> {
                 let place = j * columns + i;
                 let origin = row + self.right.scale(self.middle(i, columns));
                 let ray = Ray { origin, direction: self.ahead };
-                if let Some(hit) = self.geometry.hit(&ray, canvas.image.depth[place] - near) {
+                if let Some(hit) = self.geometry.cast_ray(&ray, canvas.image.depth[place] - near) {
                     let depth = near + hit.distance;
                     if depth < canvas.image.depth[place] {
                         canvas.put(place, depth, hit.normal, self.ahead);
@@ -216,12 +216,12 @@ impl<'a> View<'a> {
     /// What a ray meets beyond a distance.
     #[inline]
     fn beyond_near(&self, ray: &Ray, most: f64, near: f64) -> Option<Hit> {
-        let hit = self.geometry.hit(ray, most)?;
+        let hit = self.geometry.cast_ray(ray, most)?;
         if hit.distance >= near {
             return Some(hit);
         }
         let later = Ray { origin: ray.at(near), direction: ray.direction };
-        let hit = self.geometry.hit(&later, most - near)?;
+        let hit = self.geometry.cast_ray(&later, most - near)?;
         Some(Hit { distance: hit.distance + near, ..hit })
     }
 }

@@ -200,7 +200,7 @@ fn the_rectangle_of_a_piece_holds_all_of_it() {
                 let meets = |ray: &Ray| {
                     let (origin, direction) = (ray.origin - pose.pos, ray.direction);
                     let [origin, direction] = [origin, direction].map(|v| pose.rot.tr_mul_vec(v));
-                    piece.geometry.hit(&Ray { origin, direction }, 100.0)
+                    piece.geometry.cast_ray(&Ray { origin, direction }, 100.0)
                 };
                 for (k, ray) in rays(&optics).enumerate() {
                     let (origin, way) = match lens {

@@ -6,7 +6,7 @@
 
 use sincro_blocks::compile::Terminal;
 use sincro_blocks::unit::Unit;
-use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::model::Model;
 
 use crate::record::probe::depends_on_command;

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use sincro_dynamics::force::MotorMode;
-use sincro_dynamics::force::rotor::RotorLaw;
+use sincro_dynamics::actuation::MotorMode;
+use sincro_dynamics::aero::rotor::RotorLaw;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
 
@@ -135,7 +135,7 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             list.vector(&format!("{name}.acceleration"), &XYZ, "m/s²", |k| Probe::Acceleration(v + 3 + k));
         }
     }
-    if let Some(motor) = joint.motor {
+    if let Some(motor) = joint.motor.map(sincro_dynamics::ids::MotorId::index) {
         let is_length = matches!(joint.kind, JointKind::Prismatic { .. });
         let units = if is_length { LENGTH.0 } else { ANGLE.0 };
         let torque = units[3];
@@ -187,7 +187,7 @@ fn contact_signals(list: &mut List, model: &Model<f64>) {
     use ContactQuantity as Q;
     let set = model.constraints();
     for (i, frame) in model.names().frames.iter().enumerate() {
-        if !set.colliders.iter().any(|c| c.frame == i) {
+        if !set.colliders.iter().any(|c| c.body.is_some_and(|body| body.index() == i)) {
             continue;
         }
         let at = |quantity: Q| move |k: usize| Probe::Contact(quantity, i, k);
@@ -206,9 +206,9 @@ fn contact_signals(list: &mut List, model: &Model<f64>) {
             list.add(format!("{}.limit_torque", joint.name), torque, Probe::LimitTorque(joint.v_idx));
         }
     }
-    let closures = set.closures.iter().map(|c| &c.name);
-    for (k, name) in closures.chain(set.couplings.iter().map(|c| &c.name)).enumerate() {
-        list.add(format!("{name}.opening"), if k < set.closures.len() { "m" } else { "" }, Probe::Opening(k));
+    let closures = set.loop_joints.iter().map(|c| &c.name);
+    for (k, name) in closures.chain(set.gears.iter().map(|c| &c.name)).enumerate() {
+        list.add(format!("{name}.opening"), if k < set.loop_joints.len() { "m" } else { "" }, Probe::Opening(k));
     }
 }
 

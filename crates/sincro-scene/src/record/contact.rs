@@ -35,7 +35,7 @@ pub fn read(
     let colliders = &model.constraints().colliders;
     let (mut sum, mut weight, mut count) = (Vec3::zero(), 0.0, 0_u32);
     for point in points {
-        let [a, b] = point.surfaces.map(|s| colliders[s].frame == frame);
+        let [a, b] = point.surfaces.map(|s| colliders[s].body.is_some_and(|body| body.index() == frame));
         let sign = match (a, b) {
             (true, false) => 1.0,
             (false, true) => -1.0,

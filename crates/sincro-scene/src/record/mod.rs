@@ -10,7 +10,7 @@ pub mod probe;
 pub use catalogue::{Entry, catalogue};
 pub use contact::ContactQuantity;
 
-use sincro_dynamics::attachment::Response;
+use sincro_dynamics::coupled::Response;
 use sincro_dynamics::energy::Energy;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
@@ -217,7 +217,7 @@ impl Recorder {
             Probe::FrictionTorque(k) => seen.friction_torque(k),
             Probe::LimitTorque(k) => seen.limit_torque(k),
             Probe::Contact(quantity, frame, k) => contact::read(seen.model(), seen.contacts(), quantity, frame, k),
-            Probe::Opening(k) => seen.opening(k),
+            Probe::Opening(k) => seen.residual(k),
             Probe::Reaction(k) => seen.scratch().reaction()[k],
             probe => {
                 let view = View::observed(seen, t);

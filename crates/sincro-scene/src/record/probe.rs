@@ -1,9 +1,9 @@
 //! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is linearised.
 
-use sincro_dynamics::attachment::{Response, Seen};
+use sincro_dynamics::actuation::{damper, spring};
+use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
+use sincro_dynamics::coupled::{Response, StateView};
 use sincro_dynamics::energy::{energy, momentum};
-use sincro_dynamics::force::rotor::{Hub, Load, Validity};
-use sincro_dynamics::force::{damper, spring};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
@@ -35,8 +35,8 @@ pub struct View<'a, R> {
 
 impl<'a, R> View<'a, R> {
     /// Of what an attachment sees.
-    pub fn of(seen: &'a Seen<'_, R>) -> Self {
-        let &Seen { t, model, q, v, rotors, commands, ref scratch } = seen;
+    pub fn of(seen: &'a StateView<'_, R>) -> Self {
+        let &StateView { t, model, q, v, rotors, commands, ref scratch } = seen;
         Self { t, model, q, v, rotors, commands, scratch }
     }
 }

@@ -2,8 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::model::DragSpec;
-use sincro_dynamics::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 
 use crate::document::Document;
 use crate::problem::{Problem, Problems};

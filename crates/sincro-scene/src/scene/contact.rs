@@ -1,10 +1,10 @@
 //! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot start.
 
-use sincro_dynamics::constraint::ClosureKind;
+use sincro_dynamics::constraint::LoopJointKind;
 use sincro_dynamics::contact::{Material, Surface};
-use sincro_dynamics::model::{ClosureSpec, CouplingSpec, Model, ModelBuilder, NodeId};
+use sincro_dynamics::initial;
+use sincro_dynamics::model::{GearSpec, LoopJointSpec, Model, ModelBuilder, NodeId};
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
-use sincro_dynamics::start;
 use sincro_dynamics::state::State;
 
 use super::body;
@@ -164,7 +164,7 @@ pub(super) struct Joiner<'a> {
 }
 
 impl Joiner<'_> {
-    pub fn closure(&mut self, file: &ClosureFile, pointer: &str) -> Option<ClosureSpec> {
+    pub fn closure(&mut self, file: &ClosureFile, pointer: &str) -> Option<LoopJointSpec> {
         let fits =
             |kind: &Object| matches!(kind.kind, ObjectKind::Body { .. } | ObjectKind::Frame | ObjectKind::Fixture);
         let ends =
@@ -189,17 +189,17 @@ impl Joiner<'_> {
             return None;
         }
         let kind = match file.kind {
-            ClosureKindFile::Point => ClosureKind::Point,
-            ClosureKindFile::Hinge => ClosureKind::Hinge,
-            ClosureKindFile::Weld => ClosureKind::Weld,
-            ClosureKindFile::Distance => ClosureKind::Distance(length?),
+            ClosureKindFile::Point => LoopJointKind::Point,
+            ClosureKindFile::Hinge => LoopJointKind::Hinge,
+            ClosureKindFile::Weld => LoopJointKind::Weld,
+            ClosureKindFile::Distance => LoopJointKind::Distance(length?),
         };
         let pose = Pose { rot: with_z_along(axis), pos: Vec3::zero() };
         let [Some(a), Some(b)] = ends else { return None };
-        Some(ClosureSpec { kind, ends: [a, b], poses: [pose, pose] })
+        Some(LoopJointSpec { kind, ends: [a, b], poses: [pose, pose] })
     }
 
-    pub fn coupling(&mut self, file: &CouplingFile, pointer: &str) -> Option<CouplingSpec> {
+    pub fn coupling(&mut self, file: &CouplingFile, pointer: &str) -> Option<GearSpec> {
         use sincro_dynamics::joint::JointKind as K;
         let fits = |o: &Object| {
             let ObjectKind::Joint { kind, .. } = o.kind else { return false };
@@ -214,7 +214,7 @@ impl Joiner<'_> {
             return None;
         }
         let [Some(a), Some(b)] = joints else { return None };
-        Some(CouplingSpec { joints: [a, b], ratio: file.ratio, offset: file.offset })
+        Some(GearSpec { joints: [a, b], ratio: file.ratio, offset: file.offset })
     }
 
     fn find(&mut self, path: &str, pointer: &str, fits: impl Fn(&Object) -> bool, what: &str) -> Option<NodeId> {
@@ -258,7 +258,9 @@ pub(super) fn check_start(
     document: &Document,
     problems: &mut Problems,
 ) {
-    for opening in start::openings(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED) {
+    for opening in
+        initial::constraint_residuals(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED)
+    {
         let k = file.closure.iter().position(|c| format!("/{}", c.name) == opening.name);
         let at = document.title_at(&k.map_or(String::new(), |k| format!("/closure/{k}")));
         let gap = if opening.angle > CLOSED && opening.distance <= CLOSED {
@@ -267,12 +269,12 @@ pub(super) fn check_start(
             format!("its ends are {:.6e} m apart", opening.distance)
         };
         let problem = Problem::error(&at, format!("closure `{}` is open at the start: {gap}", opening.name));
-        problems.push(problem.with_help(match start::assembled(model, initial) {
+        problems.push(problem.with_help(match initial::assemble(model, initial) {
             Some(q) => format!("it closes if the joints start at {}", names(model, initial, &q)),
             None => "no position of the joints near the given ones closes it: check lengths and places".into(),
         }));
     }
-    for beyond in start::beyond_limits(model, initial) {
+    for beyond in initial::limit_violations(model, initial) {
         let object = objects.iter().find(|o| o.path == beyond.joint);
         let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
         let message =
@@ -282,7 +284,7 @@ pub(super) fn check_start(
     if file.allow_overlap {
         return;
     }
-    for overlap in start::overlaps(model, initial).into_iter().filter(|o| o.depth > OVERLAP) {
+    for overlap in initial::penetrations(model, initial).into_iter().filter(|o| o.depth > OVERLAP) {
         let object = objects.iter().find(|o| o.path == overlap.a || o.path == overlap.b);
         let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
         let message = format!("`{}` and `{}` overlap at the start by {:.6e} m", overlap.a, overlap.b, overlap.depth);

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sincro_dynamics::contact::Surface;
-use sincro_dynamics::contact::polyhedron::{self, Flaw};
+use sincro_dynamics::geometry::polyhedron::{self, MeshDefect};
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Pose;
 
@@ -146,7 +146,7 @@ pub fn mesh_of_file(path: &Path) -> Result<Triangles, String> {
 
 fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {
     let refuse = |message: String, help: &str| Err(vec![Problem::error(&named.at, message).with_help(help)]);
-    match polyhedron::hull(&mesh.corners) {
+    match polyhedron::convex_hull(&mesh.corners) {
         None => refuse(
             format!("the convex hull of `{}` has no volume", named.value),
             "its corners are finite, and do not all lie in one plane",
@@ -160,7 +160,7 @@ fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Pr
 }
 
 fn closed(mesh: Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {
-    let flaws = polyhedron::flaws(&mesh.corners, &mesh.triangles);
+    let flaws = polyhedron::defects(&mesh.corners, &mesh.triangles);
     if flaws.is_empty() {
         return Ok(mesh);
     }
@@ -176,26 +176,26 @@ fn closed(mesh: Triangles, named: &Located<String>) -> Result<Triangles, Vec<Pro
 }
 
 /// Triangles are counted from 1, in the order of the file.
-fn words(flaw: &Flaw) -> (String, &'static str) {
+fn words(flaw: &MeshDefect) -> (String, &'static str) {
     let run = |[a, b]: &[[f64; 3]; 2]| format!("from {} to {}", triple(a), triple(b));
     match flaw {
-        Flaw::NotFinite { corner } => {
+        MeshDefect::NotFinite { corner } => {
             (format!("is not finite: corner {}", corner + 1), "every coordinate is a finite number")
         }
-        Flaw::TooFew => ("has fewer than four triangles".into(), "a closed mesh has four triangles at least"),
-        Flaw::Flat { triangle } => (
+        MeshDefect::TooFew => ("has fewer than four triangles".into(), "a closed mesh has four triangles at least"),
+        MeshDefect::Flat { triangle } => (
             format!("has a triangle without area: number {}", triangle + 1),
             "remove it, and join the corners that coincide",
         ),
-        Flaw::Open { triangle, edge } => (
+        MeshDefect::Open { triangle, edge } => (
             format!("is not closed: no other triangle has the edge of triangle {} {}", triangle + 1, run(edge)),
             "every edge belongs to two triangles: fill the hole, or take the hull with convex = true",
         ),
-        Flaw::Twice { triangles: [a, b], edge } => (
+        MeshDefect::Twice { triangles: [a, b], edge } => (
             format!("is not closed: triangles {} and {} run along the edge {} the same way", a + 1, b + 1, run(edge)),
             "all triangles are counter-clockwise seen from outside: turn one of them over, or separate what touches in an edge",
         ),
-        Flaw::InsideOut { volume } => (
+        MeshDefect::InsideOut { volume } => (
             format!("is inside out: its volume is {volume} m³"),
             "all triangles are counter-clockwise seen from outside: turn them all over (recalculate the normals)",
         ),

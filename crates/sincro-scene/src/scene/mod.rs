@@ -35,8 +35,8 @@ use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
 
 pub(crate) use file::SceneFile;
+pub use sincro_dynamics::initial::Mobility;
 pub use sincro_dynamics::model::Model;
-pub use sincro_dynamics::start::Freedom;
 
 pub use camera::VisionSensor;
 pub(crate) use camera::looking;
@@ -87,8 +87,8 @@ impl Scene {
 
     /// Degrees of freedom at the start, closed loops counted.
     #[must_use]
-    pub fn freedom(&self) -> Freedom {
-        sincro_dynamics::start::freedom(&self.model, &self.initial)
+    pub fn freedom(&self) -> Mobility {
+        sincro_dynamics::initial::mobility(&self.model, &self.initial)
     }
 
     /// The object of a path.
@@ -320,12 +320,12 @@ impl Assembly {
         let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, problems };
         for (k, closure) in file.closure.iter().enumerate() {
             if let Some(spec) = joiner.closure(closure, &format!("/closure/{k}")) {
-                self.builder.closure(&format!("/{}", closure.name), spec);
+                self.builder.loop_joint(&format!("/{}", closure.name), spec);
             }
         }
         for (k, coupling) in file.coupling.iter().enumerate() {
             if let Some(spec) = joiner.coupling(coupling, &format!("/coupling/{k}")) {
-                self.builder.coupling(&format!("/{}", coupling.name), spec);
+                self.builder.gear(&format!("/{}", coupling.name), spec);
             }
         }
     }
@@ -391,7 +391,8 @@ impl Assembly {
         }
         for joint in &model.names().joints {
             let Some(index) = self.objects.iter().position(|o| o.path == joint.name) else { continue };
-            if let (Some(motor), ObjectKind::Joint { motor: known, .. }) = (joint.motor, &mut self.objects[index].kind)
+            if let (Some(motor), ObjectKind::Joint { motor: known, .. }) =
+                (joint.motor.map(sincro_dynamics::ids::MotorId::index), &mut self.objects[index].kind)
             {
                 *known = Some(motor);
                 commands[motor] = self.commands.remove(&index).expect("a joint with a motor has a command");
@@ -432,7 +433,7 @@ impl Assembly {
     }
 
     /// A finding of the builder, at the key of the file that it is about.
-    fn place(&self, found: sincro_dynamics::model::Problem, entries: &[Entry<'_>], document: &Document) -> Problem {
+    fn place(&self, found: sincro_dynamics::model::Diagnostic, entries: &[Entry<'_>], document: &Document) -> Problem {
         let object = found.node.and_then(|node| self.nodes.iter().position(|n| *n == node));
         let at = match object {
             Some(k) => {

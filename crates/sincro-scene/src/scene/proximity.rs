@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sincro_dynamics::geometry::{Field, Volume};
+use sincro_dynamics::geometry::{FieldOfView, Volume};
 
 use super::object::{Object, ObjectKind};
 use crate::document::Document;
@@ -99,7 +99,7 @@ pub(super) fn kind(
         _ => return None,
     };
     let &ProximityFile { offset, range, noise, .. } = file;
-    if Field::new(volume, offset, range).is_some() {
+    if FieldOfView::new(volume, offset, range).is_some() {
         return Some(SensorKind::Proximity { volume, offset, range, noise });
     }
     let (at, what, help) = match volume {

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sincro_dynamics::force::rotor::{
+use sincro_dynamics::aero::rotor::{
     CoefficientTable, ConstantCoefficients, Drag, PrintedScript, Rotor, RotorLaw, RotorSpec as Blades, Spin,
     StockPropeller, TableRow,
 };

@@ -4,9 +4,9 @@
 //! joint of that index in the model, whose pose is in the frames; what is fixed in the world has none.
 
 use serde::Serialize;
-use sincro_dynamics::constraint::{Anchor, ClosureKind};
+use sincro_dynamics::aero::rotor::{RotorLaw, Spin};
+use sincro_dynamics::constraint::{Anchor, LoopJointKind};
 use sincro_dynamics::contact::Surface;
-use sincro_dynamics::force::rotor::{RotorLaw, Spin};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::{Model, Shape};
@@ -242,18 +242,18 @@ impl Maker<'_> {
             let mover = objects[..n].iter().find(|o| o.path == anchor.name).and_then(|o| o.mover);
             (mover, seven(&anchor.pose))
         };
-        for closure in &set.closures {
+        for closure in &set.loop_joints {
             let kind = match closure.kind {
-                ClosureKind::Point => "point closure",
-                ClosureKind::Hinge => "hinge closure",
-                ClosureKind::Weld => "weld closure",
-                ClosureKind::Distance(_) => "distance closure",
+                LoopJointKind::Point => "point closure",
+                LoopJointKind::Hinge => "hinge closure",
+                LoopJointKind::Weld => "weld closure",
+                LoopJointKind::Distance(_) => "distance closure",
             };
             let (mover, pose) = of_anchor(&closure.a, objects);
             let other_end = Some(of_anchor(&closure.b, objects));
             objects.push(ObjectView { mover, pose, other_end, ..beside(&closure.name, kind) });
         }
-        objects.extend(set.couplings.iter().map(|coupling| beside(&coupling.name, "coupling")));
+        objects.extend(set.gears.iter().map(|coupling| beside(&coupling.name, "coupling")));
     }
 
     /// A pose in the world at zero coordinates as one in the frame of a mover.

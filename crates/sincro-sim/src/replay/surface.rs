@@ -1,13 +1,14 @@
 //! Triangles of surfaces that are no simple solids, for pictures: hulls of points, meshes, height fields.
 
-use sincro_dynamics::contact::polyhedron;
+use sincro_dynamics::geometry::polyhedron;
 
 /// Corners `[m]` and triangles, counter-clockwise seen from outside.
 pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
 /// Of the convex hull of points; none if they span no volume.
 pub(super) fn of_hull(points: &[[f64; 3]]) -> Triangles {
-    polyhedron::hull(points).map_or_else(Triangles::default, |(corners, triangles)| of_mesh(&corners, &triangles))
+    polyhedron::convex_hull(points)
+        .map_or_else(Triangles::default, |(corners, triangles)| of_mesh(&corners, &triangles))
 }
 
 /// Of a mesh.

@@ -121,8 +121,8 @@ impl LockStep {
             is_started,
         };
         match new.control.as_mut().and_then(Controller::continuous) {
-            Some(part) => new.world.settle_start_with(0.0, part),
-            None => new.world.settle_start(0.0),
+            Some(part) => new.world.initialize_with(0.0, part),
+            None => new.world.initialize(0.0),
         }
         new
     }

@@ -14,10 +14,10 @@ mod streams;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sincro_dynamics::force::rotor::{MountedRotor, SpeedFrom};
+use sincro_dynamics::aero::rotor::{MountedRotor, SpeedFrom};
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
-use sincro_dynamics::world::{Effort, MethodKind, World};
+use sincro_dynamics::world::{MethodKind, StepStatistics, World};
 
 use crate::trace::Trace;
 use crate::validity::Outside;
@@ -59,7 +59,7 @@ pub struct Simulated {
     /// The balance of energy.
     pub energy: EnergyReport,
     /// Sub-steps and events.
-    pub effort: Effort,
+    pub effort: StepStatistics,
     /// Where rotors left what their theory holds for.
     pub outside: Vec<Outside>,
     /// What to know before trusting the numbers.
@@ -256,7 +256,7 @@ pub fn method_word(kind: MethodKind) -> &'static str {
 #[must_use]
 pub fn world_of(scene: &Scene, experiment: &Experiment, kind: MethodKind, refined: bool) -> World {
     let mut world = world_with_room(scene, experiment, kind, refined, 0);
-    world.settle_start(0.0);
+    world.initialize(0.0);
     world
 }
 

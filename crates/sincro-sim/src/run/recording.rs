@@ -149,7 +149,7 @@ impl Recording {
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
         let world = lockstep.world();
-        let (energy, effort) = (ledger.close(world), world.effort());
+        let (energy, effort) = (ledger.close(world), world.statistics());
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
         warnings.extend(about_constraints(world));
@@ -179,7 +179,7 @@ impl Recording {
 /// What the user should know of the constraint solver's work.
 fn about_constraints(world: &World) -> Vec<String> {
     let mut warnings = Vec::new();
-    let rough = world.effort().rough_ticks;
+    let rough = world.statistics().fallback_ticks;
     if rough > 0 {
         warnings.push(format!(
             "contacts changed so often that {rough} steps were finished at velocity level, to first order: take a smaller step, or compliant contacts"

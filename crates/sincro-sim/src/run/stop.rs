@@ -70,7 +70,7 @@ fn explain(
         Stop::Chatter { .. } => "a limited motor or a friction changed too often within one step".to_owned(),
     };
     if let Some(rotor) = world.rotor_without_load() {
-        let name = &world.model().names().rotors[rotor];
+        let name = &world.model().names().rotors[rotor.index()];
         let reason = format!(
             "rotor `{name}`, the script as printed, gave what is not a number in tick {tick} at t = {time:.6} s, at {} rad/s",
             number(&world.rotor_speed(rotor))

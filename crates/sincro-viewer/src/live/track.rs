@@ -1,6 +1,6 @@
 //! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start there.
 
-use sincro_dynamics::force::Push;
+use sincro_dynamics::actuation::Push;
 use sincro_dynamics::spatial::Vec3;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;

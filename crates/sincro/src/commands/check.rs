@@ -7,7 +7,7 @@ use sincro::{Loaded, load};
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
-use sincro_scene::scene::{Freedom, Model, Object, ObjectKind, Scene};
+use sincro_scene::scene::{Mobility, Model, Object, ObjectKind, Scene};
 use sincro_scene::script::Kind;
 use sincro_sim::run::{method_for, method_word};
 use sincro_sim::trace::model_hash;
@@ -60,7 +60,7 @@ fn print(loaded: &Loaded) {
     say!("model");
     say!(
         "  {}, {}, {} kg",
-        degrees(freedom.left()),
+        degrees(freedom.dofs()),
         diagnostics::count(model.links().len(), "moving link"),
         short(model.total_mass())
     );
@@ -113,12 +113,12 @@ fn print_scripts(loaded: &Loaded) {
 }
 
 /// Loops, limits and contacts, if there are any.
-fn print_constraints(model: &Model<f64>, freedom: &Freedom) {
+fn print_constraints(model: &Model<f64>, freedom: &Mobility) {
     let set = model.constraints();
     if freedom.loops > 0 {
         say!(
             "  {} of the tree, {} with {}, {} redundant",
-            freedom.of_tree,
+            freedom.tree_dofs,
             diagnostics::count(freedom.loops, "loop"),
             diagnostics::count(freedom.equations, "equation"),
             freedom.redundant

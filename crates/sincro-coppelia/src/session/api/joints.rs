@@ -1,6 +1,6 @@
 //! Shelf: joints and their motors.
 
-use sincro_dynamics::force::MotorMode;
+use sincro_dynamics::actuation::MotorMode;
 
 use super::{Function, Outcome, done, handle, one};
 use crate::session::{Arguments, Desk, Refusal, Value};

@@ -1,6 +1,6 @@
 //! Shelf: proximity sensors.
 
-use sincro_dynamics::geometry::{Field, Volume};
+use sincro_dynamics::geometry::{FieldOfView, Volume};
 
 use super::distances::entity;
 use super::{Function, Outcome, done, handle, one};
@@ -126,7 +126,7 @@ fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
             return Err(Refusal(format!("{kind} is no proximity sensor: {known}")));
         }
     };
-    let field = Field::new(volume, n(0), n(1)).ok_or_else(|| {
+    let field = FieldOfView::new(volume, n(0), n(1)).ok_or_else(|| {
         let expected = "expected an offset that is not negative, a positive range, widths, and angles of at most π";
         Refusal(format!("a sensor {volume:?} with offset {} and range {}: {expected}", n(0), n(1)))
     })?;

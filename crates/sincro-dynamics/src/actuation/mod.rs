@@ -1,0 +1,23 @@
+//! Actuation and passive forces of joints: motors, drives, Coulomb friction, springs, dampers, torques given over time.
+//!
+//! | element | torque on its joint | potential energy | dissipated power |
+//! |---|---|---|---|
+//! | [`spring`] | −k (q − rest) | ½ k (q − rest)² | |
+//! | [`damper`] | −c q̇ | | c q̇² |
+//! | [`friction`] | locked: any torque within the limit; sliding: ∓ limit | | limit·\|q̇\| |
+//! | [`motor`] | by mode | | −τ q̇ |
+//! | [`applied`] | a signal of time | | −τ q̇ |
+//!
+//! Gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy); elements
+//! in the air are in [`crate::aero`].
+
+pub mod applied;
+pub mod damper;
+pub mod drive;
+pub mod friction;
+pub mod motor;
+pub mod spring;
+
+pub use applied::{AppliedTorque, AppliedWrench, Push};
+pub use drive::{Drive, DriveKind};
+pub use motor::{Motor, MotorMode};

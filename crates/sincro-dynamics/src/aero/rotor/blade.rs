@@ -1,0 +1,269 @@
+//! The blade-element momentum rotor: thrust and torque of a rigid rotor with constant chord and pitch, from its speed
+//! and the velocity of its hub.
+//!
+//! One square root of an equation in one unknown ([`super::momentum`]), then two polynomials; about a hundred
+//! operations.
+//!
+//! T = 2ρA (S − k₁V w), S = k₁θ₀(⅔V² + h²);
+//! Q = ρAR [σ(c₀ + c₂θ₀²)(V² + h²)/8 + 4k₁w(Vθ₀/3 − w/2) + ¼σc₂w(w − 4θ₀V/3)].
+//!
+//! Source: key `leishman2006`, blade elements with a uniform inflow (linear lift, drag c₀ + c₂α², small angles, no tip
+//! loss, no reversed flow), averaged over a turn; the inflow from momentum after key `glauert1926`. In axial flight the
+//! middle term of QΩ is T w. Written with velocities instead of ratios to ΩR, so that it stays finite at Ω = 0.
+//!
+//! | symbol | meaning | unit | usual symbol |
+//! |---|---|---|---|
+//! | R, A = πR² | radius and area of the disc | m, m² | |
+//! | σ = n c/(πR) | solidity | | |
+//! | k₁ = σ Clα/8 | lift of all blades, as a ratio | | |
+//! | θ₀ | collective pitch | rad | |
+//! | c₀, c₂ | drag polar | , 1/rad² | Cd0, kCd |
+//! | V = ΩR | velocity of the tips | m/s | Vt |
+//! | h, v | hub's velocity in the plane and along the axis, relative to the air | m/s | μV, λcV |
+//! | w | inflow | m/s | λV |
+//!
+//! A rotor that turns backwards is its mirror image: T(Ω, v) = −T(−Ω, −v), and so w and Q. The mirror jumps at Ω = 0 if
+//! there is velocity in the plane; a rotor at rest is outside what the theory says anything about
+//! ([`Validity::Standing`]).
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use sincro_math::Real;
+
+use super::momentum::Balance;
+use super::{Load, Spin, limited, outside};
+use crate::spatial::Vec3;
+
+/// Drag of a blade's section: c₀ + c₂ α².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drag {
+    /// Without incidence, c₀.
+    pub cd0: f64,
+    /// By the square of the incidence, c₂ [1/rad²].
+    pub k_cd: f64,
+}
+
+/// Geometry and section coefficients of a rotor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotorSpec {
+    /// Radius `[m]`.
+    pub radius: f64,
+    /// Chord of a blade `[m]`.
+    pub chord: f64,
+    /// Number of blades.
+    pub n_blades: u32,
+    /// Slope of a section's lift coefficient over incidence [1/rad].
+    pub lift_slope: f64,
+    /// Pitch of the blades `[rad]`.
+    pub collective_pitch: f64,
+    /// Drag of a section.
+    pub drag: Drag,
+    /// Sense of rotation at positive speed.
+    pub spin: Spin,
+}
+
+/// Range of validity in which a load was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Validity {
+    /// It does.
+    Valid,
+    /// The rotor stands still: only finiteness is promised.
+    Standing,
+    /// Descent faster than half the induced velocity with little forward speed: towards the vortex ring, where the flow
+    /// has no steady tube that momentum theory could balance.
+    SteepDescent,
+    /// The rotor pushes backwards: momentum theory holds in the mirror, the blades' sections work upside down.
+    NegativeThrust,
+    /// Forward speed above half that of the tips: reversed flow and stall on the retreating blade, which are left out.
+    HighAdvance,
+    /// The advance ratio is outside the table that was measured: the coefficients are those of its end.
+    OutsideTable,
+    /// The law gave what is not a number.
+    NotANumber,
+}
+
+impl Validity {
+    /// Every way not to hold, in a fixed order.
+    pub const REASONS: [Self; 6] = [
+        Self::Standing,
+        Self::SteepDescent,
+        Self::NegativeThrust,
+        Self::HighAdvance,
+        Self::OutsideTable,
+        Self::NotANumber,
+    ];
+
+    /// In words.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Valid => "valid",
+            Self::Standing => "standing",
+            Self::SteepDescent => "steep descent",
+            Self::NegativeThrust => "negative thrust",
+            Self::HighAdvance => "fast forward flight",
+            Self::OutsideTable => "outside its table",
+            Self::NotANumber => "not a number",
+        }
+    }
+}
+
+/// A rotor, ready to be evaluated.
+///
+/// ```
+/// use sincro_dynamics::aero::rotor::{Drag, Rotor, RotorSpec, Spin};
+/// use sincro_dynamics::spatial::Vec3;
+///
+/// let rotor = Rotor::new(RotorSpec {
+///     radius: 0.2032,
+///     chord: 0.025,
+///     n_blades: 4,
+///     lift_slope: 5.7,
+///     collective_pitch: 0.1412,
+///     drag: Drag { cd0: 0.0087, k_cd: 0.4 },
+///     spin: Spin::CounterClockwise,
+/// })
+/// .unwrap();
+/// let hover = rotor.evaluate(1.225, 720.6, Vec3([0.0, 0.0, 0.0]));
+/// assert!((hover.thrust - 25.273).abs() < 1e-3); // a quarter of 10.305 kg
+/// let climb = rotor.evaluate(1.225, 720.6, Vec3([0.0, 0.0, 1.0]));
+/// assert!(climb.thrust < hover.thrust);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotor {
+    spec: RotorSpec,
+    /// A `[m²]`
+    area: f64,
+    /// σ
+    solidity: f64,
+    /// k₁
+    lift: f64,
+    /// σ(c₀ + c₂θ₀²)/8
+    profile: f64,
+    /// ¼σc₂
+    incidence_drag: f64,
+}
+
+/// The flow at the hub of a rotor that turns forwards, or of the mirror image of one that does not.
+struct Flow<R> {
+    /// −1 in the mirror, else 1.
+    mirror: R,
+    /// V
+    tip: R,
+    balance: Balance<R>,
+}
+
+impl Rotor {
+    /// A rotor after `spec`.
+    ///
+    /// # Errors
+    ///
+    /// All that is wrong with the numbers, one sentence each.
+    pub fn new(spec: RotorSpec) -> Result<Self, Vec<String>> {
+        let problems = problems(&spec);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let solidity = f64::from(spec.n_blades) * spec.chord / (PI * spec.radius);
+        let pitch = spec.collective_pitch;
+        Ok(Self {
+            spec,
+            area: PI * spec.radius * spec.radius,
+            solidity,
+            lift: solidity * spec.lift_slope / 8.0,
+            profile: solidity * (spec.drag.cd0 + spec.drag.k_cd * pitch * pitch) / 8.0,
+            incidence_drag: 0.25 * solidity * spec.drag.k_cd,
+        })
+    }
+
+    /// Geometry and section coefficients the rotor was made from.
+    #[must_use]
+    pub fn spec(&self) -> &RotorSpec {
+        &self.spec
+    }
+
+    /// Area of the disc `[m²]`.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Part of the disc that is blades, σ.
+    #[must_use]
+    pub fn solidity(&self) -> f64 {
+        self.solidity
+    }
+
+    /// Thrust, torque, inflow and power in air of `density` [kg/m³], at `speed` [rad/s] (negative: backwards), with the
+    /// hub moving at `velocity` [m/s] relative to the air, in the rotor's axes.
+    ///
+    /// Finite for finite arguments (velocities beyond [`MAX_VELOCITY`](super::MAX_VELOCITY) count as that); NaN for
+    /// others. On dual numbers the derivatives are exact.
+    #[inline(always)]
+    pub fn evaluate<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>) -> Load<R> {
+        let Flow { mirror, tip, balance } = self.flow(speed, velocity);
+        let w = balance.inflow();
+        let pitch = self.spec.collective_pitch;
+        // T = 2ρA (S − k₁V w)
+        let thrust = R::splat(2.0 * density * self.area) * (balance.supply - balance.relief * w);
+        // Q/(ρAR), term by term: profile, induced, incidence
+        let profile = R::splat(self.profile) * (tip * tip + balance.in_plane_squared);
+        let induced = R::splat(4.0 * self.lift) * w * (R::splat(pitch / 3.0) * tip - R::splat(0.5) * w);
+        let incidence = R::splat(self.incidence_drag) * w * (w - R::splat(4.0 * pitch / 3.0) * tip);
+        let drag = R::splat(density * self.area) * ((profile + induced) + incidence);
+        let reaction = R::splat(-self.spec.spin.sign() * self.spec.radius) * drag;
+        Load { thrust: mirror * thrust, torque: mirror * reaction, inflow: mirror * w, power: drag * tip }
+    }
+
+    /// Range of validity of `load`, which [`Rotor::evaluate`] gave for the same arguments; only the first lane is
+    /// examined.
+    #[must_use]
+    pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>, load: &Load<R>) -> Validity {
+        let flow = self.flow(speed.lane(0), Vec3(velocity.0.map(|x| x.lane(0))));
+        let Flow { mirror, tip, balance } = flow;
+        // T/(2ρA), the square of the induced velocity in hover
+        let thrust = balance.supply - balance.relief * (mirror * load.inflow.lane(0));
+        let induced = thrust.max(0.0).sqrt();
+        let in_plane = balance.in_plane_squared.sqrt();
+        if tip == 0.0 {
+            Validity::Standing
+        } else if balance.climb < -0.5 * induced && in_plane < 2.0 * induced {
+            Validity::SteepDescent
+        } else if thrust < 0.0 {
+            Validity::NegativeThrust
+        } else if in_plane > 0.5 * tip {
+            Validity::HighAdvance
+        } else {
+            Validity::Valid
+        }
+    }
+
+    #[inline(always)]
+    fn flow<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Flow<R> {
+        let mirror = speed.if_less(R::zero(), R::splat(-1.0), R::one());
+        let tip = limited(speed).abs() * R::splat(self.spec.radius);
+        let [x, y, z] = velocity.0.map(limited);
+        let square = x * x + y * y;
+        // a square that underflows has no slope either: its root would make one of 1/0
+        let in_plane_squared = square.if_less(R::splat(f64::MIN_POSITIVE), R::zero(), square);
+        let supply =
+            R::splat(self.lift * self.spec.collective_pitch) * (R::splat(2.0 / 3.0) * (tip * tip) + in_plane_squared);
+        let balance = Balance { climb: mirror * z, in_plane_squared, relief: R::splat(self.lift) * tip, supply };
+        Flow { mirror, tip, balance }
+    }
+}
+
+fn problems(spec: &RotorSpec) -> Vec<String> {
+    let mut out = Vec::new();
+    let length = (1e-6, 1e6);
+    out.extend(outside("radius", spec.radius, length, "m"));
+    out.extend(outside("chord", spec.chord, length, "m"));
+    out.extend(outside("lift_slope", spec.lift_slope, (1e-6, 1e3), "1/rad"));
+    out.extend(outside("collective_pitch", spec.collective_pitch, (-FRAC_PI_2, FRAC_PI_2), "rad"));
+    out.extend(outside("cd0", spec.drag.cd0, (0.0, 1e3), ""));
+    out.extend(outside("k_cd", spec.drag.k_cd, (0.0, 1e3), "1/rad²"));
+    if spec.n_blades == 0 {
+        out.push("`n_blades` is 0: a rotor has at least one blade".to_owned());
+    }
+    out
+}

@@ -1,0 +1,218 @@
+//! The flow through a rotor's disc, from momentum: the root of one equation, found on scalars and then polished once in
+//! the caller's own arithmetic.
+//!
+//! Blade elements give the thrust T = 2ρA (S − a w), momentum theory gives T = 2ρA (w − v)√(w² + h²). Their difference,
+//!
+//! f(w) = (w − v)√(w² + h²) + a w − S,
+//!
+//! is zero at the inflow w; of several roots the largest counts, the one that is continuous with climb.
+//! Source: key `glauert1926` (momentum in forward flight), key `leishman2006` (the combination).
+//!
+//! | symbol | meaning | unit | usual symbol |
+//! |---|---|---|---|
+//! | w | inflow: climb plus induced velocity | m/s | λ ΩR |
+//! | v | climb velocity of the hub | m/s | λc ΩR |
+//! | h | velocity of the hub in the plane of the disc | m/s | μ ΩR |
+//! | a | thrust that a unit of inflow costs, k₁ΩR | m/s | σ Clα/8 ΩR |
+//! | S | thrust without inflow | m²/s² | |
+//!
+//! The squared equation is a quartic with a closed form, but that loses its root in forward flight (a resolvent with
+//! three real roots), so the root is bracketed instead. How many roots: f′√(w² + h²) = g(w) = 2w² − v w + h² + a√(w² +
+//! h²) is convex, so f rises, falls at most once in between, and rises again. For w ≥ max(v, 0) it rises.
+//!
+//! The polishing step w ← w − f(w)/f′(w), with the root as a constant, gives a dual number dw = −(∂f/∂p dp)/f′: the
+//! derivative by the implicit function theorem, exact.
+
+use sincro_math::Real;
+
+/// The coefficients of f; symbols as above.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balance<R> {
+    /// v
+    pub climb: R,
+    /// h²
+    pub in_plane_squared: R,
+    /// a, not negative
+    pub relief: R,
+    /// S
+    pub supply: R,
+}
+
+/// Most evaluations of f in one search: a Newton step that does not halve the one before last is replaced by a halving
+/// of the bracket. Usual are five; the limit is there for what is not a number and for roots of 1e-30 of the bracket.
+const MAX_ITERATIONS: usize = 128;
+
+/// f′ below this part of the velocities in it counts as zero: at a double root rounding leaves √ε = 1.5e-8 of it.
+const FLAT: f64 = 1e-8;
+
+impl<R: Real> Balance<R> {
+    /// The inflow w `[m/s]`.
+    #[inline(always)]
+    pub fn inflow(&self) -> R {
+        let w = R::from_lanes(|k| self.lane(k).largest_root());
+        let (f, slope) = self.residual(w);
+        // the slope without derivatives: they would only multiply what is left of f
+        let slope = R::from_lanes(|k| slope.lane(k));
+        let speeds = w.abs() + self.climb.abs() + self.relief;
+        let floor = R::from_lanes(|k| FLAT * speeds.lane(k) + f64::MIN_POSITIVE);
+        w - f / slope.max(floor)
+    }
+
+    /// f and f′ at w.
+    #[inline(always)]
+    fn residual(&self, w: R) -> (R, R) {
+        let through_disc = (w * w + self.in_plane_squared).sqrt();
+        let induced = w - self.climb;
+        let f = induced * through_disc + (self.relief * w - self.supply);
+        // at w = h = 0 the quotient is taken as 0
+        let slope = through_disc + induced * (w / through_disc.max(R::splat(f64::MIN_POSITIVE))) + self.relief;
+        (f, slope)
+    }
+
+    #[inline(always)]
+    fn lane(&self, k: usize) -> Balance<f64> {
+        Balance {
+            climb: self.climb.lane(k),
+            in_plane_squared: self.in_plane_squared.lane(k),
+            relief: self.relief.lane(k),
+            supply: self.supply.lane(k),
+        }
+    }
+}
+
+impl Balance<f64> {
+    /// The largest root of f.
+    fn largest_root(&self) -> f64 {
+        let above = self.climb.max(0.0);
+        let at_above = self.residual(above).0;
+        if at_above == 0.0 {
+            return above;
+        }
+        if at_above < 0.0 {
+            let upper = self.axial_root().max(above);
+            return self.rising_root(above, upper, upper);
+        }
+        let (least, most) = self.bracket_below(above);
+        self.rising_root(least, most, most)
+    }
+
+    /// The root for h = 0 with the same S, of w² − (v − a)w − S: an upper bound of the root for h > 0 where that is
+    /// above max(v, 0), because √(w² + h²) ≥ w there; exact in axial flight.
+    fn axial_root(&self) -> f64 {
+        let b = self.climb - self.relief;
+        let root = (b * b + 4.0 * self.supply).max(0.0).sqrt();
+        // the form without cancellation
+        if b < 0.0 { 2.0 * self.supply / (root - b) } else { 0.5 * (b + root) }
+    }
+
+    /// An interval on which f rises through its largest root, given f(above) > 0 at `above` = max(v, 0).
+    fn bracket_below(&self, above: f64) -> (f64, f64) {
+        // here (w − v)√(w² + h²) ≤ −|S| and a w ≤ 0
+        let bottom = -(self.climb.abs() + self.supply.abs().sqrt());
+        // 2w² − v w + h² has no zero: f rises everywhere
+        if self.climb * self.climb <= 8.0 * self.in_plane_squared {
+            return (bottom, above);
+        }
+        // g is least at `turn`; where it is negative, f falls
+        let turn = bisect(self.climb.min(0.0), above, |w| self.bend(w).1 < 0.0);
+        if self.bend(turn).0 >= 0.0 {
+            return (bottom, above);
+        }
+        let valley = bisect(turn, above, |w| self.bend(w).0 < 0.0);
+        if self.residual(valley).0 <= 0.0 {
+            return (valley, above);
+        }
+        let hill = bisect(self.climb.min(0.0), turn, |w| self.bend(w).0 > 0.0);
+        (bottom, hill)
+    }
+
+    /// g and g′ at w.
+    fn bend(&self, w: f64) -> (f64, f64) {
+        let through_disc = (w * w + self.in_plane_squared).sqrt();
+        let g = 2.0 * w * w - self.climb * w + self.in_plane_squared + self.relief * through_disc;
+        (g, 4.0 * w - self.climb + self.relief * (w / through_disc.max(f64::MIN_POSITIVE)))
+    }
+
+    /// The root of f between `low` and `high`, where f rises, by Newton's method kept inside the bracket.
+    fn rising_root(&self, mut low: f64, mut high: f64, start: f64) -> f64 {
+        let mut w = start;
+        let (mut last, mut before_last) = (high - low, high - low);
+        for _ in 0..MAX_ITERATIONS {
+            let (f, slope) = self.residual(w);
+            if f > 0.0 {
+                high = w;
+            } else {
+                low = w;
+            }
+            let newton = w - f / slope;
+            let is_good = newton > low && newton < high && (newton - w).abs() < 0.5 * before_last;
+            let next = if is_good { newton } else { low + 0.5 * (high - low) };
+            let step = (next - w).abs();
+            if f == 0.0 || step <= f64::EPSILON * w.abs() || next == low || next == high {
+                return w;
+            }
+            (before_last, last, w) = (last, step, next);
+        }
+        w
+    }
+}
+
+/// The point in [low, high] where `is_before` turns from true to false.
+fn bisect(mut low: f64, mut high: f64, is_before: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..MAX_ITERATIONS {
+        let middle = low + 0.5 * (high - low);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if is_before(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low + 0.5 * (high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Signs of f on a fine grid, from the top downwards: where the largest root is, to the grid's width.
+    fn scanned(b: &Balance<f64>, top: f64, bottom: f64, n: u32) -> (f64, f64) {
+        let at = |k: u32| top + (bottom - top) * (f64::from(k) / f64::from(n));
+        let k = (0..=n).find(|k| b.residual(at(*k)).0 <= 0.0).expect("f is negative at the bottom");
+        (at(k), if k == 0 { top } else { at(k - 1) })
+    }
+
+    #[test]
+    fn the_largest_root_is_found_where_there_are_three() {
+        // negative pitch, climb: f rises, falls and rises again between 0 and v
+        for supply in [-0.5, -1.0, -2.0, -3.0, -3.9, -4.5, -6.0, 1.0] {
+            for in_plane in [0.0, 0.1, 0.5, 1.0, 1.5, 3.0] {
+                for relief in [0.0, 0.2, 1.0, 3.0] {
+                    for climb in [-4.0, -1.0, 1.0, 4.0] {
+                        let b = Balance { climb, in_plane_squared: in_plane * in_plane, relief, supply };
+                        let (below, above) = scanned(&b, 10.0, -10.0, 20_000);
+                        let w = b.inflow();
+                        assert!(w >= below - 1e-7 && w <= above + 1e-7, "{b:?}: {w} not in [{below}, {above}]");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_double_root_leaves_the_polishing_step_harmless() {
+        // h = 0, a = 0: f = w² − v w − S for w > 0 touches zero at v/2 where S = −v²/4
+        let b = Balance { climb: 4.0, in_plane_squared: 0.0, relief: 0.0, supply: -4.0 };
+        assert!((b.inflow() - 2.0).abs() < 1e-7, "{}", b.inflow());
+        let still = Balance { climb: 0.0, in_plane_squared: 0.0, relief: 0.0, supply: 0.0 };
+        assert_eq!(still.inflow(), 0.0);
+    }
+
+    #[test]
+    fn what_is_not_a_number_ends_as_such() {
+        let b = Balance { climb: f64::NAN, in_plane_squared: 0.0, relief: 1.0, supply: 1.0 };
+        assert!(b.inflow().is_nan());
+    }
+}

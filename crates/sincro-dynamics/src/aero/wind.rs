@@ -1,0 +1,396 @@
+//! Wind: the velocity of the air as a function of time and height, and of nothing else.
+//!
+//! There is no state and no filter: the same instant has the same wind, whichever step or order asks for it, so
+//! integrators may go back, and a snapshot needs nothing of it. An instant ([`Wind::at`]) costs a few operations, with
+//! turbulence 192 sines; a place in it a few operations more.
+//!
+//! Source: key `mil-f-8785c`, section 3.7: logarithmic shear, discrete gust of 1 − cosine, Dryden's spectra at low
+//! altitude.
+//!
+//! **Turbulence.** Dryden's spectra, each with ∫₀^∞ Φ dω = σ²,
+//!
+//! Φu(ω) = σu² (2/π)(Lu/V) / (1 + x²), x = Lu ω/V;
+//! Φv(ω) = σv² (1/π)(Lv/V)(1 + 3x²)/(1 + x²)², x = Lv ω/V; Φw likewise with Lw,
+//!
+//! are not filtered out of noise here but summed: [`N_HARMONICS`] cosines of equal variance σ²/N and random phase.
+//! Their frequencies divide the spectrum into N parts of equal area, one drawn at random in each, so that nothing
+//! repeats with a period. The band ends at x = [`BAND`]; the tail beyond it, 0.6 % (u) and 1.0 % (v, w) of the
+//! variance, is moved into the band, so that the variance is σ² exactly. Autocorrelations are σu² e^{−r} and σv²
+//! e^{−r}(1 − r/2), with r = Vτ/L, to within about 1/N.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | u, v, w | turbulence along the mean wind, across it, upwards | m/s |
+//! | σu, σv, σw | standard deviations | m/s |
+//! | Lu, Lv, Lw | lengths | m |
+//! | V | velocity at which the vehicle crosses the frozen turbulence | m/s |
+//! | W₂₀ | mean wind at 20 feet (6.1 m) | m/s |
+//! | h | height | m (feet in the source's formulas) |
+
+use core::f64::consts::{PI, TAU};
+
+use sincro_math::Real;
+use sincro_math::elementary::{atan, ln, pow, sin_cos};
+
+use crate::spatial::Vec3;
+
+/// Mean wind over height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Profile {
+    /// The same everywhere.
+    Constant,
+    /// Proportional to height above ground.
+    Linear {
+        /// Height at which the wind has its given velocity `[m]`.
+        reference: f64,
+    },
+    /// By the logarithm of height over roughness; none below it.
+    Logarithmic {
+        /// Height at which the wind has its given velocity `[m]`.
+        reference: f64,
+        /// Roughness of the ground `[m]`: 0.046 in the source for approach and landing, 0.61 elsewhere.
+        roughness: f64,
+    },
+}
+
+/// A gust (A/2)(1 − cos(π s)), s the time since its start by its rise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gust {
+    /// Start `[s]`.
+    pub start: f64,
+    /// Time to the peak `[s]`.
+    pub rise: f64,
+    /// Velocity at the peak `[m/s]`, world axes.
+    pub peak: [f64; 3],
+    /// True if it stays at its peak, as in the source; else it falls as it rose.
+    pub holds: bool,
+}
+
+/// Intensity and length scale of turbulence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scales {
+    /// As [`dryden_scales`] gives them near the ground.
+    LowAltitude {
+        /// Mean wind at 20 feet, W₂₀ `[m/s]`.
+        wind_at_20_feet: f64,
+        /// Height h `[m]`, 3.048 to 304.8: lengths and deviations are those at this height, whatever height is asked
+        /// for.
+        height: f64,
+    },
+    /// Given outright.
+    Given {
+        /// Standard deviations of u, v, w `[m/s]`.
+        deviations: [f64; 3],
+        /// Lengths Lu, Lv, Lw `[m]`.
+        lengths: [f64; 3],
+    },
+}
+
+impl Scales {
+    /// Standard deviations `[m/s]` and lengths `[m]` of u, v, w.
+    #[must_use]
+    pub fn values(&self) -> ([f64; 3], [f64; 3]) {
+        match *self {
+            Self::LowAltitude { wind_at_20_feet, height } => dryden_scales(wind_at_20_feet, height),
+            Self::Given { deviations, lengths } => (deviations, lengths),
+        }
+    }
+}
+
+/// Dryden turbulence with its seed, scales and airspeed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurbulenceSpec {
+    /// Another seed is another turbulence with the same spectra.
+    pub seed: u64,
+    /// Intensity and length scale.
+    pub scales: Scales,
+    /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind.
+    pub airspeed: f64,
+}
+
+/// Number of harmonics in each component: their spread around the spectrum falls, the cost rises with it.
+pub const N_HARMONICS: usize = 64;
+
+/// End of the band in units of V/L.
+pub const BAND: f64 = 100.0;
+
+/// Times closer than this are the same instant `[s]`.
+const SAME_INSTANT: f64 = 1e-9;
+
+/// The air's velocity over time and height.
+///
+/// ```
+/// use sincro_dynamics::aero::wind::{Profile, Wind};
+///
+/// let shear = Profile::Logarithmic { reference: 6.096, roughness: 0.0457 };
+/// let wind = Wind::new([5.0, 0.0, 0.0], shear, vec![], None).unwrap();
+/// assert!((wind.velocity(0.0, 6.096)[0] - 5.0).abs() < 1e-12);
+/// assert_eq!(wind.velocity(0.0, 0.01)[0], 0.0);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wind {
+    mean: [f64; 3],
+    profile: Profile,
+    gusts: Vec<Gust>,
+    turbulence: Option<Turbulence>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Turbulence {
+    /// u, v, w
+    components: [Component; 3],
+    /// Cosine and sine of the mean wind's direction in the horizontal plane.
+    along: (f64, f64),
+}
+
+/// One component: amplitude·Σ cos(ωₖ t + φₖ).
+#[derive(Clone, Debug, PartialEq)]
+struct Component {
+    amplitude: f64,
+    /// ω [rad/s] and φ `[rad]`
+    harmonics: Vec<(f64, f64)>,
+}
+
+impl Wind {
+    /// Wind of velocity `mean` [m/s] (world axes, z up) with `profile` over height, gusts and turbulence on top.
+    ///
+    /// # Errors
+    ///
+    /// All that is wrong with the numbers, one sentence each.
+    pub fn new(
+        mean: [f64; 3],
+        profile: Profile,
+        gusts: Vec<Gust>,
+        turbulence: Option<TurbulenceSpec>,
+    ) -> Result<Self, Vec<String>> {
+        let problems = problems(mean, profile, &gusts, turbulence);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let turbulence = turbulence.map(|spec| Turbulence::new(&spec, mean));
+        Ok(Self { mean, profile, gusts, turbulence })
+    }
+
+    /// Velocity of the air [m/s] in world axes at time `t` `[s]` and `height` above ground `[m]`.
+    #[must_use]
+    #[inline(always)]
+    pub fn velocity<R: Real>(&self, t: f64, height: R) -> Vec3<R> {
+        self.at(t).velocity(height)
+    }
+
+    /// The wind at time `t` `[s]`, its height still open: for whoever asks in several places.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Air<'_> {
+        let mut unsteady = [0.0; 3];
+        for gust in &self.gusts {
+            let share = gust.share(t);
+            for (sum, peak) in unsteady.iter_mut().zip(gust.peak) {
+                *sum += share * peak;
+            }
+        }
+        if let Some(turbulence) = &self.turbulence {
+            for (sum, part) in unsteady.iter_mut().zip(turbulence.velocity(t)) {
+                *sum += part;
+            }
+        }
+        Air { wind: self, unsteady }
+    }
+
+    /// Height at which the wind has its given velocity `[m]`; none if that is everywhere.
+    #[must_use]
+    pub fn reference_height(&self) -> Option<f64> {
+        match self.profile {
+            Profile::Constant => None,
+            Profile::Linear { reference } | Profile::Logarithmic { reference, .. } => Some(reference),
+        }
+    }
+
+    /// Next time event: the first instant after `t` `[s]` at which a gust begins or ends; infinite if there is none.
+    #[must_use]
+    pub fn next_time_event(&self, t: f64) -> f64 {
+        let ends = self.gusts.iter().flat_map(|g| [g.start, g.start + if g.holds { 1.0 } else { 2.0 } * g.rise]);
+        ends.filter(|x| *x > t + SAME_INSTANT).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The wind at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Air<'a> {
+    wind: &'a Wind,
+    /// Gusts and turbulence `[m/s]`, world axes.
+    unsteady: [f64; 3],
+}
+
+impl Air<'_> {
+    /// Velocity of the air [m/s] in world axes at a `height` above ground `[m]`.
+    #[must_use]
+    #[inline(always)]
+    pub fn velocity<R: Real>(&self, height: R) -> Vec3<R> {
+        Vec3::splat(self.wind.mean).scale(self.wind.profile.factor(height)) + Vec3::splat(self.unsteady)
+    }
+}
+
+impl Profile {
+    /// Wind at `height` by that at the reference.
+    #[inline(always)]
+    fn factor<R: Real>(&self, height: R) -> R {
+        match *self {
+            Self::Constant => R::one(),
+            Self::Linear { reference } => height.max(R::zero()) * R::splat(1.0 / reference),
+            Self::Logarithmic { reference, roughness } => {
+                let ratio = (height * R::splat(1.0 / roughness)).max(R::one());
+                ratio.map(ln) * R::splat(1.0 / ln(reference / roughness).0)
+            }
+        }
+    }
+}
+
+impl Gust {
+    /// Part of the peak at time `t`, 0 to 1.
+    fn share(&self, t: f64) -> f64 {
+        let s = (t - self.start) / self.rise;
+        let end = if self.holds { 1.0 } else { 2.0 };
+        0.5 * (1.0 - sin_cos(PI * s.clamp(0.0, end)).1)
+    }
+}
+
+/// Standard deviations `[m/s]` and lengths `[m]` of u, v, w at low altitude: σw = 0.1 W₂₀, σu = σv = σw/d^0.4, Lw = h,
+/// Lu = Lv = h/d^1.2, with d = 0.177 + 0.000823 h (h in feet).
+#[must_use]
+pub fn dryden_scales(wind_at_20_feet: f64, height: f64) -> ([f64; 3], [f64; 3]) {
+    const FOOT: f64 = 0.3048;
+    let d = 0.177 + 0.000_823 * (height / FOOT);
+    let (vertical, horizontal) = (0.1 * wind_at_20_feet, 0.1 * wind_at_20_feet / pow(d, 0.4).0);
+    let length = height / pow(d, 1.2).0;
+    ([horizontal, horizontal, vertical], [length, length, height])
+}
+
+impl Turbulence {
+    fn new(spec: &TurbulenceSpec, mean: [f64; 3]) -> Self {
+        let (deviations, lengths) = spec.scales.values();
+        let mut random = SplitMix(spec.seed);
+        let components = core::array::from_fn(|k| {
+            let area = if k == 0 { along_area } else { across_area };
+            Component::new(deviations[k], spec.airspeed / lengths[k], area, &mut random)
+        });
+        let horizontal = (mean[0] * mean[0] + mean[1] * mean[1]).sqrt();
+        let along = if horizontal > 0.0 { (mean[0] / horizontal, mean[1] / horizontal) } else { (1.0, 0.0) };
+        Self { components, along }
+    }
+
+    /// In world axes at time `t`.
+    fn velocity(&self, t: f64) -> [f64; 3] {
+        let [u, v, w] = [0, 1, 2].map(|k| self.components[k].value(t));
+        let (cos, sin) = self.along;
+        [cos * u - sin * v, sin * u + cos * v, w]
+    }
+}
+
+/// Part of the variance of u below x: (2/π) atan x.
+fn along_area(x: f64) -> f64 {
+    2.0 / PI * atan(x).0
+}
+
+/// Part of the variance of v and w below x: (2 atan x − x/(1 + x²))/π.
+fn across_area(x: f64) -> f64 {
+    (2.0 * atan(x).0 - x / (1.0 + x * x)) / PI
+}
+
+impl Component {
+    /// Standard deviation σ, corner frequency V/L [rad/s], and the part of the variance below x = ω/(V/L).
+    fn new(deviation: f64, corner: f64, area: fn(f64) -> f64, random: &mut SplitMix) -> Self {
+        let share = area(BAND) / N_HARMONICS as f64;
+        let harmonics = (0..N_HARMONICS).map(|k| {
+            let x = inverse(area, share * (k as f64 + random.unit()));
+            (x * corner, TAU * random.unit())
+        });
+        // each cosine has half the square of its amplitude as variance
+        Self { amplitude: deviation * (2.0 / N_HARMONICS as f64).sqrt(), harmonics: harmonics.collect() }
+    }
+
+    fn value(&self, t: f64) -> f64 {
+        let mut sum = 0.0;
+        for (frequency, phase) in &self.harmonics {
+            sum += sin_cos(frequency * t + phase).1;
+        }
+        self.amplitude * sum
+    }
+}
+
+/// Inverse of the increasing function `area` at `wanted` on the band, by bisection to within a few bits.
+fn inverse(area: fn(f64) -> f64, wanted: f64) -> f64 {
+    let (mut low, mut high) = (0.0, BAND);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if area(middle) < wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// The generator SplitMix64: only draws frequencies and phases, once.
+struct SplitMix(u64);
+
+impl SplitMix {
+    /// Uniform in [0, 1).
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn problems(mean: [f64; 3], profile: Profile, gusts: &[Gust], turbulence: Option<TurbulenceSpec>) -> Vec<String> {
+    let mut out = Vec::new();
+    let mut check = |is_good: bool, message: String| {
+        if !is_good {
+            out.push(message);
+        }
+    };
+    check(mean.iter().all(|x| x.is_finite()), format!("the mean wind is {mean:?} m/s: expected finite numbers"));
+    let positive = |x: f64| x > 0.0 && x.is_finite();
+    match profile {
+        Profile::Constant => {}
+        Profile::Linear { reference } => {
+            check(positive(reference), format!("`reference` is {reference} m: expected a positive height"));
+        }
+        Profile::Logarithmic { reference, roughness } => {
+            check(positive(roughness), format!("`roughness` is {roughness} m: expected a positive length"));
+            let is_above = positive(reference) && reference > roughness;
+            check(is_above, format!("`reference` is {reference} m: expected a height above the roughness"));
+        }
+    }
+    for (k, gust) in gusts.iter().enumerate() {
+        let Gust { start, rise, peak, .. } = *gust;
+        check(start.is_finite(), format!("gust {} has `start` {start} s: expected a finite number", k + 1));
+        check(positive(rise), format!("gust {} has `rise` {rise} s: expected a positive number", k + 1));
+        check(
+            peak.iter().all(|x| x.is_finite()),
+            format!("gust {} has `peak` {peak:?} m/s: expected finite numbers", k + 1),
+        );
+    }
+    if let Some(TurbulenceSpec { scales, airspeed, .. }) = turbulence {
+        match scales {
+            Scales::LowAltitude { wind_at_20_feet: w, height } => {
+                let is_wind = (0.0..=1e3).contains(&w);
+                check(is_wind, format!("`wind_at_20_feet` is {w} m/s: expected a number from 0 to 1000 m/s"));
+                let is_low = (3.048..=304.8).contains(&height);
+                check(is_low, format!("`height` is {height} m: the spectra hold from 3.048 to 304.8 m"));
+            }
+            Scales::Given { deviations, lengths } => {
+                let is_good = deviations.iter().all(|x| (0.0..=1e3).contains(x));
+                check(is_good, format!("`deviation` is {deviations:?} m/s: expected three numbers from 0 to 1000 m/s"));
+                let is_good = lengths.iter().all(|x| (1e-3..=1e6).contains(x));
+                check(is_good, format!("`length` is {lengths:?} m: expected three numbers from 0.001 to 1000000 m"));
+            }
+        }
+        let is_slow = (1e-3..=1e3).contains(&airspeed);
+        check(is_slow, format!("`airspeed` is {airspeed} m/s: expected a number from 0.001 to 1000 m/s"));
+    }
+    out
+}

@@ -1,0 +1,306 @@
+//! Checks of the builder's objects: errors, for which no model is built, and warnings.
+
+use crate::aero::rotor::RotorLaw;
+use crate::joint::JointKind;
+use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
+use crate::model::diagnostic::{Diagnostic, Severity};
+use crate::model::{MassProperties, Model};
+use crate::spatial::{Mat3, Vec3};
+
+/// Relative excess over the triangle inequality that is put down to rounding of printed figures.
+const TRIANGLE_SLACK: f64 = 1e-9;
+
+struct Findings(Vec<Diagnostic>);
+
+impl Findings {
+    fn error(&mut self, node: NodeId, field: &'static str, message: String, help: &str) {
+        self.0.push(Diagnostic { severity: Severity::Error, node: Some(node), field, message, help: help.into() });
+    }
+}
+
+/// Everything that can be said of the objects one by one, and of the tree.
+pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
+    let mut found = Findings(Vec::new());
+    if builder.gravity.iter().any(|g| !g.is_finite()) {
+        found.error(
+            NodeId::WORLD,
+            "gravity",
+            format!("gravity {:?} is not finite", builder.gravity),
+            "give three numbers in m/s²",
+        );
+    }
+    for (id, node) in builder.nodes.iter().enumerate() {
+        let id = NodeId(id as u32);
+        check_pose(&mut found, id, node);
+        match &node.kind {
+            NodeKind::Joint(spec) => check_joint(&mut found, id, node, spec, builder),
+            NodeKind::Body(spec) => check_mass(&mut found, id, &node.name, &spec.mass),
+            NodeKind::Rotor(spec) => check_rotor(&mut found, id, node, spec, &builder.nodes),
+            NodeKind::Drag(spec) => check_drag(&mut found, id, node, spec),
+            NodeKind::Force(_) | NodeKind::Frame | NodeKind::World => {}
+        }
+    }
+    found.0
+}
+
+fn check_density(found: &mut Findings, id: NodeId, node: &Node, density: f64) {
+    if !(density.is_finite() && density >= 0.0) {
+        let message = format!("density {density} kg/m³ of the air at `{}` is not a positive number", node.name);
+        found.error(id, "air_density", message, "1.225 at sea level, 0 in a vacuum");
+    }
+}
+
+fn check_rotor(found: &mut Findings, id: NodeId, node: &Node, spec: &RotorSpec, nodes: &[Node]) {
+    let name = &node.name;
+    check_density(found, id, node, spec.density);
+    if matches!(spec.law, RotorLaw::Stock(_)) && spec.drive != RotorDrive::Command {
+        let message = format!("rotor `{name}` is a stock propeller, which does not turn");
+        found.error(id, "stock", message, "its `speed` is the velocity of its particles; leave `lag` and `joint` out");
+    }
+    match spec.drive {
+        RotorDrive::Command => {}
+        RotorDrive::Lag { time_constant, initial } => {
+            if !(time_constant.is_finite() && time_constant > 0.0) {
+                let message = format!("time constant {time_constant} s of rotor `{name}` is not positive");
+                found.error(
+                    id,
+                    "lag",
+                    message,
+                    "give a positive time; a rotor without `lag` follows its command at once",
+                );
+            }
+            if !initial.is_finite() {
+                let message = format!("initial speed {initial} rad/s of rotor `{name}` is not finite");
+                found.error(id, "lag", message, "give a number in rad/s");
+            }
+        }
+        RotorDrive::Joint(joint) => {
+            if let Err((message, help)) = turn_of_rotor(nodes, id, joint) {
+                found.error(id, "joint", message, help);
+            }
+        }
+    }
+}
+
+/// +1 if the thrust axis of a rotor points along the axis of the joint it turns with, −1 if against it.
+///
+/// # Errors
+///
+/// That it does not turn with the joint, or not about its own axis; what is wrong, and what helps.
+pub(super) fn turn_of_rotor(nodes: &[Node], rotor: NodeId, joint: NodeId) -> Result<f64, (String, &'static str)> {
+    let name = &nodes[rotor.0 as usize].name;
+    let joint_name = &nodes[joint.0 as usize].name;
+    let NodeKind::Joint(spec) = &nodes[joint.0 as usize].kind else {
+        return Err((
+            format!("rotor `{name}` takes its speed from `{joint_name}`, which is no joint"),
+            "name a revolute joint",
+        ));
+    };
+    let JointKind::Revolute { axis } = spec.kind else {
+        let message = format!("rotor `{name}` takes its speed from joint `{joint_name}`, which is not revolute");
+        return Err((message, "a rotor turns with a revolute joint"));
+    };
+    // the rotor's axes in those of what the joint carries
+    let (mut rot, mut at) = (nodes[rotor.0 as usize].pose.rot, nodes[rotor.0 as usize].parent);
+    while at != joint {
+        let node = &nodes[at.0 as usize];
+        let is_fixed = match &node.kind {
+            NodeKind::Joint(spec) => spec.kind == JointKind::Fixed,
+            NodeKind::World => false,
+            _ => true,
+        };
+        if !is_fixed {
+            let message =
+                format!("rotor `{name}` takes its speed from joint `{joint_name}`, but does not turn with it");
+            return Err((message, "hang the rotor on the joint, or on a body that the joint carries"));
+        }
+        rot = node.pose.rot.mul(&rot);
+        at = node.parent;
+    }
+    let thrust = Mat3::mul_vec(&rot, Vec3([0.0, 0.0, 1.0]));
+    let axis = Vec3(axis);
+    let along = thrust.dot(axis) / axis.norm();
+    if (along.abs() - 1.0).abs() > 1e-9 {
+        let message = format!("the axis of rotor `{name}` is not that of joint `{joint_name}`, which turns it");
+        return Err((
+            message,
+            "turn the rotor so that its z axis is the joint's axis: rotation_deg, or the joint's axis",
+        ));
+    }
+    Ok(along.signum())
+}
+
+fn check_drag(found: &mut Findings, id: NodeId, node: &Node, spec: &DragSpec) {
+    check_density(found, id, node, spec.density);
+    for (field, list, unit) in [("area", spec.area, "m²"), ("linear", spec.linear, "N·s/m")] {
+        if !list.iter().all(|x| x.is_finite() && *x >= 0.0) {
+            let message = format!("{field} {list:?} {unit} of drag `{}` is negative or not finite", node.name);
+            found.error(id, field, message, "give three numbers, zero or more: drag brakes");
+        }
+    }
+}
+
+fn check_pose(found: &mut Findings, id: NodeId, node: &Node) {
+    if !node.pose.pos.0.iter().all(|x| x.is_finite()) {
+        let message = format!("position {:?} of `{}` is not finite", node.pose.pos.0, node.name);
+        found.error(id, "position", message, "give three numbers in m");
+    }
+    if !node.pose.rot.0.iter().flatten().all(|x| x.is_finite()) {
+        let message = format!("rotation of `{}` is not finite", node.name);
+        found.error(id, "rotation", message, "give three finite angles, or a quaternion that is not null");
+    }
+}
+
+fn check_mass(found: &mut Findings, id: NodeId, name: &str, mass: &MassProperties) {
+    let m = mass.mass;
+    if !(m.is_finite() && m > 0.0) {
+        let message = format!("mass {m} kg of `{name}` is not positive");
+        found.error(id, "mass", message, "give a positive mass; an object without mass is a frame");
+    }
+    if !mass.center_of_mass.iter().all(|x| x.is_finite()) {
+        let message = format!("centre of mass of `{name}` is not finite");
+        found.error(id, "center_of_mass", message, "give three numbers in m");
+    }
+    if !mass.inertia.iter().all(|x| x.is_finite()) {
+        let message = format!("inertia of `{name}` is not finite");
+        return found.error(id, "inertia", message, "give numbers in kg·m²");
+    }
+    let moments = mass.principal_moments();
+    if moments[0] < -1e-12 * moments[2].abs() {
+        let message = format!("inertia of `{name}` has a negative principal moment, {:.6e} kg·m²", moments[0]);
+        return found.error(id, "inertia", message, "every principal moment must be zero (a point) or positive");
+    }
+    let excess = mass.triangle_excess();
+    if excess > TRIANGLE_SLACK {
+        found.0.push(Diagnostic {
+            severity: Severity::Warning,
+            node: Some(id),
+            field: "inertia",
+            message: format!(
+                "no rigid body has the inertia of `{name}`: its largest principal moment {:.6e} kg·m² exceeds the sum of the \
+                 others by {:.1} %",
+                moments[2],
+                100.0 * excess
+            ),
+            help: "check the figures (triangle inequality); the run goes on with them as they stand".into(),
+        });
+    }
+}
+
+fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, builder: &ModelBuilder) {
+    let name = &node.name;
+    check_axes(found, id, name, &spec.kind);
+    let n = match spec.kind {
+        JointKind::Fixed => 0,
+        JointKind::Universal { .. } => 2,
+        JointKind::Ball | JointKind::Planar => 3,
+        JointKind::Free => 6,
+        _ => 1,
+    };
+    let scalar = !matches!(spec.kind, JointKind::Ball | JointKind::Free);
+    let lists = [
+        ("armature", spec.armature.len(), true),
+        ("spring", spec.spring.len(), scalar),
+        ("damping", spec.damping.len(), true),
+        ("friction", spec.friction.len(), scalar),
+        ("torque", spec.torque.len(), true),
+    ];
+    for (field, len, allowed) in lists {
+        if len != 0 && (len != n || !allowed) {
+            let message = format!("`{field}` of `{name}` has {len} entries, the joint has {n} degrees of freedom");
+            let help = if allowed { "give one entry a degree of freedom" } else { "a ball or free joint takes none" };
+            found.error(id, field, message, help);
+        }
+    }
+    let finite_and_not_negative =
+        [("armature", &spec.armature), ("damping", &spec.damping), ("friction", &spec.friction)];
+    for (field, list) in finite_and_not_negative {
+        for x in list.iter().filter(|x| !(x.is_finite() && **x >= 0.0)) {
+            found.error(id, field, format!("{field} {x} of `{name}` is negative or not finite"), "give zero or more");
+        }
+    }
+    for (stiffness, rest) in &spec.spring {
+        if !(stiffness.is_finite() && *stiffness >= 0.0 && rest.is_finite()) {
+            let message = format!("spring of `{name}` (stiffness {stiffness}, rest {rest}) is negative or not finite");
+            found.error(id, "spring", message, "stiffness is zero or more, the rest position finite");
+        }
+    }
+    check_motor(found, id, name, spec, n);
+    if !carries_a_body(builder, id) {
+        let message = format!("joint `{name}` carries no body");
+        found.error(id, "name", message, "hang a body on it, or make it a frame");
+    }
+}
+
+fn check_motor(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec, n: usize) {
+    let Some(motor) = &spec.motor else { return };
+    if n != 1 {
+        let message = format!("joint `{name}` has {n} degrees of freedom; a motor drives one");
+        found.error(id, "motor", message, "use a chain of revolute or prismatic joints");
+    }
+    for (field, x) in motor.numbers() {
+        if x.is_nan() || x < 0.0 {
+            let message = format!("motor of `{name}`: {field} {x} is negative or not a number");
+            found.error(id, "motor", message, "give zero or more");
+        }
+    }
+}
+
+fn check_axes(found: &mut Findings, id: NodeId, name: &str, kind: &JointKind) {
+    let mut axis_of = |field: &'static str, axis: [f64; 3]| {
+        let square: f64 = axis.iter().map(|x| x * x).sum();
+        if !(square.is_finite() && square > 1e-24) {
+            let message = format!("axis {axis:?} of `{name}` has no direction");
+            found.error(id, field, message, "give three finite numbers, not all zero");
+        }
+    };
+    match *kind {
+        JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. } => {
+            axis_of("axis", axis);
+        }
+        JointKind::Universal { axis, axis2 } => {
+            axis_of("axis", axis);
+            axis_of("axis2", axis2);
+            let cross = crate::spatial::Vec3(axis).cross(crate::spatial::Vec3(axis2)).norm();
+            if cross < 1e-9 {
+                let message = format!("the two axes of `{name}` are parallel");
+                found.error(id, "axis2", message, "a universal joint needs two directions");
+            }
+        }
+        _ => {}
+    }
+    if let JointKind::Screw { pitch, .. } = kind
+        && !pitch.is_finite()
+    {
+        found.error(id, "pitch", format!("pitch {pitch} of `{name}` is not finite"), "give a number in m/rad");
+    }
+}
+
+fn carries_a_body(builder: &ModelBuilder, joint: NodeId) -> bool {
+    let mut carried = vec![false; builder.nodes.len()];
+    carried[joint.0 as usize] = true;
+    (joint.0 as usize + 1..builder.nodes.len()).any(|k| {
+        carried[k] = carried[builder.nodes[k].parent.0 as usize];
+        carried[k] && matches!(builder.nodes[k].kind, NodeKind::Body(_))
+    })
+}
+
+/// Joints along which no inertia can be felt: a point mass on its own axis, say.
+pub(super) fn massless_joints(model: &Model<f64>) -> Vec<Diagnostic> {
+    let inertias = crate::recursions::aba::joint_inertias(model, &crate::state::State::new(model));
+    let scale = inertias.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let mut found = Findings(Vec::new());
+    for (dof, &inertia) in inertias.iter().enumerate() {
+        // relative to rounding of the largest: 1e-12 kg·m² beside 1 kg·m² is a legitimate inertia, 1e-18 is not
+        if inertia.is_nan() || inertia <= 1e-17 * scale {
+            let joint = model.names.joint_info(model.names.dof_joint[dof]);
+            found.error(
+                joint.node,
+                "axis",
+                format!("joint `{}` moves no inertia about its axis ({inertia:.3e})", joint.name),
+                "give the body it carries an inertia about that axis, or the joint an armature",
+            );
+        }
+    }
+    found.0
+}

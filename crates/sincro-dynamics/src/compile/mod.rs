@@ -1,0 +1,453 @@
+//! Compilation of a model: from the user's tree of objects to a flat list of links.
+//!
+//! Every node gets a *carrier*: the link it is fixed in (or the world) and its pose there. A joint starts one new link
+//! for each of its stages. The inertias of all bodies with the same carrier are summed.
+
+mod check;
+
+use std::sync::Arc;
+
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::aero::AirDrag;
+use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
+use crate::contact::{self, Collider};
+use crate::ids::{BodyId, JointId, MotorId};
+use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
+use crate::model::Attached;
+use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
+use crate::model::diagnostic::{Diagnostic, Severity};
+use crate::model::names::{FrameInfo, JointInfo, Names};
+use crate::model::parameters::carried;
+use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint};
+use crate::model::{MassProperties, Model};
+use crate::spatial::{Mat3, Pose, RigidInertia, Vec3};
+
+/// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point
+/// leaves.
+const ON_AXIS: f64 = 1e-15;
+
+#[derive(Clone, Copy)]
+struct Carrier {
+    link: u32,
+    pose: Pose<f64>,
+}
+
+impl Carrier {
+    fn attached(&self) -> Attached<f64> {
+        Attached { link: (self.link != WORLD).then_some(self.link as usize), pose: self.pose }
+    }
+}
+
+struct Compiler<'a> {
+    nodes: &'a [Node],
+    carriers: Vec<Carrier>,
+    model: Model<f64>,
+    names: Names,
+}
+
+impl ModelBuilder {
+    /// Checks everything and compiles. The second part of the result are the warnings.
+    ///
+    /// # Errors
+    ///
+    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is
+    /// not positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction,
+    /// armature or limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not
+    /// turn with the joint it takes its speed from.
+    pub fn build(&self) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
+        compile(self)
+    }
+}
+
+fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let mut problems = check::check(builder);
+    if problems.iter().any(|p| p.severity == Severity::Error) {
+        return Err(problems);
+    }
+    let mut compiler = Compiler {
+        nodes: &builder.nodes,
+        carriers: Vec::with_capacity(builder.nodes.len()),
+        model: Model {
+            links: Vec::new(),
+            dofs: Vec::new(),
+            gravity: Vec3(builder.gravity),
+            motors: Vec::new(),
+            applied: Vec::new(),
+            wrenches: Vec::new(),
+            rotors: Vec::new(),
+            drags: Vec::new(),
+            wind: builder.wind.clone(),
+            drives: Vec::new(),
+            constraints: Arc::default(),
+            n_q: 0,
+            names: Arc::default(),
+        },
+        names: Names::default(),
+    };
+    for id in 0..builder.nodes.len() {
+        compiler.node(id);
+    }
+    let constraints = compiler.constraints(builder);
+    let Compiler { mut model, names, .. } = compiler;
+    model.constraints = Arc::new(constraints);
+    // commands of motors come first
+    let n_motors = model.motors.len();
+    for input in model.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
+        *input = n_motors + 6 * *input;
+    }
+    for rotor in &mut model.rotors {
+        rotor.speed.shift_command(n_motors + 6 * names.inputs.len());
+    }
+    model.names = Arc::new(names);
+    mark_children(&mut model.links);
+    model.drives = model.find_drives();
+    problems.extend(check::massless_joints(&model));
+    if problems.iter().any(|p| p.severity == Severity::Error) {
+        return Err(problems);
+    }
+    Ok((model, problems))
+}
+
+impl Compiler<'_> {
+    fn node(&mut self, id: usize) {
+        let node = &self.nodes[id];
+        if matches!(node.kind, NodeKind::World) {
+            self.carriers.push(Carrier { link: WORLD, pose: Pose::identity() });
+            return;
+        }
+        let at = self.carriers[node.parent.0 as usize];
+        let here = Carrier { link: at.link, pose: snapped(&at.pose.compose(&node.pose)) };
+        let node_id = NodeId(id as u32);
+        let carrier = match &node.kind {
+            NodeKind::Joint(spec) => self.joint(node_id, here, spec),
+            NodeKind::Body(spec) => {
+                self.add_inertia(here, &spec.mass);
+                self.frame(node_id, here, Some((spec.mass.center_of_mass, spec.mass.mass)));
+                here
+            }
+            NodeKind::Frame => {
+                self.frame(node_id, here, None);
+                here
+            }
+            NodeKind::Force(spec) => {
+                if here.link != WORLD {
+                    self.model.wrenches.push(AppliedWrench {
+                        link: here.link as usize,
+                        pose: here.pose,
+                        in_body: spec.in_body,
+                        force: spec.force.clone().map(|s| vec![s]),
+                        torque: spec.torque.clone().map(|s| vec![s]),
+                        // motors come first; how many there are is known at the end
+                        input: spec.is_input.then_some(self.names.inputs.len()),
+                    });
+                    if spec.is_input {
+                        self.names.inputs.push(node.name.clone());
+                    }
+                }
+                here
+            }
+            NodeKind::Rotor(spec) => {
+                if here.link != WORLD {
+                    self.rotor(node_id, here, spec);
+                    self.names.rotors.push(node.name.clone());
+                }
+                here
+            }
+            NodeKind::Drag(spec) => {
+                if here.link != WORLD {
+                    self.model.drags.push(AirDrag {
+                        link: here.link as usize,
+                        pose: here.pose,
+                        area: Vec3(spec.area),
+                        linear: Vec3(spec.linear),
+                        density: spec.density,
+                    });
+                    self.names.drags.push(node.name.clone());
+                }
+                here
+            }
+            NodeKind::World => unreachable!("handled above"),
+        };
+        self.carriers.push(carrier);
+    }
+
+    /// A rotor; commands are counted from that of the first one, where those begin is known at the end.
+    fn rotor(&mut self, node: NodeId, at: Carrier, spec: &RotorSpec) {
+        let command = self.model.rotors.iter().filter(|r| r.speed.command().is_some()).count();
+        let state = self.model.n_rotor_states();
+        let speed = match spec.drive {
+            RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedFrom::Particles { command, state },
+            RotorDrive::Command => SpeedFrom::Command(command),
+            RotorDrive::Lag { time_constant, initial } => SpeedFrom::Lag { command, state, time_constant, initial },
+            RotorDrive::Joint(joint) => {
+                let info = self.names.joints.iter().find(|j| j.node == joint);
+                let along = check::turn_of_rotor(self.nodes, node, joint).expect("checked before");
+                SpeedFrom::Joint {
+                    dof: info.expect("a revolute joint has a name").v_idx,
+                    sign: along * spec.law.spin().map_or(1.0, |spin| spin.sign()),
+                }
+            }
+        };
+        let (link, law, density) = (at.link as usize, spec.law.clone(), spec.density);
+        self.model.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density });
+    }
+
+    fn add_inertia(&mut self, at: Carrier, mass: &MassProperties) {
+        if at.link == WORLD {
+            return;
+        }
+        let link = &mut self.model.links[at.link as usize];
+        link.inertia = link.inertia.plus(&carried(&at.pose, mass));
+    }
+
+    fn frame(&mut self, node: NodeId, at: Carrier, body: Option<([f64; 3], f64)>) {
+        let Attached { link, pose } = at.attached();
+        let name = self.nodes[node.0 as usize].name.clone();
+        self.names.frames.push(FrameInfo { name, node, link, pose, body });
+    }
+
+    /// Closures, couplings, limits and surfaces, with the links that carry them.
+    fn constraints(&self, builder: &ModelBuilder) -> ConstraintSet {
+        let anchor = |node: NodeId, pose: &Pose<f64>| {
+            let at = self.carriers[node.0 as usize];
+            Anchor { name: self.nodes[node.0 as usize].name.clone(), link: at.link, pose: at.pose.compose(pose) }
+        };
+        let loop_joints = builder.loop_joints.iter().map(|(name, spec)| LoopJoint {
+            name: name.clone(),
+            kind: spec.kind,
+            a: anchor(spec.ends[0], &spec.poses[0]),
+            b: anchor(spec.ends[1], &spec.poses[1]),
+        });
+        let joint = |node: NodeId| self.names.joints.iter().find(|j| j.node == node);
+        let gears = builder.gears.iter().filter_map(|(name, spec)| {
+            let [one, two] = [joint(spec.joints[0])?, joint(spec.joints[1])?];
+            Some(GearConstraint {
+                name: name.clone(),
+                dofs: [one.v_idx, two.v_idx],
+                coordinates: [one.q_idx, two.q_idx],
+                ratio: spec.ratio,
+                offset: spec.offset,
+            })
+        });
+        let mut limits = Vec::new();
+        for info in &self.names.joints {
+            let NodeKind::Joint(spec) = &self.nodes[info.node.0 as usize].kind else { continue };
+            for (k, (lower, upper)) in spec.limits.iter().enumerate() {
+                for (sign, bound) in [(1.0, *lower), (-1.0, *upper)] {
+                    if bound.is_finite() {
+                        let (dof, coordinate) = (info.v_idx + k, info.q_idx + k);
+                        limits.push(Limit { dof, coordinate, sign, bound, restitution: spec.limit_restitution });
+                    }
+                }
+            }
+        }
+        let colliders: Vec<Collider> = builder
+            .colliders
+            .iter()
+            .map(|(node, pose, surface, material)| {
+                let Anchor { name, link, pose } = anchor(*node, pose);
+                let body = self.names.frames.iter().position(|f| f.node == *node).map(BodyId::new);
+                Collider { name, body, link, pose, surface: surface.clone(), material: *material }
+            })
+            .collect();
+        let parent = |link: u32| self.model.links[link as usize].parent;
+        let pairs = contact::pairs(&colliders, |a, b| parent(a) == b || parent(b) == a);
+        ConstraintSet {
+            loop_joints: loop_joints.collect(),
+            gears: gears.collect(),
+            limits,
+            pairs,
+            colliders,
+            rest_speed: builder.rest_speed,
+        }
+    }
+
+    /// Adds the stages of a joint; returns what carries its child frame.
+    fn joint(&mut self, node: NodeId, at: Carrier, spec: &JointSpec) -> Carrier {
+        let mut stages = stages(&spec.kind);
+        if spec.sensor && stages.is_empty() {
+            stages.push(StageSpec { family: Family::Free, axis: Z, pitch: 0.0 });
+        }
+        if stages.is_empty() {
+            return at;
+        }
+        let (q_idx, v_idx) = (self.model.n_q, self.model.dofs.len());
+        let mut carrier = at;
+        for stage in stages {
+            carrier = self.stage(carrier, &stage);
+        }
+        let joint = JointId::new(self.names.joints.len());
+        let (n_q, n_v) = (self.model.n_q - q_idx, self.model.dofs.len() - v_idx);
+        self.names.dof_joint.extend(std::iter::repeat_n(joint, n_v));
+        for k in 0..n_v {
+            self.dof_properties(v_idx + k, k, spec);
+        }
+        let motor = spec.motor.map(|motor| {
+            self.model.motors.push(Motor { dof: v_idx, ..motor });
+            MotorId::new(self.model.motors.len() - 1)
+        });
+        let name = self.nodes[node.0 as usize].name.clone();
+        let (base, moving) = (at.attached(), carrier.attached());
+        self.names.joints.push(JointInfo { name, node, kind: spec.kind, q_idx, n_q, v_idx, n_v, motor, base, moving });
+        carrier
+    }
+
+    fn dof_properties(&mut self, dof: usize, k: usize, spec: &JointSpec) {
+        let entry = &mut self.model.dofs[dof];
+        let at = |list: &[f64]| list.get(k).copied().unwrap_or(0.0);
+        entry.armature = at(&spec.armature);
+        entry.damping = at(&spec.damping);
+        entry.friction = at(&spec.friction);
+        (entry.stiffness, entry.rest) = spec.spring.get(k).copied().unwrap_or((0.0, 0.0));
+        match spec.torque.get(k) {
+            None => {}
+            Some(signal) => match signal.constant() {
+                Some(torque) => entry.torque = torque,
+                None => self.model.applied.push(AppliedTorque { dof, signal: vec![signal.clone()] }),
+            },
+        }
+    }
+
+    /// One stage whose joint frame stands at `at`.
+    fn stage(&mut self, at: Carrier, stage: &StageSpec) -> Carrier {
+        let frame = frame_of(stage, &at.pose.rot);
+        let turned = frame.base_rotation != Mat3::identity();
+        let kind = frame.kind;
+        let (q_idx, v_idx) = (self.model.n_q, self.model.dofs.len());
+        self.model.links.push(Link {
+            parent: at.link,
+            kind,
+            turned,
+            shift: if kind.is_pure_rotation() { shift_of(at.pose.pos) } else { Shift::Any },
+            has_children: false,
+            is_last_child: false,
+            q_idx: q_idx as u32,
+            v_idx: v_idx as u32,
+            origin: at.pose.pos,
+            base_rotation: frame.base_rotation,
+            sign: frame.sign,
+            axis: frame.axis,
+            pitch: stage.pitch,
+            inertia: RigidInertia::zero(),
+        });
+        self.model.n_q += kind.n_q();
+        for _ in 0..kind.n_v() {
+            self.model.dofs.push(Dof {
+                armature: 0.0,
+                stiffness: 0.0,
+                rest: 0.0,
+                damping: 0.0,
+                friction: 0.0,
+                torque: 0.0,
+                q_idx: if kind.n_q() == 1 { q_idx as u32 } else { WORLD },
+            });
+        }
+        let rot = frame.base_rotation.transpose().mul(&at.pose.rot);
+        let pose = snapped(&Pose { rot, pos: Vec3::zero() });
+        Carrier { link: (self.model.links.len() - 1) as u32, pose }
+    }
+}
+
+/// On which axis of the parent a fixed offset lies.
+fn shift_of(origin: Vec3<f64>) -> Shift {
+    match origin.0.map(|x| x != 0.0) {
+        [false, false, false] => Shift::None,
+        [true, false, false] => Shift::X,
+        [false, true, false] => Shift::Y,
+        [false, false, true] => Shift::Z,
+        _ => Shift::Any,
+    }
+}
+
+/// Marks who has children, and each parent's last child.
+fn mark_children(links: &mut [Link<f64>]) {
+    for i in (0..links.len()).rev() {
+        if let Some(parent) = links[i].parent() {
+            links[i].is_last_child = !links[parent].has_children;
+            links[parent].has_children = true;
+        }
+    }
+}
+
+/// One stage before its frame is chosen.
+struct StageSpec {
+    family: Family,
+    /// In joint axes.
+    axis: [f64; 3],
+    pitch: f64,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Family {
+    Revolute,
+    Prismatic,
+    Screw,
+    Ball,
+    Free,
+}
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// The chain of stages that a joint of `kind` is.
+fn stages(kind: &JointKind) -> Vec<StageSpec> {
+    let stage = |family, axis| StageSpec { family, axis, pitch: 0.0 };
+    match *kind {
+        JointKind::Fixed => vec![],
+        JointKind::Revolute { axis } => vec![stage(Family::Revolute, axis)],
+        JointKind::Prismatic { axis } => vec![stage(Family::Prismatic, axis)],
+        JointKind::Screw { axis, pitch } => vec![StageSpec { family: Family::Screw, axis, pitch }],
+        JointKind::Universal { axis, axis2 } => vec![stage(Family::Revolute, axis), stage(Family::Revolute, axis2)],
+        JointKind::Ball => vec![stage(Family::Ball, Z)],
+        JointKind::Planar => vec![stage(Family::Prismatic, X), stage(Family::Prismatic, Y), stage(Family::Revolute, Z)],
+        JointKind::Free => vec![stage(Family::Free, Z)],
+    }
+}
+
+struct StageFrame {
+    kind: StageKind,
+    base_rotation: Mat3<f64>,
+    sign: f64,
+    axis: Vec3<f64>,
+}
+
+/// Chooses base axes: parallel to the parent's if that lets the joint be what it is, else with z on the joint axis.
+fn frame_of(stage: &StageSpec, joint_rotation: &Mat3<f64>) -> StageFrame {
+    let n = joint_rotation.mul_vec(Vec3(stage.axis));
+    let n = n.scale(1.0 / n.norm());
+    let frame = |kind, base_rotation| StageFrame { kind, base_rotation, sign: 1.0, axis: n };
+    match stage.family {
+        Family::Ball => frame(StageKind::Ball, *joint_rotation),
+        Family::Free => frame(StageKind::Free, *joint_rotation),
+        Family::Prismatic => frame(StageKind::Prismatic, Mat3::identity()),
+        Family::Screw if on_axis(n, 2) && n[2] > 0.0 => frame(StageKind::Screw, Mat3::identity()),
+        Family::Screw => frame(StageKind::Screw, with_z_along(n)),
+        Family::Revolute => {
+            let kinds = [StageKind::RevoluteX, StageKind::RevoluteY, StageKind::RevoluteZ];
+            match (0..3).find(|&k| on_axis(n, k)) {
+                Some(k) => StageFrame { sign: n[k].signum(), ..frame(kinds[k], Mat3::identity()) },
+                None => frame(StageKind::RevoluteZ, with_z_along(n)),
+            }
+        }
+    }
+}
+
+fn on_axis(n: Vec3<f64>, k: usize) -> bool {
+    n[(k + 1) % 3].abs() < ON_AXIS && n[(k + 2) % 3].abs() < ON_AXIS
+}
+
+/// A rotation whose third column is the unit vector `n`.
+fn with_z_along(n: Vec3<f64>) -> Mat3<f64> {
+    // the coordinate axis that n leans on least gives a well-conditioned x
+    let k = (0..3).fold(0, |best, k| if n[k].abs() < n[best].abs() { k } else { best });
+    let x = Vec3::along(k, 1.0) - n.scale(n[k]);
+    let x = x.scale(1.0 / x.norm());
+    Mat3([x.0, n.cross(x).0, n.0]).transpose()
+}
+
+/// Replaces rotation entries that are 0 or ±1 but for rounding, so that parallel frames stay exactly parallel.
+fn snapped(pose: &Pose<f64>) -> Pose<f64> {
+    let snap = |x: f64| if (x - x.round()).abs() < ON_AXIS { x.round() + 0.0 } else { x };
+    Pose { rot: Mat3(pose.rot.0.map(|row| row.map(snap))), pos: pose.pos }
+}

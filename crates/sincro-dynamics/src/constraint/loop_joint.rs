@@ -1,0 +1,102 @@
+//! Rows and residuals of loop joints (loop-closure constraints).
+//!
+//! | kind | residual (world axes) | rows |
+//! |---|---|---|
+//! | point | pₐ − p_b | 3 |
+//! | hinge | the point's, and xₐ·z_b, yₐ·z_b | 5 |
+//! | weld | the point's, and xₐ·y_b, yₐ·z_b, zₐ·x_b | 6 |
+//! | distance | \|pₐ − p_b\| − length | 1 |
+//! | gear (in `mod.rs`) | q₂ − ratio·q₁ − offset | 1 |
+//!
+//! Source: key `featherstone2008`, chapter 8.
+
+use sincro_math::Real;
+
+use super::row::{Motions, Row, force_at, force_rate};
+use crate::joint::WORLD;
+use crate::model::{Anchor, LoopJoint, LoopJointKind};
+use crate::scratch::Scratch;
+use crate::spatial::{Force, Pose, Vec3};
+
+/// Anchor at one instant, world axes.
+struct End<R> {
+    link: u32,
+    pose: Pose<R>,
+    w: Vec3<R>,
+    p_dot: Vec3<R>,
+}
+
+fn end<R: Real>(anchor: &Anchor, scratch: &Scratch<R>, motions: &Motions<R>) -> End<R> {
+    let pose = Pose { rot: crate::spatial::Mat3::splat(anchor.pose.rot.0), pos: Vec3::splat(anchor.pose.pos.0) };
+    let pose = if anchor.link == WORLD { pose } else { scratch.poses[anchor.link as usize].compose(&pose) };
+    let w = motions.twist_of(anchor.link).ang;
+    End { link: anchor.link, p_dot: motions.velocity_of(anchor.link, pose.pos), pose, w }
+}
+
+impl LoopJoint {
+    /// Appends rows and residuals at the poses of `scratch` and the twists of `motions`.
+    pub(crate) fn rows<R: Real>(
+        &self,
+        scratch: &Scratch<R>,
+        motions: &Motions<R>,
+        rows: &mut Vec<Row<R>>,
+        residual: &mut Vec<R>,
+    ) {
+        let (a, b) = (end(&self.a, scratch, motions), end(&self.b, scratch, motions));
+        if let LoopJointKind::Distance(length) = self.kind {
+            let d = a.pose.pos - b.pose.pos;
+            let size = d.norm();
+            let n = d.scale(R::one() / size);
+            let d_dot = a.p_dot - b.p_dot;
+            let n_dot = (d_dot - n.scale(n.dot(d_dot))).scale(R::one() / size);
+            rows.push(along(&a, &b, n, n_dot));
+            residual.push(size - R::splat(length));
+            return;
+        }
+        for k in 0..3 {
+            rows.push(along(&a, &b, Vec3::along(k, R::one()), Vec3::zero()));
+            residual.push(a.pose.pos[k] - b.pose.pos[k]);
+        }
+        let pairs: &[(usize, usize)] = match self.kind {
+            LoopJointKind::Hinge => &[(0, 2), (1, 2)],
+            LoopJointKind::Weld => &[(0, 1), (1, 2), (2, 0)],
+            _ => &[],
+        };
+        for &(i, j) in pairs {
+            // d/dt (u_a·w_b) = (ω_a − ω_b)·(u × w)
+            let (u, w) = (a.pose.rot.col(i), b.pose.rot.col(j));
+            let (u_dot, w_dot) = (a.w.cross(u), b.w.cross(w));
+            let m = Force { ang: u.cross(w), lin: Vec3::zero() };
+            let m_dot = Force { ang: u_dot.cross(w) + u.cross(w_dot), lin: Vec3::zero() };
+            rows.push(Row::between(a.link, b.link, m, m_dot));
+            residual.push(u.dot(w));
+        }
+    }
+
+    /// Constraint residual: distance `[m]`, and angle between the axes that should agree `[rad]`.
+    pub(crate) fn residual(&self, scratch: &Scratch<f64>) -> (f64, f64) {
+        let pose = |x: &Anchor| {
+            if x.link == WORLD { x.pose } else { scratch.poses[x.link as usize].compose(&x.pose) }
+        };
+        let (a, b) = (pose(&self.a), pose(&self.b));
+        let distance = (a.pos - b.pos).norm();
+        let angle = |k: usize| {
+            let (u, w) = (a.rot.col(k), b.rot.col(k));
+            sincro_math::elementary::atan2(u.cross(w).norm(), u.dot(w)).0
+        };
+        match self.kind {
+            LoopJointKind::Distance(length) => ((distance - length).abs(), 0.0),
+            LoopJointKind::Point => (distance, 0.0),
+            LoopJointKind::Hinge => (distance, angle(2)),
+            LoopJointKind::Weld => (distance, angle(0).max(angle(1)).max(angle(2))),
+        }
+    }
+}
+
+/// Row along `n` between two points that may lie apart.
+fn along<R: Real>(a: &End<R>, b: &End<R>, n: Vec3<R>, n_dot: Vec3<R>) -> Row<R> {
+    let mut row = Row::between(a.link, b.link, force_at(a.pose.pos, n), force_rate(a.pose.pos, n, a.p_dot, n_dot));
+    row.wb = force_at(b.pose.pos, n);
+    row.wb_dot = force_rate(b.pose.pos, n, b.p_dot, n_dot);
+    row
+}

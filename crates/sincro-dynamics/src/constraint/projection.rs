@@ -1,0 +1,73 @@
+//! Projection of positions and velocities onto the constraints, in the metric of the mass matrix: Δq = M⁻¹ Jᵀ λ with G
+//! λ = −residual.
+
+use super::Constraints;
+use super::active_set::ContactProblem;
+use super::cone::{ContactMode, UnilateralConstraint};
+use super::dense::PROJECTION_RANK;
+use crate::model::Model;
+use crate::scratch::Scratch;
+
+impl Constraints<f64> {
+    /// Keeps the bilateral rows.
+    pub fn keep_loop_joints(&mut self) {
+        self.rows.truncate(self.n_free);
+        self.residual.truncate(self.n_free);
+        self.blocks.clear();
+        self.lambda.clear();
+        self.lambda.resize(self.n_free, 0.0);
+    }
+
+    /// Keeps the rows that hold as equations: bilateral rows, closed contacts (with `inside` only penetrating ones),
+    /// and with `sticking` the rows of sticking groups.
+    pub fn keep_equations(&mut self, sticking: bool, inside: bool) {
+        let n_free = self.n_free;
+        let mut keep = core::mem::take(&mut self.kept);
+        keep.clear();
+        keep.extend(0..n_free);
+        let residual = &self.residual;
+        let holds = |b: &&UnilateralConstraint<f64>| !b.open && b.given.is_none() && (!inside || residual[b.row] < 0.0);
+        for block in self.blocks.iter().filter(holds) {
+            keep.push(block.row);
+            for group in block.groups.iter().flatten() {
+                if sticking && group.grip == ContactMode::Stick {
+                    keep.extend(group.row..group.row + group.dim);
+                }
+            }
+        }
+        for (into, from) in keep.iter().enumerate() {
+            self.rows[into] = self.rows[*from];
+            self.residual[into] = self.residual[*from];
+        }
+        self.rows.truncate(keep.len());
+        self.residual.truncate(keep.len());
+        self.n_free = keep.len();
+        self.blocks.clear();
+        self.lambda.clear();
+        self.lambda.resize(keep.len(), 0.0);
+        self.kept = keep;
+    }
+
+    /// Largest residual and largest rate of the rows, for joint rates `v`.
+    pub fn worst(&self, v: &[f64]) -> (f64, f64) {
+        let distance = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let rate = self.rows.iter().map(|row| self.motions.rate(row, v).abs()).fold(0.0, f64::max);
+        (distance, rate)
+    }
+
+    /// Smallest change, in the metric of the mass matrix, of positions that removes the residuals, or of velocities
+    /// that removes the rates.
+    pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
+        self.assemble_delassus(model, scratch);
+        self.b.clear();
+        match v {
+            Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
+            None => self.b.extend_from_slice(&self.residual),
+        }
+        self.solver.rank = PROJECTION_RANK;
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.correct(&problem, &[], &mut self.lambda);
+        out.fill(0.0);
+        self.push(model, scratch, out, false);
+    }
+}

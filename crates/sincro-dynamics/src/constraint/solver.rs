@@ -1,0 +1,314 @@
+//! Solution of the frictional contact problem w = G λ + b: active set first, then ADMM.
+//!
+//! The active set (contact modes) starts from the warm start; the multipliers follow from one linear system
+//! ([`super::active_set`]), solved with its rank revealed ([`Dense`]), as a correction of the last ones, so that
+//! redundant contacts keep their share. If the multipliers satisfy the complementarity conditions, the problem is
+//! solved. If not, the violated modes are changed, a few times; for slip directions this is Newton's method. If that
+//! does not converge, ADMM ([`super::admm`]) finds the solution without an active set, and the linear system of the
+//! modes it implies makes it exact.
+
+use sincro_math::Real;
+
+use super::active_set::{ActiveSet, ContactProblem};
+use super::admm::{Admm, activate_all};
+use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use super::dense::{Dense, RANK};
+
+/// Complementarity tolerance, relative to the largest force or rate.
+const SLACK: f64 = 1e-9;
+
+/// Tolerance of rates that must be zero, relative to the largest rate: redundant contacts whose distances differ by
+/// rounding contradict each other by as much; an inconsistent active set leaves far more.
+const HELD_RATE: f64 = 1e-6;
+
+/// Relative rate above which a solution of the linear system is refined once.
+const REFINED: f64 = 1e-12;
+
+/// Maximum number of mode updates before ADMM is used.
+const MAX_MODE_UPDATES: usize = 8;
+
+/// Iterations of ADMM before its active set is tried the first time; doubled after each trial.
+const FIRST_ITERATIONS: usize = 25;
+
+/// Solver statistics since the world was made.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolverReport {
+    /// Problems solved.
+    pub solved: u64,
+    /// Problems solved by ADMM.
+    pub split: u64,
+    /// Problems whose complementarity residual exceeds 1e-9.
+    pub not_converged: u64,
+    /// Largest complementarity residual among those, relative to the largest force or rate (dimensionless).
+    pub worst_residual: f64,
+}
+
+/// Working memory; grows to the largest problem it has seen.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Solver<R> {
+    dense: Dense<R>,
+    active_set: ActiveSet<R>,
+    admm: Admm,
+    delta: Vec<R>,
+    all_active: Vec<UnilateralConstraint<R>>,
+    start: Vec<R>,
+    pub report: SolverReport,
+    /// Rank tolerance of corrections.
+    pub rank: f64,
+    /// Bilateral rows that the last linear system found redundant.
+    pub redundant: usize,
+}
+
+impl<R: Real> Solver<R> {
+    /// Memory for problems of `m` rows.
+    pub fn reserve(&mut self, m: usize) {
+        self.dense.reserve(m);
+        self.active_set.reserve(m);
+        let more = |len: usize| m.saturating_sub(len);
+        for list in [&mut self.delta, &mut self.start] {
+            list.reserve(more(list.len()));
+        }
+        self.all_active.reserve(more(self.all_active.len()));
+    }
+
+    /// Finds λ, which holds the warm start (or zeros) before, and the contact modes.
+    pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        self.report.solved += 1;
+        self.rank = RANK;
+        self.search(problem, blocks, lambda);
+        self.mark_effects(problem, blocks, lambda);
+    }
+
+    fn search(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        if self.iterate_active_set(problem, blocks, lambda) {
+            return;
+        }
+        self.report.split += 1;
+        // from zero, so that redundant contacts share the load evenly: the warm start did not fit
+        lambda.fill(R::zero());
+        activate_all(blocks);
+        let mut all_active = core::mem::take(&mut self.all_active);
+        all_active.clear();
+        all_active.extend_from_slice(blocks);
+        self.admm.begin(problem, &mut self.active_set, &mut self.dense, blocks, lambda);
+        let mut iterations = FIRST_ITERATIONS;
+        loop {
+            let done = self.admm.run(iterations);
+            blocks.copy_from_slice(&all_active);
+            self.active_set.take(problem.n_free, blocks, lambda);
+            self.admm.finish(&self.active_set, blocks, lambda);
+            self.start.clear();
+            self.start.extend_from_slice(lambda);
+            if self.iterate_active_set(problem, blocks, lambda) {
+                break;
+            }
+            if done {
+                // feasible, only not exact
+                lambda.copy_from_slice(&self.start);
+                blocks.copy_from_slice(&all_active);
+                self.active_set.take(problem.n_free, blocks, lambda);
+                self.admm.finish(&self.active_set, blocks, lambda);
+                self.record_residual(problem, blocks, lambda);
+                break;
+            }
+            iterations *= 2;
+        }
+        self.all_active = all_active;
+    }
+
+    /// Active-set iteration: corrects the multipliers and updates violated modes; returns true on convergence.
+    fn iterate_active_set(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        for _ in 0..MAX_MODE_UPDATES {
+            self.correct(problem, blocks, lambda);
+            if blocks.is_empty() {
+                return true;
+            }
+            self.active_set.find_rates(problem, lambda);
+            if !update_modes(problem, &self.active_set.rates, blocks, lambda) {
+                self.refine(problem, blocks, lambda);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Repeats the correction where elimination left more than rounding.
+    fn refine(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+        let small = Tolerances::of(problem, lambda).none;
+        let rates = &self.active_set.rates;
+        let holds = |block: &&UnilateralConstraint<R>| !block.open && block.given.is_none();
+        let normals = blocks.iter().filter(holds).map(|block| rates[block.row]);
+        if rates[..problem.n_free].iter().copied().chain(normals).any(|rate| rate.lane(0).abs() > small) {
+            self.correct(problem, blocks, lambda);
+            self.active_set.find_rates(problem, lambda);
+        }
+    }
+
+    /// Solves the linear system of the current active set.
+    pub fn correct(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+        self.active_set.take(problem.n_free, blocks, lambda);
+        self.active_set.find_rates(problem, lambda);
+        self.active_set.system(problem, blocks, lambda, &mut self.dense);
+        self.delta.clear();
+        self.delta.resize(self.active_set.len(), R::zero());
+        self.dense.solve(self.rank, &mut self.delta);
+        self.redundant = self.dense.redundant().iter().filter(|k| **k < problem.n_free).count();
+        self.active_set.change(blocks, &self.delta, lambda);
+    }
+
+    /// Records the observable change of every constraint.
+    fn mark_effects(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) {
+        let small = 10.0 * Tolerances::of(problem, lambda).rate;
+        let rates = &self.active_set.rates;
+        for block in blocks.iter_mut() {
+            block.effect = 0;
+            if block.open {
+                block.effect = u8::from(rates[block.row].lane(0) > small);
+                continue;
+            }
+            for (g, group) in block.groups.iter().enumerate() {
+                let Some(group) = group.filter(|g| !g.slides && g.grip == ContactMode::Slip) else { continue };
+                let rate = rates[group.row..group.row + group.dim].iter().map(|r| r.lane(0).abs()).fold(0.0, f64::max);
+                block.effect |= u8::from(rate > small) << (g + 1);
+            }
+        }
+    }
+
+    /// Complementarity residual relative to the largest rate (dimensionless); counted if it exceeds the tolerance.
+    fn record_residual(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
+        self.active_set.find_rates(problem, lambda);
+        let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
+        let rate = |i: usize| self.active_set.rates[i].lane(0);
+        let mut worst = (0..problem.n_free).map(|i| rate(i).abs()).fold(0.0, f64::max);
+        for block in blocks {
+            if block.given.is_none() {
+                let r = rate(block.row);
+                worst = worst.max(if block.open { (-r).max(0.0) } else { r.abs() });
+            }
+            for group in block.groups.iter().flatten().filter(|g| !g.slides && !block.open) {
+                let w = pair(group, &self.active_set.rates);
+                let d = group.direction.map(|d| d.lane(0));
+                // a sticking group has no rate, a slipping one none but against its force
+                worst = worst.max(match group.grip {
+                    ContactMode::Stick => norm(w),
+                    ContactMode::Slip => (w[0] * d[1] - w[1] * d[0]).abs().max(w[0] * d[0] + w[1] * d[1]),
+                });
+            }
+        }
+        let residual = worst / largest;
+        if residual > SLACK {
+            self.report.not_converged += 1;
+            self.report.worst_residual = self.report.worst_residual.max(residual);
+        }
+    }
+}
+
+/// Absolute tolerances of one problem.
+#[derive(Clone, Copy)]
+struct Tolerances {
+    force: f64,
+    rate: f64,
+    held: f64,
+    none: f64,
+}
+
+impl Tolerances {
+    /// The force scale includes the force that would stop the largest rate of the lightest row: where everything opens,
+    /// nothing else gives forces a scale.
+    fn of<R: Real>(problem: &ContactProblem<'_, R>, lambda: &[R]) -> Self {
+        let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
+        let m = problem.m();
+        let lightest = (0..m).fold(0.0_f64, |s, i| s.max(problem.a[i * m + i].lane(0)));
+        let undoing = if lightest > 0.0 { largest(problem.b) / lightest } else { 0.0 };
+        let [force, rate] = [largest(lambda).max(undoing), largest(problem.b)].map(|x| x + f64::MIN_POSITIVE);
+        Self { force: SLACK * force, rate: SLACK * rate, held: HELD_RATE * rate, none: REFINED * rate }
+    }
+}
+
+/// Updates the contact modes that violate the complementarity conditions; returns true if any did.
+fn update_modes<R: Real>(
+    problem: &ContactProblem<'_, R>,
+    rates: &[R],
+    blocks: &mut [UnilateralConstraint<R>],
+    lambda: &[R],
+) -> bool {
+    let small = Tolerances::of(problem, lambda);
+    let mut changed = false;
+    for block in blocks.iter_mut() {
+        if block.open {
+            if rates[block.row].lane(0) < -small.rate {
+                block.open = false;
+                changed = true;
+            }
+            continue;
+        }
+        let (normal, rate) = (lambda[block.row].lane(0), rates[block.row].lane(0));
+        // an inconsistent active set leaves rates that should be zero
+        if block.given.is_none() && (normal < -small.force || rate > small.held) {
+            block.open = true;
+            changed = true;
+            continue;
+        }
+        changed |= block.given.is_none() && rate < -small.held;
+        for group in block.groups.iter_mut().flatten().filter(|g| !g.slides) {
+            changed |= update_friction_mode(group, normal.max(0.0), small, rates, lambda);
+        }
+    }
+    changed
+}
+
+fn update_friction_mode<R: Real>(
+    group: &mut FrictionGroup<R>,
+    normal: f64,
+    small: Tolerances,
+    rates: &[R],
+    lambda: &[R],
+) -> bool {
+    let limit = group.coefficient * normal;
+    let (force, rate) = (pair(group, lambda), pair(group, rates));
+    let (size, speed) = (norm(force), norm(rate));
+    if group.grip == ContactMode::Stick {
+        if size > limit + small.force {
+            group.slip(force.map(|x| R::splat(x / size)), None);
+            return true;
+        }
+        return speed > small.held;
+    }
+    if speed <= small.rate {
+        // at its limit without a rate; a direction that can turn must not have turned beyond the limit
+        let beyond = size > limit + small.force;
+        // and a compliant direction must not creep
+        let creeps = group.give.is_some() && speed > small.none && size > 0.0;
+        if beyond || creeps {
+            group.slip(force.map(|x| R::splat(x / size)), None);
+        }
+        return beyond || creeps;
+    }
+    let d = group.direction.map(|d| d.lane(0));
+    if rate[0] * d[0] + rate[1] * d[1] > 0.0 {
+        group.stick();
+        return true;
+    }
+    // turn the force against the impending slip
+    let turned = norm([rate[0] + speed * d[0], rate[1] + speed * d[1]]);
+    if turned <= SLACK * speed {
+        return false;
+    }
+    let give = R::splat(speed / limit.max(f64::MIN_POSITIVE));
+    group.slip(rate.map(|x| R::splat(-x / speed)), Some(give));
+    true
+}
+
+/// Components of a group in a list over rows.
+fn pair<R: Real>(group: &FrictionGroup<R>, list: &[R]) -> [f64; 2] {
+    std::array::from_fn(|k| if k < group.dim { list[group.row + k].lane(0) } else { 0.0 })
+}
+
+fn norm(x: [f64; 2]) -> f64 {
+    (x[0] * x[0] + x[1] * x[1]).sqrt()
+}

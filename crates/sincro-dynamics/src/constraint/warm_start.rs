@@ -1,0 +1,182 @@
+//! Warm start of the solver: multipliers and contact modes of each slot, kept from one evaluation to the next.
+//!
+//! | per slot | meaning | part of the state |
+//! |---|---|---|
+//! | multipliers | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
+//! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group + 16·observable change | yes |
+//! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
+//!
+//! The last number is the [`ZenoFallback`].
+
+use sincro_math::Real;
+
+use super::cone::{ContactMode, UnilateralConstraint};
+use crate::model::{SLOT_LEN, warm_start_len};
+
+/// Fallback for Zeno behaviour (event storms): after a tick with too many events the next `pause` ticks are made at
+/// velocity level without event location, `left` of which remain. The pause doubles until a tick succeeds; a heap that
+/// comes to rest would otherwise cost a hundred located events a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct ZenoFallback {
+    pub pause: u32,
+    pub left: u32,
+}
+
+impl ZenoFallback {
+    /// Maximum number of ticks without event location.
+    const MOST: u32 = 32;
+
+    /// Fallback after one more tick with too many events.
+    pub fn lost(self) -> Self {
+        let pause = (2 * self.pause).clamp(1, Self::MOST);
+        Self { pause, left: pause }
+    }
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct WarmStart<R> {
+    /// Multipliers and codes, as in the state.
+    pub numbers: Vec<R>,
+    closed: Vec<bool>,
+    slides: Vec<[bool; 3]>,
+    directions: Vec<[[R; 2]; 3]>,
+    /// Codes at the start of a sub-step; a change of the observable part is an event.
+    start: Vec<f64>,
+    start_directions: Vec<[[R; 2]; 3]>,
+    /// Groups that slide against the direction they had at the start.
+    reversed: Vec<[bool; 3]>,
+}
+
+impl<R: Real> WarmStart<R> {
+    pub fn new(n_slots: usize) -> Self {
+        Self {
+            numbers: vec![R::zero(); warm_start_len(n_slots)],
+            closed: vec![false; n_slots],
+            slides: vec![[false; 3]; n_slots],
+            directions: vec![[[R::zero(); 2]; 3]; n_slots],
+            start: vec![0.0; n_slots],
+            start_directions: vec![[[R::zero(); 2]; 3]; n_slots],
+            reversed: vec![[false; 3]; n_slots],
+        }
+    }
+
+    pub fn zeno_fallback(&self) -> ZenoFallback {
+        let number = self.numbers.last().map_or(0, |x| x.lane(0) as u32);
+        ZenoFallback { pause: number / 256, left: number % 256 }
+    }
+
+    pub fn set_patience(&mut self, zeno_fallback: ZenoFallback) {
+        if let Some(number) = self.numbers.last_mut() {
+            *number = R::splat(f64::from(256 * zeno_fallback.pause + zeno_fallback.left));
+        }
+    }
+
+    pub fn is_closed(&self, slot: usize) -> bool {
+        self.closed[slot]
+    }
+
+    pub fn slides(&self, slot: usize, group: usize) -> bool {
+        self.slides[slot][group]
+    }
+
+    pub fn direction(&self, slot: usize, group: usize) -> [R; 2] {
+        self.directions[slot][group]
+    }
+
+    /// Sets the direction of a sliding group's friction. Within a sub-step it does not reverse: the force continues
+    /// smoothly until the instant of reversal has been located.
+    pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
+        let start = self.start_directions[slot][group];
+        let turned = (direction[0] * start[0] + direction[1] * start[1]).lane(0) < 0.0;
+        self.reversed[slot][group] = turned;
+        let direction = if turned { direction.map(|x| -x) } else { direction };
+        self.directions[slot][group] = direction;
+        direction
+    }
+
+    /// Classifies a slot; the warm start of one that is not closed is cleared.
+    pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
+        self.closed[slot] = closed;
+        self.slides[slot] = slides;
+        self.start_directions[slot] = [[R::zero(); 2]; 3];
+        if !closed {
+            self.numbers[slot * SLOT_LEN..(slot + 1) * SLOT_LEN].fill(R::zero());
+        }
+    }
+
+    fn code(&self, slot: usize) -> u32 {
+        self.numbers[slot * SLOT_LEN + 6].lane(0) as u32
+    }
+
+    /// Restores modes and multipliers of the last solution.
+    pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        for block in blocks {
+            let code = self.code(block.slot);
+            if code == 0 {
+                continue;
+            }
+            let kept = &self.numbers[block.slot * SLOT_LEN..];
+            lambda[block.row] = kept[0];
+            block.open = (code - 1) & 1 == 1 && block.given.is_none();
+            for (g, group) in block.groups.iter_mut().enumerate() {
+                let Some(group) = group else { continue };
+                let first = [1, 3, 5][g];
+                lambda[group.row..group.row + group.dim].copy_from_slice(&kept[first..first + group.dim]);
+                if group.slides || (code - 1) >> (g + 1) & 1 == 0 {
+                    continue;
+                }
+                let mut d = [R::zero(); 2];
+                d[..group.dim].copy_from_slice(&kept[first..first + group.dim]);
+                let square = d[0] * d[0] + d[1] * d[1];
+                if square.lane(0) > 0.0 {
+                    let inverse = R::one() / square.sqrt();
+                    group.slip(d.map(|x| x * inverse), None);
+                }
+            }
+        }
+    }
+
+    /// Stores a solution.
+    pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
+        for block in blocks {
+            let kept = &mut self.numbers[block.slot * SLOT_LEN..(block.slot + 1) * SLOT_LEN];
+            kept[0] = lambda[block.row];
+            let mut code = 1 + u32::from(block.open);
+            for (g, group) in block.groups.iter().enumerate() {
+                let Some(group) = group else { continue };
+                let first = [1, 3, 5][g];
+                kept[first..first + group.dim].copy_from_slice(&lambda[group.row..group.row + group.dim]);
+                if group.grip == ContactMode::Slip && !block.open {
+                    code += 2 << g;
+                }
+            }
+            code += 16 * u32::from(block.effect);
+            kept[6] = R::splat(f64::from(code));
+        }
+    }
+
+    /// Records the modes at the start of a sub-step.
+    pub fn mark_start(&mut self) {
+        for slot in 0..self.start.len() {
+            self.start[slot] = f64::from(self.code(slot));
+        }
+        self.start_directions.copy_from_slice(&self.directions);
+    }
+
+    /// Returns true if the observable mode of a closed slot differs from the start of the sub-step.
+    pub fn has_changed(&self) -> bool {
+        let closed = || (0..self.start.len()).filter(|slot| self.closed[*slot]);
+        closed().any(|slot| effect(self.start[slot] as u32) != effect(self.code(slot)))
+            || closed().any(|slot| self.has_reversed(slot))
+    }
+
+    /// Returns true if a sliding group has reversed.
+    fn has_reversed(&self, slot: usize) -> bool {
+        (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
+    }
+}
+
+/// Observable part of a code.
+fn effect(code: u32) -> u32 {
+    code.saturating_sub(1) >> 4
+}

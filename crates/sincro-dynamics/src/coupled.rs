@@ -1,0 +1,171 @@
+//! Coupled systems: continuous states integrated together with a mechanism, which may command it between ticks, such as
+//! a block diagram.
+//!
+//! The mechanism does not know the other system. At every evaluation the system is first asked for the commands at that
+//! instant, then, with the accelerations that follow, for the derivatives of its own states. The joint state vector is
+//! y = (mechanism's y, z).
+
+use sincro_math::Real;
+
+use crate::integrate::{Implicit, System};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::scratch::Scratch;
+
+/// Coupled system: continuous states z that are integrated together with a mechanism.
+pub trait CoupledSystem<R: Real> {
+    /// States z, as they are between steps.
+    fn states(&mut self) -> &mut [R];
+
+    /// Announces a sub-step: the time event at its end if there is one, else infinity.
+    fn set_time_event(&mut self, event: f64);
+
+    /// Next time event: the first instant after `t` at which the system is discontinuous because of time alone.
+    fn next_time_event(&self, t: f64) -> f64;
+
+    /// Writes the commands that the system determines at this instant, with the states `z`; the others are held.
+    fn find_commands(&mut self, state_view: &mut StateView<'_, R>, z: &[R], commands: &mut [R]);
+
+    /// Writes the derivatives of `z`, with the accelerations and motor torques that follow from the commands just
+    /// given.
+    fn slope(&mut self, state_view: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]);
+
+    /// Diagonal of −∂f/∂z at the instant of the last [`CoupledSystem::slope`], as far as known [1/s]; implicit methods
+    /// evaluate it at the new state.
+    fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
+}
+
+/// State view: the mechanism at one instant, as a coupled system or a sensor sees it.
+#[derive(Debug)]
+pub struct StateView<'a, R> {
+    /// Time `[s]`.
+    pub t: f64,
+    /// The model.
+    pub model: &'a Model<R>,
+    /// Coordinates.
+    pub q: &'a [R],
+    /// Velocities.
+    pub v: &'a [R],
+    /// States of rotors.
+    pub rotors: &'a [R],
+    /// Commands as they were last given; empty while they are being written.
+    pub commands: &'a [R],
+    /// Working memory for kinematics, of any content.
+    pub scratch: &'a mut Scratch<R>,
+}
+
+/// Response of the mechanism to the commands.
+#[derive(Clone, Copy, Debug)]
+pub struct Response<'a, R> {
+    /// Accelerations [rad/s²] or [m/s²].
+    pub accelerations: &'a [R],
+    /// Smooth torque of each motor [N·m] or `[N]`; empty unless totals are tracked.
+    pub motor_torque: &'a [R],
+}
+
+/// No coupling.
+#[derive(Clone, Copy, Debug)]
+pub struct NoCoupling;
+
+impl<R: Real> CoupledSystem<R> for NoCoupling {
+    fn states(&mut self) -> &mut [R] {
+        &mut []
+    }
+    fn set_time_event(&mut self, _: f64) {}
+    fn next_time_event(&self, _: f64) -> f64 {
+        f64::INFINITY
+    }
+    #[inline(always)]
+    fn find_commands(&mut self, _: &mut StateView<'_, R>, _: &[R], _: &mut [R]) {}
+    #[inline(always)]
+    fn slope(&mut self, _: &mut StateView<'_, R>, _: Response<'_, R>, _: &[R], _: &mut [R]) {}
+    fn negated_jacobian_diagonal(&mut self, _: &mut [R]) {}
+}
+
+/// State view of a mechanism at the coordinates last placed and the velocities in `y`.
+#[inline(always)]
+fn state_view<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) -> StateView<'a, R> {
+    let n = mechanism.model.n_v();
+    let (v, rotors) = (&y[n..2 * n], &y[mechanism.rotor_states()]);
+    let (model, q, commands) = (&mechanism.model, &*mechanism.q, &*mechanism.commands);
+    StateView { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
+}
+
+/// Mechanism and coupled system as one [`System`].
+#[derive(Debug)]
+pub struct Coupled<'a, R, A: ?Sized> {
+    /// The mechanism.
+    pub mechanism: &'a mut Mechanism<R>,
+    /// Coupled system.
+    pub system: &'a mut A,
+    /// Diagonal of −∂f/∂z, working memory as long as z.
+    pub negated_jacobian_diagonal: &'a mut [R],
+}
+
+impl<R: Real, A: CoupledSystem<R> + ?Sized> Coupled<'_, R, A> {
+    #[inline(always)]
+    fn find_commands(&mut self, t: f64, own: &[R], z: &[R]) {
+        let mut commands = core::mem::take(&mut self.mechanism.commands);
+        self.system.find_commands(&mut state_view(self.mechanism, t, own), z, &mut commands);
+        self.mechanism.commands = commands;
+    }
+
+    #[inline(always)]
+    fn rates(&mut self, t: f64, own: &[R], own_slope: &[R], z: &[R], slope: &mut [R]) {
+        let n = self.mechanism.model().n_v();
+        let torques = self.mechanism.take_motor_torque();
+        let response = Response { accelerations: &own_slope[n..2 * n], motor_torque: &torques };
+        self.system.slope(&mut state_view(self.mechanism, t, own), response, z, slope);
+        self.mechanism.put_motor_torque(torques);
+    }
+}
+
+impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        self.mechanism.dim() + self.negated_jacobian_diagonal.len()
+    }
+
+    #[inline(always)]
+    fn is_controlled(&self, k: usize) -> bool {
+        k >= self.mechanism.dim() || self.mechanism.is_controlled(k)
+    }
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        let (own, z) = y.split_at(self.mechanism.dim());
+        let (own_slope, z_slope) = slope.split_at_mut(own.len());
+        self.mechanism.set_coordinates(own);
+        self.find_commands(t, own, z);
+        self.mechanism.slope(t, own, own_slope);
+        self.rates(t, own, own_slope, z, z_slope);
+    }
+
+    #[inline(always)]
+    fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        let (own, z) = y.split_at(self.mechanism.dim());
+        let (own_slope, z_slope) = slope.split_at_mut(own.len());
+        self.mechanism.set_coordinates(own);
+        self.find_commands(t, own, z);
+        self.mechanism.implicit_slope(t, h, implicit, own, own_slope);
+        if z.is_empty() {
+            return;
+        }
+        self.rates(t, own, own_slope, z, z_slope);
+        self.system.negated_jacobian_diagonal(self.negated_jacobian_diagonal);
+        for (slope, negated_jacobian_diagonal) in z_slope.iter_mut().zip(&*self.negated_jacobian_diagonal) {
+            *slope = *slope / (R::one() + R::splat(h) * *negated_jacobian_diagonal);
+        }
+    }
+
+    #[inline(always)]
+    fn rechart(&mut self, y: &mut [R]) {
+        let n = self.mechanism.dim();
+        self.mechanism.rechart(&mut y[..n]);
+    }
+
+    fn magnitude(&self, y: &[R], k: usize) -> f64 {
+        let n = self.mechanism.dim();
+        if k < n { self.mechanism.magnitude(&y[..n], k) } else { y[k].lane(0).abs() }
+    }
+}

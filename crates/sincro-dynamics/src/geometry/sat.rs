@@ -1,0 +1,389 @@
+//! Separating axes and face clipping: contact points of two convex polytopes.
+//!
+//! The direction of largest separation (or least penetration) of two polytopes is the normal of a face of one of them,
+//! or perpendicular to an edge of each (separating axis theorem; key `gottschalk1996`). A face is chosen wherever an
+//! edge pair is no better by more than a tolerance: two boxes that lie on each other have both, equal but for rounding,
+//! and only the faces keep the boxes level. The opposing face of the other polytope (incident face) is clipped against
+//! the side planes of the first one (reference face); the vertices that remain are the contact points.
+//!
+//! A point is a material point of the body whose face was clipped, over the plane of the other: exact for flat faces
+//! that rest, tilt and slide.
+
+use parry3d_f64::math::Vector;
+use parry3d_f64::shape::ConvexPolyhedron;
+
+use super::{Shape, Surface};
+use crate::spatial::{Pose, Vec3};
+
+/// Tolerance between the separations of two directions, and distance of points that are merged `[m]`.
+const ALIKE: f64 = 1e-6;
+
+/// Tolerance of points outside of an outline `[m]`.
+const ON_OUTLINE: f64 = 1e-9;
+
+/// Sine of the angle between two edges below which they are parallel.
+const PARALLEL: f64 = 1e-6;
+
+/// Maximum number of edges; hulls with more are left to the general algorithm, since all pairs of edges are tested.
+const MAX_EDGES: usize = 90;
+
+#[derive(Clone, Copy, Debug)]
+struct Face {
+    normal: Vec3<f64>,
+    /// Its outline, counter-clockwise seen from outside: part of `loops`.
+    first: usize,
+    len: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    ends: [usize; 2],
+    faces: [usize; 2],
+}
+
+/// A convex polytope in the frame of its link.
+#[derive(Clone, Debug)]
+pub(crate) struct Polytope {
+    vertices: Vec<Vec3<f64>>,
+    faces: Vec<Face>,
+    loops: Vec<usize>,
+    edges: Vec<Edge>,
+    center: Vec3<f64>,
+}
+
+impl Polytope {
+    /// Polytope of a surface at `pose` in its link; none if the surface is no polytope or has too many edges.
+    pub fn new(surface: &Surface, pose: &Pose<f64>) -> Option<Self> {
+        let convex_hull = match surface {
+            Surface::Solid(Shape::Cuboid { size }) => {
+                let corner = |k: usize| Vector::from_array(corner(k, size));
+                // faces of a box with normals along ±x, ±y, ±z, outlines counter-clockwise from outside
+                let faces: [[u32; 4]; 6] =
+                    [[1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4], [4, 5, 7, 6], [0, 2, 3, 1]];
+                let triangles: Vec<[u32; 3]> =
+                    faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect();
+                ConvexPolyhedron::from_convex_mesh((0..8).map(corner).collect(), &triangles)
+            }
+            Surface::Hull(points) => {
+                let points: Vec<Vector> = points.iter().map(|p| Vector::from_array(*p)).collect();
+                ConvexPolyhedron::from_convex_hull(&points)
+            }
+            _ => None,
+        }?;
+        (convex_hull.edges().len() <= MAX_EDGES).then(|| Self::from_library(&convex_hull, pose))
+    }
+
+    fn from_library(convex_hull: &ConvexPolyhedron, pose: &Pose<f64>) -> Self {
+        let vertices: Vec<_> = convex_hull.points().iter().map(|p| pose.point(Vec3([p.x, p.y, p.z]))).collect();
+        let loops: Vec<usize> = convex_hull.vertices_adj_to_face().iter().map(|k| *k as usize).collect();
+        let face = |first: usize, len: usize| {
+            // from the outline, as exact as the vertices
+            let at = |k: usize| vertices[loops[first + k]];
+            let normal = (1..len - 1).fold(Vec3::zero(), |n, k| n + (at(k) - at(0)).cross(at(k + 1) - at(0)));
+            Face { normal: normal.scale(1.0 / normal.norm()), first, len }
+        };
+        let outlines = convex_hull.faces().iter().map(|f| (f.first_vertex_or_edge, f.num_vertices_or_edges));
+        let faces = outlines.map(|(first, len)| face(first as usize, len as usize)).collect();
+        let edges = convex_hull
+            .edges()
+            .iter()
+            .map(|e| Edge { ends: e.vertices.map(|k| k as usize), faces: e.faces.map(|k| k as usize) });
+        let edges = edges.collect();
+        let sum = vertices.iter().fold(Vec3::zero(), |a, b| a + *b);
+        let center = sum.scale(1.0 / vertices.len() as f64);
+        Self { vertices, faces, loops, edges, center }
+    }
+}
+
+fn corner(k: usize, size: &[f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|c| if k >> c & 1 == 0 { -0.5 * size[c] } else { 0.5 * size[c] })
+}
+
+/// Point of one polytope over a plane of the other, each in the frame of its own link.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PointOnPlane {
+    /// True if the point belongs to the first polytope and the plane to the second.
+    pub is_on_first: bool,
+    pub point: Vec3<f64>,
+    /// Point of the plane `[m]`.
+    pub origin: Vec3<f64>,
+    /// Normal of the plane, from its polytope to the point.
+    pub normal: Vec3<f64>,
+}
+
+/// Working memory: the second polytope in the frame of the first one's link, and outlines.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FaceClipper {
+    vertices: Vec<Vec3<f64>>,
+    normals: Vec<Vec3<f64>>,
+    outline: Vec<Vec3<f64>>,
+    cut: Vec<Vec3<f64>>,
+}
+
+/// Vertices and normals of a polytope in a common frame.
+struct Placed<'a> {
+    shape: &'a Polytope,
+    vertices: &'a [Vec3<f64>],
+    normals: &'a [Vec3<f64>],
+}
+
+impl Placed<'_> {
+    fn normal(&self, face: usize) -> Vec3<f64> {
+        // of the first polytope, which is in its own frame, the list is empty
+        self.normals.get(face).copied().unwrap_or(self.shape.faces[face].normal)
+    }
+
+    fn outline(&self, face: usize) -> impl Iterator<Item = Vec3<f64>> {
+        let Face { first, len, .. } = self.shape.faces[face];
+        self.shape.loops[first..first + len].iter().map(|k| self.vertices[*k])
+    }
+
+    /// Face with the largest separation from another polytope, and that separation.
+    fn best_face(&self, other: &[Vec3<f64>]) -> (usize, f64) {
+        let mut best = (0, f64::NEG_INFINITY);
+        for face in 0..self.shape.faces.len() {
+            let n = self.normal(face);
+            let level = n.dot(self.vertices[self.shape.loops[self.shape.faces[face].first]]);
+            let depth = other.iter().map(|v| n.dot(*v)).fold(f64::INFINITY, f64::min) - level;
+            if depth > best.1 {
+                best = (face, depth);
+            }
+        }
+        best
+    }
+}
+
+impl FaceClipper {
+    /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`;
+    /// `x_ab` is the pose of b's link in a's.
+    pub fn find(
+        &mut self,
+        a: &Polytope,
+        b: &Polytope,
+        x_ab: &Pose<f64>,
+        margin: f64,
+        max_points: usize,
+        mut emit: impl FnMut(PointOnPlane),
+    ) {
+        let Self { vertices, normals, outline, cut } = self;
+        vertices.clear();
+        vertices.extend(b.vertices.iter().map(|v| x_ab.point(*v)));
+        normals.clear();
+        normals.extend(b.faces.iter().map(|f| x_ab.rot.mul_vec(f.normal)));
+        let one = Placed { shape: a, vertices: &a.vertices, normals: &[] };
+        let two = Placed { shape: b, vertices, normals };
+        let (face_1, depth_1) = one.best_face(two.vertices);
+        let (face_2, depth_2) = two.best_face(one.vertices);
+        let of_faces = depth_1.max(depth_2);
+        if of_faces > margin {
+            return;
+        }
+        if let Some((edges, n, depth)) = best_edges(&one, &two)
+            && depth > of_faces + ALIKE
+        {
+            if depth <= margin {
+                emit(edge_point(&one, &two, edges, n, x_ab));
+            }
+            return;
+        }
+        let first_leads = depth_1 >= depth_2 - ALIKE;
+        let (lead, face, other) = if first_leads { (&one, face_1, &two) } else { (&two, face_2, &one) };
+        cut_outline(lead, face, other, outline, cut);
+        let n = lead.normal(face);
+        let origin = lead.vertices[lead.shape.loops[lead.shape.faces[face].first]];
+        outline.retain(|p| n.dot(*p - origin) <= margin);
+        thin_out(outline, max_points);
+        for p in outline.iter() {
+            let own = |p: Vec3<f64>| x_ab.rot.tr_mul_vec(p - x_ab.pos);
+            emit(if first_leads {
+                PointOnPlane { is_on_first: false, point: own(*p), origin, normal: n }
+            } else {
+                PointOnPlane { is_on_first: true, point: *p, origin: own(origin), normal: x_ab.rot.tr_mul_vec(n) }
+            });
+        }
+    }
+}
+
+/// Clips the incident face, the face of `other` that opposes a face most, to the outline of that face; merges
+/// coincident points.
+fn cut_outline(
+    lead: &Placed<'_>,
+    face: usize,
+    other: &Placed<'_>,
+    outline: &mut Vec<Vec3<f64>>,
+    cut: &mut Vec<Vec3<f64>>,
+) {
+    let n = lead.normal(face);
+    let against = |k: usize| n.dot(other.normal(k));
+    let facing = (1..other.shape.faces.len()).fold(0, |best, k| if against(k) < against(best) { k } else { best });
+    outline.clear();
+    outline.extend(other.outline(facing));
+    let mut from = lead.outline(face).last().unwrap_or_default();
+    for to in lead.outline(face) {
+        let inwards = n.cross(to - from);
+        let inwards = inwards.scale(1.0 / inwards.norm());
+        let inside = |p: &Vec3<f64>| inwards.dot(*p - from);
+        cut.clear();
+        for k in 0..outline.len() {
+            let (p, q) = (outline[k], outline[(k + 1) % outline.len()]);
+            let (at_p, at_q) = (inside(&p), inside(&q));
+            if at_p >= -ON_OUTLINE {
+                cut.push(p);
+            }
+            if (at_p < -ON_OUTLINE && at_q > ON_OUTLINE) || (at_p > ON_OUTLINE && at_q < -ON_OUTLINE) {
+                cut.push(p + (q - p).scale(at_p / (at_p - at_q)));
+            }
+        }
+        core::mem::swap(outline, cut);
+        from = to;
+    }
+    cut.clear();
+    for p in outline.iter() {
+        if cut.iter().all(|known| (*p - *known).norm() > ALIKE) {
+            cut.push(*p);
+        }
+    }
+    core::mem::swap(outline, cut);
+}
+
+/// Reduces the points to `max_points`: those go first whose removal reduces the area least.
+fn thin_out(points: &mut Vec<Vec3<f64>>, max_points: usize) {
+    while points.len() > max_points {
+        let n = points.len();
+        let area = |k: usize| {
+            let (before, after) = (points[(k + n - 1) % n], points[(k + 1) % n]);
+            (before - points[k]).cross(after - points[k]).norm()
+        };
+        let least = (1..n).fold(0, |best, k| if area(k) < area(best) { k } else { best });
+        points.remove(least);
+    }
+}
+
+/// Pair of edges with the largest separation: edges, normal from two to one, separation.
+fn best_edges(one: &Placed<'_>, two: &Placed<'_>) -> Option<([usize; 2], Vec3<f64>, f64)> {
+    let mut best: Option<([usize; 2], Vec3<f64>, f64)> = None;
+    for (i, e) in one.shape.edges.iter().enumerate() {
+        let (p, u) = (one.vertices[e.ends[0]], one.vertices[e.ends[1]] - one.vertices[e.ends[0]]);
+        let [a, b] = e.faces.map(|f| one.normal(f));
+        for (j, f) in two.shape.edges.iter().enumerate() {
+            let [c, d] = f.faces.map(|f| -two.normal(f));
+            if !arcs_cross((a, b, u), (c, d), two.vertices[f.ends[1]] - two.vertices[f.ends[0]]) {
+                continue;
+            }
+            let (q, w) = (two.vertices[f.ends[0]], two.vertices[f.ends[1]] - two.vertices[f.ends[0]]);
+            let across = u.cross(w);
+            let size = across.norm();
+            if size < PARALLEL * u.norm() * w.norm() {
+                continue;
+            }
+            let outwards = if across.dot(p - one.shape.center) < 0.0 { -1.0 } else { 1.0 };
+            let n = across.scale(outwards / size);
+            let depth = n.dot(q - p);
+            if best.is_none_or(|(_, _, known)| depth > known) {
+                best = Some(([i, j], -n, depth));
+            }
+        }
+    }
+    best
+}
+
+/// Returns true if the arcs of two edges on the Gauss map cross: only then can they touch. The arc from a to b has its
+/// pole along the edge.
+fn arcs_cross((a, b, u): (Vec3<f64>, Vec3<f64>, Vec3<f64>), (c, d): (Vec3<f64>, Vec3<f64>), w: Vec3<f64>) -> bool {
+    let (at_c, at_d) = (c.dot(u), d.dot(u));
+    let (at_a, at_b) = (a.dot(w), b.dot(w));
+    if at_c * at_d >= 0.0 || at_a * at_b >= 0.0 {
+        return false;
+    }
+    // on the same half of the sphere
+    let (ba, dc) = (b.cross(a), d.cross(c));
+    c.dot(ba) * b.dot(dc) > 0.0
+}
+
+/// Contact point of two crossing edges: the first one's nearest point over a plane through the second one.
+fn edge_point(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64>, x_ab: &Pose<f64>) -> PointOnPlane {
+    let line = |placed: &Placed<'_>, k: usize| {
+        let [from, to] = placed.shape.edges[k].ends.map(|v| placed.vertices[v]);
+        (from, to - from)
+    };
+    let ((p, u), (q, w)) = (line(one, edges[0]), line(two, edges[1]));
+    let r = q - p;
+    let (uu, ww, uw) = (u.dot(u), w.dot(w), u.dot(w));
+    let along = ((r.dot(u) * ww - r.dot(w) * uw) / (uu * ww - uw * uw)).clamp(0.0, 1.0);
+    let point = p + u.scale(along);
+    let own = |v: Vec3<f64>| x_ab.rot.tr_mul_vec(v);
+    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::Mat3;
+
+    fn brick() -> Polytope {
+        let surface = Surface::Solid(Shape::Cuboid { size: [0.24, 0.12, 0.08] });
+        Polytope::new(&surface, &Pose::identity()).unwrap()
+    }
+
+    /// Points and signed distances of a brick in a pose over one at rest.
+    fn first_contact(x_ab: &Pose<f64>) -> Vec<(Vec3<f64>, f64)> {
+        let mut points = Vec::new();
+        FaceClipper::default().find(&brick(), &brick(), x_ab, 1e-3, 8, |p: PointOnPlane| {
+            let place = |p: Vec3<f64>, is_first: bool| if is_first { p } else { x_ab.point(p) };
+            let (point, origin) = (place(p.point, p.is_on_first), place(p.origin, !p.is_on_first));
+            let n = if p.is_on_first { x_ab.rot.mul_vec(p.normal) } else { p.normal };
+            points.push((point, n.dot(point - origin)));
+        });
+        points
+    }
+
+    fn turned(axis: usize, angle: f64, pos: [f64; 3]) -> Pose<f64> {
+        let (sin, cos) = sincro_math::elementary::sin_cos(angle);
+        let rot = match axis {
+            0 => Mat3::rotation::<0>(sin, cos),
+            1 => Mat3::rotation::<1>(sin, cos),
+            _ => Mat3::rotation::<2>(sin, cos),
+        };
+        Pose { rot, pos: Vec3(pos) }
+    }
+
+    #[test]
+    fn a_brick_on_a_brick_stands_on_four_corners_whatever_rounding_says() {
+        for axis in 0..3 {
+            for tilt in [0.0, 1e-16, -3e-16, 1e-13, -1e-10] {
+                let points = first_contact(&turned(axis, tilt, [0.0, 0.0, 0.08 - 1e-13]));
+                assert_eq!(points.len(), 4, "axis {axis}, tilt {tilt:e}: {points:?}");
+                assert!(points.iter().all(|(_, gjk)| gjk.abs() < 1e-10));
+            }
+        }
+    }
+
+    #[test]
+    fn a_brick_that_is_turned_touches_with_an_octagon_and_one_that_overhangs_with_what_is_left() {
+        let octagon = first_contact(&turned(2, 0.8, [0.0, 0.0, 0.08]));
+        assert_eq!(octagon.len(), 8, "{octagon:?}");
+        let shifted = first_contact(&turned(2, 0.0, [0.1, 0.0, 0.08]));
+        let x = |f: fn(f64, f64) -> f64, start: f64| shifted.iter().fold(start, |a, (p, _)| f(a, p[0]));
+        assert_eq!(shifted.len(), 4);
+        assert!((x(f64::min, 1.0) + 0.02).abs() < 1e-15 && (x(f64::max, -1.0) - 0.12).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_brick_on_its_corner_and_crossed_edges_touch_in_one_point() {
+        // an edge along x over an edge along y: both bricks stand on edge
+        let half = |a: f64, b: f64| 0.5 * (a * a + b * b).sqrt();
+        let up = half(0.12, 0.08);
+        let lower = turned(0, sincro_math::elementary::atan2(0.12, 0.08).0, [0.0; 3]);
+        let quarter = turned(2, core::f64::consts::FRAC_PI_2, [0.0, 0.0, 2.0 * up + 1e-4]);
+        let upper = quarter.compose(&turned(0, sincro_math::elementary::atan2(0.12, 0.08).0, [0.0; 3]));
+        let points = first_contact(&lower.inverse().compose(&upper));
+        assert_eq!(points.len(), 1, "{points:?}");
+        assert!((points[0].1 - 1e-4).abs() < 1e-12, "{points:?}");
+    }
+
+    #[test]
+    fn bricks_far_apart_do_not_touch() {
+        assert!(first_contact(&turned(2, 0.3, [0.0, 0.0, 0.09])).is_empty());
+        assert!(first_contact(&turned(2, 0.3, [0.3, 0.0, 0.0])).is_empty());
+    }
+}

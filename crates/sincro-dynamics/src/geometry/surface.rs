@@ -1,0 +1,50 @@
+//! Surfaces of colliders and of what sensors detect: solids, half spaces, hulls, meshes, height fields.
+
+use super::Shape;
+use crate::spatial::Vec3;
+
+/// Geometry of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surface {
+    /// A solid.
+    Solid(Shape),
+    /// Everything below z = 0 of its frame; fixed in the world.
+    HalfSpace,
+    /// Convex hull of points `[m]`.
+    Hull(Vec<[f64; 3]>),
+    /// A closed triangle mesh: vertices `[m]` and counter-clockwise triangles; fixed in the world.
+    Mesh(Vec<[f64; 3]>, Vec<[u32; 3]>),
+    /// Heights `[m]` over a grid centred on the frame, row by row along x, extents along x and y `[m]`; fixed in the
+    /// world.
+    HeightField {
+        /// Points along x.
+        columns: usize,
+        /// Heights, `columns` a row.
+        heights: Vec<f64>,
+        /// Extents.
+        size: [f64; 2],
+    },
+}
+
+impl Surface {
+    /// Radius of the bounding sphere about the frame's origin `[m]`; infinite for a half space.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let length = |p: &[f64; 3]| Vec3(*p).norm();
+        match self {
+            Self::Solid(Shape::Sphere { radius }) => *radius,
+            Self::Solid(Shape::Cuboid { size }) => 0.5 * length(size),
+            Self::Solid(Shape::Capsule { radius, length }) => 0.5 * length + radius,
+            Self::Solid(Shape::Cylinder { radius, length }) => (0.25 * length * length + radius * radius).sqrt(),
+            Self::Solid(Shape::Cone { radius, length }) => {
+                (0.75 * length).max((length * length / 16.0 + radius * radius).sqrt())
+            }
+            Self::Hull(points) | Self::Mesh(points, _) => points.iter().map(length).fold(0.0, f64::max),
+            Self::HalfSpace => f64::INFINITY,
+            Self::HeightField { heights, size, .. } => {
+                let top = heights.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+                length(&[0.5 * size[0], 0.5 * size[1], top])
+            }
+        }
+    }
+}

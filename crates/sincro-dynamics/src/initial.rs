@@ -1,0 +1,155 @@
+//! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, and the mobility of
+//! the mechanism.
+
+use crate::integrate::System;
+use crate::mechanism::Mechanism;
+use crate::mechanism::constraints::ActivationRule;
+use crate::model::Model;
+use crate::state::State;
+
+/// Constraint residual of a loop joint or gear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConstraintResidual {
+    /// Its name.
+    pub name: String,
+    /// Distance between the ends, or deviation from the prescribed distance `[m]`; of a gear, in the units of its
+    /// second joint.
+    pub distance: f64,
+    /// Angle between axes that should agree `[rad]`.
+    pub angle: f64,
+}
+
+/// Penetration of two surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Penetration {
+    /// One body.
+    pub a: String,
+    /// The other.
+    pub b: String,
+    /// Penetration depth `[m]`.
+    pub depth: f64,
+}
+
+/// Joint position outside of a joint limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitViolation {
+    /// Name of the joint.
+    pub joint: String,
+    /// Position `[rad]` or `[m]`.
+    pub position: f64,
+    /// The limit `[rad]` or `[m]`.
+    pub limit: f64,
+}
+
+/// Mobility of a mechanism: degrees of freedom of the tree and the constraint equations on them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Mobility {
+    /// Degrees of freedom of the tree.
+    pub tree_dofs: usize,
+    /// Number of loop joints and gears.
+    pub loops: usize,
+    /// Number of their equations.
+    pub equations: usize,
+    /// Equations that depend on others in this state.
+    pub redundant: usize,
+}
+
+impl Mobility {
+    /// Returns the remaining degrees of freedom.
+    #[must_use]
+    pub fn dofs(&self) -> usize {
+        (self.tree_dofs + self.redundant).saturating_sub(self.equations)
+    }
+}
+
+fn placed(model: &Model<f64>, x: &State<f64>) -> (Mechanism<f64>, Vec<f64>) {
+    let mut mechanism = Mechanism::new(model.clone(), false);
+    let mut y = vec![0.0; mechanism.dim()];
+    mechanism.load(x, &mut y);
+    (mechanism, y)
+}
+
+/// Constraint residuals of every loop joint and gear in a state.
+#[must_use]
+pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintResidual> {
+    let set = model.constraints();
+    let mut scratch = crate::scratch::Scratch::new(model);
+    crate::recursions::kinematics::poses(model, &x.q, &mut scratch);
+    let loop_joints = set.loop_joints.iter().map(|c| {
+        let (distance, angle) = c.residual(&scratch);
+        ConstraintResidual { name: c.name.clone(), distance, angle }
+    });
+    let gears = set.gears.iter().map(|c| {
+        let [q1, q2] = c.coordinates.map(|k| x.q[k]);
+        ConstraintResidual { name: c.name.clone(), distance: (q2 - c.ratio * q1 - c.offset).abs(), angle: 0.0 }
+    });
+    loop_joints.chain(gears).collect()
+}
+
+/// Coordinates near those of a state that satisfy all loop joints and gears; none if there are none nearby.
+#[must_use]
+pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
+    let (mut mechanism, mut y) = placed(model, x);
+    mechanism.drives.fill(1.0);
+    mechanism.mark_locked();
+    for _ in 0..20 {
+        mechanism.project(&mut y, false);
+    }
+    let mut closed = x.clone();
+    closed.q.copy_from_slice(mechanism.base());
+    let all = constraint_residuals(model, &closed).iter().all(|o| o.distance < 1e-9 && o.angle < 1e-9);
+    (all && closed.q.iter().all(|q| q.is_finite())).then_some(closed.q)
+}
+
+/// Pairs of bodies that penetrate, each with its greatest depth; compliant pairs left out.
+#[must_use]
+pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
+    let set = model.constraints();
+    let (mut mechanism, y) = placed(model, x);
+    mechanism.detect_contacts(&y[model.n_v()..], ActivationRule::All);
+    let Some(c) = mechanism.constraints.as_deref() else { return Vec::new() };
+    let mut found: Vec<Penetration> = Vec::new();
+    for pair in set.pairs.iter().filter(|p| p.material.stiffness.is_infinite()) {
+        let gaps = c.candidates[pair.first..pair.first + pair.slots].iter().flatten();
+        let depth =
+            gaps.map(|s| -s.kinematics(&c.motions.at(&mechanism.scratch)).distance).fold(f64::NEG_INFINITY, f64::max);
+        if depth > 0.0 {
+            let name = |k: usize| set.colliders[k].name.clone();
+            found.push(Penetration { a: name(pair.a), b: name(pair.b), depth });
+        }
+    }
+    found
+}
+
+/// Joints outside of their limits by more than rounding.
+#[must_use]
+pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolation> {
+    let beyond = model.constraints().limits.iter().filter_map(|limit| {
+        let position = x.q[limit.coordinate];
+        (limit.sign * (position - limit.bound) < -1e-9).then(|| LimitViolation {
+            joint: model.names().dof_name(limit.dof).to_owned(),
+            position,
+            limit: limit.bound,
+        })
+    });
+    beyond.collect()
+}
+
+/// Mobility in a state, loop joints and gears counted.
+#[must_use]
+pub fn mobility(model: &Model<f64>, x: &State<f64>) -> Mobility {
+    let set = model.constraints();
+    let mut found = Mobility {
+        tree_dofs: model.n_v() - model.drives().iter().filter(|d| d.kind == crate::actuation::DriveKind::Lock).count(),
+        loops: set.loop_joints.len() + set.gears.len(),
+        equations: set.n_bilateral(),
+        redundant: 0,
+    };
+    if found.equations > 0 {
+        let (mut mechanism, y) = placed(model, x);
+        mechanism.drives.fill(1.0);
+        mechanism.mark_locked();
+        found.redundant = mechanism.redundant(&y);
+    }
+    found
+}

@@ -1,0 +1,30 @@
+//! Passive properties of a degree of freedom: armature, spring, damper, Coulomb friction, constant torque.
+
+use super::WORLD;
+
+/// Passive properties of one degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dof<R> {
+    /// Reflected inertia [kg·m²] or `[kg]`.
+    pub armature: R,
+    /// Spring stiffness [N·m/rad] or [N/m].
+    pub stiffness: R,
+    /// Rest position of the spring `[rad]` or `[m]`.
+    pub rest: R,
+    /// Viscous coefficient [N·m·s/rad] or [N·s/m].
+    pub damping: R,
+    /// Coulomb friction torque [N·m] or force `[N]`.
+    pub friction: R,
+    /// Constant applied torque [N·m] or force `[N]`.
+    pub torque: R,
+    /// Coordinate in q that this degree of freedom moves; `WORLD` for those of ball and free joints.
+    pub(crate) q_idx: u32,
+}
+
+impl<R> Dof<R> {
+    /// Index in q of the coordinate that this degree of freedom moves; none for those of ball and free joints.
+    #[must_use]
+    pub fn coordinate(&self) -> Option<usize> {
+        (self.q_idx != WORLD).then_some(self.q_idx as usize)
+    }
+}

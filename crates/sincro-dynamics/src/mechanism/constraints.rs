@@ -1,0 +1,304 @@
+//! Operations of a constrained mechanism between integration steps: contact detection, impacts, projection, zero
+//! crossings of contacts.
+
+use crate::constraint::{CLOSED_DISTANCE, Constraints};
+use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
+use crate::contact::{Collider, Pair};
+use crate::integrate::System;
+use crate::mechanism::Mechanism;
+use crate::recursions::aba::{self, Prescribed};
+use crate::recursions::kinematics;
+use crate::spatial::{Pose, Vec3};
+
+/// Speed below which a contact neither slides nor approaches [m/s] or [rad/s].
+pub(crate) const ZERO_SPEED: f64 = 1e-8;
+
+/// Projection tolerance of positions and rates `[m]`, [m/s].
+const PROJECTED: f64 = 1e-12;
+
+/// Projection tolerance after steps at velocity level, which are of first order.
+const PROJECTED_ROUGHLY: f64 = 1e-10;
+
+/// Iteration limit of a projection of positions.
+const MAX_PROJECTIONS: usize = 12;
+
+/// Result of contact detection at the start of a sub-step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct ContactStatus {
+    /// True if a closed rigid contact or limit approaches faster than rest: an impact is due.
+    pub has_impact: bool,
+}
+
+/// Rule by which a contact or limit counts as closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ActivationRule {
+    /// Closed and not separating.
+    Touching,
+    /// Closed, for an impact.
+    All,
+    /// Closed now or possibly within a step `[s]` at velocity level.
+    Within(f64),
+}
+
+impl Mechanism<f64> {
+    /// Detects contacts at the chart's origin for velocities `v`, and classifies every slot.
+    pub(crate) fn detect_contacts(&mut self, v: &[f64], closing: ActivationRule) -> ContactStatus {
+        let Some(c) = self.constraints.as_deref_mut() else { return ContactStatus::default() };
+        let (model, scratch) = (&self.model, &mut self.scratch);
+        kinematics::poses(model, &self.base, scratch);
+        c.motions.place(model, scratch, v);
+        let set = &*model.constraints;
+        let gravity = model.gravity.norm();
+        let margin = match closing {
+            ActivationRule::Within(h) => {
+                1e-3 + 4.0 * h * c.fastest(&set.colliders, &scratch.poses) + 4.0 * h * h * gravity
+            }
+            _ => 1e-6,
+        };
+        c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.candidates);
+        let mut touch = ContactStatus::default();
+        let closes = |distance: f64, rate: f64| match closing {
+            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= ZERO_SPEED,
+            ActivationRule::All => distance <= CLOSED_DISTANCE,
+            ActivationRule::Within(h) => {
+                distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
+            }
+        };
+        for (slot, limit) in set.limits.iter().enumerate() {
+            let distance = limit.sign * (self.base[limit.coordinate] - limit.bound);
+            let rate = limit.sign * v[limit.dof];
+            c.memory.classify(slot, closes(distance, rate), [false; 3]);
+            touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -ZERO_SPEED;
+        }
+        for pair in &set.pairs {
+            for k in pair.first..pair.first + pair.slots {
+                let slot = set.limits.len() + k;
+                let Some(candidate) = c.candidates[k] else {
+                    c.memory.classify(slot, false, [false; 3]);
+                    continue;
+                };
+                let at = candidate.kinematics(&c.motions.at(scratch));
+                let rate = normal_rate(c, &candidate, &at);
+                if pair.material.stiffness.is_finite() {
+                    let slides = slides(c, &candidate, &at, pair);
+                    c.memory.classify(slot, at.distance < 0.0, slides);
+                    continue;
+                }
+                let closed = closes(at.distance, rate);
+                let slides = if closed { slides(c, &candidate, &at, pair) } else { [false; 3] };
+                c.memory.classify(slot, closed, slides);
+                touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -ZERO_SPEED;
+            }
+        }
+        touch
+    }
+
+    /// Zero crossing of a signed distance: returns true if an open contact or limit has closed and still approaches, in
+    /// the state last evaluated.
+    pub(crate) fn has_new_contact(&mut self, v: &[f64]) -> bool {
+        let Some(c) = self.constraints.as_deref_mut() else { return false };
+        let set = &*self.model.constraints;
+        for (slot, limit) in set.limits.iter().enumerate() {
+            let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
+            if !c.memory.is_closed(slot) && distance < 0.0 && limit.sign * v[limit.dof] < -ZERO_SPEED {
+                return true;
+            }
+        }
+        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, 1e-6, &mut c.later_candidates);
+        for pair in &set.pairs {
+            for k in pair.first..pair.first + pair.slots {
+                let Some(candidate) = c.later_candidates[k] else { continue };
+                if c.memory.is_closed(set.limits.len() + k) {
+                    continue;
+                }
+                let at = candidate.kinematics(&c.motions.at(&self.scratch));
+                if at.distance < 0.0
+                    && (pair.material.stiffness.is_finite() || normal_rate(c, &candidate, &at) < -ZERO_SPEED)
+                {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Returns true if a compliant contact has opened, in the state last evaluated.
+    pub(crate) fn has_compliant_contact_opened(&self) -> bool {
+        let Some(c) = self.constraints.as_deref() else { return false };
+        c.blocks.iter().any(|b| b.given.is_some() && c.residual[b.row] > 0.0)
+    }
+
+    /// Factors the mass matrix for impulses: forward dynamics at rest without forces, prescribed degrees of freedom as
+    /// marked.
+    fn factor(&mut self, q_is_base: bool) {
+        self.torque.fill(0.0);
+        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
+            *d = dof.armature;
+        }
+        self.prescribed_acceleration.fill(0.0);
+        let prescribed = (!self.drives.is_empty())
+            .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
+        let q = if q_is_base { &self.base } else { &self.q };
+        let input = aba::Input {
+            q,
+            v: &self.torque,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            prescribed,
+            external: None,
+            gravity: false,
+        };
+        let mut change = core::mem::take(&mut self.constraint_change);
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, &mut change);
+        self.constraint_change = change;
+    }
+
+    /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of
+    /// freedom are those marked; the scratch has their impulses as reactions.
+    pub(crate) fn apply_impact(&mut self, v: &mut [f64]) -> f64 {
+        self.detect_contacts(v, ActivationRule::All);
+        self.factor(true);
+        let Some(c) = self.constraints.as_deref_mut() else { return 0.0 };
+        kinematics::chain_poses(&self.model, &mut self.scratch);
+        c.motions.place(&self.model, &self.scratch, v);
+        c.assemble(&self.model, &self.base, v, &self.scratch, false);
+        if c.rows.is_empty() {
+            return 0.0;
+        }
+        self.scratch.reaction.fill(0.0);
+        c.impact(&self.model, v, &mut self.scratch, !self.drives.is_empty())
+    }
+
+    /// Projection: removes the drift of positions (`y` begins with the chart's zero displacement) until the residuals
+    /// of all closed constraints vanish, then that of rates. The closed constraints are those of the last evaluation.
+    pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
+        let n = self.model.n_v();
+        let enough = if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
+        let mut last = f64::INFINITY;
+        for k in 0..MAX_PROJECTIONS {
+            if !self.prepare(y, k == 0) {
+                return;
+            }
+            let c = self.constraints.as_deref_mut().expect("prepared");
+            // a sticking contact has no position to keep, only a zero rate
+            c.keep_equations(false, !sticking);
+            let worst = c.worst(&y[n..2 * n]).0;
+            // close to a singular position there may be a residual that must not be removed
+            if worst <= enough || worst > 0.5 * last {
+                break;
+            }
+            last = worst;
+            self.factor(true);
+            let mut change = core::mem::take(&mut self.constraint_change);
+            let c = self.constraints.as_deref_mut().expect("prepared");
+            c.project(&self.model, &mut self.scratch, None, &mut change);
+            y[..n].copy_from_slice(&change);
+            self.constraint_change = change;
+            self.rechart(y);
+        }
+        let set = &self.model.constraints;
+        if !sticking && set.loop_joints.is_empty() && set.gears.is_empty() {
+            return;
+        }
+        self.prepare(y, false);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        if sticking {
+            c.keep_equations(true, false);
+        } else {
+            // at velocity level restitution has set the rates already
+            c.keep_loop_joints();
+        }
+        if c.worst(&y[n..2 * n]).1 <= PROJECTED {
+            return;
+        }
+        self.factor(true);
+        let mut change = core::mem::take(&mut self.constraint_change);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.project(&self.model, &mut self.scratch, Some(&y[n..2 * n]), &mut change);
+        for k in 0..n {
+            y[n + k] += change[k];
+        }
+        self.constraint_change = change;
+    }
+
+    /// Number of redundant equations of loop joints and gears, at the chart's origin.
+    pub(crate) fn redundant(&mut self, y: &[f64]) -> usize {
+        if !self.prepare(y, false) {
+            return 0;
+        }
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.keep_loop_joints();
+        self.factor(true);
+        let mut change = core::mem::take(&mut self.constraint_change);
+        let c = self.constraints.as_deref_mut().expect("prepared");
+        c.project(&self.model, &mut self.scratch, None, &mut change);
+        self.constraint_change = change;
+        self.constraints.as_deref().map_or(0, |c| c.solver.redundant)
+    }
+
+    /// Assembles the rows at the chart's origin; returns false if there are none.
+    fn prepare(&mut self, y: &[f64], first: bool) -> bool {
+        let n = self.model.n_v();
+        let Some(c) = self.constraints.as_deref_mut() else { return false };
+        let v = &y[n..2 * n];
+        if !first || self.q != self.base {
+            kinematics::poses(&self.model, &self.base, &mut self.scratch);
+        }
+        c.motions.place(&self.model, &self.scratch, v);
+        c.assemble(&self.model, &self.base, v, &self.scratch, true);
+        !c.rows.is_empty()
+    }
+
+    /// Records contact modes and slip directions, as last evaluated.
+    pub(crate) fn mark_start(&mut self) {
+        if let Some(c) = &mut self.constraints {
+            c.memory.mark_start();
+        }
+    }
+
+    /// Returns true if a contact has opened, stuck, slipped or reversed since [`Mechanism::mark_start`], in the state
+    /// last evaluated.
+    pub(crate) fn has_changed(&self) -> bool {
+        let Some(c) = self.constraints.as_deref() else { return false };
+        c.memory.has_changed() || self.has_compliant_contact_opened()
+    }
+}
+
+impl Constraints<f64> {
+    /// Upper bound of the speed of any point of surface `k` [m/s], after the motions were placed.
+    pub(crate) fn speed(&self, k: usize, collider: &Collider, poses: &[Pose<f64>]) -> f64 {
+        let (at, reach) = self.detector.ball(k, collider, poses);
+        let spin = self.motions.twist_of(collider.link).ang.norm();
+        // a fixed surface may be unbounded
+        let around = if spin > 0.0 { spin * reach } else { 0.0 };
+        self.motions.velocity_of(collider.link, at).norm() + around
+    }
+
+    /// Upper bound of the speed of all surfaces [m/s].
+    fn fastest(&self, colliders: &[Collider], poses: &[Pose<f64>]) -> f64 {
+        colliders.iter().enumerate().map(|(k, collider)| self.speed(k, collider, poses)).fold(0.0, f64::max)
+    }
+}
+
+fn normal_rate(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
+    relative(c, candidate, at.point).dot(at.normal)
+}
+
+/// Velocity of a's point against b's [m/s].
+fn relative(c: &Constraints<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
+    c.motions.velocity_of(candidate.a, point) - c.motions.velocity_of(candidate.b, point)
+}
+
+/// Friction groups that slide.
+fn slides(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>, pair: &Pair) -> [bool; 3] {
+    let (t1, t2) = tangents(at.normal);
+    let v = relative(c, candidate, at.point);
+    let w = c.motions.twist_of(candidate.a).ang - c.motions.twist_of(candidate.b).ang;
+    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > ZERO_SPEED;
+    let m = &pair.material;
+    [
+        m.friction > 0.0 && across(v),
+        m.rolling_friction > 0.0 && across(w),
+        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > ZERO_SPEED,
+    ]
+}

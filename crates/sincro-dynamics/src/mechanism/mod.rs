@@ -1,0 +1,587 @@
+//! The mechanism as a system to integrate: model, commands, drives and constraints as dy/dt = f(t, y).
+//!
+//! y = (δ, v, totals, rotors): displacement of the generalized coordinates in the chart of the step (`n_v`), velocities
+//! (`n_v`), and, if they are tracked, the totals of [`State`]: work, dissipation, impulse of each motor; last the
+//! states of rotors.
+//!
+//! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child
+//! axes. Source: key `iserles2000`, sections 2.5 and 3.
+//!
+//! A mechanism owns its model and its latched commands besides working memory: [`State`] and [`Scratch`] are not yet
+//! separated from it.
+
+pub(crate) mod constraints;
+mod torques;
+
+use sincro_math::Real;
+
+use crate::actuation::{Drive, DriveKind, Motor, Push, damper, friction};
+use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::constraint::{Constraints, Level};
+use crate::ids::{MotorId, RotorId};
+use crate::integrate::{Implicit, System};
+use crate::joint::StageKind;
+use crate::model::Model;
+use crate::recursions::aba::{self, Prescribed};
+use crate::recursions::kinematics;
+use crate::scratch::Scratch;
+use crate::spatial::{Force, Quat, Vec3};
+use crate::state::{State, displace};
+use torques::{TorqueInput, joint_torques};
+
+/// A model with its commands and everything needed to evaluate its rates without allocation.
+#[derive(Clone, Debug)]
+pub struct Mechanism<R> {
+    pub(crate) model: Model<R>,
+    /// Latched commands: of motors, then of external forces, then of rotors.
+    pub commands: Vec<R>,
+    /// State of each drive: 0 locked, ±1 saturated.
+    pub drives: Vec<R>,
+    /// True if work, dissipation and motor impulses are integrated.
+    tracks_totals: bool,
+    /// Range of the states of rotors in y.
+    rotor_states: (usize, usize),
+    /// q₀ of the chart.
+    pub(crate) base: Vec<R>,
+    pub(crate) q: Vec<R>,
+    pub(crate) torque: Vec<R>,
+    pub(crate) diagonal: Vec<R>,
+    pub(crate) locked_mask: Vec<R>,
+    pub(crate) prescribed_acceleration: Vec<R>,
+    external: Vec<Force<R>>,
+    /// External forces from outside the model, until they are removed.
+    pushes: Vec<Push<R>>,
+    /// Power dissipated by drag elements in the last evaluation `[W]`.
+    air_dissipation: R,
+    /// First rotor whose load was not a number in the last evaluation.
+    without_load: Option<RotorId>,
+    motor_torque: Vec<R>,
+    pub(crate) scratch: Scratch<R>,
+    pub(crate) constraints: Option<Box<Constraints<R>>>,
+    /// Working memory of projections and impacts.
+    pub(crate) constraint_change: Vec<R>,
+}
+
+impl<R: Real> Mechanism<R> {
+    /// Makes the mechanism of `model`; totals are integrated if `tracks_totals`.
+    #[must_use]
+    pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
+        let zero = vec![R::zero(); model.n_v()];
+        let n_totals = if tracks_totals { 2 + model.motors.len() } else { 0 };
+        Self {
+            commands: vec![R::zero(); model.n_commands()],
+            drives: vec![R::zero(); model.n_drives()],
+            tracks_totals,
+            rotor_states: (2 * model.n_v() + n_totals, 2 * model.n_v() + n_totals + model.n_rotor_states()),
+            base: vec![R::zero(); model.n_q()],
+            q: vec![R::zero(); model.n_q()],
+            torque: zero.clone(),
+            diagonal: zero.clone(),
+            locked_mask: zero.clone(),
+            prescribed_acceleration: zero.clone(),
+            external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
+            pushes: Vec::new(),
+            air_dissipation: R::zero(),
+            without_load: None,
+            motor_torque: vec![R::zero(); model.motors.len()],
+            scratch: Scratch::new(&model),
+            constraint_change: zero.clone(),
+            // constraints branch, which lanes cannot
+            constraints: if R::LANES == 1 { Constraints::new(&model) } else { None },
+            model,
+        }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model<R> {
+        &self.model
+    }
+
+    /// Bytes on the heap, the model left out.
+    #[must_use]
+    pub fn heap_bytes(&self) -> usize {
+        let numbers = [
+            &self.commands,
+            &self.drives,
+            &self.base,
+            &self.q,
+            &self.torque,
+            &self.diagonal,
+            &self.locked_mask,
+            &self.prescribed_acceleration,
+            &self.motor_torque,
+        ];
+        numbers.iter().map(|v| size_of_val(&***v)).sum::<usize>()
+            + size_of_val(&*self.external)
+            + size_of_val(&*self.pushes)
+            + self.scratch.heap_bytes()
+    }
+
+    /// Lays the chart at the state and writes y for it.
+    pub fn load(&mut self, x: &State<R>, y: &mut [R]) {
+        let n = self.model.n_v();
+        self.base.copy_from_slice(&x.q);
+        self.commands.copy_from_slice(&x.commands);
+        self.drives.copy_from_slice(&x.drives);
+        if let Some(constraints) = &mut self.constraints {
+            constraints.memory.numbers.copy_from_slice(&x.contacts);
+        }
+        y[..n].fill(R::zero());
+        y[n..2 * n].copy_from_slice(&x.v);
+        if self.tracks_totals {
+            y[2 * n..2 * n + x.totals.len()].copy_from_slice(&x.totals);
+        }
+        let rotors = self.rotor_states();
+        y[rotors].copy_from_slice(&x.rotors);
+    }
+
+    /// Writes the state that a freshly charted y describes.
+    pub fn store(&self, y: &[R], x: &mut State<R>) {
+        let n = self.model.n_v();
+        x.q.copy_from_slice(&self.base);
+        x.v.copy_from_slice(&y[n..2 * n]);
+        x.drives.copy_from_slice(&self.drives);
+        if let Some(constraints) = &self.constraints {
+            x.contacts.copy_from_slice(&constraints.memory.numbers);
+        }
+        if self.tracks_totals {
+            let totals = 2 * n..2 * n + x.totals.len();
+            x.totals.copy_from_slice(&y[totals]);
+        }
+        x.rotors.copy_from_slice(&y[self.rotor_states()]);
+    }
+
+    /// Returns true if work, dissipation and motor impulses are integrated.
+    pub(crate) fn tracks_totals(&self) -> bool {
+        self.tracks_totals
+    }
+
+    /// Range of the states of rotors in y.
+    #[inline(always)]
+    #[must_use]
+    pub fn rotor_states(&self) -> core::ops::Range<usize> {
+        self.rotor_states.0..self.rotor_states.1
+    }
+
+    /// Coordinates of the chart's origin.
+    pub(crate) fn base(&self) -> &[R] {
+        &self.base
+    }
+
+    /// Sets the chart's origin; y is not changed.
+    pub(crate) fn set_base(&mut self, q: &[R]) {
+        self.base.copy_from_slice(q);
+    }
+
+    /// Finds the coordinates of y.
+    #[inline(always)]
+    pub(crate) fn set_coordinates(&mut self, y: &[R]) {
+        displace(&self.model, &self.base, &y[..self.model.n_v()], &mut self.q);
+    }
+
+    pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
+        core::mem::take(&mut self.motor_torque)
+    }
+
+    pub(crate) fn put_motor_torque(&mut self, torque: Vec<R>) {
+        self.motor_torque = torque;
+    }
+
+    /// Torque of each motor [N·m] or `[N]` in the last evaluation.
+    #[must_use]
+    pub fn motor_torque(&self) -> &[R] {
+        &self.motor_torque
+    }
+
+    /// Computes poses, twists and accelerations of all links.
+    pub(crate) fn update_kinematics(&mut self, x: &State<R>, v_dot: &[R]) {
+        kinematics::motions(&self.model, &x.q, &x.v, v_dot, &mut self.scratch);
+    }
+
+    /// Working memory of the last evaluation.
+    #[must_use]
+    pub fn scratch(&mut self) -> &mut Scratch<R> {
+        &mut self.scratch
+    }
+
+    /// Marks the degrees of freedom whose drives are locked, with zero acceleration.
+    #[inline(always)]
+    pub fn mark_locked(&mut self) {
+        let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
+        if self.drives.is_empty() {
+            return;
+        }
+        self.locked_mask.fill(zero);
+        self.prescribed_acceleration.fill(zero);
+        for (drive, &saturation) in self.model.drives.iter().zip(&self.drives) {
+            let holds = saturation.abs().if_less(half, one, zero);
+            self.locked_mask[drive.dof] = self.locked_mask[drive.dof].max(holds);
+        }
+    }
+
+    /// Returns true if a degree of freedom is locked, as last marked.
+    #[must_use]
+    pub fn is_locked(&self, dof: usize) -> bool {
+        self.locked_mask[dof].lane(0) > 0.5
+    }
+
+    /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].
+    #[inline(always)]
+    fn accelerations(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
+        let at = TorqueInput { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
+        joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
+        let external = if self.has_external() {
+            self.external_wrenches(t, v, rotors);
+            Some(&*self.external)
+        } else {
+            None
+        };
+        let prescribed = if self.drives.is_empty() {
+            None
+        } else {
+            Some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration })
+        };
+        let input = aba::Input {
+            q: &self.q,
+            v,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            prescribed,
+            external,
+            gravity: true,
+        };
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
+        if R::LANES == 1
+            && let Some(constraints) = &mut self.constraints
+        {
+            // a step of semi-implicit Euler is a step at velocity level
+            let level = match implicit {
+                Some((h, Implicit::Dampers)) => Level::Velocity(h),
+                _ => Level::Acceleration,
+            };
+            let has_drives = !self.drives.is_empty();
+            constraints.apply(&self.model, (&self.q, v), level, &mut self.scratch, v_dot, has_drives);
+        }
+    }
+
+    #[inline(always)]
+    fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
+        self.external.fill(Force::zero());
+        if self.model.feels_air() {
+            // only poses and twists are looked at: any accelerations will do
+            kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
+        } else if !self.pushes.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
+            kinematics::poses(&self.model, &self.q, &mut self.scratch);
+        }
+        self.air_wrenches(t, v, rotors);
+        for wrench in &self.model.wrenches {
+            self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
+        }
+        for push in &self.pushes {
+            self.external[push.link] += push.wrench(&self.scratch.poses[push.link].rot);
+        }
+    }
+
+    /// Returns true if external forces act on links now.
+    #[inline(always)]
+    fn has_external(&self) -> bool {
+        self.model.has_external() || !self.pushes.is_empty()
+    }
+
+    /// Adds an external force, to those on the same point of the same link if there are any.
+    pub(crate) fn push(&mut self, push: Push<R>) {
+        self.external.resize(self.model.links.len(), Force::zero());
+        match self.pushes.iter_mut().find(|p| p.link == push.link && p.point == push.point) {
+            Some(known) => {
+                known.force += push.force;
+                known.torque += push.torque;
+            }
+            None => self.pushes.push(push),
+        }
+    }
+
+    /// Removes all external forces.
+    pub(crate) fn release(&mut self) {
+        self.pushes.clear();
+        if !self.model.has_external() {
+            self.external.clear();
+        }
+    }
+
+    /// Replaces a motor, the degree of freedom kept. Drives that remain keep their state; a new one is locked.
+    pub(crate) fn set_motor(&mut self, id: MotorId, motor: Motor<R>) {
+        let was_drive = self.model.motor(id).is_drive();
+        self.model.motors[id.index()] = Motor { dof: self.model.motor(id).dof, ..motor };
+        if was_drive == motor.is_drive() {
+            return;
+        }
+        let drives = self.model.find_drives();
+        let known = |new: &Drive| self.model.drives.iter().position(|old| old == new).map(|i| self.drives[i]);
+        self.drives = drives.iter().map(|drive| known(drive).unwrap_or(R::zero())).collect();
+        self.model.drives = drives;
+        self.locked_mask.fill(R::zero());
+        self.prescribed_acceleration.fill(R::zero());
+    }
+
+    /// The first rotor whose law gave what is not a number in the last evaluation.
+    pub(crate) fn rotor_without_load(&self) -> Option<RotorId> {
+        self.without_load
+    }
+
+    /// Adds the wrenches of rotors and drag elements; after kinematics.
+    #[inline(always)]
+    fn air_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
+        if !self.model.feels_air() {
+            return;
+        }
+        let air = self.model.wind.as_ref().map(|wind| wind.at(t));
+        let at = |link: usize| (&self.scratch.links[link].v, &self.scratch.poses[link]);
+        self.without_load = None;
+        for (k, rotor) in self.model.rotors.iter().enumerate() {
+            let (twist, x_wl) = at(rotor.link);
+            let speed = rotor.speed.value(v, &self.commands, rotors);
+            let load = rotor.load(speed, rotors, &rotor.hub(twist, x_wl, air.as_ref()));
+            if matches!(rotor.law, RotorLaw::Printed(_)) && !(load.thrust.is_finite() && load.torque.is_finite()) {
+                self.without_load = self.without_load.or(Some(RotorId::new(k)));
+            }
+            self.external[rotor.link] += rotor.wrench(&load);
+        }
+        self.air_dissipation = R::zero();
+        for drag in &self.model.drags {
+            let (twist, x_wl) = at(drag.link);
+            let resistance = drag.resistance(drag.velocity(twist, x_wl, air.as_ref()));
+            self.external[drag.link] += drag.wrench(resistance.force);
+            self.air_dissipation += resistance.dissipation;
+        }
+    }
+
+    /// Rates of the states of rotors `x`, over a linearly implicit step of length `h` (0: now).
+    #[inline(always)]
+    fn rotor_rates(&self, x: &[R], h: f64, rates: &mut [R]) {
+        for rotor in &self.model.rotors {
+            match rotor.speed {
+                SpeedFrom::Lag { command, state, time_constant, .. } => {
+                    rates[state] = (self.commands[command] - x[state]) / (time_constant + R::splat(h));
+                }
+                // particles are counted once a tick
+                SpeedFrom::Particles { state, .. } => rates[state] = R::zero(),
+                SpeedFrom::Command(_) | SpeedFrom::Joint { .. } => {}
+            }
+        }
+    }
+
+    /// Rates of the totals at the last evaluation, for velocities `v` over which forces do their work.
+    #[inline(always)]
+    fn total_rates(&mut self, t: f64, v_at: &[R], v: &[R], steps: (R, R), rates: &mut [R]) {
+        let (mut work, mut dissipation) = (R::zero(), R::zero());
+        for (k, dof) in self.model.dofs.iter().enumerate() {
+            work += dof.torque * v[k];
+            dissipation += damper::dissipation(dof, v[k]);
+        }
+        for applied in &self.model.applied {
+            work += applied.torque::<R>(t) * v[applied.dof];
+        }
+        for (i, link) in self.scratch.links.iter().enumerate().take(self.external.len()) {
+            work += link.v.dot(&self.external[i]);
+        }
+        if !self.model.drags.is_empty() {
+            // drag's power is in `work` already: what it takes as heat, and what the wind does, add up to it
+            work += self.air_dissipation;
+            dissipation += self.air_dissipation;
+        }
+        self.find_motor_torques(v_at, steps);
+        for (i, drive) in self.model.drives.iter().enumerate() {
+            if drive.kind == DriveKind::Friction {
+                dissipation += friction::dissipation(self.friction_torque(i), v[drive.dof]);
+            }
+        }
+        for (i, motor) in self.model.motors.iter().enumerate() {
+            work += self.motor_torque[i] * v[motor.dof];
+            rates[2 + i] = self.motor_torque[i];
+        }
+        if R::LANES == 1
+            && let Some(constraints) = &self.constraints
+        {
+            dissipation += constraints.dissipation(v);
+        }
+        rates[0] = work;
+        rates[1] = dissipation;
+    }
+
+    /// Torque of the friction drive `i` in the last evaluation: its limit if saturated; if locked, the reaction up to
+    /// its limit (a motor that locks the same joint gives the rest).
+    #[inline(always)]
+    pub(crate) fn friction_torque(&self, i: usize) -> R {
+        let drive = self.model.drives[i];
+        let limit = self.model.dofs[drive.dof].friction;
+        let locked = self.scratch.reaction[drive.dof].clamp_abs(limit);
+        self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * limit)
+    }
+
+    /// Torque of every motor in the last evaluation.
+    #[inline(always)]
+    pub(crate) fn find_motor_torques(&mut self, v: &[R], steps: (R, R)) {
+        for (i, motor) in self.model.motors.iter().enumerate() {
+            let q = self.q[self.model.dofs[motor.dof].q_idx as usize];
+            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
+        }
+        for d in 0..self.model.drives.len() {
+            let drive = self.model.drives[d];
+            let DriveKind::Motor(i) = drive.kind else { continue };
+            let i = i.index();
+            let mut locked = self.scratch.reaction[drive.dof];
+            for f in 0..d {
+                if self.model.drives[f].dof == drive.dof {
+                    // friction that locks the same joint takes its share first
+                    let share = self.friction_torque(f);
+                    locked -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
+                }
+            }
+            let saturated = match self.model.drive_limit(&drive) {
+                Some(limit) => self.drives[d] * limit,
+                None => R::zero(),
+            };
+            self.motor_torque[i] = self.drives[d].abs().if_less(R::splat(0.5), locked, saturated);
+        }
+    }
+
+    /// Rate of the chart's displacement for velocity `v` at displacement `delta`.
+    #[inline(always)]
+    fn chart_rate(&self, delta: &[R], v: &[R], rate: &mut [R]) {
+        if !self.model.has_quaternions() {
+            rate.copy_from_slice(v);
+            return;
+        }
+        for link in &self.model.links {
+            let k = link.v_idx as usize;
+            match link.kind {
+                StageKind::Ball => rotation_rate(&delta[k..k + 3], &v[k..k + 3], &mut rate[k..k + 3]),
+                StageKind::Free => {
+                    rotation_rate(&delta[k..k + 3], &v[k..k + 3], &mut rate[k..k + 3]);
+                    let turn = Quat::exp(Vec3([delta[k], delta[k + 1], delta[k + 2]])).matrix();
+                    let lin = turn.mul_vec(Vec3([v[k + 3], v[k + 4], v[k + 5]]));
+                    rate[k + 3..k + 6].copy_from_slice(&lin.0);
+                }
+                _ => rate[k] = v[k],
+            }
+        }
+    }
+
+    /// Velocity changes by the impulses that bring about the prescribed changes as marked; reactions are impulses.
+    #[inline(always)]
+    pub(crate) fn impulse(&mut self, change: &mut [R]) {
+        self.torque.fill(R::zero());
+        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
+            *d = dof.armature;
+        }
+        let prescribed = Some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
+        let input = aba::Input {
+            q: &self.base,
+            v: &self.torque,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            prescribed,
+            external: None,
+            gravity: false,
+        };
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, change);
+    }
+}
+
+impl<R: Real> System<R> for Mechanism<R> {
+    #[inline(always)]
+    fn dim(&self) -> usize {
+        self.rotor_states().end
+    }
+
+    #[inline(always)]
+    fn is_controlled(&self, k: usize) -> bool {
+        k < 2 * self.model.n_v() || k >= self.rotor_states().start
+    }
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        let n = self.model.n_v();
+        let (delta, rest) = y.split_at(n);
+        let v = &rest[..n];
+        displace(&self.model, &self.base, delta, &mut self.q);
+        let (rate, rest) = slope.split_at_mut(n);
+        self.chart_rate(delta, v, rate);
+        let rotors = &y[self.rotor_states()];
+        self.accelerations(t, v, rotors, None, &mut rest[..n]);
+        if self.tracks_totals {
+            self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
+        }
+        self.rotor_rates(rotors, 0.0, &mut slope[self.rotor_states()]);
+    }
+
+    #[inline(always)]
+    fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        let n = self.model.n_v();
+        let (delta, rest) = y.split_at(n);
+        let v = &rest[..n];
+        displace(&self.model, &self.base, delta, &mut self.q);
+        let (rate, rest) = slope.split_at_mut(n);
+        let rotors = &y[self.rotor_states()];
+        self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
+        // the position moves with the new velocity; forces do their work over the mean of old and new
+        let step = R::splat(h);
+        for k in 0..n {
+            self.torque[k] = v[k] + step * rest[k];
+        }
+        let new_v = core::mem::take(&mut self.torque);
+        self.chart_rate(delta, &new_v, rate);
+        self.torque = new_v;
+        if self.tracks_totals {
+            let half = R::splat(0.5);
+            for k in 0..n {
+                self.torque[k] = half * (self.torque[k] + v[k]);
+            }
+            let mean_v = core::mem::take(&mut self.torque);
+            let of_springs = if implicit == Implicit::Dampers { R::zero() } else { step };
+            self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
+            self.torque = mean_v;
+        }
+        self.rotor_rates(rotors, h, &mut slope[self.rotor_states()]);
+    }
+
+    #[inline(always)]
+    fn rechart(&mut self, y: &mut [R]) {
+        let n = self.model.n_v();
+        displace(&self.model, &self.base, &y[..n], &mut self.q);
+        core::mem::swap(&mut self.base, &mut self.q);
+        y[..n].fill(R::zero());
+    }
+
+    fn magnitude(&self, y: &[R], k: usize) -> f64 {
+        let n = self.model.n_v();
+        if k >= n {
+            return y[k].lane(0).abs();
+        }
+        if self.model.has_scalar_coordinate(k) {
+            return self.base[self.model.dofs[k].q_idx as usize].lane(0).abs();
+        }
+        1.0
+    }
+}
+
+/// φ' = ω + ½ φ×ω + c φ×(φ×ω), c = (1 − (θ/2) cot(θ/2))/θ², θ = |φ|.
+#[inline(always)]
+fn rotation_rate<R: Real>(phi: &[R], omega: &[R], rate: &mut [R]) {
+    let (phi, omega) = (Vec3([phi[0], phi[1], phi[2]]), Vec3([omega[0], omega[1], omega[2]]));
+    let square = phi.dot(phi);
+    // series below θ = 0.1, where its next term is 1e-16 of the first
+    let near = R::splat(1e-2);
+    let series = R::splat(1.0 / 12.0)
+        + square * (R::splat(1.0 / 720.0) + square * (R::splat(1.0 / 30240.0) + square * R::splat(1.0 / 1_209_600.0)));
+    let safe = near.if_less(square, square, R::one());
+    let half = R::splat(0.5) * safe.sqrt();
+    let (sin, cos) = half.sin_cos();
+    let closed = (R::one() - half * cos / sin) / safe;
+    let c = near.if_less(square, closed, series);
+    let once = phi.cross(omega);
+    let twice = phi.cross(once);
+    let out = omega + once.scale(R::splat(0.5)) + twice.scale(c);
+    rate.copy_from_slice(&out.0);
+}

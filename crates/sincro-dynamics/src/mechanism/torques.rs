@@ -1,0 +1,55 @@
+//! Sum of the joint torques of all elements at one instant, and their terms in the diagonal of a linearly implicit
+//! step.
+
+use sincro_math::Real;
+
+use crate::actuation::{damper, spring};
+use crate::integrate::Implicit;
+use crate::model::Model;
+
+/// State at which joint torques are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TorqueInput<'a, R> {
+    pub t: f64,
+    pub q: &'a [R],
+    pub v: &'a [R],
+    pub commands: &'a [R],
+    pub drives: &'a [R],
+    /// Step of a linearly implicit method, and which terms it takes at the new state; none: all at this one.
+    pub implicit: Option<(f64, Implicit)>,
+}
+
+/// Sums the torques of all joint elements into `torque` and the diagonal (armature and implicit terms) into `diagonal`.
+#[inline(always)]
+pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, torque: &mut [R], diagonal: &mut [R]) {
+    // at h = 0 these are the explicit torques
+    let (of_dampers, of_springs) = match at.implicit {
+        None => (0.0, 0.0),
+        Some((h, Implicit::Dampers)) => (h, 0.0),
+        Some((h, Implicit::SpringsAndDampers)) => (h, h),
+    };
+    let steps = (R::splat(of_dampers), R::splat(of_springs));
+    for (k, dof) in model.dofs.iter().enumerate() {
+        let v = at.v[k];
+        // spring at q + h v⁺, damper at v⁺: what is known now to the right-hand side, the rest to the diagonal
+        let spring_at = if model.has_scalar_coordinate(k) { at.q[dof.q_idx as usize] + steps.1 * v } else { dof.rest };
+        torque[k] = (dof.torque + spring::torque(dof, spring_at)) + damper::torque(dof, v);
+        diagonal[k] = dof.armature + steps.0 * (dof.damping + steps.1 * dof.stiffness);
+    }
+    for applied in &model.applied {
+        torque[applied.dof] += applied.torque(at.t);
+    }
+    for (motor, &command) in model.motors.iter().zip(at.commands) {
+        let k = motor.dof;
+        let q = at.q[model.dofs[k].q_idx as usize];
+        let (tau, implicit) = motor.torque(q, at.v[k], command, steps);
+        torque[k] += tau;
+        diagonal[k] += implicit;
+    }
+    for (drive, &saturation) in model.drives.iter().zip(at.drives) {
+        // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
+        if let Some(limit) = model.drive_limit(drive) {
+            torque[drive.dof] += saturation * limit;
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Drives of a model: the list of them, their torque limits and target velocities.
+
+use sincro_math::Real;
+
+use super::Model;
+use crate::actuation::{Drive, DriveKind};
+use crate::ids::MotorId;
+use crate::joint::JointKind;
+
+impl<R: Real> Model<R> {
+    /// Torque limit of a drive [N·m] or `[N]`; none if no lane has a limit.
+    #[inline(always)]
+    pub(crate) fn drive_limit(&self, drive: &Drive) -> Option<R> {
+        let limit = match drive.kind {
+            DriveKind::Lock => return None,
+            DriveKind::Friction => self.dofs[drive.dof].friction,
+            DriveKind::Motor(i) => self.motor(i).max_torque,
+        };
+        limit.is_finite().then_some(limit)
+    }
+
+    /// Target velocity of a drive [rad/s] or [m/s] for latched commands and coordinates at the tick.
+    #[inline(always)]
+    pub(crate) fn target_velocity(&self, drive: &Drive, q: &[R], commands: &[R]) -> R {
+        match drive.kind {
+            DriveKind::Friction | DriveKind::Lock => R::zero(),
+            DriveKind::Motor(i) => {
+                let q = q[self.dofs[drive.dof].q_idx as usize];
+                self.motor(i).target_velocity(q, commands[i.index()])
+            }
+        }
+    }
+
+    /// Drives that follow from joints and motors: friction first, then motors, then locked degrees of freedom.
+    pub(crate) fn find_drives(&self) -> Vec<Drive> {
+        let zero = R::zero();
+        let friction = self.dofs.iter().enumerate().filter(|(_, d)| d.friction != zero);
+        let friction = friction.map(|(dof, _)| Drive { dof, kind: DriveKind::Friction });
+        let motors = self.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
+        let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(MotorId::new(i)) });
+        let sensors = self.names.joints.iter().filter(|j| j.kind == JointKind::Fixed);
+        let locked = sensors.flat_map(|j| (j.v_idx..j.v_idx + j.n_v).map(|dof| Drive { dof, kind: DriveKind::Lock }));
+        friction.chain(motors).chain(locked).collect()
+    }
+}

@@ -1,0 +1,168 @@
+//! Poses, velocities, accelerations and Jacobians of links and of frames fixed in them.
+
+use sincro_math::Real;
+
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+pub use crate::model::Attached;
+use crate::model::Model;
+use crate::recursions::aba::joint_motion;
+use crate::scratch::{LinkScratch, Scratch};
+use crate::spatial::{Mat3, Motion, Pose, Vec3};
+
+/// Configures every joint at `q`.
+pub(crate) fn place<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
+    for (link, out) in model.links.iter().zip(&mut scratch.links) {
+        link.kind.dispatch(Place { link, q: &q[link.q_idx as usize..], at: &mut out.at });
+    }
+}
+
+struct Place<'a, R> {
+    link: &'a Link<R>,
+    q: &'a [R],
+    at: &'a mut crate::joint::Placement<R>,
+}
+
+impl<R: Real> StageVisitor for Place<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        S::place(self.link, self.q, self.at);
+    }
+}
+
+/// Poses of all link frames in the world into [`Scratch::link_poses`], joints taken as last configured by any
+/// recursion.
+pub(crate) fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
+    for i in 0..model.links.len() {
+        let link = &model.links[i];
+        let x_pl = link.kind.dispatch(PoseInParent { link, this: &scratch.links[i] });
+        scratch.poses[i] = match link.parent() {
+            Some(parent) => scratch.poses[parent].compose(&x_pl),
+            None => x_pl,
+        };
+    }
+}
+
+struct PoseInParent<'a, R> {
+    link: &'a Link<R>,
+    this: &'a LinkScratch<R>,
+}
+
+impl<R: Real> StageVisitor for PoseInParent<'_, R> {
+    type Output = Pose<R>;
+    #[inline(always)]
+    fn visit<S: Stage>(self) -> Pose<R> {
+        let rot = S::rotation(&self.this.at);
+        let rot = if self.link.turned { self.link.base_rotation.mul(&rot) } else { rot };
+        Pose { rot, pos: S::offset(self.link, &self.this.at) }
+    }
+}
+
+/// Poses of all link frames in the world at `q`, into [`Scratch::link_poses`].
+pub fn poses<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
+    place(model, q, scratch);
+    chain_poses(model, scratch);
+}
+
+/// Poses, twists and accelerations of all links at (`q`, `v`, `v_dot`); accelerations without gravity.
+pub fn motions<R: Real>(model: &Model<R>, q: &[R], v: &[R], v_dot: &[R], scratch: &mut Scratch<R>) {
+    for i in 0..model.links.len() {
+        let link = &model.links[i];
+        let (done, rest) = scratch.links.split_at_mut(i);
+        let parent = (link.parent != WORLD).then(|| (done[link.parent as usize].v, done[link.parent as usize].a));
+        let parent = parent.unwrap_or((Motion::zero(), Motion::zero()));
+        link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
+    }
+    chain_poses(model, scratch);
+}
+
+struct Outward<'a, R> {
+    link: &'a Link<R>,
+    q: &'a [R],
+    v: &'a [R],
+    v_dot: &'a [R],
+    parent: (Motion<R>, Motion<R>),
+    out: &'a mut LinkScratch<R>,
+}
+
+impl<R: Real> StageVisitor for Outward<'_, R> {
+    type Output = ();
+    fn visit<S: Stage>(self) {
+        let Self { link, q, v, v_dot, parent, out } = self;
+        let v_idx = link.v_idx as usize;
+        S::place(link, &q[link.q_idx as usize..], &mut out.at);
+        let v_joint = joint_motion::<S, R>(link, &v[v_idx..]);
+        let a_joint = joint_motion::<S, R>(link, &v_dot[v_idx..]);
+        out.v = link.motion_in_link::<S>(&out.at, &parent.0) + v_joint;
+        out.a = link.motion_in_link::<S>(&out.at, &parent.1) + a_joint + S::velocity_product(&out.v, &v_joint);
+    }
+}
+
+/// Pose of a frame in the world, after [`poses`] or [`motions`].
+pub fn frame_pose<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Pose<R> {
+    frame.link.map_or(frame.pose, |link| scratch.poses[link].compose(&frame.pose))
+}
+
+/// Velocity of a frame after [`motions`]: angular velocity [rad/s] and velocity of the frame's origin [m/s], world
+/// axes.
+pub fn frame_velocity<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
+    let Some(link) = frame.link else { return Motion::zero() };
+    let (v, rot) = (scratch.links[link].v, &scratch.poses[link].rot);
+    Motion { ang: rot.mul_vec(v.ang), lin: rot.mul_vec(v.lin + v.ang.cross(frame.pose.pos)) }
+}
+
+/// Acceleration of a frame after [`motions`]: angular [rad/s²] and that of the point at its origin [m/s²], world axes,
+/// gravity not included (a body at rest has none).
+pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
+    let Some(link) = frame.link else { return Motion::zero() };
+    let (v, a, rot) = (scratch.links[link].v, scratch.links[link].a, &scratch.poses[link].rot);
+    let r = frame.pose.pos;
+    // the point's acceleration is the spatial one plus ω × (velocity of the point)
+    let lin = a.lin + a.ang.cross(r) + v.ang.cross(v.lin + v.ang.cross(r));
+    Motion { ang: rot.mul_vec(a.ang), lin: rot.mul_vec(lin) }
+}
+
+/// Jacobian of a frame at `q`: 6 × `n_v`, row by row (angular velocity, then velocity of the frame's origin, world
+/// axes), so that `J·v` is [`frame_velocity`].
+pub fn jacobian<R: Real>(model: &Model<R>, q: &[R], frame: &Attached<R>, scratch: &mut Scratch<R>, out: &mut [R]) {
+    let n = model.n_v();
+    out.fill(R::zero());
+    poses(model, q, scratch);
+    let tip = frame_pose(scratch, frame).pos;
+    let mut at = frame.link;
+    while let Some(i) = at {
+        let link = &model.links[i];
+        let pose = &scratch.poses[i];
+        for j in 0..link.kind.n_v() {
+            let s = link.kind.dispatch(UnitColumn { link, j });
+            let ang = pose.rot.mul_vec(s.ang);
+            let lin = pose.rot.mul_vec(s.lin) + ang.cross(tip - pose.pos);
+            for k in 0..3 {
+                out[k * n + link.v_idx as usize + j] = ang[k];
+                out[(3 + k) * n + link.v_idx as usize + j] = lin[k];
+            }
+        }
+        at = link.parent();
+    }
+}
+
+struct UnitColumn<'a, R> {
+    link: &'a Link<R>,
+    j: usize,
+}
+
+impl<R: Real> StageVisitor for UnitColumn<'_, R> {
+    type Output = Motion<R>;
+    fn visit<S: Stage>(self) -> Motion<R> {
+        S::column(self.link, self.j, self.link.signed::<S>(R::one()))
+    }
+}
+
+/// Roll, pitch, yaw `[rad]` of a rotation R = Rz(yaw)·Ry(pitch)·Rx(roll).
+#[must_use]
+pub fn roll_pitch_yaw<R: Real>(rot: &Mat3<R>) -> Vec3<R> {
+    let m = &rot.0;
+    use sincro_math::elementary::{asin, atan2};
+    let pitch = (-m[2][0]).clamp_abs(R::one()).map(asin);
+    Vec3([m[2][1].map2(m[2][2], atan2), pitch, m[1][0].map2(m[0][0], atan2)])
+}

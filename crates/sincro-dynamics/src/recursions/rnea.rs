@@ -1,0 +1,117 @@
+//! Inverse dynamics: the joint torques that given accelerations take.
+//!
+//! Recursive Newton–Euler algorithm. Source: key `featherstone2008`, section 5.3, table 5.1. Gravity enters as an
+//! upward acceleration of the base. Cost: linear in the number of links.
+
+use sincro_math::{Real, Task};
+
+use crate::joint::{Link, Stage, StageVisitor, WORLD};
+use crate::model::Model;
+use crate::recursions::aba::joint_motion;
+use crate::scratch::{LinkScratch, Scratch};
+use crate::spatial::{Force, Motion, Vec3};
+
+/// Joint torques `torque` [N·m] or forces `[N]` (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity −
+/// external`.
+///
+/// Springs, dampers and armature are not part of it. `external`: wrench on each link, link axes, about the link's
+/// origin.
+#[inline(always)]
+pub fn inverse_dynamics<R: Real>(
+    model: &Model<R>,
+    q: &[R],
+    v: &[R],
+    v_dot: &[R],
+    external: Option<&[Force<R>]>,
+    scratch: &mut Scratch<R>,
+    torque: &mut [R],
+) {
+    R::run_hot(InverseDynamics { model, q, v, v_dot, external, scratch, torque });
+}
+
+struct InverseDynamics<'a, R> {
+    model: &'a Model<R>,
+    q: &'a [R],
+    v: &'a [R],
+    v_dot: &'a [R],
+    external: Option<&'a [Force<R>]>,
+    scratch: &'a mut Scratch<R>,
+    torque: &'a mut [R],
+}
+
+impl<R: Real> Task for InverseDynamics<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { model, q, v, v_dot, external, scratch, torque } = self;
+        let base = (Motion::zero(), Motion { ang: Vec3::zero(), lin: -model.gravity });
+        for i in 0..model.links.len() {
+            let link = &model.links[i];
+            let (done, rest) = scratch.links.split_at_mut(i);
+            let parent = (link.parent != WORLD).then(|| &done[link.parent as usize]);
+            let parent = parent.map_or((&base.0, &base.1), |p| (&p.v, &p.a));
+            link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
+            if let Some(external) = external {
+                rest[0].pa -= external[i];
+            }
+        }
+        for i in (0..model.links.len()).rev() {
+            let link = &model.links[i];
+            let (done, rest) = scratch.links.split_at_mut(i);
+            let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize].pa);
+            link.kind.dispatch(Inward { link, this: &rest[0], parent, torque: &mut torque[link.v_idx as usize..] });
+        }
+    }
+}
+
+/// Base to tip: twist, acceleration and the wrench they take.
+struct Outward<'a, R> {
+    link: &'a Link<R>,
+    q: &'a [R],
+    v: &'a [R],
+    v_dot: &'a [R],
+    parent: (&'a Motion<R>, &'a Motion<R>),
+    out: &'a mut LinkScratch<R>,
+}
+
+impl<R: Real> StageVisitor for Outward<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let Self { link, q, v, v_dot, parent, out } = self;
+        let v_idx = link.v_idx as usize;
+        S::place(link, &q[link.q_idx as usize..], &mut out.at);
+        // v = X v_parent + S q̇,  a = X a_parent + S q̈ + v × S q̇
+        let v_joint = joint_motion::<S, R>(link, &v[v_idx..]);
+        let a_joint = joint_motion::<S, R>(link, &v_dot[v_idx..]);
+        out.v = link.motion_in_link::<S>(&out.at, parent.0) + v_joint;
+        out.a = link.motion_in_link::<S>(&out.at, parent.1) + a_joint + S::velocity_product(&out.v, &v_joint);
+        // f = I a + v ×* I v
+        out.pa = link.inertia.mul(&out.a) + out.v.cross_force(&link.inertia.mul(&out.v));
+    }
+}
+
+/// Tip to base: the wrench through the joint, its share along the axis, the rest handed on.
+struct Inward<'a, R> {
+    link: &'a Link<R>,
+    this: &'a LinkScratch<R>,
+    parent: Option<&'a mut Force<R>>,
+    torque: &'a mut [R],
+}
+
+impl<R: Real> StageVisitor for Inward<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<S: Stage>(self) {
+        let Self { link, this, parent, torque } = self;
+        for (j, tau) in torque.iter_mut().enumerate().take(S::N_V) {
+            *tau = link.signed::<S>(S::project(link, j, &this.pa));
+        }
+        if let Some(parent) = parent {
+            *parent += link.force_to_parent::<S>(&this.at, &this.pa);
+        }
+    }
+}

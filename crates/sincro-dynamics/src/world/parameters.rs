@@ -1,0 +1,111 @@
+//! Parameter changes of a world between two steps: masses, gravity, bounds of joint limits, gears, contact laws of
+//! pairs.
+
+use std::sync::Arc;
+
+use super::World;
+use crate::contact::Material;
+use crate::energy::energy_at;
+use crate::ids::BodyId;
+use crate::model::{MassProperties, Model};
+use crate::recursions::kinematics;
+use crate::spatial::Vec3;
+
+/// Distance below which surfaces count as near whatever their speed `[m]`.
+const NEAR: f64 = 1e-3;
+
+impl World {
+    /// Sets the mass properties of the bodies of a link: all its bodies, by their index among the frames of the names,
+    /// in that order. Coordinates and rates stay; the change of energy is counted as work, unless no step has been made
+    /// yet.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such link or frame.
+    pub fn set_mass_properties(&mut self, link: usize, bodies: &[(BodyId, MassProperties)]) {
+        let before = self.mechanical_energy();
+        self.mechanism.model.set_mass_properties(link, bodies);
+        if self.state.tick > 0 {
+            self.state.totals[0] += self.mechanical_energy() - before;
+        }
+    }
+
+    /// Sets gravity [m/s²], world axes; the change of energy is counted as work, unless no step has been made yet.
+    pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
+        let before = self.mechanical_energy();
+        self.mechanism.model.gravity = gravity;
+        if self.state.tick > 0 {
+            self.state.totals[0] += self.mechanical_energy() - before;
+        }
+    }
+
+    fn mechanical_energy(&mut self) -> f64 {
+        let mechanism = &mut self.mechanism;
+        energy_at(&mechanism.model, &self.state.q, &self.state.v, &mut mechanism.scratch).total()
+    }
+
+    /// Sets the joint limits of a degree of freedom that has them `[rad]` or `[m]`: lower and upper. Returns false, and
+    /// changes nothing, if the bounds given are not those that exist.
+    pub fn set_limits(&mut self, dof: usize, bounds: [Option<f64>; 2]) -> bool {
+        let has =
+            |sign: f64, model: &Model<f64>| model.constraints.limits.iter().any(|l| l.dof == dof && l.sign == sign);
+        let model = &mut self.mechanism.model;
+        let signs = [1.0, -1.0];
+        if signs.iter().zip(bounds).any(|(sign, bound)| bound.is_some() != has(*sign, model)) {
+            return false;
+        }
+        for limit in Arc::make_mut(&mut model.constraints).limits.iter_mut().filter(|l| l.dof == dof) {
+            let bound = bounds[usize::from(limit.sign < 0.0)];
+            limit.bound = bound.unwrap_or(limit.bound);
+        }
+        true
+    }
+
+    /// Sets ratio and offset `[rad]` or `[m]` of gear `k`.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such coupling.
+    pub fn set_gear(&mut self, k: usize, ratio: f64, offset: f64) {
+        let coupling = &mut Arc::make_mut(&mut self.mechanism.model.constraints).gears[k];
+        (coupling.ratio, coupling.offset) = (ratio, offset);
+    }
+
+    /// Sets the contact law of a pair of surfaces, or ignores the pair from now on. A contact stores nothing: an
+    /// ignored one ends at once.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such pair.
+    pub fn set_pair(&mut self, pair: usize, is_ignored: bool, material: Material) {
+        let mechanism = &mut self.mechanism;
+        if let Some(constraints) = mechanism.constraints.as_deref_mut() {
+            constraints.detector.ignored[pair] = is_ignored;
+        }
+        // the scene's own set of constraints is copied once, when the first material differs
+        if mechanism.model.constraints.pairs[pair].material != material {
+            Arc::make_mut(&mut mechanism.model.constraints).pairs[pair].material = material;
+        }
+    }
+
+    /// Broad phase over one step: writes the pairs of surfaces that may come into contact within `h` `[s]`, whose
+    /// bounding spheres are closer than twice the distance that the two surfaces travel at most, plus four times the
+    /// fall.
+    pub fn near(&mut self, h: f64, found: &mut Vec<usize>) {
+        found.clear();
+        let mechanism = &mut self.mechanism;
+        let Some(c) = mechanism.constraints.as_deref_mut() else { return };
+        let (model, scratch) = (&mechanism.model, &mut mechanism.scratch);
+        kinematics::poses(model, &self.state.q, scratch);
+        c.motions.place(model, scratch, &self.state.v);
+        let set = &*model.constraints;
+        let fall = 4.0 * h * h * model.gravity.norm();
+        let speed = |k: usize| c.speed(k, &set.colliders[k], &scratch.poses);
+        let is_near = |k: &usize| {
+            let pair = &set.pairs[*k];
+            let margin = NEAR + 2.0 * h * (speed(pair.a) + speed(pair.b)) + fall;
+            c.detector.is_near(pair, (&set.colliders[pair.a], &set.colliders[pair.b]), &scratch.poses, margin)
+        };
+        found.extend((0..set.pairs.len()).filter(is_near));
+    }
+}
