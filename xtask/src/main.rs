@@ -7,6 +7,7 @@
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
 mod dist;
+mod glossary;
 mod modules;
 mod package;
 mod sample;

@@ -74,6 +74,8 @@ pub fn check(root: &Path) -> bool {
     }
     references(root, &texts, &mut found);
     crate::words::check(root, &texts, &mut found);
+    crate::glossary::check(root, &texts, &mut found);
+    sizes(root, &texts, &mut found);
     crate::package::inclusions(root, &texts, &mut found);
     crate::package::manifests(root, &mut found);
     let relative = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string();
@@ -133,6 +135,24 @@ fn source(root: &Path, path: &Path, text: &str, found: &mut Vec<String>) {
             for word in IMPURE.iter().filter(|word| line.contains(**word)) {
                 found.push(format!("{at} uses {word} in a crate that only computes"));
             }
+        }
+    }
+}
+
+/// Lines of code that a crate may have without its tests; one that comes near is split by subject.
+const MAX_CRATE_LINES: usize = 20_000;
+
+/// Crates stay small enough to be read.
+fn sizes(root: &Path, texts: &[(PathBuf, String)], found: &mut Vec<String>) {
+    for (name, _) in ARROWS {
+        let folder = root.join("crates").join(name).join("src");
+        let own = texts.iter().filter(|(path, _)| path.starts_with(&folder));
+        let lines: usize =
+            own.map(|(_, text)| text.split("#[cfg(test)]\nmod tests {").next().unwrap_or("").lines().count()).sum();
+        if lines > MAX_CRATE_LINES {
+            found.push(format!(
+                "{name} has {lines} lines without its tests, {MAX_CRATE_LINES} at most: split it by subject"
+            ));
         }
     }
 }
