@@ -111,7 +111,7 @@ impl ApiController {
     }
 
     /// Scripts, table and world of a lock-step.
-    #[expect(clippy::type_complexity, reason = "three parts of one thing")]
+    #[allow(clippy::type_complexity, reason = "three parts of one thing")]
     fn parts(lockstep: &mut LockStep) -> Result<(&mut Scripts, &mut Option<Box<Table>>, &mut World), Refusal> {
         let none = || Refusal::new("the scene has no scripts");
         let (api, world) = Self::of(lockstep).ok_or_else(none)?;
