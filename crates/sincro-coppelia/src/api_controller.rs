@@ -76,7 +76,7 @@ impl ApiController {
             return Ok(());
         }
         let done = api.call_scripts(phase, Instant { world, tick, t });
-        done.map_err(|fault| Halt::Controller { tick, t, is_after_step: false, fault })
+        done.map_err(|fault| Halt::Controller { tick, t, is_after_step: false, fault: Box::new(fault) })
     }
 
     /// Calls a function of the script on an object, as another script or a client asks for it.

@@ -39,6 +39,7 @@ fn shake_hands(connection: Connection, guard: &Guard) -> Option<WebSocket<Connec
         .max_message_size(Some(limits::MESSAGE))
         .max_frame_size(Some(limits::MESSAGE))
         .write_buffer_size(0);
+    #[expect(clippy::result_large_err, reason = "the type that the handshake wants")]
     let decide = |request: &Request, response: Response| match admit(request, guard) {
         Ok(()) => Ok(response),
         Err(refused) => {

@@ -4,7 +4,7 @@ mod common;
 
 use common::TestFolder;
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::controller::{Instant, Law, Source};
+use sincro_sim::controller::{Controller, Instant, Law, Source};
 use sincro_sim::run::LockStep;
 
 fn lockstep() -> LockStep {
@@ -13,7 +13,7 @@ fn lockstep() -> LockStep {
 }
 
 /// A law that holds the only command at `rate`.
-fn constant(name: &str, rate: f64) -> Box<Law<impl FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static>> {
+fn constant(name: &str, rate: f64) -> Box<dyn Controller> {
     Box::new(Law::new(name, move |_: Instant<'_>, held: &mut [Option<f64>]| held[0] = Some(rate)))
 }
 

@@ -75,7 +75,7 @@ pub enum Halt {
         /// Whether the world has made the step.
         is_after_step: bool,
         /// Which, where and why.
-        fault: Fault,
+        fault: Box<Fault>,
     },
 }
 
@@ -271,7 +271,7 @@ impl LockStep {
                 tick,
                 t,
                 is_after_step,
-                fault,
+                fault: Box::new(fault),
             })?;
         }
         Ok(())
@@ -292,7 +292,12 @@ impl LockStep {
 
     /// Takes what controllers have asked for of the run as a whole; true if one asked to stop it.
     pub fn take_stop_request(&mut self) -> bool {
-        self.controllers.iter_mut().fold(false, |stop, controller| controller.take_stop_request() || stop)
+        // of all of them, not up to the first that asks
+        let mut must_stop = false;
+        for controller in &mut self.controllers {
+            must_stop |= controller.take_stop_request();
+        }
+        must_stop
     }
 
     /// One base step, from t_k to t_{k+1}.
