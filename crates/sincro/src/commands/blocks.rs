@@ -19,11 +19,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let kinds = kinds();
     let Some(name) = &arguments.name else {
         let width = kinds.iter().map(|kind| kind.name.len()).max().unwrap_or(0);
-        let mut shelf: Option<Category> = None;
+        let mut category: Option<Category> = None;
         for kind in kinds {
-            if shelf != Some(kind.category) {
+            if category != Some(kind.category) {
                 say!("{}", kind.category.title());
-                shelf = Some(kind.category);
+                category = Some(kind.category);
             }
             say!("  {:<width$}  {}", kind.name, kind.summary);
         }
