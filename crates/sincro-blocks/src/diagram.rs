@@ -24,7 +24,8 @@ use crate::instance::DynBlock;
 /// Blocks and wires; on its own or inside another diagram.
 #[derive(Clone, Debug, Default)]
 pub struct Diagram {
-    /// In the order in which they were added: it decides among blocks that could be evaluated in any order.
+    /// Blocks and inner diagrams, in the order in which they were added: it decides among blocks that could be
+    /// evaluated in any order.
     pub entries: Vec<Entry>,
     /// Wires.
     pub wires: Vec<Wire>,
@@ -66,7 +67,7 @@ pub struct Wire {
 }
 
 impl Diagram {
-    /// An empty one.
+    /// Creates an empty diagram.
     #[must_use]
     pub fn new() -> Self {
         Self::default()

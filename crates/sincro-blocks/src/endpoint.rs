@@ -35,7 +35,7 @@ impl std::error::Error for EndpointError {}
 pub const WORLD: &str = "world";
 
 impl Endpoint {
-    /// From text.
+    /// Parses an endpoint.
     ///
     /// # Errors
     ///

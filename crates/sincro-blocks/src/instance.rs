@@ -1,5 +1,5 @@
-//! Blocks without their types: what a diagram holds and what a run calls. Who writes a block implements [`Block`]; the rest
-//! follows.
+//! Blocks without their types: what a diagram holds and what a run calls. Who writes a block implements [`Block`]; the
+//! rest follows.
 
 use core::fmt::Debug;
 

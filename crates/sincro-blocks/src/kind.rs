@@ -139,10 +139,20 @@ impl Parameter {
         Self { name, takes, doc, default: Some(default) }
     }
 
-    /// Meaning as a phrase for tables and messages: `Instant of the jump [s].` is `instant of the jump [s]`.
+    /// Meaning as a phrase for tables and messages: the sentence ``Instant of the jump `[s]`.`` becomes `instant of the jump
+    /// [s]`; what is no sentence stays as it is.
     #[must_use]
     pub fn meaning(&self) -> String {
-        let phrase = self.doc.trim().trim_end_matches('.').replace("`[", "[").replace("]`", "]");
+        let Some(sentence) = self.doc.strip_suffix('.') else { return self.doc.to_owned() };
+        let mut phrase = String::new();
+        let mut rest = sentence;
+        while let Some((before, unit, after)) =
+            rest.split_once("`[").and_then(|(before, rest)| rest.split_once("]`").map(|(u, after)| (before, u, after)))
+        {
+            phrase += &format!("{before}[{unit}]");
+            rest = after;
+        }
+        phrase += rest;
         let mut letters = phrase.chars();
         match (letters.next(), letters.next()) {
             (Some(first), second) if first.is_ascii_uppercase() && !second.is_some_and(char::is_uppercase) => {
@@ -244,4 +254,17 @@ macro_rules! declare_block {
             }
         }
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_becomes_a_phrase_and_a_phrase_stays() {
+        let meaning = |doc: &'static str| Parameter::required("x", Takes::Number, doc).meaning();
+        assert_eq!(meaning("Instant of the jump `[s]`."), "instant of the jump [s]");
+        assert_eq!(meaning("CSV file `[a]` beside `y[3]`."), "CSV file [a] beside `y[3]`");
+        assert_eq!(meaning("Lua text with `y[3]`"), "Lua text with `y[3]`");
+    }
 }

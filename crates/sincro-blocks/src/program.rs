@@ -1,4 +1,4 @@
-//! A compiled diagram: what is evaluated, in which order, where its numbers stand.
+//! Compiled diagram: blocks in the order of evaluation, and the layout of signals and states.
 //!
 //! The signals stand in one vector, in the order of evaluation: what a block needs at once is always to the left of
 //! what it gives, so that inputs can be read while outputs are written, without a copy.

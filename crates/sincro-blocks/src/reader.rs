@@ -1,4 +1,4 @@
-//! Parameters by name: from neutral values to the fields of a block.
+//! Reader of parameters: values by name, as any file format gives them, become the fields of a block.
 //!
 //! A [`Reader`] hands out parameters with the type that a block wants and notes everything that is wrong with them, so
 //! that all problems are reported at once.
@@ -305,7 +305,11 @@ impl<'a> Reader<'a> {
     pub fn counts(&mut self, key: &str, least: usize) -> Vec<usize> {
         let list = self.numbers(key);
         if let Some(bad) = list.iter().find(|x| x.fract() != 0.0 || !(least as f64..1e6).contains(*x)) {
-            self.fault(key, format!("`{key}` has {}", plain(*bad)), format!("{key} are whole numbers from {least} on"));
+            self.fault(
+                key,
+                format!("`{key}` has {}", crate::library::short(*bad)),
+                format!("{key} are whole numbers from {least} on"),
+            );
         }
         list.iter().map(|x| *x as usize).collect()
     }
@@ -566,7 +570,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// From rows of equal length.
+    /// Creates a matrix from rows of equal length.
     ///
     /// # Panics
     ///

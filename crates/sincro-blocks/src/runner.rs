@@ -1,4 +1,4 @@
-//! A diagram that runs: state, and the verbs of a step.
+//! Runner of a compiled diagram in lock-step with a world: its state, and the verbs of a step.
 //!
 //! ```text
 //! tick k:   evaluate(k)   outputs of all blocks that are due at t_k, in order; the others hold

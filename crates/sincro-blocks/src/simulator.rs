@@ -1,4 +1,4 @@
-//! A diagram on its own, without a world: what tests and small examples need.
+//! Simulation of a diagram alone, without a world: for tests and small examples.
 //!
 //! Continuous states are taken from tick to tick by the classical Runge–Kutta method of order 4.
 

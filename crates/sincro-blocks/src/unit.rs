@@ -11,7 +11,7 @@ const N_BASES: usize = 6;
 /// A unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
-    /// As it was written.
+    /// Text as it was written.
     text: String,
     /// Size in coherent units.
     factor: f64,
@@ -49,7 +49,7 @@ const SYMBOLS: [(&str, f64, [i8; N_BASES]); 26] = [
 ];
 
 impl Unit {
-    /// From text such as `N·m·s/rad`, `m/s^2`, `kg·m²`, `1/s`.
+    /// Parses text such as `N·m·s/rad`, `m/s^2`, `kg·m²`, `1/s`.
     ///
     /// # Errors
     ///

@@ -1,4 +1,5 @@
-//! The three kinds of numbers do the same: lanes and dual numbers against `f64`, bit for bit, also where a comparison is between equals.
+//! The three kinds of numbers do the same: lanes and dual numbers against `f64`, bit for bit, also where a comparison
+//! is between equals.
 
 use sincro_math::lanes::dispatch_lanes;
 use sincro_math::{Dual, LaneVisitor, Lanes, Real};

@@ -1,4 +1,5 @@
-//! Inner diagrams dissolve: every block gets a path, every input the outputs that reach it, through however many ports.
+//! Flattening of inner diagrams: every block gets a path, every input the outputs that reach it, through however many
+//! ports.
 
 use std::collections::BTreeMap;
 

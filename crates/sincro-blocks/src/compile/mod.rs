@@ -30,7 +30,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// A clock alone.
+    /// A clock alone, without a world; `step` is the base step `[s]`.
     #[must_use]
     pub fn new(step: f64) -> Self {
         Self { step, seed: 0, measurements: Vec::new(), commands: Vec::new() }
@@ -172,7 +172,7 @@ pub(crate) struct FlatNode {
     pub place: Place,
     /// None for the world.
     pub template: Option<Box<dyn crate::instance::DynBlock>>,
-    /// With whether it is inherited from a diagram around it.
+    /// Sample time `[s]`; true if it is inherited from a diagram around it.
     pub sample_time: Option<(f64, bool)>,
     pub unit: Option<String>,
     pub inputs: Vec<Input>,

@@ -1,5 +1,5 @@
-//! The order of evaluation: every block after those whose outputs it needs at once; otherwise as written. A circle of
-//! such needs is an algebraic loop.
+//! Order of evaluation and algebraic loops: every block after those to whose outputs it has direct feedthrough; otherwise
+//! as written. A cycle of blocks with direct feedthrough is an algebraic loop.
 
 use std::collections::BTreeSet;
 
@@ -53,11 +53,11 @@ fn loops(flat: &Flat, needs: &[Vec<usize>], mut done: Vec<bool>) -> Vec<Diagnost
         if seen[start] {
             continue;
         }
-        if let Some(circle) = shortest_circle(start, needs, done)
-            && !circle.iter().any(|&k| seen[k])
+        if let Some(cycle) = shortest_cycle(start, needs, done)
+            && !cycle.iter().any(|&k| seen[k])
         {
-            circle.iter().for_each(|&k| seen[k] = true);
-            problems.push(describe(flat, &circle));
+            cycle.iter().for_each(|&k| seen[k] = true);
+            problems.push(describe(flat, &cycle));
         }
     }
     problems
@@ -81,19 +81,19 @@ fn leave_out_followers(needs: &[Vec<usize>], done: &mut [bool]) {
 }
 
 /// The shortest way from a node back to itself against the wires, given in the direction of the wires.
-fn shortest_circle(start: usize, needs: &[Vec<usize>], done: &[bool]) -> Option<Vec<usize>> {
+fn shortest_cycle(start: usize, needs: &[Vec<usize>], done: &[bool]) -> Option<Vec<usize>> {
     let mut reached_from: Vec<Option<usize>> = vec![None; needs.len()];
     let mut queue = std::collections::VecDeque::from([start]);
     while let Some(node) = queue.pop_front() {
         for &source in needs[node].iter().filter(|&&s| !done[s] && s != EARLY) {
             if source == start {
-                let mut circle = vec![start];
+                let mut cycle = vec![start];
                 let mut at = node;
                 while at != start {
-                    circle.push(at);
+                    cycle.push(at);
                     at = reached_from[at].expect("reached from somewhere");
                 }
-                return Some(circle);
+                return Some(cycle);
             }
             if reached_from[source].is_none() {
                 reached_from[source] = Some(node);
@@ -104,12 +104,12 @@ fn shortest_circle(start: usize, needs: &[Vec<usize>], done: &[bool]) -> Option<
     None
 }
 
-fn describe(flat: &Flat, circle: &[usize]) -> Diagnostic {
-    let first = circle.iter().copied().min_by_key(|&k| if k == LATE { usize::MAX } else { k }).unwrap_or(circle[0]);
-    let turn = circle.iter().position(|&k| k == first).unwrap_or(0);
-    let names = circle[turn..]
+fn describe(flat: &Flat, cycle: &[usize]) -> Diagnostic {
+    let first = cycle.iter().copied().min_by_key(|&k| if k == LATE { usize::MAX } else { k }).unwrap_or(cycle[0]);
+    let turn = cycle.iter().position(|&k| k == first).unwrap_or(0);
+    let names = cycle[turn..]
         .iter()
-        .chain(&circle[..=turn])
+        .chain(&cycle[..=turn])
         .map(|&k| if k == LATE { "world's accelerations" } else { &flat.nodes[k].path });
     let names: Vec<&str> = names.collect();
     let message = format!("algebraic loop: {}", names.join(" -> "));

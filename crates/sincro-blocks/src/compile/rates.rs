@@ -1,4 +1,4 @@
-//! Sample times: who is evaluated when.
+//! Inference of sample times.
 //!
 //! A block with a sample time runs at its ticks. One without takes the pace of its inputs: continuous if any of them
 //! is, constant if all are, else at every tick at which one of them may change.

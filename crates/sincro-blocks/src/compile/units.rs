@@ -1,4 +1,4 @@
-//! Units: carried along wires as far as they are known, and compared wherever two meet.
+//! Inference and check of units: carried along wires as far as they are known, and compared wherever two meet.
 
 use super::{Diagnostic, EARLY, Element, Flat, FlatNode, LATE, Place};
 use crate::unit::Unit;

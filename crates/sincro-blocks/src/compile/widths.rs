@@ -1,4 +1,5 @@
-//! Widths: from what is known to what follows, until nothing changes; what is then still open is a scalar.
+//! Inference of signal widths: from what is known to what follows, until nothing changes; what is then still open is a
+//! scalar.
 
 use core::ops::Range;
 use std::collections::BTreeSet;

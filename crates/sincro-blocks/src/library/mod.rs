@@ -1,4 +1,4 @@
-//! The blocks, one file each, by category.
+//! The library of blocks, by category.
 //!
 //! [`all`] lists them with their descriptions; [`find`] gives the one of a name.
 

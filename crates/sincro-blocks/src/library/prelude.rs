@@ -1,4 +1,4 @@
-//! The names that a block of the library needs.
+//! Names for writing a block of the library.
 
 pub(super) use sincro_math::{Real, elementary};
 

@@ -20,7 +20,7 @@ declare_block! {
 }
 
 impl NormalizedGradient {
-    /// With the diagonal of Γ; one number stands for all.
+    /// Creates the block with the diagonal of Γ; one number stands for all.
     ///
     /// # Panics
     ///

@@ -21,7 +21,7 @@ pub struct LinearSystem {
 }
 
 impl LinearSystem {
-    /// With states that start at zero.
+    /// Creates a system whose states start at zero.
     ///
     /// # Errors
     ///
@@ -34,7 +34,7 @@ impl LinearSystem {
         }
     }
 
-    /// From the parameters `a`, `b`, `c`, `d` and `initial`.
+    /// Reads the parameters `a`, `b`, `c`, `d` and `initial`.
     pub(in crate::library) fn read(p: &mut Reader<'_>) -> Self {
         let (a, b, c) = (p.matrix("a"), p.matrix("b"), p.matrix("c"));
         // a list is a row; with one input, b may be written as one

@@ -17,7 +17,7 @@ declare_block! {
 }
 
 impl LowPass {
-    /// With gain 1, from zero; `time_constant` in `[s]`.
+    /// Creates the block with gain 1, from zero; `time_constant` in `[s]`.
     #[must_use]
     pub fn new(time_constant: f64) -> Self {
         Self { time_constant: vec![time_constant], dc_gain: vec![1.0], initial: vec![0.0] }

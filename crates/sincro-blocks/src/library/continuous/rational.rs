@@ -14,7 +14,7 @@ pub struct Rational {
 }
 
 impl Rational {
-    /// From coefficients; zeros in front are dropped.
+    /// Creates a quotient from coefficients, highest power first; zeros in front are dropped.
     ///
     /// # Errors
     ///
@@ -35,7 +35,7 @@ impl Rational {
         Ok(Self { numerator: numerator.to_vec(), denominator: denominator.to_vec(), b, a })
     }
 
-    /// From the parameters `numerator` and `denominator`; 1 after a fault.
+    /// Reads the parameters `numerator` and `denominator`; 1 after an error.
     pub(in crate::library) fn read(p: &mut Reader<'_>, help: &str) -> Self {
         let (numerator, denominator) = (p.numbers("numerator"), p.numbers("denominator"));
         if numerator.iter().chain(&denominator).any(|x| x.is_nan()) {

@@ -11,7 +11,7 @@ pub struct StateSpace {
 }
 
 impl StateSpace {
-    /// From its matrices.
+    /// Creates the block from its matrices.
     #[must_use]
     pub fn new(system: LinearSystem) -> Self {
         Self { system }

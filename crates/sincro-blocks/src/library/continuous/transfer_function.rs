@@ -22,7 +22,7 @@ pub struct TransferFunction {
 }
 
 impl TransferFunction {
-    /// From coefficients, highest power first; initially at zero.
+    /// Creates the block from coefficients, highest power first; initially at zero.
     ///
     /// # Panics
     ///

@@ -18,7 +18,7 @@ declare_block! {
 }
 
 impl TransportDelay {
-    /// With zero before the first input; `delay` in `[s]`.
+    /// Creates the block with zero before the first input; `delay` in `[s]`.
     #[must_use]
     pub fn new(delay: f64) -> Self {
         Self { delay, initial: vec![0.0] }

@@ -16,7 +16,7 @@ declare_block! {
 }
 
 impl Delay {
-    /// With zero until the first input has arrived.
+    /// Creates the block with zero until the first input has arrived.
     #[must_use]
     pub fn new(samples: usize) -> Self {
         Self { samples, initial: vec![0.0] }

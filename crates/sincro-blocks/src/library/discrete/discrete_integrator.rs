@@ -33,7 +33,7 @@ declare_block! {
 }
 
 impl DiscreteIntegrator {
-    /// From zero, without limits and reset.
+    /// Creates the block: from zero, without limits and reset.
     #[must_use]
     pub fn new(method: Method) -> Self {
         let (lower, upper) = (vec![f64::NEG_INFINITY], vec![f64::INFINITY]);

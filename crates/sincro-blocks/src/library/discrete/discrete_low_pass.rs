@@ -22,7 +22,7 @@ declare_block! {
 }
 
 impl DiscreteLowPass {
-    /// With gain 1, from zero.
+    /// Creates the block with gain 1, from zero.
     #[must_use]
     pub fn new(time_constant: f64) -> Self {
         Self { time_constant: vec![time_constant], dc_gain: vec![1.0], initial: vec![0.0] }

@@ -11,7 +11,7 @@ pub struct DiscreteStateSpace {
 }
 
 impl DiscreteStateSpace {
-    /// From its matrices.
+    /// Creates the block from its matrices.
     #[must_use]
     pub fn new(system: LinearSystem) -> Self {
         Self { system }

@@ -13,7 +13,7 @@ declare_block! {
 }
 
 impl FirFilter {
-    /// From weights, that of the present sample first.
+    /// Creates the block from weights, that of the present sample first.
     ///
     /// # Panics
     ///

@@ -18,7 +18,7 @@ declare_block! {
 }
 
 impl RateTransition {
-    /// From zero.
+    /// Creates the block: from zero.
     #[must_use]
     pub fn new(delayed: bool) -> Self {
         Self { delayed, initial: vec![0.0] }

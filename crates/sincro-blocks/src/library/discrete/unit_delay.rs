@@ -11,7 +11,7 @@ declare_block! {
 }
 
 impl UnitDelay {
-    /// With one initial value for all components.
+    /// Creates the block with one initial value for all components.
     #[must_use]
     pub fn new(initial: f64) -> Self {
         Self { initial: vec![initial] }

@@ -17,7 +17,7 @@ declare_block! {
 }
 
 impl Counter {
-    /// From 0 on, without reset.
+    /// Creates the block: from 0 on, without reset.
     #[must_use]
     pub fn new() -> Self {
         Self { initial: 0, reset: false }

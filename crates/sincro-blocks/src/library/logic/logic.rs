@@ -58,7 +58,7 @@ impl Operator {
 }
 
 impl Logic {
-    /// With two inputs, `Not` with one.
+    /// Creates the block with two inputs, `Not` with one.
     #[must_use]
     pub fn new(operator: Operator) -> Self {
         Self { operator, inputs: if operator == Not { 1 } else { 2 } }

@@ -34,7 +34,7 @@ const KINDS: [Kind; 2] = [
 ];
 
 impl<const IS_MAX: bool> Extremum<IS_MAX> {
-    /// With so many inputs, at least 1.
+    /// Creates the block with so many inputs, at least 1.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }

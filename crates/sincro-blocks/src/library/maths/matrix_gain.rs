@@ -11,7 +11,7 @@ declare_block! {
 }
 
 impl MatrixGain {
-    /// From its rows.
+    /// Creates the block from its rows.
     ///
     /// # Panics
     ///

@@ -11,7 +11,7 @@ declare_block! {
 }
 
 impl Polynomial {
-    /// From the coefficients, that of the highest power first.
+    /// Creates the block from the coefficients, that of the highest power first.
     #[must_use]
     pub fn new(coefficients: &[f64]) -> Self {
         Self { coefficients: coefficients.to_vec() }

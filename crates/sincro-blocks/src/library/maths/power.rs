@@ -13,7 +13,7 @@ declare_block! {
 }
 
 impl Power {
-    /// With a constant exponent.
+    /// Creates the block with a constant exponent.
     #[must_use]
     pub fn new(exponent: f64) -> Self {
         Self { exponent: Some(vec![exponent]) }

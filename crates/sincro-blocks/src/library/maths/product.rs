@@ -11,7 +11,7 @@ declare_block! {
 }
 
 impl Product {
-    /// With so many inputs, at least 1.
+    /// Creates the block with so many inputs, at least 1.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }

@@ -14,7 +14,7 @@ declare_block! {
 }
 
 impl Sum {
-    /// From signs such as `"+-"`.
+    /// Creates the block from signs such as `"+-"`.
     ///
     /// # Panics
     ///

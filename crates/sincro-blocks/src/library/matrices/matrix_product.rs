@@ -13,7 +13,7 @@ declare_block! {
 }
 
 impl MatrixProduct {
-    /// With so many rows of the first factor as it comes, taken transposed or not.
+    /// Creates the block with so many rows of the first factor as it comes, taken transposed or not.
     ///
     /// # Panics
     ///

@@ -16,7 +16,7 @@ declare_block! {
 }
 
 impl Backlash {
-    /// From zero, with one width for all components.
+    /// Creates the block: from zero, with one width for all components.
     #[must_use]
     pub fn new(width: f64) -> Self {
         Self { width: vec![width], initial: vec![0.0] }

@@ -13,7 +13,7 @@ declare_block! {
 }
 
 impl DeadZone {
-    /// With the same zone for all components.
+    /// Creates the block with the same zone for all components.
     #[must_use]
     pub fn new(lower: f64, upper: f64) -> Self {
         Self { lower: vec![lower], upper: vec![upper] }

@@ -30,7 +30,7 @@ choice! {
 }
 
 impl LookupTable {
-    /// With lines between the points, held beyond the ends.
+    /// Creates the block with lines between the points, held beyond the ends.
     ///
     /// # Panics
     ///

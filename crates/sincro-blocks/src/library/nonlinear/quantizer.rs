@@ -13,7 +13,7 @@ declare_block! {
 }
 
 impl Quantizer {
-    /// With one interval for all components.
+    /// Creates the block with one interval for all components.
     #[must_use]
     pub fn new(interval: f64) -> Self {
         Self { interval: vec![interval] }

@@ -21,7 +21,7 @@ declare_block! {
 }
 
 impl Relay {
-    /// From off, with the outputs 1 and 0.
+    /// Creates the block: from off, with the outputs 1 and 0.
     #[must_use]
     pub fn new(on_above: f64, off_below: f64) -> Self {
         Self { on_above, off_below, on: 1.0, off: 0.0, initially_on: false }

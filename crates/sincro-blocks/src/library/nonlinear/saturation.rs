@@ -27,7 +27,7 @@ const LAST: usize = 4;
 const N_MEMORY: usize = 5;
 
 impl Saturation {
-    /// With the same limits for all components.
+    /// Creates the block with the same limits for all components.
     #[must_use]
     pub fn new(lower: f64, upper: f64) -> Self {
         Self { lower: vec![lower], upper: vec![upper], report: false }

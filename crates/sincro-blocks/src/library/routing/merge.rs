@@ -16,7 +16,7 @@ declare_block! {
 }
 
 impl Merge {
-    /// With so many inputs, at least 1.
+    /// Creates the block with so many inputs, at least 1.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }

@@ -15,7 +15,7 @@ declare_block! {
 }
 
 impl MultiportSwitch {
-    /// With so many inputs to choose from, at least 1.
+    /// Creates the block with so many inputs to choose from, at least 1.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }

@@ -11,7 +11,7 @@ declare_block! {
 }
 
 impl Mux {
-    /// With so many inputs.
+    /// Creates the block with so many inputs.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }

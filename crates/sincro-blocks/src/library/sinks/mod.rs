@@ -1,4 +1,4 @@
-//! Sinks: what only looks.
+//! Sinks: blocks without outputs.
 
 mod scope;
 mod terminator;

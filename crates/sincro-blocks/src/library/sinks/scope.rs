@@ -12,7 +12,7 @@ pub struct Scope {
 }
 
 impl Scope {
-    /// With so many inputs, `u` or `u1`, `u2` …, at least 1.
+    /// Creates the block with so many inputs, `u` or `u1`, `u2` …, at least 1.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { title: String::new(), inputs: Ports::numbered(inputs).inputs }

@@ -22,7 +22,7 @@ declare_block! {
 }
 
 impl Chirp {
-    /// With amplitude 1.
+    /// Creates the block with amplitude 1.
     #[must_use]
     pub fn new(from_hz: f64, to_hz: f64, duration: f64) -> Self {
         Self { from_hz, to_hz, duration, amplitude: 1.0 }

@@ -17,7 +17,7 @@ declare_block! {
 }
 
 impl Ramp {
-    /// From 0 at time 0, for ever.
+    /// Creates the block: from 0 at time 0, for ever.
     #[must_use]
     pub fn new(slope: f64) -> Self {
         Self { start: 0.0, slope: vec![slope], from: vec![0.0], until: f64::INFINITY }

@@ -19,7 +19,7 @@ declare_block! {
 }
 
 impl Sawtooth {
-    /// From 0 to 1 in a period in `[s]`, from time 0 on.
+    /// Creates the block: from 0 to 1 in a period in `[s]`, from time 0 on.
     #[must_use]
     pub fn new(period: f64) -> Self {
         Self { period, low: vec![0.0], high: vec![1.0], start: 0.0 }

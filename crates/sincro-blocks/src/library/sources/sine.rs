@@ -27,7 +27,7 @@ declare_block! {
 }
 
 impl Sine {
-    /// With an angular frequency in `[rad/s]`, from 0 upwards.
+    /// Creates the block with an angular frequency in `[rad/s]`, from 0 upwards.
     #[must_use]
     pub fn new(amplitude: f64, angular_frequency: f64) -> Self {
         Self {

@@ -15,7 +15,7 @@ declare_block! {
 }
 
 impl Step {
-    /// From 0 to `to` at `time` `[s]`.
+    /// Creates the block: from 0 to `to` at `time` `[s]`.
     #[must_use]
     pub fn new(time: f64, to: f64) -> Self {
         Self { time, from: vec![0.0], to: vec![to] }

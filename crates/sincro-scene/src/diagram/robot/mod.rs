@@ -46,7 +46,7 @@ pub struct Item {
 
 /// All blocks that are made here and not in the library.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    const SHELF: &[Item] = &[
+    const BLOCKS: &[Item] = &[
         forward_kinematics::ITEM,
         jacobian::ITEM,
         inverse_dynamics::ITEM,
@@ -54,7 +54,7 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
         mass_matrix::ITEM,
         super::lua::ITEM,
     ];
-    SHELF.iter()
+    BLOCKS.iter()
 }
 
 /// The block of a name.

@@ -89,7 +89,7 @@ impl<R> Default for Work<R> {
 }
 
 impl Equations {
-    /// From parameters as in a file.
+    /// Creates the block from parameters as in a file.
     ///
     /// # Errors
     ///
