@@ -1,29 +1,28 @@
-//! What bodies do: the dynamics of kinematic trees in joint coordinates.
+#![doc = include_str!("../README.md")]
+//! # Modules
 //!
-//! A [`model::Model`] is built once and immutable; a [`state::State`] is exactly what must be saved to continue a run
-//! bit for bit; a [`scratch::Scratch`] holds what can be recomputed at any time. Every algorithm is a function of the
-//! three and is written once over [`Real`](sincro_math::Real).
+//! From the bottom up; a module uses only those above it in this list (`cargo xtask tidy` measures it).
 //!
-//! | want | see |
+//! | module | content |
 //! |---|---|
-//! | accelerations from torques | [`aba`] |
-//! | torques from accelerations | [`rnea`] |
-//! | the mass matrix | [`crba`] |
-//! | poses, velocities, Jacobians | [`kinematics`] |
-//! | energies and momentum | [`energy`] |
-//! | springs, dampers, friction, motors, rotors | [`force`] |
-//! | closed loops, limits of joints, one solver for all constraints | [`constraint`] |
-//! | what touches what | [`contact`] |
-//! | what a ray hits, how far surfaces are apart | [`geometry`] |
-//! | a world that advances | [`integrate`], [`world`] |
-//! | the air that moves | [`wind`] |
-//! | whether it can start so | [`start`] |
-//! | how stiff it is | [`stiffness`] |
-//! | what is integrated along, such as a diagram | [`attachment`] |
-//! | many worlds at once | [`batch`] |
+//! | [`spatial`], [`signal`], [`ids`], [`error`] | spatial algebra; functions of time; ids; refused parameters |
+//! | [`geometry`] | shapes, support mappings, GJK, bounding volume hierarchy, separating axes, ray casts |
+//! | [`joint`] | joints, links, passive properties of degrees of freedom |
+//! | [`contact`] | colliders, materials, broad and narrow phase, contact manifolds |
+//! | [`actuation`], [`aero`] | motors, drives, friction, springs, dampers; rotors, drag, wind |
+//! | [`model`] | the compiled tree and its builder |
+//! | [`state`], [`scratch`] | generalized coordinates and all else that changes; working memory |
+//! | [`recursions`] | forward and inverse dynamics, mass matrix, kinematics |
+//! | [`energy`], [`stiffness`] | energies and momentum; rates of springs and dampers |
+//! | [`constraint`] | loop joints, joint limits, contacts with friction: one complementarity problem |
+//! | [`integrate`] | fixed-step and error-controlled methods |
+//! | [`mechanism`], [`coupled`] | the system to integrate; systems integrated along with it |
+//! | [`initial`] | consistency of an initial state |
+//! | [`world`], [`batch`] | a world that advances; many worlds in lanes |
 //!
-//! Conventions: SI and radians; right-handed; six-vectors have their angular part first; quaternions are (w, x, y, z).
-//! No files, clocks, threads or logs in this crate.
+//! A [`model::Model`] is the compiled tree; a [`state::State`] the numbers that a snapshot needs; a [`scratch::Scratch`]
+//! can be recomputed at any time. A [`world::World`] owns one of each, and its model's numbers can be set between steps;
+//! every algorithm below it is a function of the three.
 
 pub mod actuation;
 pub mod aero;
@@ -33,6 +32,7 @@ pub mod constraint;
 pub mod contact;
 pub mod coupled;
 pub mod energy;
+pub mod error;
 pub mod geometry;
 pub mod ids;
 pub mod initial;
@@ -40,6 +40,7 @@ pub mod integrate;
 pub mod joint;
 pub mod mechanism;
 pub mod model;
+pub mod prelude;
 pub mod recursions;
 pub mod scratch;
 pub mod signal;

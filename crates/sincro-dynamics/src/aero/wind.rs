@@ -32,6 +32,7 @@ use core::f64::consts::{PI, TAU};
 use sincro_math::Real;
 use sincro_math::elementary::{atan, ln, pow, sin_cos};
 
+use crate::error::InvalidParameters;
 use crate::spatial::Vec3;
 
 /// Mean wind over height.
@@ -162,10 +163,10 @@ impl Wind {
         profile: Profile,
         gusts: Vec<Gust>,
         turbulence: Option<TurbulenceSpec>,
-    ) -> Result<Self, Vec<String>> {
+    ) -> Result<Self, InvalidParameters> {
         let problems = problems(mean, profile, &gusts, turbulence);
         if !problems.is_empty() {
-            return Err(problems);
+            return Err(InvalidParameters(problems));
         }
         let turbulence = turbulence.map(|spec| Turbulence::new(&spec, mean));
         Ok(Self { mean, profile, gusts, turbulence })

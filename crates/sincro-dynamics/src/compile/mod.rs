@@ -15,7 +15,7 @@ use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
 use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
-use crate::model::diagnostic::{Diagnostic, Severity};
+use crate::model::diagnostic::{BuildError, Diagnostic, Severity};
 use crate::model::names::{FrameInfo, JointInfo, Names};
 use crate::model::parameters::carried;
 use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint};
@@ -54,15 +54,15 @@ impl ModelBuilder {
     /// not positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction,
     /// armature or limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not
     /// turn with the joint it takes its speed from.
-    pub fn build(&self) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
+    pub fn build(&self) -> Result<(Model<f64>, Vec<Diagnostic>), BuildError> {
         compile(self)
     }
 }
 
-fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<Diagnostic>> {
+fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), BuildError> {
     let mut problems = check::check(builder);
     if problems.iter().any(|p| p.severity == Severity::Error) {
-        return Err(problems);
+        return Err(BuildError(problems));
     }
     let mut compiler = Compiler {
         nodes: &builder.nodes,
@@ -103,7 +103,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Vec<
     model.drives = model.find_drives();
     problems.extend(check::massless_joints(&model));
     if problems.iter().any(|p| p.severity == Severity::Error) {
-        return Err(problems);
+        return Err(BuildError(problems));
     }
     Ok((model, problems))
 }

@@ -79,6 +79,17 @@ pub enum Failure {
     },
 }
 
+impl core::fmt::Display for Failure {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotFinite { t } => write!(f, "the state is not finite after the step from t = {t} s"),
+            Self::StepTooSmall { t, h } => write!(f, "error control asks for a step of {h:.1e} s at t = {t} s"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
 /// Error control: the tolerance and the proposed next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {

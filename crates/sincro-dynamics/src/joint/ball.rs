@@ -6,7 +6,7 @@ use super::{Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, Quat, RigidInertia, Vec3};
 
 /// Any rotation about the link's origin.
-pub struct Ball;
+pub(crate) struct Ball;
 
 impl Stage for Ball {
     const N_Q: usize = 4;

@@ -7,7 +7,7 @@ use super::{Ball, Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, Quat, RigidInertia, Vec3};
 
 /// Unconstrained motion.
-pub struct Free;
+pub(crate) struct Free;
 
 impl Stage for Free {
     const N_Q: usize = 7;

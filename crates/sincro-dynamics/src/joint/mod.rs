@@ -19,14 +19,14 @@ mod screw;
 
 use sincro_math::Real;
 
-pub use ball::Ball;
+pub(crate) use ball::Ball;
 pub use dof::Dof;
-pub use free::Free;
+pub(crate) use free::Free;
 pub use link::Link;
 pub(crate) use link::{Shift, WORLD};
-pub use prismatic::Prismatic;
-pub use revolute::Revolute;
-pub use screw::Screw;
+pub(crate) use prismatic::Prismatic;
+pub(crate) use revolute::Revolute;
+pub(crate) use screw::Screw;
 
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
@@ -73,7 +73,7 @@ pub enum JointKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 #[allow(missing_docs)]
-pub enum StageKind {
+pub(crate) enum StageKind {
     RevoluteX,
     RevoluteY,
     RevoluteZ,
@@ -85,7 +85,7 @@ pub enum StageKind {
 
 /// Configuration of one stage, computed once a kinematic pass.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Placement<R> {
+pub(crate) struct Placement<R> {
     /// Sine of the joint angle (axis-aligned stages).
     pub sin: R,
     /// Cosine of the joint angle (axis-aligned stages).
@@ -97,7 +97,7 @@ pub struct Placement<R> {
 }
 
 /// Operations of a stage. Zero-sized types implement it; `match` on [`StageKind`] chooses among them.
-pub trait Stage {
+pub(crate) trait Stage {
     /// Coordinates that the stage takes in q.
     const N_Q: usize;
     /// Degrees of freedom, places in v.
@@ -159,7 +159,7 @@ pub trait Stage {
 }
 
 /// A computation that is compiled once for each kind of stage.
-pub trait StageVisitor {
+pub(crate) trait StageVisitor {
     /// Result type.
     type Output;
 
@@ -170,7 +170,7 @@ pub trait StageVisitor {
 impl StageKind {
     /// Runs `visitor` for this kind.
     #[inline(always)]
-    pub fn dispatch<V: StageVisitor>(self, visitor: V) -> V::Output {
+    pub(crate) fn dispatch<V: StageVisitor>(self, visitor: V) -> V::Output {
         match self {
             Self::RevoluteX => visitor.visit::<Revolute<0>>(),
             Self::RevoluteY => visitor.visit::<Revolute<1>>(),
@@ -206,12 +206,6 @@ impl StageKind {
     #[must_use]
     pub fn is_pure_rotation(self) -> bool {
         matches!(self, Self::RevoluteX | Self::RevoluteY | Self::RevoluteZ | Self::Ball)
-    }
-
-    /// Returns true if the (single) coordinate is an angle.
-    #[must_use]
-    pub fn is_rotational(self) -> bool {
-        !matches!(self, Self::Prismatic)
     }
 }
 

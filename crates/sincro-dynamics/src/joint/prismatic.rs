@@ -6,7 +6,7 @@ use super::{Link, Placement, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// Translation along the link's `axis`. Nothing turns, so that the axis need not be on a coordinate axis.
-pub struct Prismatic;
+pub(crate) struct Prismatic;
 
 impl Stage for Prismatic {
     const N_Q: usize = 1;

@@ -6,7 +6,7 @@ use super::{Link, Placement, Stage, turn_about, turn_rigid_about};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// Rotation about coordinate axis `A` (0 x, 1 y, 2 z).
-pub struct Revolute<const A: usize>;
+pub(crate) struct Revolute<const A: usize>;
 
 impl<const A: usize> Stage for Revolute<A> {
     const N_Q: usize = 1;

@@ -6,7 +6,7 @@ use super::{Link, Placement, Revolute, Stage};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// Rotation about z that advances by the link's pitch [m/rad].
-pub struct Screw;
+pub(crate) struct Screw;
 
 /// Screws are rare: their link frame is turned so that the axis is z.
 const A: usize = 2;

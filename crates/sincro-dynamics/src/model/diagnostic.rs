@@ -1,5 +1,8 @@
 //! Diagnostics of the builder: errors and warnings about the objects of a model.
 
+use core::fmt;
+use core::ops::Deref;
+
 use super::NodeId;
 
 /// Severity of a diagnostic.
@@ -25,3 +28,40 @@ pub struct Diagnostic {
     /// Correction that would help.
     pub help: String,
 }
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        write!(f, "{severity}: {}", self.message)
+    }
+}
+
+/// Error of [`ModelBuilder::build`](super::ModelBuilder::build): all diagnostics, warnings too, at least one of them an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuildError(pub(crate) Vec<Diagnostic>);
+
+impl Deref for BuildError {
+    type Target = [Diagnostic];
+
+    fn deref(&self) -> &[Diagnostic] {
+        &self.0
+    }
+}
+
+impl From<BuildError> for Vec<Diagnostic> {
+    fn from(error: BuildError) -> Self {
+        error.0
+    }
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for BuildError {}

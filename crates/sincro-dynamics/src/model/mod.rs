@@ -31,7 +31,7 @@ pub use builder::{
 };
 pub(crate) use constraints::warm_start_len;
 pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
-pub use diagnostic::{Diagnostic, Severity};
+pub use diagnostic::{BuildError, Diagnostic, Severity};
 pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 

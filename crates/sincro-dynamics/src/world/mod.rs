@@ -9,9 +9,14 @@
 //!
 //! A world owns its model, state, mechanism and the working memory of its method; they are not yet separate values.
 
+mod builder;
 mod contacts;
 mod drives;
 mod parameters;
+mod step;
+
+pub use builder::WorldBuilder;
+pub use step::{StepError, StepReport};
 
 use crate::actuation::DriveKind;
 use crate::actuation::{Motor, Push};
@@ -114,6 +119,8 @@ pub struct World {
     negated_jacobian_diagonal: Vec<f64>,
     attached_before: Vec<f64>,
     substeps: u32,
+    /// Base step of [`World::step`] `[s]`.
+    step_size: f64,
     fallback: Option<SemiImplicitEuler<f64>>,
     statistics: StepStatistics,
 }
@@ -253,6 +260,7 @@ impl World {
             negated_jacobian_diagonal: vec![0.0; n_states],
             attached_before: vec![0.0; n_states],
             substeps: 1,
+            step_size: control.h,
             fallback,
             base_before,
             target_velocities: vec![0.0; n_drives],

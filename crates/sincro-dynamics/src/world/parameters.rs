@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::World;
 use crate::contact::Material;
-use crate::energy::energy_at;
 use crate::ids::BodyId;
 use crate::model::{MassProperties, Model};
 use crate::recursions::kinematics;
@@ -23,25 +22,20 @@ impl World {
     ///
     /// If there is no such link or frame.
     pub fn set_mass_properties(&mut self, link: usize, bodies: &[(BodyId, MassProperties)]) {
-        let before = self.mechanical_energy();
+        let before = self.energy().total();
         self.mechanism.model.set_mass_properties(link, bodies);
         if self.state.tick > 0 {
-            self.state.totals[0] += self.mechanical_energy() - before;
+            self.state.totals[0] += self.energy().total() - before;
         }
     }
 
     /// Sets gravity [m/s²], world axes; the change of energy is counted as work, unless no step has been made yet.
     pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
-        let before = self.mechanical_energy();
+        let before = self.energy().total();
         self.mechanism.model.gravity = gravity;
         if self.state.tick > 0 {
-            self.state.totals[0] += self.mechanical_energy() - before;
+            self.state.totals[0] += self.energy().total() - before;
         }
-    }
-
-    fn mechanical_energy(&mut self) -> f64 {
-        let mechanism = &mut self.mechanism;
-        energy_at(&mechanism.model, &self.state.q, &self.state.v, &mut mechanism.scratch).total()
     }
 
     /// Sets the joint limits of a degree of freedom that has them `[rad]` or `[m]`: lower and upper. Returns false, and

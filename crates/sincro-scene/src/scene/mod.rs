@@ -340,7 +340,7 @@ impl Assembly {
     ) -> Result<Scene, Problems> {
         let (model, found) = match self.builder.build() {
             Ok((model, warnings)) => (Some(model), warnings),
-            Err(found) => (None, found),
+            Err(found) => (None, found.into()),
         };
         for problem in found {
             problems.push(self.place(problem, entries, document));

@@ -238,7 +238,7 @@ impl Judge<'_, '_> {
     }
 
     /// What was made, or its reasons not to, each at the key that it begins with.
-    fn or_note<T>(&mut self, table: &str, made: Result<T, Vec<String>>) -> Option<T> {
+    fn or_note<T>(&mut self, table: &str, made: Result<T, impl IntoIterator<Item = String>>) -> Option<T> {
         let document = self.signals.document;
         let reasons = match made {
             Ok(made) => return Some(made),

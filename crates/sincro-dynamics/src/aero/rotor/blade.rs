@@ -32,6 +32,7 @@ use sincro_math::Real;
 
 use super::momentum::Balance;
 use super::{Load, Spin, limited, outside};
+use crate::error::InvalidParameters;
 use crate::spatial::Vec3;
 
 /// Drag of a blade's section: c₀ + c₂ α².
@@ -159,10 +160,10 @@ impl Rotor {
     /// # Errors
     ///
     /// All that is wrong with the numbers, one sentence each.
-    pub fn new(spec: RotorSpec) -> Result<Self, Vec<String>> {
+    pub fn new(spec: RotorSpec) -> Result<Self, InvalidParameters> {
         let problems = problems(&spec);
         if !problems.is_empty() {
-            return Err(problems);
+            return Err(InvalidParameters(problems));
         }
         let solidity = f64::from(spec.n_blades) * spec.chord / (PI * spec.radius);
         let pitch = spec.collective_pitch;

@@ -9,6 +9,7 @@ use core::f64::consts::TAU;
 use sincro_math::Real;
 
 use super::{Load, Spin, Validity, outside};
+use crate::error::InvalidParameters;
 use crate::spatial::Vec3;
 
 /// Thrust and torque that grow with the square of the speed and depend on nothing else.
@@ -74,7 +75,7 @@ impl CoefficientTable {
     /// # Errors
     ///
     /// All that is wrong with the numbers, one sentence each.
-    pub fn new(diameter: f64, spin: Spin, rows: Vec<TableRow>) -> Result<Self, Vec<String>> {
+    pub fn new(diameter: f64, spin: Spin, rows: Vec<TableRow>) -> Result<Self, InvalidParameters> {
         let mut problems: Vec<String> = outside("diameter", diameter, (1e-6, 1e6), "m").into_iter().collect();
         if rows.is_empty() {
             problems.push("the table of coefficients is empty: expected at least one row".to_owned());
@@ -90,7 +91,7 @@ impl CoefficientTable {
                 problems.push(message);
             }
         }
-        if problems.is_empty() { Ok(Self { diameter, spin, rows }) } else { Err(problems) }
+        if problems.is_empty() { Ok(Self { diameter, spin, rows }) } else { Err(InvalidParameters(problems)) }
     }
 
     /// Sense of rotation at positive speed.

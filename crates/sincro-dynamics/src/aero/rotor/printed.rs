@@ -18,6 +18,7 @@ use sincro_math::Real;
 use sincro_math::elementary::{asin, pow};
 
 use super::{Load, RotorSpec};
+use crate::error::InvalidParameters;
 use crate::spatial::{Mat3, Vec3};
 
 /// A rotor that is computed by the script.
@@ -45,7 +46,7 @@ impl PrintedScript {
     /// # Errors
     ///
     /// All that is wrong with the numbers, as of [`super::Rotor::new`].
-    pub fn new(spec: RotorSpec) -> Result<Self, Vec<String>> {
+    pub fn new(spec: RotorSpec) -> Result<Self, InvalidParameters> {
         super::Rotor::new(spec).map(|rotor| Self(*rotor.spec()))
     }
 
