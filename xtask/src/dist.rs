@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// Bound on the size of the program [bytes]: 25 MB.
+/// Bound on the size of the program `[bytes]`: 25 MB.
 const MAX_BYTES: u64 = 25_000_000;
 
 /// Prints the size of the built program; true if it keeps the bound.

@@ -24,7 +24,7 @@ mod shared;
 pub use guard::abort_running_scripts;
 use sincro_sim::ScriptEngine;
 
-/// Lua as the language of scripts: an argument of [`sincro_sim::load`].
+/// Lua as the language of scripts: an argument of [`sincro_sim::load()`].
 ///
 /// ```
 /// use sincro_sim::Extensions;

@@ -1,7 +1,7 @@
 //! Joints: the relative motions of a link and its parent.
 //!
 //! Users name eight kinds ([`JointKind`]); universal and planar ones are chains of one-degree-of-freedom joints without
-//! mass in between, and fixed ones are merged away when the model is built. The recursions see a [`Stage`]: one file
+//! mass in between, and fixed ones are merged away when the model is built. The recursions see a `Stage`: one file
 //! each with the same operations, and the axis of a rotation a compile-time constant, because an axis-aligned rotation
 //! costs a quarter of a general one.
 //!
