@@ -110,9 +110,9 @@ impl<R: Real> ActiveSet<R> {
             }
             for (g, group) in block.groups.iter().enumerate() {
                 let Some(group) = group else { continue };
-                if group.grip == ContactMode::Stick {
+                if group.mode == ContactMode::Stick {
                     self.unknowns.extend((group.row..group.row + group.dim).map(Unknown::Row));
-                } else if group.give.is_some() {
+                } else if group.compliance.is_some() {
                     self.unknowns.push(Unknown::Across(k, g));
                 }
             }
@@ -156,9 +156,9 @@ impl<R: Real> ActiveSet<R> {
             let mut rest = self.test(unknown, blocks, &self.rates);
             if let Unknown::Across(k, g) = unknown {
                 let group = group(blocks, k, g);
-                let give = group.give.unwrap_or(R::zero());
-                dense.add(j, j, give);
-                rest += give * across(group, lambda);
+                let compliance = group.compliance.unwrap_or(R::zero());
+                dense.add(j, j, compliance);
+                rest += compliance * across(group, lambda);
             }
             dense.rhs[j] = -rest;
         }
@@ -249,7 +249,7 @@ fn moved<'a, R: Real>(
         }
         Unknown::Normal(k) => {
             add(blocks[k].row, R::one());
-            for group in blocks[k].groups.iter().flatten().filter(|g| g.grip == ContactMode::Slip) {
+            for group in blocks[k].groups.iter().flatten().filter(|g| g.mode == ContactMode::Slip) {
                 for i in 0..group.dim {
                     add(group.row + i, R::splat(group.coefficient) * group.direction[i]);
                 }
@@ -271,9 +271,9 @@ fn impose<R: Real>(block: &UnilateralConstraint<R>, lambda: &mut [R]) {
     for group in block.groups.iter().flatten() {
         if block.open {
             lambda[group.row..group.row + group.dim].fill(R::zero());
-        } else if group.grip == ContactMode::Slip {
+        } else if group.mode == ContactMode::Slip {
             let limit = R::splat(group.coefficient) * lambda[block.row];
-            let turned = if group.give.is_some() { across(group, lambda) } else { R::zero() };
+            let turned = if group.compliance.is_some() { across(group, lambda) } else { R::zero() };
             let [d0, d1] = group.direction;
             lambda[group.row] = limit * d0 - turned * d1;
             if group.dim == 2 {

@@ -20,26 +20,26 @@ pub(crate) struct FrictionGroup<R> {
     /// True if it slides with a velocity that gives the direction; else the direction follows from the solution
     /// (impending slip).
     pub slides: bool,
-    pub grip: ContactMode,
+    pub mode: ContactMode,
     /// Direction of its force if it slips.
     pub direction: [R; 2],
     /// Compliance across its direction, rate over force, where the direction can turn. Of a group that slides so slowly
     /// that friction could turn its velocity within the step: the force is then that of the end of the step, since
     /// friction that turns with a small velocity would be stiff without bound. And of a group whose direction follows
     /// from the solution ([`super::active_set`]).
-    pub give: Option<R>,
+    pub compliance: Option<R>,
 }
 
 impl<R: Real> FrictionGroup<R> {
     /// Sets the group to stick.
     pub fn stick(&mut self) {
-        (self.grip, self.give) = (ContactMode::Stick, None);
+        (self.mode, self.compliance) = (ContactMode::Stick, None);
     }
 
     /// Sets the group to slip with its force along `direction`, and with a compliance across it if that is known.
-    pub fn slip(&mut self, direction: [R; 2], give: Option<R>) {
-        (self.grip, self.direction) = (ContactMode::Slip, direction);
-        self.give = give.filter(|_| self.dim == 2);
+    pub fn slip(&mut self, direction: [R; 2], compliance: Option<R>) {
+        (self.mode, self.direction) = (ContactMode::Slip, direction);
+        self.compliance = compliance.filter(|_| self.dim == 2);
     }
 }
 

@@ -18,7 +18,7 @@ impl Constraints<f64> {
         self.blocks.iter_mut().for_each(|b| b.open = false);
         for block in &mut self.blocks {
             for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.grip, group.give) = (false, ContactMode::Stick, None);
+                (group.slides, group.mode, group.compliance) = (false, ContactMode::Stick, None);
             }
             // a compliant contact transmits no impulse
             if block.given.is_some() {

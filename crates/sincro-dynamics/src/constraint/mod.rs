@@ -251,15 +251,15 @@ impl<R: Real> Constraints<R> {
         self.rows.clear();
         self.residual.clear();
         self.blocks.clear();
-        for closure in &set.loop_joints {
-            closure.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
+        for joint in &set.loop_joints {
+            joint.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
         }
-        for coupling in &set.gears {
-            let [one, two] = coupling.dofs.map(|k| k as u32);
-            let ratio = R::splat(coupling.ratio);
+        for gear in &set.gears {
+            let [one, two] = gear.dofs.map(|k| k as u32);
+            let ratio = R::splat(gear.ratio);
             self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
-            let [q1, q2] = coupling.coordinates.map(|k| q[k]);
-            self.residual.push(q2 - ratio * q1 - R::splat(coupling.offset));
+            let [q1, q2] = gear.coordinates.map(|k| q[k]);
+            self.residual.push(q2 - ratio * q1 - R::splat(gear.offset));
         }
         self.n_free = self.rows.len();
         for (slot, limit) in set.limits.iter().enumerate() {
@@ -338,12 +338,12 @@ impl<R: Real> Constraints<R> {
                 dim,
                 coefficient,
                 slides,
-                grip: ContactMode::Stick,
+                mode: ContactMode::Stick,
                 direction: [R::zero(); 2],
-                give: None,
+                compliance: None,
             };
             if slides {
-                group.grip = ContactMode::Slip;
+                group.mode = ContactMode::Slip;
                 let (direction, speed) = self.direction_against(first, dim, v, self.memory.direction(slot, g));
                 group.direction = self.memory.set_direction(slot, g, direction);
                 if dim == 2 {
@@ -382,7 +382,7 @@ impl<R: Real> Constraints<R> {
         self.rows[i] = one.combined(&two, -d[0], -d[1]);
         self.rows[j] = one.combined(&two, d[1], -d[0]);
         group.direction = [-R::one(), R::zero()];
-        group.give = Some(speed);
+        group.compliance = Some(speed);
     }
 
     /// Compliance across the sliding direction of groups that slide so slowly that friction can turn their velocity
@@ -393,12 +393,12 @@ impl<R: Real> Constraints<R> {
         for block in &mut self.blocks {
             let normal = self.lambda[block.row];
             for group in block.groups.iter_mut().flatten() {
-                let Some(speed) = group.give else { continue };
+                let Some(speed) = group.compliance else { continue };
                 let limit = R::splat(group.coefficient) * normal;
                 let across = group.row + 1;
                 let reach = R::splat(h) * limit * self.a[across * m + across];
                 let slow = normal.lane(0) > 0.0 && speed.lane(0) < reach.lane(0);
-                group.give = slow.then(|| speed / (R::splat(h) * limit));
+                group.compliance = slow.then(|| speed / (R::splat(h) * limit));
             }
         }
     }

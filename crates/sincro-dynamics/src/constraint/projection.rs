@@ -30,7 +30,7 @@ impl Constraints<f64> {
         for block in self.blocks.iter().filter(holds) {
             keep.push(block.row);
             for group in block.groups.iter().flatten() {
-                if sticking && group.grip == ContactMode::Stick {
+                if sticking && group.mode == ContactMode::Stick {
                     keep.extend(group.row..group.row + group.dim);
                 }
             }

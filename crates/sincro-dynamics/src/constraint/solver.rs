@@ -172,7 +172,7 @@ impl<R: Real> Solver<R> {
                 continue;
             }
             for (g, group) in block.groups.iter().enumerate() {
-                let Some(group) = group.filter(|g| !g.slides && g.grip == ContactMode::Slip) else { continue };
+                let Some(group) = group.filter(|g| !g.slides && g.mode == ContactMode::Slip) else { continue };
                 let rate = rates[group.row..group.row + group.dim].iter().map(|r| r.lane(0).abs()).fold(0.0, f64::max);
                 block.effect |= u8::from(rate > small) << (g + 1);
             }
@@ -194,7 +194,7 @@ impl<R: Real> Solver<R> {
                 let w = pair(group, &self.active_set.rates);
                 let d = group.direction.map(|d| d.lane(0));
                 // a sticking group has no rate, a slipping one none but against its force
-                worst = worst.max(match group.grip {
+                worst = worst.max(match group.mode {
                     ContactMode::Stick => norm(w),
                     ContactMode::Slip => (w[0] * d[1] - w[1] * d[0]).abs().max(w[0] * d[0] + w[1] * d[1]),
                 });
@@ -272,7 +272,7 @@ fn update_friction_mode<R: Real>(
     let limit = group.coefficient * normal;
     let (force, rate) = (pair(group, lambda), pair(group, rates));
     let (size, speed) = (norm(force), norm(rate));
-    if group.grip == ContactMode::Stick {
+    if group.mode == ContactMode::Stick {
         if size > limit + small.force {
             group.slip(force.map(|x| R::splat(x / size)), None);
             return true;
@@ -283,7 +283,7 @@ fn update_friction_mode<R: Real>(
         // at its limit without a rate; a direction that can turn must not have turned beyond the limit
         let beyond = size > limit + small.force;
         // and a compliant direction must not creep
-        let creeps = group.give.is_some() && speed > small.none && size > 0.0;
+        let creeps = group.compliance.is_some() && speed > small.none && size > 0.0;
         if beyond || creeps {
             group.slip(force.map(|x| R::splat(x / size)), None);
         }
@@ -299,8 +299,8 @@ fn update_friction_mode<R: Real>(
     if turned <= SLACK * speed {
         return false;
     }
-    let give = R::splat(speed / limit.max(f64::MIN_POSITIVE));
-    group.slip(rate.map(|x| R::splat(-x / speed)), Some(give));
+    let compliance = R::splat(speed / limit.max(f64::MIN_POSITIVE));
+    group.slip(rate.map(|x| R::splat(-x / speed)), Some(compliance));
     true
 }
 

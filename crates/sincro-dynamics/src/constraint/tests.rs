@@ -27,9 +27,9 @@ fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstra
         dim: 2,
         coefficient: friction,
         slides: false,
-        grip: ContactMode::Stick,
+        mode: ContactMode::Stick,
         direction: [0.0; 2],
-        give: None,
+        compliance: None,
     };
     let block = |k: usize| {
         let row = n_free + 3 * k;

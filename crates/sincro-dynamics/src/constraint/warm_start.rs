@@ -146,7 +146,7 @@ impl<R: Real> WarmStart<R> {
                 let Some(group) = group else { continue };
                 let first = [1, 3, 5][g];
                 kept[first..first + group.dim].copy_from_slice(&lambda[group.row..group.row + group.dim]);
-                if group.grip == ContactMode::Slip && !block.open {
+                if group.mode == ContactMode::Slip && !block.open {
                     code += 2 << g;
                 }
             }

@@ -1,4 +1,4 @@
-//! Constraints of a model as they are declared: loop joints, couplings, joint limits, colliders and their pairs.
+//! Constraints of a model as they are declared: loop joints, gears, joint limits, colliders and their pairs.
 
 use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;

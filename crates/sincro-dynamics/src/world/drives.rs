@@ -30,7 +30,7 @@ impl World {
         }
         self.reach_target_velocities();
         if self.is_constrained() {
-            // the jump goes through closures and contacts too
+            // the jump propagates through loop joints and contacts too
             self.apply_impact();
             self.resolve_impacts();
         }

@@ -166,11 +166,11 @@ impl Observation<'_> {
     pub fn residual(&self, k: usize) -> f64 {
         let set = self.model().constraints();
         match set.loop_joints.get(k) {
-            Some(closure) => closure.residual(self.scratch()).0,
+            Some(joint) => joint.residual(self.scratch()).0,
             None => {
-                let coupling = &set.gears[k - set.loop_joints.len()];
-                let [q1, q2] = coupling.coordinates.map(|k| self.state.q[k]);
-                (q2 - coupling.ratio * q1 - coupling.offset).abs()
+                let gear = &set.gears[k - set.loop_joints.len()];
+                let [q1, q2] = gear.coordinates.map(|k| self.state.q[k]);
+                (q2 - gear.ratio * q1 - gear.offset).abs()
             }
         }
     }

@@ -59,10 +59,10 @@ impl World {
     ///
     /// # Panics
     ///
-    /// If there is no such coupling.
+    /// If there is no such gear.
     pub fn set_gear(&mut self, k: usize, ratio: f64, offset: f64) {
-        let coupling = &mut Arc::make_mut(&mut self.mechanism.model.constraints).gears[k];
-        (coupling.ratio, coupling.offset) = (ratio, offset);
+        let gear = &mut Arc::make_mut(&mut self.mechanism.model.constraints).gears[k];
+        (gear.ratio, gear.offset) = (ratio, offset);
     }
 
     /// Sets the contact law of a pair of surfaces, or ignores the pair from now on. A contact stores nothing: an
