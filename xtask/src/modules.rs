@@ -1,4 +1,5 @@
-//! Imports among the top-level modules of a crate, measured from the source text of non-test code, and the cycles among them.
+//! Imports among the top-level modules of a crate, measured from the source text of non-test code, and the cycles among
+//! them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
