@@ -14,11 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("motor");
     // a step of the controller is one base step of the experiment
     let mut session = serve::open(&scene, &[], Some(0.005))?;
-    let hinge = session.table().find("/hinge", Search::default())?;
+    let hinge = session.registry().find("/hinge", Search::default())?;
     session.start()?;
     let weight = 1.0 * 9.81 * 0.25;
     while session.t() < 3.0 {
-        let mut objects = session.desk();
+        let mut objects = session.sim();
         let (angle, velocity) = (objects.joint_position(hinge)?, objects.joint_velocity(hinge)?);
         // the sine of the library has the same bits on every platform
         let (sin, _) = sin_cos(angle);
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         session.step()?;
     }
-    let angle = session.desk().joint_position(hinge)?;
+    let angle = session.sim().joint_position(hinge)?;
     println!("control error after 3 s: {:.1e} rad", (SETPOINT - angle).abs());
     session.stop()?;
     Ok(())

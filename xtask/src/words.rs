@@ -12,9 +12,6 @@ const UNCONVERTED: &[&str] = &[
     "crates/sincro-scene",
     "crates/sincro-sim",
     "crates/sincro-analysis",
-    "crates/sincro-coppelia",
-    "crates/sincro-lua",
-    "crates/sincro-remote",
     "crates/sincro-viewer",
     "tests",
 ];
@@ -39,6 +36,8 @@ const fn retired(word: &'static str, standard: &'static str, owners: &'static [&
 
 const DYNAMICS: &[&str] = &["sincro-dynamics"];
 const SIM: &[&str] = &["sincro-sim", "sincro-scene", "sincro-coppelia"];
+const COPPELIA: &[&str] = &["sincro-coppelia"];
+const LUA: &[&str] = &["sincro-lua"];
 const REMOTE: &[&str] = &["sincro-remote"];
 const VIEWER: &[&str] = &["sincro-viewer"];
 
@@ -56,10 +55,21 @@ const RETIRED: &[Retired] = &[
     retired("look_around", "update_proximity_sensors", SIM),
     retired("Eye", "ProximitySensor", SIM),
     retired("Sighting", "Detection", SIM),
-    retired("Desk", "SimApi", SIM),
-    retired("Refusal", "ApiError", SIM),
+    retired("Desk", "SimApi", COPPELIA),
+    retired("desk", "sim", COPPELIA),
+    retired("Refusal", "ApiError", COPPELIA),
+    retired("Unplannable", "PlanError", COPPELIA),
+    retired("Nearness", "DistanceResult", COPPELIA),
+    retired("Studio", "DrawingBuffers", COPPELIA),
     retired("Tape", "Trajectory", SIM),
     retired("Floor", "SessionGuard", REMOTE),
+    retired("Door", "Endpoint", REMOTE),
+    retired("door", "endpoint", REMOTE),
+    retired("Said", "CallOutcome", REMOTE),
+    retired("let_silent_go", "release_silent_clients", REMOTE),
+    retired("pass_on", "forward_events", REMOTE),
+    retired("Doom", "StopReason", LUA),
+    retired("Shelf", "ApiContext", LUA),
     retired("Film", "Replay", VIEWER),
     retired("Reel", "Trajectory", VIEWER),
     retired("doors", "adapters", &[]),

@@ -1,4 +1,5 @@
-//! What clients change of the model: the run is that of a scene which says so, the balance of energy holds, and nothing is left behind.
+//! Changes of the model by clients: the run is that of a scene which says so, the balance of energy holds, and nothing
+//! is left behind.
 
 use std::path::Path;
 
@@ -77,9 +78,9 @@ fn session(name: &str, set: &[(&str, &str)]) -> Session {
 }
 
 fn call(session: &mut Session, name: &str, object: &str, more: &[Value]) -> Result<Vec<Value>, String> {
-    let handle = session.desk().table.find(object, Search::default()).unwrap();
+    let handle = session.sim().registry.find(object, Search::default()).unwrap();
     let arguments = [&[Value::from(handle)], more].concat();
-    session.call(name, &arguments).map_err(|refusal| refusal.to_string())
+    session.call(name, &arguments).map_err(|error| error.to_string())
 }
 
 fn run(session: &mut Session) -> Simulated {
@@ -177,7 +178,7 @@ fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
     call(&mut changed, "sim.setJointInterval", "/hinge", &interval(-0.5, 1.25)).unwrap();
     let got = call(&mut changed, "sim.getJointInterval", "/hinge", &[]).unwrap();
     assert_eq!(got, [Value::Bool(false), Value::reals([-0.5, 1.25])]);
-    let hinge = Value::from(changed.desk().table.find("/hinge", Search::default()).unwrap());
+    let hinge = Value::from(changed.sim().registry.find("/hinge", Search::default()).unwrap());
     call(&mut changed, "sim.setJointDependency", "/follower", &[hinge.clone(), Value::Real(0.25), Value::Real(3.0)])
         .unwrap();
     assert_eq!(call(&mut changed, "sim.getJointPosition", "/follower", &[]), Ok(vec![Value::Real(1.75)]));

@@ -17,7 +17,7 @@ fn at_rest(limits: Limits, way: f64) -> Profile {
     alone(Point::default(), limits, Goal::Position(way, 0.0))
 }
 
-/// What a judge says that the fastest motion takes `[s]`.
+/// Duration of the fastest motion according to the reference library `[s]`.
 fn judged(axes: &[Axis], synchronization: judge::Synchronization) -> Option<f64> {
     let n = axes.len();
     let mut input = judge::InputParameter::<0>::new(Some(n));
@@ -137,7 +137,8 @@ fn cube_root(x: f64) -> f64 {
     sincro_math::elementary::pow(x, 1.0 / 3.0).0
 }
 
-/// Closed form of the fastest motion from rest to rest over a way, alike both ways: seven pieces, of which some may have no duration.
+/// Closed form of the fastest motion from rest to rest over a way, alike both ways: seven pieces, of which some may
+/// have no duration.
 fn seven_pieces(way: f64, v: f64, a: f64, j: f64) -> f64 {
     // peak of the velocity if it is not limited: with and without the largest acceleration held
     let triangles = cube_root(way / (2.0 * j));
@@ -274,8 +275,8 @@ proptest! {
             prop_assert!(waits || (profile.duration() - t).abs() < 1e-9, "{} {t} {axis:?}", profile.duration());
         }
         if let Some(judged) = judged(&axes, judge::Synchronization::Time) {
-            // where arriving together is possible at a few times only, ours is not always the first of them: 3 of 1000 of these are later, of
-            // other seeds one of 15 000 by a quarter
+            // where arriving together is possible at a few times only, ours is not always the first of them: 3 of 1000
+            // of these are later, of other seeds one of 15 000 by a quarter
             prop_assert!(t > judged * (1.0 - 1e-6) && t < 1.1 * judged, "{t} {judged}");
         }
     }

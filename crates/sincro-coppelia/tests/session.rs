@@ -71,7 +71,7 @@ fn arm(name: &str) -> Session {
 }
 
 fn find(session: &mut Session, name: &str) -> Handle {
-    session.desk().table.find(name, Search::default()).unwrap()
+    session.sim().registry.find(name, Search::default()).unwrap()
 }
 
 #[test]
@@ -100,25 +100,25 @@ fn a_session_without_clients_is_the_run_of_its_scene() {
 fn an_arm_that_is_held_reports_minus_the_effort_of_its_motors() {
     let mut arm = arm("held");
     let [joint1, joint2] = ["joint1", "joint2#"].map(|name| find(&mut arm, name));
-    assert_eq!(arm.desk().joint_force(joint1).unwrap(), None);
+    assert_eq!(arm.sim().joint_force(joint1).unwrap(), None);
     arm.start().unwrap();
-    assert_eq!((arm.t(), arm.desk().simulation_state()), (0.0, 16));
+    assert_eq!((arm.t(), arm.sim().simulation_state()), (0.0, 16));
     arm.step().unwrap();
-    assert_eq!((arm.t(), arm.desk().simulation_state()), (0.05, 17));
+    assert_eq!((arm.t(), arm.sim().simulation_state()), (0.05, 17));
     // measured on CoppeliaSim, both engines: −9.810 and −2.452 N·m; gravity alone: m·g·(0.25 + 0.75), m·g·0.25
-    let forces = [joint1, joint2].map(|joint| arm.desk().joint_force(joint).unwrap().unwrap());
+    let forces = [joint1, joint2].map(|joint| arm.sim().joint_force(joint).unwrap().unwrap());
     assert!((forces[0] + 9.81).abs() < 1e-9 && (forces[1] + 2.4525).abs() < 1e-9, "{forces:?}");
-    arm.desk().set_target_velocity(joint1, 1.0).unwrap();
+    arm.sim().set_target_velocity(joint1, 1.0).unwrap();
     arm.step().unwrap();
-    assert!((arm.desk().joint_position(joint1).unwrap() - 0.05).abs() < 1e-12);
+    assert!((arm.sim().joint_position(joint1).unwrap() - 0.05).abs() < 1e-12);
     let link2 = find(&mut arm, "link2");
-    let (_, angular) = arm.desk().velocity(link2).unwrap();
+    let (_, angular) = arm.sim().velocity(link2).unwrap();
     assert!((angular[1] + 1.0).abs() < 1e-12, "plain angular velocity of the world: {angular:?}");
     arm.stop().unwrap();
-    assert_eq!(arm.desk().joint_position(joint1).unwrap(), 0.0);
+    assert_eq!(arm.sim().joint_position(joint1).unwrap(), 0.0);
     arm.start().unwrap();
     arm.step().unwrap();
-    assert_eq!(arm.desk().joint_position(joint1).unwrap(), 0.0, "the first run's target is forgotten");
+    assert_eq!(arm.sim().joint_position(joint1).unwrap(), 0.0, "the first run's target is forgotten");
 }
 
 #[test]
@@ -141,12 +141,12 @@ fn objects_are_found_by_old_names_and_by_paths() {
         "./x",
         "/a[99999999999999999999]",
     ] {
-        assert!(arm.desk().table.find(missing, Search::default()).is_err(), "{missing}");
+        assert!(arm.sim().registry.find(missing, Search::default()).is_err(), "{missing}");
     }
-    let message = arm.desk().table.find("/joimt2", Search::default()).unwrap_err().0;
+    let message = arm.sim().registry.find("/joimt2", Search::default()).unwrap_err().0;
     assert!(message.contains("did you mean `joint2`"), "{message}");
     let search = Search { index: 1, ..Search::default() };
-    let second = arm.desk().table.find("/joint*", search).unwrap();
+    let second = arm.sim().registry.find("/joint*", search).unwrap();
     assert_eq!(second, joint2);
 }
 
@@ -176,16 +176,16 @@ fn poses_follow_the_conventions_of_vrep() {
 fn a_push_lasts_one_step_and_does_its_work() {
     let mut arm = arm("push");
     let ball = find(&mut arm, "ball");
-    assert!(arm.desk().add_force_and_torque(ball, [1.0; 3], [0.0; 3]).is_err(), "nothing runs");
+    assert!(arm.sim().add_force_and_torque(ball, [1.0; 3], [0.0; 3]).is_err(), "nothing runs");
     arm.start().unwrap();
-    let mass = arm.desk().mass(ball).unwrap().mass;
-    arm.desk().add_force_and_torque(ball, [0.0, 0.0, mass * 9.81], [0.0; 3]).unwrap();
-    arm.desk().add_force_and_torque(ball, [mass * 2.0, 0.0, 0.0], [0.0; 3]).unwrap();
+    let mass = arm.sim().mass(ball).unwrap().mass;
+    arm.sim().add_force_and_torque(ball, [0.0, 0.0, mass * 9.81], [0.0; 3]).unwrap();
+    arm.sim().add_force_and_torque(ball, [mass * 2.0, 0.0, 0.0], [0.0; 3]).unwrap();
     arm.step().unwrap();
-    let v = arm.desk().velocity(ball).unwrap().0;
+    let v = arm.sim().velocity(ball).unwrap().0;
     assert!((v[0] - 0.1).abs() < 1e-12 && v[2].abs() < 1e-12, "{v:?}");
     arm.step().unwrap();
-    let v = arm.desk().velocity(ball).unwrap().0;
+    let v = arm.sim().velocity(ball).unwrap().0;
     assert!((v[0] - 0.1).abs() < 1e-12 && (v[2] + 9.81 * 0.05).abs() < 1e-12, "{v:?}");
     arm.stop().unwrap();
     let finished = arm.take_finished().pop().unwrap().simulated;
@@ -219,37 +219,37 @@ fn modes_and_limits_of_motors_can_be_changed() {
     let mut arm = arm("modes");
     let joint2 = find(&mut arm, "joint2");
     arm.start().unwrap();
-    arm.desk().set_joint_mode(joint2, MotorMode::Free).unwrap();
+    arm.sim().set_joint_mode(joint2, MotorMode::Free).unwrap();
     arm.step().unwrap();
-    let falling = arm.desk().joint_velocity(joint2).unwrap();
+    let falling = arm.sim().joint_velocity(joint2).unwrap();
     assert!(falling < -0.1, "about −y a link along x falls with negative velocity: {falling}");
-    arm.desk().set_joint_mode(joint2, MotorMode::Position).unwrap();
-    arm.desk().set_target_position(joint2, 0.3).unwrap();
+    arm.sim().set_joint_mode(joint2, MotorMode::Position).unwrap();
+    arm.sim().set_target_position(joint2, 0.3).unwrap();
     for _ in 0..40 {
         arm.step().unwrap();
     }
-    assert!((arm.desk().joint_position(joint2).unwrap() - 0.3).abs() < 1e-6);
-    arm.desk().set_target_force(joint2, 0.1, true).unwrap();
+    assert!((arm.sim().joint_position(joint2).unwrap() - 0.3).abs() < 1e-6);
+    arm.sim().set_target_force(joint2, 0.1, true).unwrap();
     arm.step().unwrap();
-    let force = arm.desk().joint_force(joint2).unwrap().unwrap();
+    let force = arm.sim().joint_force(joint2).unwrap().unwrap();
     assert!((force + 0.1).abs() < 1e-9, "too weak to hold: {force}");
     let link1 = find(&mut arm, "link1");
-    assert!(arm.desk().set_target_velocity(link1, 1.0).is_err());
-    assert!(arm.desk().set_target_velocity(joint2, f64::NAN).is_err());
+    assert!(arm.sim().set_target_velocity(link1, 1.0).is_err());
+    assert!(arm.sim().set_target_velocity(joint2, f64::NAN).is_err());
 }
 
 #[test]
 fn points_are_made_hung_and_removed() {
     let mut arm = arm("points");
     let tip = find(&mut arm, "tip");
-    let dummy = arm.desk().table.create_dummy("Dummy").unwrap();
-    arm.desk().set_parent(dummy, Some(tip), false).unwrap();
-    assert_eq!(arm.desk().pose(dummy, Reference::World).unwrap().pos.0, [1.0, 0.0, 0.0]);
-    assert_eq!(arm.desk().table.entry(dummy).unwrap().path, "/joint1/link1/joint2/link2/tip/Dummy");
-    assert!(arm.desk().set_parent(tip, Some(dummy), true).is_err());
-    assert!(arm.desk().table.remove(tip).is_err());
-    arm.desk().table.remove(dummy).unwrap();
-    assert!(arm.desk().pose(dummy, Reference::World).is_err());
+    let dummy = arm.sim().registry.create_dummy("Dummy").unwrap();
+    arm.sim().set_parent(dummy, Some(tip), false).unwrap();
+    assert_eq!(arm.sim().pose(dummy, Reference::World).unwrap().pos.0, [1.0, 0.0, 0.0]);
+    assert_eq!(arm.sim().registry.entry(dummy).unwrap().path, "/joint1/link1/joint2/link2/tip/Dummy");
+    assert!(arm.sim().set_parent(tip, Some(dummy), true).is_err());
+    assert!(arm.sim().registry.remove(tip).is_err());
+    arm.sim().registry.remove(dummy).unwrap();
+    assert!(arm.sim().pose(dummy, Reference::World).is_err());
 }
 
 #[test]

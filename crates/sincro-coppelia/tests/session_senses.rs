@@ -1,4 +1,4 @@
-//! What clients and scripts find out with proximity sensors, distances and collections, and of shapes that they make: by name, as they call it.
+//! Proximity sensors, distances, collections and runtime shapes, called by name as clients do.
 
 use std::path::Path;
 
@@ -56,7 +56,7 @@ fn session(name: &str) -> Session {
 }
 
 fn call(session: &mut Session, name: &str, arguments: &[Value]) -> Vec<Value> {
-    session.call(name, arguments).unwrap_or_else(|refusal| panic!("{name}: {refusal}"))
+    session.call(name, arguments).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn refused(session: &mut Session, name: &str, arguments: &[Value]) -> String {

@@ -62,11 +62,11 @@ fn open(name: &str) -> Session {
 }
 
 fn find(session: &mut Session, name: &str) -> Value {
-    session.desk().table.find(name, Search::default()).unwrap().into()
+    session.sim().registry.find(name, Search::default()).unwrap().into()
 }
 
 fn call(session: &mut Session, name: &str, arguments: &[Value]) -> Vec<Value> {
-    session.call(name, arguments).unwrap_or_else(|refusal| panic!("{name}: {refusal}"))
+    session.call(name, arguments).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn refused(session: &mut Session, name: &str, arguments: &[Value]) -> String {
@@ -443,7 +443,7 @@ fn the_sensor_of_the_example_scene_has_a_handle_that_is_its_own() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/camera-stream");
     let mut session = Session::open(&folder, &[], Extensions::default(), None).unwrap();
     let handles = ["/VisionSensor", "/PassiveVisionSensor"]
-        .map(|name| session.desk().table.find(name, Search::default()).unwrap());
-    assert_eq!(session.desk().objects_of_type(9), handles);
+        .map(|name| session.sim().registry.find(name, Search::default()).unwrap());
+    assert_eq!(session.sim().objects_of_type(9), handles);
     assert_eq!(handles, [Handle(1), Handle(2)]);
 }

@@ -1,4 +1,4 @@
-//! What a call of a script costs beside the world's step: `cargo run --release -p sincro-lua --example actuation_cost`.
+//! Cost of a call of a script beside the world's step: `cargo run --release -p sincro-lua --example actuation_cost`.
 
 use std::path::Path;
 use std::time::Instant;

@@ -1,12 +1,12 @@
 //! `sysCall_joint`: a script on a joint says at each step how fast its motor is to be, and with what force.
 
 use mlua::{Error, Function, Lua, MultiValue, Table, Value};
-use sincro_coppelia::session::{Desk, Refusal};
+use sincro_coppelia::session::{ApiError, SimApi};
 use sincro_dynamics::joint::JointKind;
 
 use crate::shared::{Shared, handle_of};
 
-/// What the function is told of its joint.
+/// Arguments of the callback of a joint.
 struct Seen {
     handle: i32,
     is_revolute: bool,
@@ -20,24 +20,24 @@ struct Seen {
     effort: f64,
 }
 
-fn look(desk: &mut Desk<'_>) -> Result<Seen, Refusal> {
-    let own = desk.own.ok_or_else(|| Refusal::new("no script calls"))?;
-    let joint = desk.table.joint(own)?.clone();
+fn look(sim: &mut SimApi<'_>) -> Result<Seen, ApiError> {
+    let own = sim.own.ok_or_else(|| ApiError::new("no script calls"))?;
+    let joint = sim.registry.joint(own)?.clone();
     if joint.motor.is_none() {
-        return Err(Refusal::new("sysCall_joint needs a joint with a motor: give it one in the scene"));
+        return Err(ApiError::new("sysCall_joint needs a joint with a motor: give it one in the scene"));
     }
-    let (is_cyclic, interval) = desk.joint_interval(own)?;
+    let (is_cyclic, interval) = sim.joint_interval(own)?;
     Ok(Seen {
         handle: own.0,
         is_revolute: matches!(joint.kind, JointKind::Revolute { .. }),
         is_cyclic,
         interval,
-        position: desk.joint_position(own)?,
-        velocity: desk.joint_velocity(own)?,
-        target_position: desk.target_position(own)?,
-        target_velocity: desk.target_velocity(own)?,
-        max_force: desk.target_force(own)?,
-        effort: desk.joint_force(own)?.unwrap_or(0.0),
+        position: sim.joint_position(own)?,
+        velocity: sim.joint_velocity(own)?,
+        target_position: sim.target_position(own)?,
+        target_velocity: sim.target_velocity(own)?,
+        max_force: sim.target_force(own)?,
+        effort: sim.joint_force(own)?.unwrap_or(0.0),
     })
 }
 
@@ -50,14 +50,14 @@ pub(crate) fn joint(
     (step, is_first): (f64, bool),
 ) -> mlua::Result<()> {
     let own = handle_of(&shared.scripts[index]);
-    let told = |Refusal(message): Refusal| Error::RuntimeError(format!("{message} (in function 'sysCall_joint')"));
-    let seen = shared.with_desk(own, look).map_err(told)?;
+    let told = |ApiError(message): ApiError| Error::RuntimeError(format!("{message} (in function 'sysCall_joint')"));
+    let seen = shared.with_sim(own, look).map_err(told)?;
     let answer: MultiValue = function.call(table_of(lua, &seen, step, is_first)?)?;
     let (velocity, force) = answer_of(&answer)?;
     shared
-        .with_desk(own, |desk| {
-            velocity.map_or(Ok(()), |velocity| desk.set_target_velocity(own, velocity))?;
-            force.map_or(Ok(()), |force| desk.set_target_force(own, force, true))
+        .with_sim(own, |sim| {
+            velocity.map_or(Ok(()), |velocity| sim.set_target_velocity(own, velocity))?;
+            force.map_or(Ok(()), |force| sim.set_target_force(own, force, true))
         })
         .map_err(told)
 }

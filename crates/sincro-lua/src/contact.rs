@@ -1,4 +1,5 @@
-//! `sysCall_contact`: a script says of two bodies that may come to touch whether they collide in the coming step, and with what friction.
+//! `sysCall_contact`: a script says of two bodies that may come to touch whether they collide in the coming step, and
+//! with what friction.
 
 use mlua::{Error, Function, Lua, Table, Value};
 use sincro_coppelia::session::{Answer, Handle};
@@ -8,7 +9,8 @@ use crate::shared::{Shared, handle_of};
 /// The engine that scripts are told: the number that `sim.getInt32Param(8)` gives.
 const ENGINE: i64 = 4;
 
-/// Calls the function and does what it says; whether it said anything: it may leave the pair to others (`ignoreContact`, or nothing given).
+/// Calls the function and does what it says; whether it said anything: it may leave the pair to others
+/// (`ignoreContact`, or nothing given).
 pub(crate) fn ask(
     lua: &Lua,
     shared: &Shared,
@@ -28,7 +30,7 @@ pub(crate) fn ask(
     let (friction, restitution) = coefficients(&given)?;
     let answer = Answer { passes, friction, restitution };
     let own = handle_of(&shared.scripts[index]);
-    shared.with_desk(own, |desk| desk.answer(bodies, answer)).map_err(|refusal| wrong(refusal.0))?;
+    shared.with_sim(own, |sim| sim.answer(bodies, answer)).map_err(|error| wrong(error.0))?;
     Ok(true)
 }
 

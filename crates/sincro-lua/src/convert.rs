@@ -1,4 +1,5 @@
-//! Values between Lua and the session: lists are tables 1 … n, maps are tables with names, bytes and text are both strings.
+//! Values between Lua and the session: lists are tables 1 … n, maps are tables with names, bytes and text are both
+//! strings.
 
 use mlua::{Error, Lua, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::session::Value;
@@ -6,7 +7,8 @@ use sincro_coppelia::session::Value;
 /// Tables inside each other beyond which a value is refused: a table may hold itself.
 const MAX_DEPTH: usize = 64;
 
-/// Size beyond which values are refused together [bytes]: a table that is in a table many times is that many values here.
+/// Size beyond which values are refused together [bytes]: a table that is in a table many times is that many values
+/// here.
 const MAX_SIZE: usize = 256 << 20;
 
 /// From Lua; functions and the like have no value elsewhere.

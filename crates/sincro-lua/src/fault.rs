@@ -7,7 +7,7 @@ use sincro_scene::script::{Fault, Script};
 use crate::guard::Guard;
 use crate::sandbox::CHUNK;
 
-/// What an error says, without positions and tracebacks, and the innermost line of the script that it is about.
+/// Message of an error, without positions and tracebacks, and the innermost line of the script that it is about.
 pub(crate) fn words(error: &Error) -> (String, Option<usize>) {
     match error {
         Error::CallbackError { traceback, cause } => {
@@ -61,8 +61,8 @@ fn line_in(trace: &str) -> Option<usize> {
 /// The fault of a script.
 pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
     let (message, line) = words(error);
-    let line = if guard.is_doomed() { guard.line().or(line) } else { line };
-    let (message, help) = if guard.is_doomed() {
+    let line = if guard.is_stopped() { guard.line().or(line) } else { line };
+    let (message, help) = if guard.is_stopped() {
         (guard.words(), guard.help())
     } else if is_of_memory(error) {
         let message = format!("it took more than {} MiB of memory", script.max_memory >> 20);
@@ -92,7 +92,7 @@ fn is_of_memory(error: &Error) -> bool {
     }
 }
 
-/// How some messages of Lua are usually mended.
+/// Help for some messages of Lua.
 fn help(message: &str) -> Option<String> {
     let is_call = message.contains("call a nil value");
     let help = if is_call && (message.contains("(global 'sim") || message.contains("(field '")) {

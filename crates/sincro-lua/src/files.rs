@@ -1,5 +1,5 @@
-//! Files that a scene gives a script: read when the scene is loaded, so that a run depends on nothing that may change, and found by the names that
-//! stand in the scene. Without any, `io` is shut off whole.
+//! Files that a scene gives a script: read when the scene is loaded, so that a run depends on nothing that may change,
+//! and found by the names that stand in the scene. Without any, `io` is shut off whole.
 
 use mlua::{Function, Lua, Table};
 use sincro_scene::script::Script;

@@ -1,11 +1,12 @@
 //! Limits on one call of a script: instructions, wall-clock time, and the end of the program.
 //!
-//! Instructions are counted by a hook every [`EVERY`] of them: the same count on every machine, whatever its clock says. Library
-//! functions that do work of their own add it to the count ([`Guard::charge`]). The wall clock is a second line of defence, against work
-//! that neither sees (`..` of large strings, garbage collection): it is read by the hook and by charges.
+//! Instructions are counted by a hook every [`EVERY`] of them: the same count on every machine, whatever its clock
+//! says. Library functions that do work of their own add it to the count ([`Guard::charge`]). The wall clock is a
+//! second line of defence, against work that neither sees (`..` of large strings, garbage collection): it is read by
+//! the hook and by charges.
 //!
-//! Once a limit is reached the call is doomed: the hook then fires at each instruction, and `pcall`, `xpcall` and `coroutine.resume` of the
-//! sandbox fail when they are entered or left, so that no script can catch it and go on.
+//! Once a limit is reached the call is stopped: the hook then fires at each instruction, and `pcall`, `xpcall` and
+//! `coroutine.resume` of the sandbox fail when they are entered or left, so that no script can catch it and go on.
 
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -25,8 +26,8 @@ const SLICE: u64 = 1_000_000;
 /// Name under which the registry holds the thread that a script is.
 pub(crate) const THREAD: &str = "script thread";
 
-/// Wall-clock limit of one call `[s]`, for up to [`BUDGET_WITHIN_TIME_LIMIT`] instructions; more instructions have more time in proportion.
-/// A hundred million take about a second: the limit is reached by work that is not counted only.
+/// Wall-clock limit of one call `[s]`, for up to [`BUDGET_WITHIN_TIME_LIMIT`] instructions; more instructions have more
+/// time in proportion. A hundred million take about a second: the limit is reached by work that is not counted only.
 const TIME_LIMIT: f64 = 30.0;
 
 /// Instruction limit up to which [`TIME_LIMIT`] holds.
@@ -35,24 +36,26 @@ const BUDGET_WITHIN_TIME_LIMIT: u64 = 100_000_000;
 /// Set once, when the program ends.
 static IS_ABORTED: AtomicBool = AtomicBool::new(false);
 
-/// Ends every script that is running in this process, and every one that runs later, at its next check: within a thousand instructions.
+/// Ends every script that is running in this process, and every one that runs later, at its next check: within a
+/// thousand instructions.
 ///
-/// For a program that is asked to end (Ctrl-C) while a script computes. It may be called from a signal handler's thread, and cannot be undone.
+/// For a program that is asked to end (Ctrl-C) while a script computes. It may be called from a signal handler's
+/// thread, and cannot be undone.
 pub fn abort_running_scripts() {
     IS_ABORTED.store(true, Ordering::Relaxed);
 }
 
-/// Reason why a call is doomed.
+/// Reason why a call is stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-enum Doom {
+enum StopReason {
     None,
     Instructions,
     Time,
     Abort,
 }
 
-impl Doom {
+impl StopReason {
     fn of(number: u8) -> Self {
         [Self::None, Self::Instructions, Self::Time, Self::Abort][usize::from(number)]
     }
@@ -65,11 +68,12 @@ pub(crate) struct Guard {
     left: AtomicU64,
     slice: AtomicU64,
     time_limit: Duration,
-    /// End of the present call's time, on the clock of [`now`]; 0 until the call's first check, so that short calls read no clock.
+    /// End of the present call's time, on the clock of [`now`]; 0 until the call's first check, so that short calls
+    /// read no clock.
     deadline: AtomicU64,
-    doom: AtomicU8,
-    /// True once a call was doomed and the script went on: see [`Guard::was_doomed`].
-    was_doomed: AtomicBool,
+    stop_reason: AtomicU8,
+    /// True once a call was stopped and the script went on: see [`Guard::was_stopped`].
+    was_stopped: AtomicBool,
     is_in_thread: AtomicBool,
     switches_by_itself: AtomicBool,
     /// Line of the script that was running when the limit was reached; 0 if none is known.
@@ -100,8 +104,8 @@ impl Guard {
             slice: AtomicU64::new(0),
             time_limit,
             deadline: AtomicU64::new(0),
-            doom: AtomicU8::new(Doom::None as u8),
-            was_doomed: AtomicBool::new(false),
+            stop_reason: AtomicU8::new(StopReason::None as u8),
+            was_stopped: AtomicBool::new(false),
             is_in_thread: AtomicBool::new(false),
             switches_by_itself: AtomicBool::new(true),
             line: AtomicUsize::new(0),
@@ -127,19 +131,19 @@ impl Guard {
         self.is_in_thread.store(is_thread, Ordering::Relaxed);
     }
 
-    fn doom(&self) -> Doom {
-        Doom::of(self.doom.load(Ordering::Relaxed))
+    fn stop_reason(&self) -> StopReason {
+        StopReason::of(self.stop_reason.load(Ordering::Relaxed))
     }
 
     /// Returns true if a limit was reached.
-    pub fn is_doomed(&self) -> bool {
-        self.doom() != Doom::None
+    pub fn is_stopped(&self) -> bool {
+        self.stop_reason() != StopReason::None
     }
 
-    /// Returns true if any call of this Lua state was ever doomed. A coroutine that ended by an error of the hook has its hooks off for good:
-    /// what it has yet to close must not run.
-    pub fn was_doomed(&self) -> bool {
-        self.is_doomed() || self.was_doomed.load(Ordering::Relaxed)
+    /// Returns true if any call of this Lua state was ever stopped. A coroutine that ended by an error of the hook has
+    /// its hooks off for good: what it has yet to close must not run.
+    pub fn was_stopped(&self) -> bool {
+        self.is_stopped() || self.was_stopped.load(Ordering::Relaxed)
     }
 
     /// Sets whether threads that do not wait are made to, and returns what was set before.
@@ -154,47 +158,53 @@ impl Guard {
 
     /// Message of the limit that was reached.
     pub fn words(&self) -> String {
-        match self.doom() {
-            Doom::None | Doom::Instructions => format!("one call took more than {} instructions", self.budget),
-            Doom::Time => format!("one call took more than {} s", self.time_limit.as_secs_f64()),
-            Doom::Abort => "the program is being ended".to_owned(),
+        match self.stop_reason() {
+            StopReason::None | StopReason::Instructions => {
+                format!("one call took more than {} instructions", self.budget)
+            }
+            StopReason::Time => format!("one call took more than {} s", self.time_limit.as_secs_f64()),
+            StopReason::Abort => "the program is being ended".to_owned(),
         }
     }
 
     /// Help for the limit that was reached.
     pub fn help(&self) -> Option<String> {
-        let help = match self.doom() {
-            Doom::None | Doom::Instructions => {
+        let help = match self.stop_reason() {
+            StopReason::None | StopReason::Instructions => {
                 "look for a loop without end; a thread waits with sim.switchThread(), and `max_instructions` of the script raises the limit"
             }
-            Doom::Time => "look for a loop that makes large strings or tables again and again, or collects garbage",
-            Doom::Abort => return None,
+            StopReason::Time => {
+                "look for a loop that makes large strings or tables again and again, or collects garbage"
+            }
+            StopReason::Abort => return None,
         };
         Some(help.to_owned())
     }
 
     /// Fails once a limit was reached.
     pub fn check(&self) -> mlua::Result<()> {
-        if self.is_doomed() { Err(mlua::Error::RuntimeError(self.words())) } else { Ok(()) }
+        if self.is_stopped() { Err(mlua::Error::RuntimeError(self.words())) } else { Ok(()) }
     }
 
-    /// Adds the work of a library function to the count, before or while it is done; fails, and dooms the call, if that is more than is left.
+    /// Adds the work of a library function to the count, before or while it is done; fails, and stops the call, if that
+    /// is more than is left.
     pub fn charge(self: &Arc<Self>, lua: &Lua, instructions: u64) -> mlua::Result<()> {
         let left = self.left.load(Ordering::Relaxed);
         if left < instructions {
-            self.condemn(lua, Doom::Instructions)?;
+            self.stop(lua, StopReason::Instructions)?;
         }
         self.check()?;
         self.left.store(left - instructions, Ordering::Relaxed);
         self.check_clock(lua)
     }
 
-    /// Dooms the call if the program is being ended or the call's time is over; the first check of a call starts its time.
+    /// Stops the call if the program is being ended or the call's time is over; the first check of a call starts its
+    /// time.
     pub fn check_clock(self: &Arc<Self>, lua: &Lua) -> mlua::Result<()> {
         if IS_ABORTED.load(Ordering::Relaxed) {
-            self.condemn(lua, Doom::Abort)?;
+            self.stop(lua, StopReason::Abort)?;
         } else if self.is_late() {
-            self.condemn(lua, Doom::Time)?;
+            self.stop(lua, StopReason::Time)?;
         }
         self.check()
     }
@@ -218,8 +228,9 @@ impl Guard {
         result
     }
 
-    fn condemn(self: &Arc<Self>, lua: &Lua, why: Doom) -> mlua::Result<()> {
-        let first = self.doom.compare_exchange(Doom::None as u8, why as u8, Ordering::Relaxed, Ordering::Relaxed);
+    fn stop(self: &Arc<Self>, lua: &Lua, why: StopReason) -> mlua::Result<()> {
+        let first =
+            self.stop_reason.compare_exchange(StopReason::None as u8, why as u8, Ordering::Relaxed, Ordering::Relaxed);
         if first.is_ok() {
             self.line.store(line_of(lua), Ordering::Relaxed);
             self.watch(lua, 1)?;
@@ -230,7 +241,7 @@ impl Guard {
     /// Counts down; returns the thread's next state.
     fn count(self: &Arc<Self>, lua: &Lua) -> mlua::Result<VmState> {
         let every = u64::from(EVERY);
-        // once doomed the hook fires at every instruction: nothing to count
+        // once stopped the hook fires at every instruction: nothing to count
         if let Err(error) = self.check().and_then(|()| self.charge(lua, every)) {
             // what the error closes would run with hooks off
             library::disarm(lua)?;
@@ -255,14 +266,14 @@ impl Guard {
     }
 
     /// After a call from outside that reached the limit: it has failed, the script itself goes on.
-    pub fn forgive(self: &Arc<Self>, lua: &Lua) {
-        let doom = self.doom.swap(Doom::None as u8, Ordering::Relaxed);
-        if doom != Doom::None as u8 {
-            self.was_doomed.store(true, Ordering::Relaxed);
+    pub fn resume_script(self: &Arc<Self>, lua: &Lua) {
+        let stop_reason = self.stop_reason.swap(StopReason::None as u8, Ordering::Relaxed);
+        if stop_reason != StopReason::None as u8 {
+            self.was_stopped.store(true, Ordering::Relaxed);
             self.line.store(0, Ordering::Relaxed);
-            // without a count nothing would hold the script: then it stays doomed
+            // without a count nothing would hold the script: then it stays stopped
             if self.watch(lua, EVERY).and_then(|()| library::rearm(lua)).is_err() {
-                self.doom.store(doom, Ordering::Relaxed);
+                self.stop_reason.store(stop_reason, Ordering::Relaxed);
             }
         }
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sincro_coppelia::api_controller::ApiController;
 use sincro_coppelia::host::{Call, Host, Phase};
-use sincro_coppelia::session::{Handle, Refusal, Value};
+use sincro_coppelia::session::{ApiError, Handle, Value};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
@@ -20,8 +20,8 @@ use crate::machine::{self, Machine};
 use crate::shared::Shared;
 use crate::{api, fault, sandbox};
 
-/// How often one step may be held back: time stands still meanwhile, so that something else than time must let it go.
-const MOST_HELD: u32 = 1_000;
+/// Limit on how often one step may be held back; the simulation time does not advance meanwhile.
+const MAX_HELD: u32 = 1_000;
 
 /// Lua 5.4.
 #[derive(Debug)]
@@ -77,12 +77,12 @@ impl Host for Scripts {
         (object, kind): (Handle, Option<Kind>),
         function: &str,
         arguments: &[Value],
-    ) -> Result<Vec<Value>, Refusal> {
+    ) -> Result<Vec<Value>, ApiError> {
         let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
-        let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
+        let place = place.ok_or_else(|| ApiError::new("there is no script on that object"))?;
         self.lend(&mut call);
         let done = self.machines[place].call_function(function, arguments);
-        self.machines.iter().for_each(Machine::forgive);
+        self.machines.iter().for_each(Machine::resume_script);
         self.lend(&mut call);
         done
     }
@@ -92,12 +92,12 @@ impl Host for Scripts {
         mut call: Call<'_>,
         (object, kind): (Handle, Option<Kind>),
         text: &str,
-    ) -> Result<Vec<Value>, Refusal> {
+    ) -> Result<Vec<Value>, ApiError> {
         let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
-        let place = place.ok_or_else(|| Refusal::new("there is no script on that object"))?;
+        let place = place.ok_or_else(|| ApiError::new("there is no script on that object"))?;
         self.lend(&mut call);
         let done = self.machines[place].evaluate(text);
-        self.machines.iter().for_each(Machine::forgive);
+        self.machines.iter().for_each(Machine::resume_script);
         self.lend(&mut call);
         done
     }
@@ -112,7 +112,7 @@ impl Scripts {
     fn lend(&self, call: &mut Call<'_>) {
         let mut stage = self.shared.stage();
         std::mem::swap(&mut stage.world, call.world);
-        std::mem::swap(&mut stage.table, call.table);
+        std::mem::swap(&mut stage.registry, call.registry);
         stage.t = call.t;
     }
 
@@ -140,7 +140,7 @@ impl Scripts {
 
     /// Calls `sysCall_beforeMainScript` again and again while a script holds the step back.
     fn wait_for_main(&mut self) -> Result<(), Fault> {
-        for _ in 0..MOST_HELD {
+        for _ in 0..MAX_HELD {
             let mut holder = None;
             for (k, machine) in self.machines.iter_mut().enumerate() {
                 if machine.call_before_main()? {
@@ -151,15 +151,16 @@ impl Scripts {
             self.machines[k].refill();
             self.holder = k;
         }
-        Err(self.machines[self.holder].holds_back(MOST_HELD))
+        Err(self.machines[self.holder].holds_back(MAX_HELD))
     }
 
-    /// Asks `sysCall_contact` of each script in turn about each pair that may come to touch: the first that does not leave it to others decides.
+    /// Asks `sysCall_contact` of each script in turn about each pair that may come to touch: the first that does not
+    /// leave it to others decides.
     fn decide_contacts(&mut self) -> Result<(), Fault> {
         let Some(first) = self.machines.iter().position(Machine::has_contact) else { return Ok(()) };
         let own = crate::shared::handle_of(&self.shared.scripts[first]);
         // a table is there while scripts are called
-        let near = self.shared.with_desk(own, |desk| Ok(desk.near_bodies())).unwrap_or_default();
+        let near = self.shared.with_sim(own, |sim| Ok(sim.near_bodies())).unwrap_or_default();
         for bodies in near {
             for machine in self.machines.iter_mut().filter(|m| m.has_contact()) {
                 if machine.call_contact(bodies)? {

@@ -1,7 +1,7 @@
 //! A law in Lua, for a block of a diagram: `output(t, u, memory)` and `update(t, u, memory)`.
 //!
-//! What the text sets while it is read stays; after that no global can be made, so that a law keeps what it remembers in `memory`, where
-//! snapshots find it. Each instance has a Lua state of its own.
+//! What the text sets while it is read stays; after that no global can be made, so that a law keeps what it remembers
+//! in `memory`, where snapshots find it. Each instance has a Lua state of its own.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,6 +1,7 @@
 //! The words of a Lua text, as far as [`crate::power`] needs them: where each begins and ends, and what sort it is.
 //!
-//! Source: Lua 5.4 reference manual, §3.1. A text that is no Lua is cut up somehow; the compiler says what is wrong with it.
+//! Source: Lua 5.4 reference manual, §3.1. A text that is no Lua is cut up somehow; the compiler says what is wrong
+//! with it.
 
 use std::ops::Range;
 

@@ -1,9 +1,15 @@
-//! Adapter: scripts in Lua as controllers.
+//! Lua 5.4 scripts as controllers: adapter of the language to the script host of [`sincro_coppelia`].
 //!
-//! Child scripts of V-REP and CoppeliaSim run inside the step, in both styles, shut off from everything but the simulation, with limits
-//! on memory and instructions. [`engine`] is given to whoever loads a scene; everything else is in the scene (`[[script]]`, docs/lua.md).
+//! Child scripts of V-REP and CoppeliaSim run inside the step, threaded or not, in a sandbox that reaches only the
+//! simulation, with limits on memory, instructions and time. [`engine`] is an argument of [`sincro_sim::load`]; the
+//! scripts are in the scene (`[[script]]`, docs/lua.md).
 //!
-//! `sandbox.rs` is what a script finds, `library/` the functions of Lua's libraries that need limits of their own, `guard.rs` the limits, `api/` the functions of `sim`, `machine.rs` how one script is called, `host.rs` all of them.
+//! | modules | hold |
+//! |---|---|
+//! | `sandbox`, `library` | the environment of a script, and the functions of Lua's libraries with limits of their own |
+//! | `guard` | the limits of a call |
+//! | `api` | the functions of `sim` and `simIK` |
+//! | `machine`, `host` | the Lua state of one script, and the scripts of a run |
 
 mod api;
 mod callback;

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
 use sincro_coppelia::host::Phase;
-use sincro_coppelia::session::{self, Handle, Refusal};
+use sincro_coppelia::session::{self, ApiError, Handle};
 use sincro_scene::script::{Fault, Kind, Script, Style};
 
 use crate::guard::{Guard, THREAD};
@@ -50,7 +50,7 @@ pub(crate) struct Machine {
     style: Style,
     entries: Entries,
     thread: Option<Thread>,
-    /// Whether `sysCall_joint` has been called.
+    /// True if `sysCall_joint` has been called.
     is_joint_called: bool,
 }
 
@@ -119,32 +119,32 @@ impl Machine {
     }
 
     /// Lets the script go on after a client's call reached a limit: in this script, or in another one that it called.
-    pub fn forgive(&self) {
-        self.guard.forgive(&self.lua);
+    pub fn resume_script(&self) {
+        self.guard.resume_script(&self.lua);
     }
 
     /// Calls a function by its name, for a client.
-    pub fn call_function(&mut self, name: &str, arguments: &[session::Value]) -> Result<Vec<session::Value>, Refusal> {
+    pub fn call_function(&mut self, name: &str, arguments: &[session::Value]) -> Result<Vec<session::Value>, ApiError> {
         let path = self.script().path.clone();
         let Some(function) = api::function_of(&self.lua, name) else {
-            return Err(Refusal(format!("the script of `{path}` has no function `{name}`")));
+            return Err(ApiError(format!("the script of `{path}` has no function `{name}`")));
         };
         let done = self.within(false, |m| {
             let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
             convert::list_from_lua(values)
         });
-        done.map_err(|fault| Refusal(fault.to_string()))
+        done.map_err(|fault| ApiError(fault.to_string()))
     }
 
     /// Runs a text as if it stood in the script, for a client.
-    pub fn evaluate(&mut self, text: &str) -> Result<Vec<session::Value>, Refusal> {
+    pub fn evaluate(&mut self, text: &str) -> Result<Vec<session::Value>, ApiError> {
         let done = self.within(false, |m| {
             sandbox::charge_text(&m.lua, &m.guard, text)?;
             let text = power::with_calls(text);
             let values = m.lua.load(text).set_name("=text").set_mode(ChunkMode::Text).call(())?;
             convert::list_from_lua(values)
         });
-        done.map_err(|fault| Refusal(fault.message))
+        done.map_err(|fault| ApiError(fault.message))
     }
 
     /// Runs something of the script within its limits.
@@ -189,7 +189,7 @@ impl Machine {
         self.begin_new()
     }
 
-    /// Whether any function `sysCall_…` is there.
+    /// Returns true if any function `sysCall_…` is there.
     fn has_entries(&self) -> mlua::Result<bool> {
         for pair in self.lua.globals().pairs::<Value, Value>() {
             let (name, value) = pair?;
@@ -306,7 +306,8 @@ impl Machine {
         })
     }
 
-    /// Calls `sysCall_beforeMainScript` of a customization script, before anything else of the step; says whether it holds the step back.
+    /// Calls `sysCall_beforeMainScript` of a customization script, before anything else of the step; says whether it
+    /// holds the step back.
     pub fn call_before_main(&mut self) -> Result<bool, Fault> {
         let Some(function) = self.entries.before_main.clone() else { return Ok(false) };
         let answer: Value = self.within(false, |_| function.call(()))?;
@@ -323,7 +324,7 @@ impl Machine {
         Fault { object, at: None, message, help: Some(help.to_owned()) }
     }
 
-    /// Whether the script decides what touches.
+    /// Returns true if the script decides what touches.
     pub fn has_contact(&self) -> bool {
         self.entries.contact.is_some()
     }
@@ -334,7 +335,8 @@ impl Machine {
         self.within(false, |m| contact::ask(&m.lua, &m.shared, m.index, &function, bodies))
     }
 
-    /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what the joint is told.
+    /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what
+    /// the joint is told.
     pub fn call_joint(&mut self, step: f64) -> Result<(), Fault> {
         let Some(function) = self.entries.joint.clone() else { return Ok(()) };
         let is_first = !std::mem::replace(&mut self.is_joint_called, true);

@@ -1,18 +1,19 @@
 //! `a ^ b` with the same bits on every machine.
 //!
-//! Lua's operator is the `pow` of the platform's C library, whose last bit differs from machine to machine, and no metamethod can
-//! change it for numbers. So `a ^ b` becomes a call `__pow(a, b)` before the text is compiled, lines staying where they are.
-//! `x ^ 2` stays: Lua itself computes it as x·x.
+//! Lua's operator is the `pow` of the platform's C library, whose last bit differs from machine to machine, and no
+//! metamethod can change it for numbers. So `a ^ b` becomes a call `__pow(a, b)` before the text is compiled, lines
+//! staying where they are. `x ^ 2` stays: Lua itself computes it as x·x.
 //!
-//! Precedence (Lua 5.4 reference manual, §3.4.8): `^` binds tighter than a unary operator on its left, less than one on its
-//! right, and to the right: `-a^-b^c` is `-(a^(-(b^c)))`.
+//! Precedence (Lua 5.4 reference manual, §3.4.8): `^` binds tighter than a unary operator on its left, less than one on
+//! its right, and to the right: `-a^-b^c` is `-(a^(-(b^c)))`.
 
 use crate::lexer::{Sort, Word, words};
 
 /// Name of the function that powers become calls of.
 pub(crate) const POWER: &str = "__pow";
 
-/// The text with its powers as calls. A text that is no Lua, or a power of something that is no plain expression, stays as it is.
+/// The text with its powers as calls. A text that is no Lua, or a power of something that is no plain expression, stays
+/// as it is.
 pub(crate) fn with_calls(text: &str) -> String {
     if !text.contains('^') {
         return text.to_owned();
@@ -119,7 +120,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether a call or an index may follow word `k`.
+    /// Returns true if a call or an index may follow word `k`.
     fn ends_expression(&self, k: usize) -> bool {
         match self.sort(k) {
             Some(Sort::Name | Sort::Text) => true,

@@ -20,7 +20,7 @@ end
 function xpcall(f, handler, ...)
   -- a handler of an error that comes from the limit itself would run unwatched
   return checked(raw_xpcall(f, function(e)
-    if host.doomed() then return host.text(e) end
+    if host.is_stopped() then return host.text(e) end
     return handler(host.text(e))
   end, ...))
 end

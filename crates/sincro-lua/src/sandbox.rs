@@ -1,8 +1,9 @@
-//! What a script finds in its Lua state: the language, mathematics with the same bits everywhere, and nothing that reaches outside.
+//! Environment of a script in its Lua state: the language, mathematics with the same bits everywhere, and nothing that
+//! reaches outside.
 //!
-//! Left out are files, processes, packages, bytecode and the debugger but its traceback. `os` has clocks of the simulation only.
-//! `math` is of [`sincro_math::elementary`], not of the platform; `math.random` is Lua's own generator (xoshiro256**) seeded by the
-//! run and the script's object.
+//! Left out are files, processes, packages, bytecode and the debugger but its traceback. `os` has clocks of the
+//! simulation only. `math` is of [`sincro_math::elementary`], not of the platform; `math.random` is Lua's own generator
+//! (xoshiro256**) seeded by the run and the script's object.
 
 use std::sync::Arc;
 
@@ -39,7 +40,7 @@ pub(crate) struct Services {
     pub print: Box<dyn Fn(String) + Send>,
 }
 
-/// What the prelude gives back: functions that wait.
+/// Functions of the prelude that wait.
 pub(crate) struct Waits {
     /// Until the next step.
     pub switch: Function,
@@ -76,8 +77,8 @@ pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Servic
     let host = lua.create_table()?;
     let checked = guard.clone();
     host.set("check", lua.create_function(move |_, ()| checked.check())?)?;
-    let doomed = guard.clone();
-    host.set("doomed", lua.create_function(move |_, ()| Ok(doomed.is_doomed()))?)?;
+    let stopped = guard.clone();
+    host.set("is_stopped", lua.create_function(move |_, ()| Ok(stopped.is_stopped()))?)?;
     let sorting = guard.clone();
     host.set("sort_keys", lua.create_function(move |lua, keys: Table| library::sort_keys(lua, &sorting, &keys))?)?;
     host.set("text", lua.create_function(|lua, error: Value| text_of(lua, error))?)?;
@@ -184,7 +185,8 @@ fn load(
     })
 }
 
-/// Charges for the compilation of a text from within a run; Lua's compiler goes through the open jumps and labels of a function again at each one.
+/// Charges for the compilation of a text from within a run; Lua's compiler goes through the open jumps and labels of a
+/// function again at each one.
 pub(crate) fn charge_text(lua: &Lua, guard: &Arc<Guard>, text: &str) -> mlua::Result<()> {
     if text.len() > MAX_TEXT {
         return Err(Error::RuntimeError(format!(
@@ -198,7 +200,7 @@ pub(crate) fn charge_text(lua: &Lua, guard: &Arc<Guard>, text: &str) -> mlua::Re
     guard.charge(lua, (text.len() as u64 + jumps * jumps) / 16)
 }
 
-/// What the compiler said, without mlua's words around it.
+/// Message of the compiler, without mlua's prefix.
 fn syntax_message(error: &Error) -> String {
     match error {
         Error::SyntaxError { message, .. } => message.clone(),

@@ -1,19 +1,19 @@
-//! What all scripts of a run share: the world while they are called, what they say, and each other.
+//! Data shared by all scripts of a run: the world while they are called, their messages, and each other.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use mlua::WeakLua;
 use sincro_coppelia::host::Setting;
-use sincro_coppelia::session::{Desk, Handle, Refusal, Table};
+use sincro_coppelia::session::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_dynamics::world::World;
 use sincro_scene::script::Script;
 use sincro_sim::controller::Message;
 
 /// Messages of one phase that are kept: one more than a run keeps, so that the run tells of those that are not.
-const MOST_AT_ONCE: usize = 10_001;
+const MAX_MESSAGES: usize = 10_001;
 /// Bytes of a message that are kept.
-const LONGEST: usize = 10_000;
+const MAX_MESSAGE_LEN: usize = 10_000;
 
 /// The world, lent to the scripts for the time of a call; a world of nothing stands in its place otherwise.
 #[derive(Debug)]
@@ -21,7 +21,7 @@ pub(crate) struct Stage {
     /// The world.
     pub world: World,
     /// The objects.
-    pub table: Option<Box<Table>>,
+    pub registry: Option<Box<ObjectRegistry>>,
     /// Time `[s]` as scripts are told it.
     pub t: f64,
 }
@@ -32,7 +32,7 @@ pub(crate) struct Shared {
     messages: Mutex<Vec<Message>>,
     /// The scripts, in the order of calls.
     pub scripts: Arc<[Script]>,
-    /// Of the run.
+    /// Settings of the run.
     pub setting: Setting,
     /// Their Lua states, once all are made.
     pub states: OnceLock<Vec<WeakLua>>,
@@ -52,7 +52,7 @@ fn open<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
 impl Shared {
     /// Before the first call; `nothing` is a world of nothing.
     pub fn new(scripts: Arc<[Script]>, setting: Setting, nothing: World) -> Self {
-        let stage = Mutex::new(Stage { world: nothing, table: None, t: 0.0 });
+        let stage = Mutex::new(Stage { world: nothing, registry: None, t: 0.0 });
         Self { stage, messages: Mutex::default(), scripts, setting, states: OnceLock::new() }
     }
 
@@ -62,19 +62,19 @@ impl Shared {
     }
 
     /// Lets somebody act on the world for the object `own`.
-    pub fn with_desk<T>(
+    pub fn with_sim<T>(
         &self,
         own: Handle,
-        act: impl FnOnce(&mut Desk<'_>) -> Result<T, Refusal>,
-    ) -> Result<T, Refusal> {
+        act: impl FnOnce(&mut SimApi<'_>) -> Result<T, ApiError>,
+    ) -> Result<T, ApiError> {
         let mut stage = self.stage();
-        let Stage { world, table, t } = &mut *stage;
-        let Some(table) = table else {
-            return Err(Refusal::new("the simulation can be reached while a script is called only"));
+        let Stage { world, registry, t } = &mut *stage;
+        let Some(registry) = registry else {
+            return Err(ApiError::new("the simulation can be reached while a script is called only"));
         };
-        let mut desk = Desk::new(table, world, *t);
-        desk.own = Some(own);
-        act(&mut desk)
+        let mut sim = SimApi::new(registry, world, *t);
+        sim.own = Some(own);
+        act(&mut sim)
     }
 
     /// Time `[s]` as scripts are told it.
@@ -86,8 +86,8 @@ impl Shared {
     pub fn say(&self, script: usize, text: String) {
         let t = self.t();
         let mut messages = open(&self.messages);
-        if messages.len() < MOST_AT_ONCE {
-            let end = text.floor_char_boundary(LONGEST);
+        if messages.len() < MAX_MESSAGES {
+            let end = text.floor_char_boundary(MAX_MESSAGE_LEN);
             messages.push(Message { t, object: self.scripts[script].path.clone(), text: text[..end].to_owned() });
         }
     }

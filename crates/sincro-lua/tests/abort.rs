@@ -1,4 +1,5 @@
-//! A program that is being ended ends the scripts that are running. (A process of its own: nothing runs in it afterwards.)
+//! A program that is being ended ends the scripts that are running. (A process of its own: nothing runs in it
+//! afterwards.)
 
 #[path = "lua/world.rs"]
 #[allow(dead_code)]

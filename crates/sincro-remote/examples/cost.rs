@@ -1,4 +1,4 @@
-//! What a message costs the server: round trips over loopback, beside those of a server that only echoes.
+//! Cost of a message for the server: round trips over loopback, beside those of a server that only echoes.
 //!
 //! `cargo run --release -p sincro-remote --example cost [SCENE]`
 

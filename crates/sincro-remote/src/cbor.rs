@@ -1,7 +1,8 @@
 //! Values as CBOR (RFC 8949), in the subset that the clients of CoppeliaSim understand.
 //!
-//! Written ([`encode`]): definite lengths, whole numbers for handles and counts, 64-bit floats for every quantity, no tags. Read: every width of
-//! numbers, indefinite lengths, tags (ignored), `undefined` as nil. Depth is limited; lengths that the message does not have take no memory.
+//! Written ([`encode`]): definite lengths, whole numbers for handles and counts, 64-bit floats for every quantity, no
+//! tags. Read: every width of numbers, indefinite lengths, tags (ignored), `undefined` as nil. Depth is limited;
+//! lengths that the message does not have take no memory.
 
 use std::fmt;
 
@@ -10,12 +11,12 @@ pub use sincro_coppelia::session::cbor::encode;
 
 use crate::limits::DEPTH;
 
-/// Why bytes are no value.
+/// Error of decoding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CborError {
-    /// Where, from the start of the message.
+    /// Offset from the start of the message.
     pub at: usize,
-    /// What is wrong.
+    /// Reason.
     pub what: &'static str,
 }
 
@@ -46,7 +47,7 @@ struct Reader<'a> {
     at: usize,
 }
 
-/// How long a text, list or map is; none: until its end mark.
+/// Length of a text, list or map; none: until its end mark.
 type Length = Option<usize>;
 
 impl<'a> Reader<'a> {
@@ -88,7 +89,7 @@ impl<'a> Reader<'a> {
         Ok(Some(n as usize))
     }
 
-    /// Whether the end mark of something of indefinite length comes next; it is then taken.
+    /// Returns true if the end mark of something of indefinite length comes next; it is then taken.
     fn is_end(&mut self) -> Result<bool, CborError> {
         let is_end = *self.bytes.get(self.at).ok_or(self.error("the message is cut short"))? == 0xff;
         self.at += usize::from(is_end);

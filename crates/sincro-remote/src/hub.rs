@@ -1,8 +1,8 @@
-//! Where all clients meet: a session behind a lock, and the rule of when it steps.
+//! Hub of all clients: a session behind a lock, and the rule of when it steps.
 //!
-//! A client that steps (`sim.setStepping`, `simxSynchronous`) holds the simulation until it asks for the next step. The step is made, by whichever
-//! thread completes the condition, as soon as every such client has asked and nobody holds a lock. Without any such client the simulation
-//! runs by itself, between the calls of the others.
+//! A client that steps (`sim.setStepping`, `simxSynchronous`) holds the simulation until it asks for the next step. The
+//! step is made, by whichever thread completes the condition, as soon as every such client has asked and nobody holds a
+//! lock. Without any such client the simulation runs by itself, between the calls of the others.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -11,21 +11,21 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use sincro_access::{ConnectionLimits, Connections};
-use sincro_coppelia::session::{Finished, Phase, Refusal, Session};
+use sincro_coppelia::session::{ApiError, Finished, Phase, Session};
 
 use crate::limits::{self, Deadlines};
 
 /// Longest wait before the state of the server is looked at again.
-const GLANCE: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Runs that wait to be taken.
-const MOST_RUNS: usize = 64;
+const MAX_RUNS: usize = 64;
 
 /// A client, as the hub knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ClientId(u64);
 
-/// What is told to whoever runs the server.
+/// Events for the owner of the server.
 #[derive(Debug)]
 pub enum Event {
     /// A run has ended.
@@ -34,27 +34,27 @@ pub enum Event {
     Log(i64, String),
 }
 
-/// How the hub is to behave.
+/// Options of the hub.
 #[derive(Clone, Debug)]
-pub struct Manner {
-    /// Whether the simulation runs no faster than the clock when nobody steps it.
+pub struct HubOptions {
+    /// True if the simulation runs no faster than the clock when nobody steps it.
     pub real_time: bool,
-    /// How long a client that steps may stay silent before it is let go.
-    pub patience: Duration,
+    /// Time after which a silent client that holds the simulation is released.
+    pub client_timeout: Duration,
     /// Deadlines of connections.
     pub deadlines: Deadlines,
 }
 
 /// The session and who is attached.
-pub struct Floor {
+pub struct SessionGuard {
     /// The session.
     pub session: Session,
     clients: BTreeMap<ClientId, Client>,
     /// Steps since the run began.
     step: u64,
     next_client: u64,
-    /// Why the last run ended by itself.
-    failure: Option<Refusal>,
+    /// Error that ended the last run.
+    failure: Option<ApiError>,
     events: SyncSender<Event>,
     /// Runs that nobody has taken yet.
     backlog: VecDeque<Finished>,
@@ -63,7 +63,7 @@ pub struct Floor {
 
 struct Client {
     key: String,
-    /// How often it has asked to step, less how often it has given up: it steps while above 0.
+    /// Nesting level of stepping: it steps while above 0.
     level: u32,
     desired: u64,
     locks: u32,
@@ -71,22 +71,22 @@ struct Client {
     connections: u32,
 }
 
-/// Where all clients meet.
+/// The session behind its lock, shared by all clients.
 pub struct Hub {
-    floor: Mutex<Floor>,
+    guard: Mutex<SessionGuard>,
     moved: Condvar,
-    /// Threads that want the floor: the free run lets them in between steps.
+    /// Threads that wait for the lock: the free run yields to them between steps.
     waiting: AtomicUsize,
     closing: AtomicBool,
     connections: Arc<Connections>,
-    manner: Manner,
+    options: HubOptions,
 }
 
 impl Hub {
     /// Over a session; events go to `events`.
     #[must_use]
-    pub fn new(session: Session, manner: Manner, events: SyncSender<Event>) -> Arc<Self> {
-        let floor = Floor {
+    pub fn new(session: Session, options: HubOptions, events: SyncSender<Event>) -> Arc<Self> {
+        let guard = SessionGuard {
             session,
             clients: BTreeMap::new(),
             step: 0,
@@ -97,7 +97,7 @@ impl Hub {
             publish: None,
         };
         Arc::new(Self {
-            floor: Mutex::new(floor),
+            guard: Mutex::new(guard),
             moved: Condvar::new(),
             waiting: AtomicUsize::new(0),
             closing: AtomicBool::new(false),
@@ -106,33 +106,33 @@ impl Hub {
                 per_address: limits::PER_ADDRESS,
                 idle_under_pressure: limits::IDLE_UNDER_PRESSURE,
             }),
-            manner,
+            options,
         })
     }
 
-    /// Takes the floor.
-    pub fn enter(&self) -> MutexGuard<'_, Floor> {
+    /// Locks the session.
+    pub fn enter(&self) -> MutexGuard<'_, SessionGuard> {
         self.waiting.fetch_add(1, Ordering::SeqCst);
         // a panic of another thread is a bug of ours that has been printed; the session is still the best there is
-        let floor = self.floor.lock().unwrap_or_else(PoisonError::into_inner);
+        let guard = self.guard.lock().unwrap_or_else(PoisonError::into_inner);
         self.waiting.fetch_sub(1, Ordering::SeqCst);
-        floor
+        guard
     }
 
-    /// Takes the floor if it is free within a time: a script that does not return may hold it.
-    pub fn try_enter(&self, patience: Duration) -> Option<MutexGuard<'_, Floor>> {
+    /// Locks the session if it becomes free within `timeout`: a script that does not return may hold it.
+    pub fn try_enter(&self, timeout: Duration) -> Option<MutexGuard<'_, SessionGuard>> {
         let begin = Instant::now();
         self.waiting.fetch_add(1, Ordering::SeqCst);
-        let floor = loop {
-            match self.floor.try_lock() {
-                Ok(floor) => break Some(floor),
-                Err(TryLockError::Poisoned(floor)) => break Some(floor.into_inner()),
-                Err(TryLockError::WouldBlock) if begin.elapsed() >= patience => break None,
+        let guard = loop {
+            match self.guard.try_lock() {
+                Ok(guard) => break Some(guard),
+                Err(TryLockError::Poisoned(guard)) => break Some(guard.into_inner()),
+                Err(TryLockError::WouldBlock) if begin.elapsed() >= timeout => break None,
                 Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(1)),
             }
         };
         self.waiting.fetch_sub(1, Ordering::SeqCst);
-        floor
+        guard
     }
 
     /// Wakes whoever waits for a step; to be called after anything that may let the simulation go on.
@@ -140,7 +140,7 @@ impl Hub {
         self.moved.notify_all();
     }
 
-    /// Whether the server is being closed.
+    /// Returns true if the server is being closed.
     #[must_use]
     pub fn is_closing(&self) -> bool {
         self.closing.load(Ordering::SeqCst)
@@ -161,42 +161,43 @@ impl Hub {
     /// Deadlines of connections.
     #[must_use]
     pub fn deadlines(&self) -> &Deadlines {
-        &self.manner.deadlines
+        &self.options.deadlines
     }
 
     /// One connection less of a client; with the last one all that it holds is let go.
     pub fn detach(&self, id: ClientId) {
-        let mut floor = self.enter();
-        let Some(client) = floor.clients.get_mut(&id) else { return };
+        let mut guard = self.enter();
+        let Some(client) = guard.clients.get_mut(&id) else { return };
         client.connections -= 1;
         if client.connections == 0 {
-            floor.clients.remove(&id);
-            floor.go_on();
+            guard.clients.remove(&id);
+            guard.try_advance();
         }
-        drop(floor);
+        drop(guard);
         self.wake();
     }
 
-    /// One step for a client: waits until all that step together have asked. Returns at once if no run is on, or it is paused.
+    /// One step for a client: waits until all that step together have asked. Returns at once if no run is on, or it is
+    /// paused.
     ///
     /// # Errors
     ///
     /// The run has ended by itself: why.
-    pub fn step(&self, id: ClientId) -> Result<(), Refusal> {
-        let mut floor = self.enter();
-        let Some(target) = floor.ask_step(id) else { return Ok(()) };
-        let made = floor.advance_if_ready();
+    pub fn step(&self, id: ClientId) -> Result<(), ApiError> {
+        let mut guard = self.enter();
+        let Some(target) = guard.ask_step(id) else { return Ok(()) };
+        let advanced = guard.advance_if_ready();
         self.wake();
-        made?;
-        while floor.step < target && floor.session.phase() == Phase::Running && !self.is_closing() {
-            floor = self.moved.wait_timeout(floor, GLANCE).unwrap_or_else(PoisonError::into_inner).0;
+        advanced?;
+        while guard.step < target && guard.session.phase() == Phase::Running && !self.is_closing() {
+            guard = self.moved.wait_timeout(guard, POLL_INTERVAL).unwrap_or_else(PoisonError::into_inner).0;
             // it waits for others: that is not silence
-            if let Some(client) = floor.clients.get_mut(&id) {
+            if let Some(client) = guard.clients.get_mut(&id) {
                 client.last_seen = Instant::now();
             }
         }
-        if floor.step < target && floor.session.phase() == Phase::Stopped {
-            return floor.failure.clone().map_or(Ok(()), Err);
+        if guard.step < target && guard.session.phase() == Phase::Stopped {
+            return guard.failure.clone().map_or(Ok(()), Err);
         }
         Ok(())
     }
@@ -209,61 +210,61 @@ impl Hub {
             while self.waiting.load(Ordering::SeqCst) > 0 {
                 std::thread::yield_now();
             }
-            let mut floor = self.floor.lock().unwrap_or_else(PoisonError::into_inner);
-            if watched.elapsed() >= GLANCE {
+            let mut guard = self.guard.lock().unwrap_or_else(PoisonError::into_inner);
+            if watched.elapsed() >= POLL_INTERVAL {
                 watched = Instant::now();
-                self.let_silent_go(&mut floor);
+                self.release_silent_clients(&mut guard);
             }
-            if !floor.runs_free() {
-                if floor.session.phase() == Phase::Paused {
+            if !guard.runs_free() {
+                if guard.session.phase() == Phase::Paused {
                     // what stops the run is told by the session's log
-                    let _ = floor.act(Session::idle);
+                    let _ = guard.act(Session::idle);
                 }
-                drop(self.moved.wait_timeout(floor, GLANCE).unwrap_or_else(PoisonError::into_inner));
+                drop(self.moved.wait_timeout(guard, POLL_INTERVAL).unwrap_or_else(PoisonError::into_inner));
                 due = Instant::now();
                 continue;
             }
             let now = Instant::now();
-            if self.manner.real_time && due > now {
-                let wait = (due - now).min(GLANCE);
-                drop(self.moved.wait_timeout(floor, wait).unwrap_or_else(PoisonError::into_inner));
+            if self.options.real_time && due > now {
+                let wait = (due - now).min(POLL_INTERVAL);
+                drop(self.moved.wait_timeout(guard, wait).unwrap_or_else(PoisonError::into_inner));
                 continue;
             }
-            due = due.max(now - GLANCE) + Duration::from_secs_f64(floor.session.table().sample_time());
+            due = due.max(now - POLL_INTERVAL) + Duration::from_secs_f64(guard.session.registry().sample_time());
             // what stops the run is told by the session's log
-            let _ = floor.advance();
-            drop(floor);
+            let _ = guard.advance();
+            drop(guard);
             self.wake();
         }
     }
 
-    /// Lets go of clients that hold the simulation and have been silent for too long.
-    fn let_silent_go(&self, floor: &mut Floor) {
-        floor.pass_on();
-        if floor.session.phase() != Phase::Running {
+    /// Releases the simulation from clients that hold it and have been silent for too long.
+    fn release_silent_clients(&self, guard: &mut SessionGuard) {
+        guard.forward_events();
+        if guard.session.phase() != Phase::Running {
             return;
         }
-        let (step, patience) = (floor.step, self.manner.patience);
+        let (step, timeout) = (guard.step, self.options.client_timeout);
         let holds = |c: &Client| c.locks > 0 || (c.level > 0 && c.desired <= step);
-        let silent = |c: &&mut Client| holds(c) && c.last_seen.elapsed() > patience;
-        let mut told = Vec::new();
-        for client in floor.clients.values_mut().filter(silent) {
+        let silent = |c: &&mut Client| holds(c) && c.last_seen.elapsed() > timeout;
+        let mut released = Vec::new();
+        for client in guard.clients.values_mut().filter(silent) {
             (client.level, client.locks) = (0, 0);
-            told.push(client.key.clone());
+            released.push(client.key.clone());
         }
-        if told.is_empty() {
+        if released.is_empty() {
             return;
         }
-        for key in told {
-            let seconds = patience.as_secs_f64();
-            floor.log(300, format!("client {key} has held the simulation without a word for {seconds} s: let go"));
+        for key in released {
+            let seconds = timeout.as_secs_f64();
+            guard.log(300, format!("client {key} has held the simulation without a word for {seconds} s: let go"));
         }
-        floor.go_on();
+        guard.try_advance();
         self.wake();
     }
 }
 
-impl Floor {
+impl SessionGuard {
     /// A connection of the client of a key; connections of the same key are one client.
     pub fn attach(&mut self, key: &str) -> ClientId {
         if let Some((id, client)) = self.clients.iter_mut().find(|(_, c)| c.key == key) {
@@ -290,13 +291,14 @@ impl Floor {
         self.clients.len()
     }
 
-    /// Whether a client steps the simulation.
+    /// Returns true if a client steps the simulation.
     #[must_use]
     pub fn is_stepping(&self, id: ClientId) -> bool {
         self.clients.get(&id).is_some_and(|c| c.level > 0)
     }
 
-    /// A client begins to step, or gives it up once; gives the level before. The levels add up as in the official server.
+    /// A client begins to step, or gives it up once; gives the level before. The levels add up as in the official
+    /// server.
     pub fn set_stepping(&mut self, id: ClientId, on: bool) -> u32 {
         let step = self.step;
         let Some(client) = self.clients.get_mut(&id) else { return 0 };
@@ -309,7 +311,7 @@ impl Floor {
         } else {
             client.level = client.level.saturating_sub(1);
         }
-        self.go_on();
+        self.try_advance();
         before
     }
 
@@ -318,7 +320,7 @@ impl Floor {
         if let Some(client) = self.clients.get_mut(&id) {
             client.level = 0;
         }
-        self.go_on();
+        self.try_advance();
     }
 
     /// While a client holds a lock no step is made.
@@ -326,7 +328,7 @@ impl Floor {
         if let Some(client) = self.clients.get_mut(&id) {
             client.locks = if on { client.locks.saturating_add(1) } else { client.locks.saturating_sub(1) };
         }
-        self.go_on();
+        self.try_advance();
     }
 
     /// Steps since the run began.
@@ -347,12 +349,12 @@ impl Floor {
         Some(step + 1)
     }
 
-    /// Whether all that step have asked, and nobody holds a lock.
+    /// Returns true if all that step have asked, and nobody holds a lock.
     fn is_ready(&self) -> bool {
         self.clients.values().all(|c| c.locks == 0 && (c.level == 0 || c.desired > self.step))
     }
 
-    /// Whether the simulation runs by itself.
+    /// Returns true if the simulation runs by itself.
     fn runs_free(&mut self) -> bool {
         self.session.phase() == Phase::Running && self.clients.values().all(|c| c.level == 0 && c.locks == 0)
     }
@@ -362,26 +364,26 @@ impl Floor {
     /// # Errors
     ///
     /// The run has ended by itself.
-    pub fn advance_if_ready(&mut self) -> Result<(), Refusal> {
+    pub fn advance_if_ready(&mut self) -> Result<(), ApiError> {
         let is_stepped = self.clients.values().any(|c| c.level > 0);
         if is_stepped && self.is_ready() && self.session.phase() == Phase::Running { self.advance() } else { Ok(()) }
     }
 
     /// After something that others may have waited for; a failure is kept for those who wait.
-    fn go_on(&mut self) {
+    fn try_advance(&mut self) {
         let _ = self.advance_if_ready();
     }
 
-    fn advance(&mut self) -> Result<(), Refusal> {
-        let made = self.session.step();
+    fn advance(&mut self) -> Result<(), ApiError> {
+        let advanced = self.session.step();
         self.step += 1;
-        if let Err(refusal) = &made {
-            self.failure = Some(refusal.clone());
+        if let Err(error) = &advanced {
+            self.failure = Some(error.clone());
             self.run_ended();
         }
         self.announce();
-        self.pass_on();
-        made
+        self.forward_events();
+        advanced
     }
 
     /// Tells the subscribers of version 1 where the run is.
@@ -392,7 +394,8 @@ impl Floor {
         }
     }
 
-    /// What is called with the number of the step, at the start of a run, after every step and at the end.
+    /// Sets the function that is called with the number of the step, at the start of a run, after every step and at the
+    /// end.
     pub fn on_step(&mut self, publish: Box<dyn FnMut(u64) + Send>) {
         self.publish = Some(publish);
     }
@@ -402,15 +405,15 @@ impl Floor {
     /// # Errors
     ///
     /// Those of `act`.
-    pub fn act<T>(&mut self, act: impl FnOnce(&mut Session) -> Result<T, Refusal>) -> Result<T, Refusal> {
+    pub fn act<T>(&mut self, act: impl FnOnce(&mut Session) -> Result<T, ApiError>) -> Result<T, ApiError> {
         let before = self.session.phase();
         let result = act(&mut self.session);
-        self.follow(before);
+        self.update_clients(before);
         result
     }
 
     /// After something was done with the session while it was in phase `before`.
-    pub fn follow(&mut self, before: Phase) {
+    pub fn update_clients(&mut self, before: Phase) {
         match (before, self.session.phase()) {
             (Phase::Stopped, Phase::Running) => {
                 (self.step, self.failure) = (0, None);
@@ -423,7 +426,7 @@ impl Floor {
             }
             _ => {}
         }
-        self.pass_on();
+        self.forward_events();
     }
 
     /// With a run, stepping and locks end: clients ask for them again before the next one, as with the official server.
@@ -438,9 +441,10 @@ impl Floor {
         let _ = self.events.try_send(Event::Log(level, text));
     }
 
-    /// Passes on what the session has to say. Runs wait until they are taken, up to [`MOST_RUNS`]; then the oldest are dropped.
-    fn pass_on(&mut self) {
-        for line in self.session.table().take_log() {
+    /// Passes on what the session has to say. Runs wait until they are taken, up to [`MAX_RUNS`]; then the oldest are
+    /// dropped.
+    fn forward_events(&mut self) {
+        for line in self.session.registry().take_log() {
             self.log(line.level, line.text);
         }
         self.backlog.extend(self.session.take_finished());
@@ -452,7 +456,7 @@ impl Floor {
                 break;
             }
         }
-        while self.backlog.len() > MOST_RUNS {
+        while self.backlog.len() > MAX_RUNS {
             self.backlog.pop_front();
         }
     }

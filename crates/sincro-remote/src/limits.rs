@@ -1,4 +1,4 @@
-//! How much a client may ask for. Larger things are refused, or end the connection that sends them; memory stays bounded.
+//! Limits of a client's requests. Larger ones are refused, or end the connection that sends them; memory stays bounded.
 
 use std::time::Duration;
 

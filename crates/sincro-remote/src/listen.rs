@@ -1,7 +1,8 @@
 //! Listening: one thread a port that accepts, one a connection; deadlines of reading and writing.
 //!
-//! A message must be complete within [`Deadlines::read`] of its first byte, an answer be taken within [`Deadlines::write`], however the bytes are
-//! spread over that time; between messages a connection may be idle for a limited time only.
+//! A message must be complete within [`Deadlines::read`] of its first byte, an answer be taken within
+//! [`Deadlines::write`], however the bytes are spread over that time; between messages a connection may be idle for a
+//! limited time only.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{IpAddr, Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
@@ -17,7 +18,7 @@ use crate::hub::Hub;
 use crate::limits::Deadlines;
 
 /// Interval at which a thread that waits for input checks its deadline and whether shutdown has begun.
-const POLL: Duration = Duration::from_millis(200);
+const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
 /// Accepts connections until the hub is closed; each is served by `serve` in a thread of its own.
 pub(crate) fn accept<F>(
@@ -57,7 +58,7 @@ fn admit(stream: &TcpStream, hub: &Hub) -> Option<Permit> {
 }
 
 /// Wakes a thread that accepts, so that it sees that the hub is closed.
-pub(crate) fn nudge(address: SocketAddr) {
+pub(crate) fn wake_listener(address: SocketAddr) {
     let mut address = address;
     if address.ip().is_unspecified() {
         let loopback: IpAddr =
@@ -96,8 +97,8 @@ const BUFFER: usize = 4096;
 impl Connection {
     fn new(stream: TcpStream, permit: Permit, hub: Arc<Hub>) -> io::Result<Self> {
         stream.set_nodelay(true)?;
-        stream.set_read_timeout(Some(POLL))?;
-        stream.set_write_timeout(Some(POLL))?;
+        stream.set_read_timeout(Some(POLL_INTERVAL))?;
+        stream.set_write_timeout(Some(POLL_INTERVAL))?;
         let stage = Stage::Begun { until: Instant::now() + hub.deadlines().handshake };
         let (buffer, unread) = (Box::new([0; BUFFER]), 0..0);
         Ok(Self { stream, hub, permit, buffer, unread, stage, write_by: None })

@@ -11,14 +11,14 @@ use std::time::Duration;
 use sincro_access::Guard;
 use sincro_coppelia::session::Session;
 
-use crate::hub::{Event, Hub, Manner};
+use crate::hub::{Event, Hub, HubOptions};
 use crate::limits::Deadlines;
 use crate::{legacy, listen, ws, zmq};
 
 /// Events that wait to be taken.
 const EVENTS: usize = 1_024;
 
-/// What to serve, and how.
+/// Options of the server.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Address to listen on; the loopback one unless others are to come in.
@@ -29,14 +29,14 @@ pub struct Options {
     pub zmq: Option<u16>,
     /// Port of the WebSocket API; 0 for any free one.
     pub ws: Option<u16>,
-    /// Whether the simulation runs no faster than the clock when nobody steps it.
+    /// True if the simulation runs no faster than the clock when nobody steps it.
     pub real_time: bool,
-    /// How long a client that steps may stay silent before it is let go.
-    pub patience: Duration,
+    /// Time after which a silent client that holds the simulation is released.
+    pub client_timeout: Duration,
     /// Deadlines of connections.
     pub deadlines: Deadlines,
-    /// Lets everybody who reaches the ports of the legacy and the ZeroMQ API in, beyond loopback: their clients have no way to
-    /// show that they may.
+    /// Lets everybody who reaches the ports of the legacy and the ZeroMQ API in, beyond loopback: their clients have no
+    /// way to show that they may.
     pub unauthenticated: bool,
 }
 
@@ -48,7 +48,7 @@ impl Default for Options {
             zmq: Some(23000),
             ws: Some(23050),
             real_time: false,
-            patience: Duration::from_secs(600),
+            client_timeout: Duration::from_secs(600),
             deadlines: Deadlines::default(),
             unauthenticated: false,
         }
@@ -74,12 +74,12 @@ impl Options {
     }
 }
 
-/// Why nothing is served.
+/// Error of starting the server.
 #[derive(Debug)]
 pub struct ServeError {
-    /// What happened, the port named.
+    /// Reason, with the port.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub help: String,
 }
 
@@ -94,13 +94,13 @@ impl std::error::Error for ServeError {}
 /// The addresses that are listened on.
 #[derive(Clone, Debug, Default)]
 pub struct Ports {
-    /// Of the legacy API.
+    /// Ports of the legacy API.
     pub legacy: Vec<SocketAddr>,
-    /// Of the ZeroMQ API.
+    /// Port of the ZeroMQ API.
     pub zmq: Option<SocketAddr>,
-    /// Of its step counter, for clients of version 1.
+    /// Port of its step counter, for clients of version 1.
     pub zmq_steps: Option<SocketAddr>,
-    /// Of the WebSocket API.
+    /// Port of the WebSocket API.
     pub ws: Option<SocketAddr>,
 }
 
@@ -118,8 +118,8 @@ impl Server {
     ///
     /// # Errors
     ///
-    /// A port cannot be had, or the ports that know no token would be open to other machines without [`Options::unauthenticated`]; then
-    /// nothing is served.
+    /// A port cannot be had, or the ports that know no token would be open to other machines without
+    /// [`Options::unauthenticated`]; then nothing is served.
     pub fn start(session: Session, options: &Options) -> Result<Self, ServeError> {
         options.check()?;
         let open = |port: u16, flag: &str| open(options.bind, port, flag);
@@ -136,8 +136,12 @@ impl Server {
             ws: ws.as_ref().map(address),
         };
         let (send, events) = sync_channel(EVENTS);
-        let manner = Manner { real_time: options.real_time, patience: options.patience, deadlines: options.deadlines };
-        let hub = Hub::new(session, manner, send);
+        let hub_options = HubOptions {
+            real_time: options.real_time,
+            client_timeout: options.client_timeout,
+            deadlines: options.deadlines,
+        };
+        let hub = Hub::new(session, hub_options, send);
         let mut threads = Vec::new();
         let failed =
             |e| ServeError { message: format!("no thread can be started: {e}"), help: "close programs".into() };
@@ -177,13 +181,13 @@ impl Server {
         self.ws_guard.as_ref().map(|guard| guard.link("ws"))
     }
 
-    /// Where the clients meet.
+    /// The hub of the clients.
     #[must_use]
     pub fn hub(&self) -> &Arc<Hub> {
         &self.hub
     }
 
-    /// What happens: messages, runs that have ended.
+    /// Events: messages, runs that have ended.
     #[must_use]
     pub fn events(&self) -> &Receiver<Event> {
         &self.events
@@ -195,7 +199,7 @@ impl Drop for Server {
         self.hub.close();
         let ports = &self.ports;
         let all = ports.legacy.iter().chain(&ports.zmq).chain(&ports.zmq_steps).chain(&ports.ws);
-        all.copied().for_each(listen::nudge);
+        all.copied().for_each(listen::wake_listener);
         for thread in self.threads.drain(..) {
             // a thread that panicked has said so
             let _ = thread.join();
@@ -203,7 +207,8 @@ impl Drop for Server {
     }
 }
 
-/// A listener; the standard library sets `SO_REUSEADDR` where a port would else stay taken after the last server has ended.
+/// A listener; the standard library sets `SO_REUSEADDR` where a port would else stay taken after the last server has
+/// ended.
 fn open(bind: IpAddr, port: u16, flag: &str) -> Result<TcpListener, ServeError> {
     TcpListener::bind((bind, port)).map_err(|e| match e.kind() {
         ErrorKind::AddrInUse => ServeError {

@@ -1,5 +1,5 @@
-//! The WebSocket remote API: for browsers. A text or binary message with JSON or CBOR (told by its first byte) `{func, args, id?}`, answered in the same
-//! form with `{id?, success, ret}` or `{id?, success: false, error}`.
+//! The WebSocket remote API: for browsers. A text or binary message with JSON or CBOR (told by its first byte)
+//! `{func, args, id?}`, answered in the same form with `{id?, success, ret}` or `{id?, success: false, error}`.
 //!
 //! Handshake and framing (RFC 6455): crate `tungstenite`. Who may connect: [`sincro_access::guard`].
 
@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::Value as Json;
 use sincro_access::{Guard, guard};
-use sincro_coppelia::session::{Refusal, Value};
+use sincro_coppelia::session::{ApiError, Value};
 use tungstenite::handshake::server::{ErrorResponse, Request, Response};
 use tungstenite::http::{StatusCode, header};
 use tungstenite::protocol::WebSocketConfig;
@@ -17,16 +17,16 @@ use crate::cbor;
 use crate::hub::Hub;
 use crate::limits;
 use crate::listen::Connection;
-use crate::zmq::{Door, Said, info};
+use crate::zmq::{CallOutcome, Endpoint, info};
 
 /// Serves one connection until it ends.
 pub(crate) fn serve(connection: Connection, hub: &Arc<Hub>, guard: &Guard) {
     let peer = connection.peer();
     let Some(mut socket) = shake_hands(connection, guard) else { return };
     let id = hub.enter().attach(&format!("ws {peer}"));
-    let door = Door { hub: hub.clone(), id };
+    let endpoint = Endpoint { hub: hub.clone(), id };
     while let Some(message) = receive(&mut socket) {
-        if socket.send(answer(&door, &message)).is_err() {
+        if socket.send(answer(&endpoint, &message)).is_err() {
             break;
         }
     }
@@ -80,21 +80,21 @@ fn receive(socket: &mut WebSocket<Connection>) -> Option<Message> {
 }
 
 /// Answers a message in its own form: a text is JSON, bytes are JSON if they begin with `{`, else CBOR.
-fn answer(door: &Door, message: &Message) -> Message {
+fn answer(endpoint: &Endpoint, message: &Message) -> Message {
     let (bytes, is_text) = (message.clone().into_data(), message.is_text());
     let is_json = is_text || bytes.first() == Some(&b'{');
     let request = if is_json {
-        serde_json::from_slice::<Json>(&bytes).map(of_json).map_err(|e| Refusal(format!("no JSON: {e}")))
+        serde_json::from_slice::<Json>(&bytes).map(of_json).map_err(|e| ApiError(format!("no JSON: {e}")))
     } else {
-        cbor::decode(&bytes).map_err(|e| Refusal(format!("no CBOR: {e}")))
+        cbor::decode(&bytes).map_err(|e| ApiError(format!("no CBOR: {e}")))
     };
     let mut fields = match &request {
         Ok(Value::Map(map)) => map.iter().filter(|(key, _)| key == "id").cloned().collect(),
         _ => Vec::new(),
     };
-    match request.and_then(|request| call(door, &request)) {
+    match request.and_then(|request| call(endpoint, &request)) {
         Ok(results) => fields.extend([("success".into(), Value::Bool(true)), ("ret".into(), Value::List(results))]),
-        Err(Refusal(e)) => fields.extend([("success".into(), Value::Bool(false)), ("error".into(), Value::Text(e))]),
+        Err(ApiError(e)) => fields.extend([("success".into(), Value::Bool(false)), ("error".into(), Value::Text(e))]),
     }
     let answer = Value::Map(fields);
     if is_text {
@@ -108,16 +108,16 @@ fn answer(door: &Door, message: &Message) -> Message {
     Message::binary(out)
 }
 
-fn call(door: &Door, request: &Value) -> Result<Vec<Value>, Refusal> {
+fn call(endpoint: &Endpoint, request: &Value) -> Result<Vec<Value>, ApiError> {
     let Value::Map(fields) = request else {
-        return Err(Refusal(format!("the request is {}, expected a map", request.word())));
+        return Err(ApiError(format!("the request is {}, expected a map", request.word())));
     };
     let field = |name: &str| fields.iter().find(|(key, _)| key == name).map(|(_, value)| value);
-    let name = field("func").and_then(Value::as_text).ok_or_else(|| Refusal::new("the request has no `func`"))?;
+    let name = field("func").and_then(Value::as_text).ok_or_else(|| ApiError::new("the request has no `func`"))?;
     let arguments = match field("args") {
         None | Some(Value::Nil) => &[][..],
         Some(Value::List(list)) => list,
-        Some(other) => return Err(Refusal(format!("`args` is {}, expected a list", other.word()))),
+        Some(other) => return Err(ApiError(format!("`args` is {}, expected a list", other.word()))),
     };
     let module = || arguments.first().and_then(Value::as_text).unwrap_or_default();
     match name {
@@ -125,20 +125,20 @@ fn call(door: &Door, request: &Value) -> Result<Vec<Value>, Refusal> {
         "wsRemoteApi.require" => return info(module()).map(|_| vec![Value::Nil]),
         "setStepping" => {
             let on = arguments.first().and_then(Value::as_bool).unwrap_or(true);
-            let mut floor = door.hub.enter();
-            floor.stop_stepping(door.id);
+            let mut guard = endpoint.hub.enter();
+            guard.stop_stepping(endpoint.id);
             if on {
-                floor.set_stepping(door.id, true);
+                guard.set_stepping(endpoint.id, true);
             }
-            drop(floor);
-            door.hub.wake();
+            drop(guard);
+            endpoint.hub.wake();
             return Ok(Vec::new());
         }
         _ => {}
     }
-    match door.call(name, arguments)? {
-        Said::Done(results) => Ok(results),
-        Said::Callback { after, .. } => Err(door.decline(after, "there are no callbacks over WebSocket")),
+    match endpoint.call(name, arguments)? {
+        CallOutcome::Done(results) => Ok(results),
+        CallOutcome::Callback { after, .. } => Err(endpoint.decline(after, "there are no callbacks over WebSocket")),
     }
 }
 

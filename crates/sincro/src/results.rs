@@ -40,8 +40,8 @@ pub fn write(loaded: &Loaded, campaign: &Campaign, out: &Path, index: Option<Lin
     write_with(loaded, campaign, out, index, embed::replay)
 }
 
-/// As [`write()`], for one of many runs whose folders stand beside each other: the program that shows the replays stands
-/// once, above them, and a report is as long as what it shows.
+/// As [`write()`], for one of many runs whose folders stand beside each other: the program that shows the replays
+/// stands once, above them, and a report is as long as what it shows.
 ///
 /// # Errors
 ///

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use sincro_dynamics::world::World;
 
 use super::{Call, Host, Phase, Setting};
-use crate::session::{Handle, Refusal, Table, Value};
+use crate::session::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::scene::Scene;
 use sincro_scene::script::{Fault, Kind, Script};
 use sincro_sim::controller::Message;
 
 /// Messages that are kept of a run: a script that says something at every tick must not fill the memory.
-const MOST_MESSAGES: usize = 10_000;
+const MAX_MESSAGES: usize = 10_000;
 
 /// Level of scripts' messages in the log of a session.
 const OF_SCRIPTS: i64 = 450;
@@ -41,12 +41,12 @@ impl Scripts {
         &mut self,
         phase: Phase,
         world: &mut World,
-        table: &mut Option<Box<Table>>,
+        registry: &mut Option<Box<ObjectRegistry>>,
         (tick, t): (u64, f64),
     ) -> Result<(), Fault> {
         self.is_started |= phase == Phase::Initialization;
-        let done = self.host.call(Call { world, table, tick, t }, phase);
-        self.keep_messages(table);
+        let done = self.host.call(Call { world, registry, tick, t }, phase);
+        self.keep_messages(registry);
         done
     }
 
@@ -60,14 +60,14 @@ impl Scripts {
         (object, kind): (Handle, Option<Kind>),
         (function, arguments): (&str, &[Value]),
         world: &mut World,
-        table: &mut Option<Box<Table>>,
+        registry: &mut Option<Box<ObjectRegistry>>,
         (tick, t): (u64, f64),
-    ) -> Result<Vec<Value>, Refusal> {
+    ) -> Result<Vec<Value>, ApiError> {
         if !self.is_started {
-            return Err(Refusal::new("scripts can be called once the simulation is started"));
+            return Err(ApiError::new("scripts can be called once the simulation is started"));
         }
-        let done = self.host.call_function(Call { world, table, tick, t }, (object, kind), function, arguments);
-        self.keep_messages(table);
+        let done = self.host.call_function(Call { world, registry, tick, t }, (object, kind), function, arguments);
+        self.keep_messages(registry);
         done
     }
 
@@ -81,23 +81,23 @@ impl Scripts {
         script: (Handle, Option<Kind>),
         text: &str,
         world: &mut World,
-        table: &mut Option<Box<Table>>,
+        registry: &mut Option<Box<ObjectRegistry>>,
         (tick, t): (u64, f64),
-    ) -> Result<Vec<Value>, Refusal> {
+    ) -> Result<Vec<Value>, ApiError> {
         if !self.is_started {
-            return Err(Refusal::new("scripts can be called once the simulation is started"));
+            return Err(ApiError::new("scripts can be called once the simulation is started"));
         }
-        let done = self.host.evaluate(Call { world, table, tick, t }, script, text);
-        self.keep_messages(table);
+        let done = self.host.evaluate(Call { world, registry, tick, t }, script, text);
+        self.keep_messages(registry);
         done
     }
 
-    fn keep_messages(&mut self, table: &mut Option<Box<Table>>) {
+    fn keep_messages(&mut self, registry: &mut Option<Box<ObjectRegistry>>) {
         for message in self.host.take_messages() {
-            if let Some(table) = table {
-                table.log(OF_SCRIPTS, message.text.clone());
+            if let Some(registry) = registry {
+                registry.log(OF_SCRIPTS, message.text.clone());
             }
-            if self.messages.len() < MOST_MESSAGES {
+            if self.messages.len() < MAX_MESSAGES {
                 self.messages.push(message);
             } else {
                 self.n_dropped += 1;
@@ -105,13 +105,13 @@ impl Scripts {
         }
     }
 
-    /// Whether their initialisation has been called.
+    /// Returns true if their initialisation has been called.
     #[must_use]
     pub fn is_started(&self) -> bool {
         self.is_started
     }
 
-    /// What they have said, and how many messages were too many to keep.
+    /// Messages of the scripts, and the number of those beyond the limit, which were dropped.
     #[must_use]
     pub fn messages(&self) -> (&[Message], usize) {
         (&self.messages, self.n_dropped)

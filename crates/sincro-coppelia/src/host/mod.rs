@@ -1,7 +1,8 @@
 //! Host of the scripts of a run: when they are called, and what they are called with.
 //!
-//! An adapter (`sincro-lua`) makes a [`Host`] for each run, which is called inside the step ([`Phase`]). Scripts see the world through the
-//! table of objects of a [`crate::session`]; their commands are latched as those of any controller.
+//! An adapter (`sincro-lua`) makes a [`Host`] for each run, which is called inside the step ([`Phase`]). Scripts see
+//! the world through the object registry of a [`crate::session`]; their commands are latched as those of any
+//! controller.
 
 mod calls;
 
@@ -11,7 +12,7 @@ pub use calls::Scripts;
 
 use sincro_dynamics::world::World;
 
-use crate::session::{Handle, Refusal, Table, Value};
+use crate::session::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::script::{Fault, Kind};
 use sincro_sim::controller::Message;
 
@@ -34,13 +35,13 @@ pub enum Phase {
     Cleanup,
 }
 
-/// What a script is called with, and may be called about later.
+/// Context of a call of the scripts.
 #[derive(Debug)]
 pub struct Call<'a> {
     /// The world, to be left in its place when the call is over.
     pub world: &'a mut World,
     /// The objects as scripts know them.
-    pub table: &'a mut Option<Box<Table>>,
+    pub registry: &'a mut Option<Box<ObjectRegistry>>,
     /// The tick, in sensing that at which the step began.
     pub tick: u64,
     /// Time `[s]` that scripts are told: `tick · step`.
@@ -67,20 +68,21 @@ pub trait Host: Send + fmt::Debug {
         script: (Handle, Option<Kind>),
         function: &str,
         arguments: &[Value],
-    ) -> Result<Vec<Value>, Refusal>;
+    ) -> Result<Vec<Value>, ApiError>;
 
-    /// Runs a text in the script on an object, with what that script knows and within its limits; gives what the text returns.
+    /// Runs a text in the script on an object, with what that script knows and within its limits; gives what the text
+    /// returns.
     ///
     /// # Errors
     ///
     /// There is no such script, or the text failed.
-    fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, Refusal>;
+    fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, ApiError>;
 
-    /// What scripts have said since the last time it was asked.
+    /// Takes the messages of scripts since the last call.
     fn take_messages(&mut self) -> Vec<Message>;
 }
 
-/// What a run of scripts is set up with.
+/// Settings of the scripts of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
     /// Base step `[s]`.

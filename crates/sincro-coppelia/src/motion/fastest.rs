@@ -1,7 +1,8 @@
 //! To a position and velocity in the least time.
 //!
-//! Let the acceleration at the start be a₀ ≤ 0 (else everything is mirrored) and v_r = v₀ − a₀²/2J the velocity left when it is taken to zero at once. The
-//! motions that can be the fastest, from the one that leads farthest forward to the one that leads farthest back, are
+//! Let the acceleration at the start be a₀ ≤ 0 (else everything is mirrored) and v_r = v₀ − a₀²/2J the velocity left
+//! when it is taken to zero at once. The motions that can be the fastest, from the one that leads farthest forward to
+//! the one that leads farthest back, are
 //!
 //! | family | motion | its number |
 //! |---|---|---|
@@ -9,9 +10,10 @@
 //! | between (if v_f < v_r) | the acceleration is raised to a₁ ≤ 0, then to the velocity v_f | a₁, from 0 to a₀ |
 //! | behind | to the velocity v_c ≤ v_r, v_f; there for a while if v_c is the lowest allowed; to v_f | v_c, downwards |
 //!
-//! Where one family ends the next begins with the same motion, so what is covered is a continuous function of where one is in this list, from −∞ to ∞: some
-//! motion covers what is asked for. With v_f = 0 the function grows all the way (the velocity of a motion farther ahead is nowhere lower), so there is one
-//! such motion; else there may be several, of which the shortest is taken.
+//! Where one family ends the next begins with the same motion, so what is covered is a continuous function of where one
+//! is in this list, from −∞ to ∞: some motion covers what is asked for. With v_f = 0 the function grows all the way
+//! (the velocity of a motion farther ahead is nowhere lower), so there is one such motion; else there may be several,
+//! of which the shortest is taken.
 
 use super::profile::{Limits, Pieces, Point, Profile};
 use super::ramp::{into_limits, to_velocity};
@@ -24,7 +26,7 @@ pub(super) const HALVINGS: usize = 110;
 /// The problem without what has to be done first, with a₀ ≤ 0.
 struct Search {
     from: Point,
-    /// What is to be covered.
+    /// Displacement to be covered.
     way: f64,
     v_end: f64,
     limits: Limits,
@@ -103,12 +105,13 @@ impl Search {
         }
     }
 
-    /// What is covered beyond what is to be.
+    /// Displacement covered beyond the required one.
     fn excess(&self, place: Place) -> f64 {
         self.motion(place).end(Point { p: 0.0, ..self.from }).p - self.way
     }
 
-    /// Numbers of a family at which its form changes, from the first to the last: where a ramp reaches its largest acceleration.
+    /// Numbers of a family at which its form changes, from the first to the last: where a ramp reaches its largest
+    /// acceleration.
     fn corners(&self) -> Vec<Vec<Place>> {
         let Limits { min_velocity, max_velocity, min_acceleration: low, max_acceleration: high, max_jerk: j } =
             self.limits;

@@ -1,5 +1,5 @@
-//! Motion on command: how joints, or any numbers, get from one state of motion to another as fast as limits on velocity, acceleration and jerk let
-//! them, alone or together.
+//! Motion on command: how joints, or any numbers, get from one state of motion to another as fast as limits on
+//! velocity, acceleration and jerk let them, alone or together.
 //!
 //! | file | has |
 //! |---|---|
@@ -9,12 +9,14 @@
 //! | `timed.rs` | the same in a given time |
 //! | `together.rs` | [`plan`]: several axes, each for itself, at the same time, or on one straight line |
 //!
-//! Accelerations are zero at the goal. The fastest motion with bounded jerk runs at a bound of the jerk, of the acceleration or of the velocity all the
-//! time; so it is known up to one number, which is searched for. Sources: keys `haschke2008` (the search along the velocity in between) and `berscheid2021`
-//! (Ruckig: what is asked for, synchronisation, motion back into the limits).
+//! Accelerations are zero at the goal. The fastest motion with bounded jerk runs at a bound of the jerk, of the
+//! acceleration or of the velocity all the time; so it is known up to one number, which is searched for. Sources: keys
+//! `haschke2008` (the search along the velocity in between) and `berscheid2021` (Ruckig: what is asked for,
+//! synchronisation, motion back into the limits).
 //!
-//! Ours deviates in how the number is found: not as a root of polynomials of degree four to six, whose formulas take cube roots and cosines that are not
-//! the same on every platform, but by halving intervals of a continuous function. Only + − × ÷ and √ are used: the bits are the same everywhere.
+//! Ours deviates in how the number is found: not as a root of polynomials of degree four to six, whose formulas take
+//! cube roots and cosines that are not the same on every platform, but by halving intervals of a continuous function.
+//! Only + − × ÷ and √ are used: the bits are the same everywhere.
 
 mod fastest;
 mod profile;
@@ -23,4 +25,4 @@ mod timed;
 mod together;
 
 pub use profile::{Limits, Point, Profile};
-pub use together::{Axis, Goal, Synchronization, Unplannable, plan};
+pub use together::{Axis, Goal, PlanError, Synchronization, plan};

@@ -30,7 +30,7 @@ impl Point {
     }
 }
 
-/// What a motion along one axis may not exceed: upper bounds are positive, lower ones negative.
+/// Limits of a motion along one axis: upper bounds are positive, lower ones negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Largest velocity [u/s].
@@ -77,12 +77,12 @@ pub(super) struct Piece {
 }
 
 /// Most pieces of a motion: back into the limits (4), to a velocity (3), there (1), to the last velocity (3).
-pub(super) const MOST: usize = 12;
+pub(super) const MAX_PIECES: usize = 12;
 
 /// Pieces one after the other, in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pieces {
-    list: [Piece; MOST],
+    list: [Piece; MAX_PIECES],
     n: usize,
 }
 
@@ -107,7 +107,7 @@ impl Pieces {
         self.iter().map(|piece| piece.duration).sum()
     }
 
-    /// Where they lead.
+    /// State at the end of the pieces.
     pub fn end(&self, start: Point) -> Point {
         self.iter().fold(start, |x, piece| x.after(piece.duration, piece.jerk))
     }
@@ -134,13 +134,13 @@ impl Profile {
         Self { start, pieces, end, duration: pieces.duration() }
     }
 
-    /// How long it takes `[s]`.
+    /// Duration `[s]`.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Where it ends.
+    /// State at the end.
     #[must_use]
     pub fn end(&self) -> Point {
         self.end
@@ -168,7 +168,8 @@ impl Profile {
         Self { start: self.start.mirrored(), pieces, end: self.end.mirrored(), duration: self.duration }
     }
 
-    /// States at the ends of its pieces and where its acceleration passes zero within: its velocity and acceleration are within those.
+    /// States at the ends of its pieces and where its acceleration passes zero within: its velocity and acceleration
+    /// are within those.
     pub(super) fn corners(&self) -> impl Iterator<Item = Point> {
         let mut x = self.start;
         self.pieces.iter().flat_map(move |piece| {

@@ -1,7 +1,7 @@
 //! From one velocity to another, and back into the limits.
 //!
-//! The fastest change of velocity is a triangle or trapezium of acceleration: jerk, none, jerk the other way. With J the largest jerk, the peak is
-//! A = √(J·|v₁ − v₀| + a₀²/2), cut off at the largest acceleration.
+//! The fastest change of velocity is a triangle or trapezium of acceleration: jerk, none, jerk the other way. With J
+//! the largest jerk, the peak is A = √(J·|v₁ − v₀| + a₀²/2), cut off at the largest acceleration.
 
 use super::profile::{Limits, Pieces, Point};
 
@@ -26,9 +26,9 @@ pub(super) fn to_velocity(from: Point, v: f64, limits: &Limits) -> Pieces {
     pieces
 }
 
-/// What has to be done first if the acceleration is out of its limits, or the velocity is or cannot but get there: the fastest way to where a motion
-/// within the limits can begin. Of the velocity, the way ends where it is at its limit, or where the acceleration has to be taken back so as not to
-/// pass the other one.
+/// Pieces that come first if the acceleration is out of its limits, or the velocity is or cannot but get there: the
+/// fastest way to where a motion within the limits can begin. Of the velocity, the way ends where it is at its limit,
+/// or where the acceleration has to be taken back so as not to pass the other one.
 pub(super) fn into_limits(from: Point, limits: &Limits) -> Pieces {
     let (mut pieces, mut x) = (Pieces::default(), from);
     let j = limits.max_jerk;
@@ -51,7 +51,8 @@ fn is_too_fast(x: Point, limits: &Limits) -> bool {
     if x.a > 0.0 { rest > limits.max_velocity } else { x.v > limits.max_velocity && rest > limits.min_velocity }
 }
 
-/// Jerk downwards, then the lowest acceleration, until the velocity is the largest allowed, or to raise the acceleration at once ends at the lowest.
+/// Jerk downwards, then the lowest acceleration, until the velocity is the largest allowed, or to raise the
+/// acceleration at once ends at the lowest.
 fn slow_down(x: Point, limits: &Limits) -> Pieces {
     let (j, lowest) = (limits.max_jerk, limits.min_acceleration);
     let time_to = |square: f64| (x.a + square.max(0.0).sqrt()) / j;

@@ -1,8 +1,9 @@
 //! To a position and velocity in a given time, not less than the least.
 //!
-//! Two ways are tried. The first goes to some velocity v_c, stays there and goes on to the last velocity: with the time given, what is covered grows with
-//! v_c, wherever there is time for both changes. The second is the fastest motion with less jerk, or lower accelerations: the less, the longer it takes.
-//! Where neither takes the time exactly (it may be blocked: with a last velocity that is not zero, arriving a little later can be impossible) there is none.
+//! Two ways are tried. The first goes to some velocity v_c, stays there and goes on to the last velocity: with the time
+//! given, what is covered grows with v_c, wherever there is time for both changes. The second is the fastest motion
+//! with less jerk, or lower accelerations: the less, the longer it takes. Where neither takes the time exactly (it may
+//! be blocked: with a last velocity that is not zero, arriving a little later can be impossible) there is none.
 
 use super::fastest::{HALVINGS, fastest};
 use super::profile::{Limits, Pieces, Point, Profile};
@@ -171,7 +172,7 @@ fn within_share(with: &dyn Fn(f64) -> Profile, start: Point, limits: &Limits, t:
     Some(with(more)).filter(|profile| (t - profile.duration()).abs() <= TIME && stays_within(profile, start, limits))
 }
 
-/// Whether a motion keeps the limits, where it does not begin outside of them.
+/// Returns true if a motion keeps the limits, where it does not begin outside of them.
 fn stays_within(profile: &Profile, start: Point, limits: &Limits) -> bool {
     let range = |low: f64, high: f64, x: f64| {
         let room = 1e-9 * (high - low);
@@ -182,7 +183,8 @@ fn stays_within(profile: &Profile, start: Point, limits: &Limits) -> bool {
     profile.corners().all(|x| velocities.contains(&x.v) && accelerations.contains(&x.a))
 }
 
-/// To a velocity in a given time, not less than the least: with a lower peak of the acceleration, else with less jerk, else with a wait at the end.
+/// To a velocity in a given time, not less than the least: with a lower peak of the acceleration, else with less jerk,
+/// else with a wait at the end.
 pub(super) fn timed_velocity(start: Point, v: f64, limits: &Limits, t: f64) -> Profile {
     let with = |share: f64, jerk: f64| {
         let limits = Limits {

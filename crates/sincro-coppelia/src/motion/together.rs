@@ -4,7 +4,7 @@ use super::fastest::{candidates, fastest};
 use super::profile::{Limits, Point, Profile};
 use super::timed::{fastest_velocity, timed, timed_velocity};
 
-/// How the motions of several axes belong together.
+/// Synchronization of the motions of several axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Synchronization {
     /// All are on one straight line at every time, if start, goal and limits allow it; else as `Time`.
@@ -15,7 +15,7 @@ pub enum Synchronization {
     None,
 }
 
-/// Where an axis is to go.
+/// Goal of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// A position `[u]` and the velocity there [u/s].
@@ -29,37 +29,39 @@ pub enum Goal {
 /// One axis and what it is to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
-    /// Where it is.
+    /// State at the start.
     pub start: Point,
-    /// What it may not exceed. Of `Goal::Velocity` the velocities mean nothing.
+    /// Limits of the motion; those of the velocity have no meaning for `Goal::Velocity`.
     pub limits: Limits,
-    /// Where it is to go.
+    /// Goal.
     pub goal: Goal,
 }
 
-/// Why there is no motion: the axis, counted from 0, and what is wrong with it.
+/// Error of planning: the axis, counted from 0, and the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unplannable {
+pub struct PlanError {
     /// The axis.
     pub axis: usize,
-    /// What is wrong.
+    /// Reason.
     pub why: String,
 }
 
 /// A motion that takes longer is refused `[s]`.
-const LONGEST: f64 = 1e9;
-/// How much two axes may be off one straight line, as a share of the larger.
+const MAX_DURATION: f64 = 1e9;
+/// Tolerance of two axes on one straight line, relative to the larger.
 const STRAIGHT: f64 = 1e-12;
-/// How much limits may be exceeded by rounding, as a share of them.
+/// Relative tolerance of limits that rounding exceeds.
 const ROOM: f64 = 1e-9;
-/// Numbers larger than this are refused, and limits smaller than its inverse: products of some of them must be numbers yet.
+/// Numbers larger than this are refused, and limits smaller than its inverse: products of some of them must be numbers
+/// yet.
 const LARGEST: f64 = 1e15;
 /// Times that are tried for all axes together at which one of them can arrive.
 const TIMES: usize = 60;
 /// Times that are tried between the first possible one and nine times that, and again behind the last of those above.
 const MORE_TIMES: usize = 40;
 
-/// Plans the motions of several axes. All of them hold their limits, arrive at their goals exactly, and have no acceleration there.
+/// Plans the motions of several axes. All of them hold their limits, arrive at their goals exactly, and have no
+/// acceleration there.
 ///
 /// ```
 /// use crate::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
@@ -73,10 +75,11 @@ const MORE_TIMES: usize = 40;
 ///
 /// # Errors
 ///
-/// A number is not finite or beyond 10¹⁵, a limit has the wrong sign or is below 10⁻¹⁵, a target velocity is beyond the limits, or the motion would take more than 10⁹ s.
-pub fn plan(axes: &[Axis], synchronization: Synchronization) -> Result<Vec<Profile>, Unplannable> {
+/// A number is not finite or beyond 10¹⁵, a limit has the wrong sign or is below 10⁻¹⁵, a target velocity is beyond the
+/// limits, or the motion would take more than 10⁹ s.
+pub fn plan(axes: &[Axis], synchronization: Synchronization) -> Result<Vec<Profile>, PlanError> {
     for (axis, this) in axes.iter().enumerate() {
-        this.check().map_err(|why| Unplannable { axis, why })?;
+        this.check().map_err(|why| PlanError { axis, why })?;
     }
     let mut profiles: Vec<Profile> = axes.iter().map(Axis::fastest).collect();
     let longest = |profiles: &[Profile]| {
@@ -84,8 +87,11 @@ pub fn plan(axes: &[Axis], synchronization: Synchronization) -> Result<Vec<Profi
         durations.fold((0, 0.0), |best: (usize, f64), next| if next.1 > best.1 { next } else { best })
     };
     let (slowest, t) = longest(&profiles);
-    if !(0.0..=LONGEST).contains(&t) {
-        return Err(Unplannable { axis: slowest, why: format!("the motion would take {t} s, more than {LONGEST} s") });
+    if !(0.0..=MAX_DURATION).contains(&t) {
+        return Err(PlanError {
+            axis: slowest,
+            why: format!("the motion would take {t} s, more than {MAX_DURATION} s"),
+        });
     }
     match synchronization {
         Synchronization::None => {}
@@ -178,7 +184,7 @@ impl Axis {
         }
     }
 
-    /// How the axis moves as a vector: way, velocity and acceleration at the start, velocity at the end.
+    /// Motion of the axis as a vector: displacement, velocity and acceleration at the start, velocity at the end.
     fn direction(&self) -> [f64; 4] {
         match self.goal {
             Goal::Position(p, v) => [p - self.start.p, self.start.v, self.start.a, v],
@@ -206,7 +212,8 @@ fn in_time(axes: &[Axis], profiles: Vec<Profile>, t: f64) -> Vec<Profile> {
     times.into_iter().chain(later(last)).find_map(at).unwrap_or(profiles)
 }
 
-/// All axes as the slowest, each by its own factor: on one straight line. None if their starts and goals are on no line, or a limit would be exceeded.
+/// All axes as the slowest, each by its own factor: on one straight line. None if their starts and goals are on no
+/// line, or a limit would be exceeded.
 fn straight(axes: &[Axis], leading: &Profile, slowest: usize) -> Option<Vec<Profile>> {
     let lead = axes[slowest].direction();
     let kind = lead.iter().position(|x| *x != 0.0)?;

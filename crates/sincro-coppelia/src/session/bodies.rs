@@ -6,28 +6,28 @@ use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
-use super::table::{Handle, Kind};
-use super::{Desk, Refusal};
+use super::registry::{Handle, Kind};
+use super::{ApiError, SimApi};
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Mass, centre of mass and inertia of a body, in its frame.
     ///
     /// # Errors
     ///
     /// There is no such object, or it is no body.
-    pub fn mass(&self, handle: Handle) -> Result<MassProperties, Refusal> {
-        let entry = self.table.entry(handle)?;
+    pub fn mass(&self, handle: Handle) -> Result<MassProperties, ApiError> {
+        let entry = self.registry.entry(handle)?;
         match entry.kind {
             Kind::Body(mass) => Ok(mass),
-            Kind::Shape => Err(Refusal(format!("`{}` has no mass: {}", entry.path, super::parameters::STATIC))),
-            _ => Err(Refusal(format!("`{}` is no body", entry.path))),
+            Kind::Shape => Err(ApiError(format!("`{}` has no mass: {}", entry.path, super::parameters::STATIC))),
+            _ => Err(ApiError(format!("`{}` is no body", entry.path))),
         }
     }
 
     /// The body's frame moved to its centre of mass.
-    fn center(&self, handle: Handle) -> Result<Attached<f64>, Refusal> {
+    fn center(&self, handle: Handle) -> Result<Attached<f64>, ApiError> {
         let mass = self.mass(handle)?;
-        let frame = self.table.entry(handle)?.frame;
+        let frame = self.registry.entry(handle)?.frame;
         Ok(Attached { pose: frame.pose.compose(&Pose::translation(Vec3(mass.center_of_mass))), ..frame })
     }
 
@@ -36,35 +36,35 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object, or it is no body.
-    pub fn center_velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), Refusal> {
+    pub fn center_velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), ApiError> {
         let center = self.center(handle)?;
         let twist = self.twist(&center);
         Ok((twist.lin.0, twist.ang.0))
     }
 
-    /// Sets one component of the velocity that a body begins with: 0–2 of its centre of mass [m/s], 3–5 of its rotation [rad/s], world axes. The others
-    /// stay.
+    /// Sets one component of the velocity that a body begins with: 0–2 of its centre of mass [m/s], 3–5 of its rotation
+    /// [rad/s], world axes. The others stay.
     ///
     /// # Errors
     ///
     /// There is no such body, a run is on, it is not carried by a free joint of its own, or the number is not finite.
-    pub fn set_initial_velocity(&mut self, handle: Handle, component: usize, value: f64) -> Result<(), Refusal> {
+    pub fn set_initial_velocity(&mut self, handle: Handle, component: usize, value: f64) -> Result<(), ApiError> {
         self.mass(handle)?;
-        let entry = self.table.entry(handle)?.clone();
+        let entry = self.registry.entry(handle)?.clone();
         if self.is_running() {
-            return Err(Refusal(format!(
+            return Err(ApiError(format!(
                 "`{}`: an initial velocity is set while the simulation is stopped",
                 entry.path
             )));
         }
         if !value.is_finite() {
-            return Err(Refusal(format!("velocity {value} is not finite")));
+            return Err(ApiError(format!("velocity {value} is not finite")));
         }
         let joints = &self.world.model().names().joints;
         let carrier = joints.iter().find(|j| j.kind == JointKind::Free && j.moving.link == entry.frame.link);
         let Some((v_idx, moving)) = carrier.filter(|j| j.base.link.is_none()).map(|j| (j.v_idx, j.moving)) else {
             let help = "set the velocities of the joints that carry it, `initial` in the scene";
-            return Err(Refusal(format!("`{}` hangs on no free joint of the world: {help}", entry.path)));
+            return Err(ApiError(format!("`{}` hangs on no free joint of the world: {help}", entry.path)));
         };
         let (mut v, mut w) = self.center_velocity(handle)?;
         *(if component < 3 { &mut v[component] } else { &mut w[component - 3] }) = value;
@@ -74,7 +74,7 @@ impl Desk<'_> {
         let lin = Vec3(v) + Vec3(w).cross(x_wm.pos - x_wc.pos);
         let (ang, lin) = (x_wm.rot.tr_mul_vec(Vec3(w)), x_wm.rot.tr_mul_vec(lin));
         if !ang.0.iter().chain(&lin.0).all(|x| x.is_finite()) {
-            return Err(Refusal(format!("velocity {value} is too large")));
+            return Err(ApiError(format!("velocity {value} is too large")));
         }
         self.world.state.v[v_idx..v_idx + 3].copy_from_slice(&ang.0);
         self.world.state.v[v_idx + 3..v_idx + 6].copy_from_slice(&lin.0);
@@ -88,31 +88,32 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object, it is no body, no run is on, or a number is not finite.
-    pub fn add_force_and_torque(&mut self, handle: Handle, force: [f64; 3], torque: [f64; 3]) -> Result<(), Refusal> {
+    pub fn add_force_and_torque(&mut self, handle: Handle, force: [f64; 3], torque: [f64; 3]) -> Result<(), ApiError> {
         let center = self.center(handle)?;
         self.push(&center, Vec3(force), Vec3(torque))
     }
 
-    /// Pushes on a point of a body over the coming step: point `[m]` and force `[N]` in the body's frame as it stands now.
+    /// Pushes on a point of a body over the coming step: point `[m]` and force `[N]` in the body's frame as it stands
+    /// now.
     ///
     /// # Errors
     ///
-    /// As [`Desk::add_force_and_torque`].
-    pub fn add_force(&mut self, handle: Handle, point: [f64; 3], force: [f64; 3]) -> Result<(), Refusal> {
+    /// As [`SimApi::add_force_and_torque`].
+    pub fn add_force(&mut self, handle: Handle, point: [f64; 3], force: [f64; 3]) -> Result<(), ApiError> {
         self.mass(handle)?;
-        let frame = self.table.entry(handle)?.frame;
+        let frame = self.registry.entry(handle)?.frame;
         let force = self.place(&frame).rot.mul_vec(Vec3(force));
         let at = Attached { pose: frame.pose.compose(&Pose::translation(Vec3(point))), ..frame };
         self.push(&at, force, Vec3::zero())
     }
 
-    fn push(&mut self, at: &Attached<f64>, force: Vec3<f64>, torque: Vec3<f64>) -> Result<(), Refusal> {
+    fn push(&mut self, at: &Attached<f64>, force: Vec3<f64>, torque: Vec3<f64>) -> Result<(), ApiError> {
         if !self.is_running() {
-            return Err(Refusal::new("a force acts over a step: start the simulation first"));
+            return Err(ApiError::new("a force acts over a step: start the simulation first"));
         }
         let numbers = force.0.iter().chain(&torque.0).chain(&at.pose.pos.0);
         if !numbers.copied().all(f64::is_finite) {
-            return Err(Refusal::new("a force, torque or point has numbers that are not finite"));
+            return Err(ApiError::new("a force, torque or point has numbers that are not finite"));
         }
         if let Some(link) = at.link {
             self.world.push(Push { link, point: at.pose.pos, force, torque });

@@ -1,5 +1,5 @@
-//! Values as CBOR (RFC 8949), for clients and for tables that scripts pack: definite lengths, numbers of 64 bits, no tags. Whoever reads decides
-//! what is taken.
+//! Values as CBOR (RFC 8949), for clients and for tables that scripts pack: definite lengths, numbers of 64 bits, no
+//! tags. Whoever reads decides what is taken.
 
 use super::Value;
 

@@ -1,71 +1,72 @@
-//! What clients and scripts change of the model: masses, bounds of stops, laws of couplings, whether a body touches. Each change is kept with the run
-//! that has it.
+//! Changes of the model by clients and scripts: masses, joint limits, couplings, whether a body is respondable. Each
+//! change is kept with the run that has it.
 
 use sincro_dynamics::model::{BodyId, MassProperties};
 use sincro_dynamics::spatial::Vec3;
 
-use super::table::{Handle, Kind, Table};
-use super::{Desk, Phase, Refusal};
+use super::registry::{Handle, Kind, ObjectRegistry};
+use super::{ApiError, Phase, SimApi};
 use sincro_sim::controller::Change;
 
 /// Changes that are kept.
-const MOST: usize = 10_000;
+const MAX_CHANGES: usize = 10_000;
 /// Relative excess over the triangle inequality that is put down to rounding.
 const TRIANGLE_SLACK: f64 = 1e-9;
 /// A coupling may be that far from its new law `[rad]` or `[m]`.
 const FITS: f64 = 1e-9;
 
-impl Table {
+impl ObjectRegistry {
     /// Keeps a change; a later one of the same number at the same time takes its place.
-    pub(super) fn keep_change(&mut self, change: Change) -> Result<(), Refusal> {
+    pub(super) fn keep_change(&mut self, change: Change) -> Result<(), ApiError> {
         let same = |c: &Change| (c.t, &*c.object, c.quantity) == (change.t, &*change.object, change.quantity);
-        let is_full = self.changes.len() >= MOST;
+        let is_full = self.changes.len() >= MAX_CHANGES;
         match self.changes.iter().position(same) {
             Some(k) => self.changes[k] = change,
-            None if is_full => return Err(Refusal(format!("the model was changed {MOST} times already"))),
+            None if is_full => return Err(ApiError(format!("the model was changed {MAX_CHANGES} times already"))),
             None => self.changes.push(change),
         }
         self.is_model_changed |= self.phase == Phase::Stopped;
         Ok(())
     }
 
-    /// What is other than in the scene.
+    /// Differences from the scene.
     #[must_use]
     pub fn changes(&self) -> &[Change] {
         &self.changes
     }
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// When the next step begins `[s]`; 0 while stopped.
     fn acts_at(&self) -> f64 {
-        if self.is_running() { self.world.state.tick as f64 * self.table.base_step() } else { 0.0 }
+        if self.is_running() { self.world.state.tick as f64 * self.registry.base_step() } else { 0.0 }
     }
 
-    fn change(&mut self, handle: Handle, quantity: &'static str, value: Vec<f64>) -> Result<(), Refusal> {
-        let object = self.table.entry(handle)?.path.clone();
+    fn change(&mut self, handle: Handle, quantity: &'static str, value: Vec<f64>) -> Result<(), ApiError> {
+        let object = self.registry.entry(handle)?.path.clone();
         let t = self.acts_at();
-        self.table.keep_change(Change { t, object, quantity, value })
+        self.registry.keep_change(Change { t, object, quantity, value })
     }
 
-    /// Gives a body other mass properties, in its own frame. While a run is on it keeps its velocity, and the energy that this gives or takes is work.
+    /// Gives a body other mass properties, in its own frame. While a run is on it keeps its velocity, and the energy
+    /// that this gives or takes is work.
     ///
     /// # Errors
     ///
     /// There is no such body, it is fixed in the world, or nothing has such a mass.
-    pub fn set_mass(&mut self, handle: Handle, mass: MassProperties) -> Result<(), Refusal> {
+    pub fn set_mass(&mut self, handle: Handle, mass: MassProperties) -> Result<(), ApiError> {
         self.mass(handle)?;
-        let entry = self.table.entry(handle)?;
+        let entry = self.registry.entry(handle)?;
         let path = entry.path.clone();
         let Some(link) = entry.frame.link else {
-            return Err(Refusal(format!("`{path}` is fixed in the world: it has no mass")));
+            return Err(ApiError(format!("`{path}` is fixed in the world: it has no mass")));
         };
         check_mass(&path, &mass)?;
         self.change(handle, "mass", vec![mass.mass])?;
         self.change(handle, "center_of_mass", mass.center_of_mass.to_vec())?;
         self.change(handle, "inertia", mass.inertia.to_vec())?;
-        self.table.entry_mut(handle).kind = Kind::Body(mass);
-        let of = |path: &str| match self.table.entries().find(|e| e.path == path)?.kind {
+        self.registry.entry_mut(handle).kind = Kind::Body(mass);
+        let of = |path: &str| match self.registry.entries().find(|e| e.path == path)?.kind {
             Kind::Body(mass) => Some(mass),
             _ => None,
         };
@@ -83,7 +84,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such body.
-    pub fn mass_scaled(&self, handle: Handle, mass: f64) -> Result<MassProperties, Refusal> {
+    pub fn mass_scaled(&self, handle: Handle, mass: f64) -> Result<MassProperties, ApiError> {
         let old = self.mass(handle)?;
         let factor = mass / old.mass;
         Ok(MassProperties { mass, inertia: old.inertia.map(|i| i * factor), ..old })
@@ -94,14 +95,14 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such body, it has no solids or a mesh, or the density is not positive.
-    pub fn mass_at_density(&self, handle: Handle, density: f64) -> Result<MassProperties, Refusal> {
+    pub fn mass_at_density(&self, handle: Handle, density: f64) -> Result<MassProperties, ApiError> {
         self.mass(handle)?;
         if !(density.is_finite() && density > 0.0) {
-            return Err(Refusal(format!("density {density} kg/m³ is not positive")));
+            return Err(ApiError(format!("density {density} kg/m³ is not positive")));
         }
-        let path = &self.table.entry(handle)?.path;
-        let unit = self.table.solids.get(&handle).ok_or_else(|| {
-            Refusal(format!("`{path}` has no solids of closed form: give it `density` or `mass` in the scene"))
+        let path = &self.registry.entry(handle)?.path;
+        let unit = self.registry.solids.get(&handle).ok_or_else(|| {
+            ApiError(format!("`{path}` has no solids of closed form: give it `density` or `mass` in the scene"))
         })?;
         Ok(MassProperties { mass: unit.mass * density, inertia: unit.inertia.map(|i| i * density), ..*unit })
     }
@@ -111,56 +112,60 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no stops in the scene, they are not in order, or the joint stands beyond them.
-    pub fn set_joint_interval(&mut self, handle: Handle, lower: f64, upper: f64) -> Result<(), Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn set_joint_interval(&mut self, handle: Handle, lower: f64, upper: f64) -> Result<(), ApiError> {
+        let joint = self.registry.joint(handle)?;
         let (dof, q) = (joint.v_idx, self.world.state.q[joint.q_idx]);
-        let path = self.table.entry(handle)?.path.clone();
+        let path = self.registry.entry(handle)?.path.clone();
         if !(lower.is_finite() && upper.is_finite() && lower < upper) {
-            return Err(Refusal(format!("{lower} to {upper} is no interval for `{path}`")));
+            return Err(ApiError(format!("{lower} to {upper} is no interval for `{path}`")));
         }
         if !(lower..=upper).contains(&q) {
-            return Err(Refusal(format!("`{path}` stands at {q}, beyond {lower} to {upper}: put it there first")));
+            return Err(ApiError(format!("`{path}` stands at {q}, beyond {lower} to {upper}: put it there first")));
         }
         if !self.world.set_limits(dof, [Some(lower), Some(upper)]) {
             let help = "stops are moved, not made: give it `limits = { lower = …, upper = … }` in the scene";
-            return Err(Refusal(format!("`{path}` has no stops on both sides: {help}")));
+            return Err(ApiError(format!("`{path}` has no stops on both sides: {help}")));
         }
         self.change(handle, "limits", vec![lower, upper])
     }
 
-    /// Gives the coupling of a joint with its master another offset and factor. While stopped the joint goes to where the new law has it.
+    /// Gives the coupling of a joint with its master another offset and factor. While stopped the joint goes to where
+    /// the new law has it.
     ///
     /// # Errors
     ///
-    /// There is no such joint, the scene couples it with no other or another one, a number is not finite, or a run is on and the joint stands elsewhere.
+    /// There is no such joint, the scene couples it with no other or another one, a number is not finite, or a run is
+    /// on and the joint stands elsewhere.
     pub fn set_joint_dependency(
         &mut self,
         handle: Handle,
         master: Handle,
         (offset, factor): (f64, f64),
-    ) -> Result<(), Refusal> {
-        let (joint, of) = (self.table.joint(handle)?.clone(), self.table.joint(master)?.clone());
-        let path = self.table.entry(handle)?.path.clone();
+    ) -> Result<(), ApiError> {
+        let (joint, of) = (self.registry.joint(handle)?.clone(), self.registry.joint(master)?.clone());
+        let path = self.registry.entry(handle)?.path.clone();
         if !(offset.is_finite() && factor.is_finite() && factor != 0.0) {
-            return Err(Refusal(format!("offset {offset} and factor {factor}: expected numbers, the factor not zero")));
+            return Err(ApiError(format!(
+                "offset {offset} and factor {factor}: expected numbers, the factor not zero"
+            )));
         }
         let couplings = &self.world.model().constraints().gears;
         let found = couplings.iter().position(|c| c.dofs == [of.v_idx, joint.v_idx]);
         let Some(k) = found else {
-            let master = &self.table.entry(master)?.path;
+            let master = &self.registry.entry(master)?.path;
             let help = "couplings are changed, not made: add a [[coupling]] to the scene";
-            return Err(Refusal(format!("the scene does not couple `{path}` with `{master}`: {help}")));
+            return Err(ApiError(format!("the scene does not couple `{path}` with `{master}`: {help}")));
         };
         let q = &mut self.world.state.q;
         let wanted = factor * q[of.q_idx] + offset;
         if !wanted.is_finite() {
-            return Err(Refusal(format!("factor {factor} has `{path}` at {wanted}")));
+            return Err(ApiError(format!("factor {factor} has `{path}` at {wanted}")));
         }
-        if self.table.phase == Phase::Stopped {
+        if self.registry.phase == Phase::Stopped {
             q[joint.q_idx] = wanted;
         } else if (wanted - q[joint.q_idx]).abs() > FITS {
             let now = q[joint.q_idx];
-            return Err(Refusal(format!(
+            return Err(ApiError(format!(
                 "`{path}` stands at {now}, the new law has it at {wanted}: stop the run first"
             )));
         }
@@ -174,26 +179,26 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// A number is not finite.
-    pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), Refusal> {
+    pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), ApiError> {
         if !gravity.iter().all(|x| x.is_finite()) {
-            return Err(Refusal(format!("gravity {gravity:?} is not finite")));
+            return Err(ApiError(format!("gravity {gravity:?} is not finite")));
         }
         let t = self.acts_at();
         let change = Change { t, object: "/".into(), quantity: "gravity", value: gravity.to_vec() };
-        self.table.keep_change(change)?;
+        self.registry.keep_change(change)?;
         self.world.set_gravity(Vec3(gravity));
         self.moved();
         Ok(())
     }
 
-    /// Whether a body touches others.
+    /// Returns true if a body touches others.
     ///
     /// # Errors
     ///
     /// There is no such body, or it has no contact in the scene.
-    pub fn is_respondable(&self, handle: Handle) -> Result<bool, Refusal> {
+    pub fn is_respondable(&self, handle: Handle) -> Result<bool, ApiError> {
         self.mass(handle)?;
-        Ok(self.can_touch(handle).is_ok() && !self.table.passing.contains(&handle))
+        Ok(self.can_touch(handle).is_ok() && !self.registry.passing.contains(&handle))
     }
 
     /// Lets a body pass through all others, or touch them again.
@@ -201,14 +206,14 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such body, or it has no contact in the scene.
-    pub fn set_respondable(&mut self, handle: Handle, touches: bool) -> Result<(), Refusal> {
+    pub fn set_respondable(&mut self, handle: Handle, touches: bool) -> Result<(), ApiError> {
         self.mass(handle)?;
         self.can_touch(handle)?;
         self.change(handle, "respondable", vec![f64::from(u8::from(touches))])?;
         if touches {
-            self.table.passing.remove(&handle);
+            self.registry.passing.remove(&handle);
         } else {
-            self.table.passing.insert(handle);
+            self.registry.passing.insert(handle);
         }
         self.restore_pairs();
         Ok(())
@@ -216,21 +221,21 @@ impl Desk<'_> {
 }
 
 /// Refuses what the scene file would refuse or warn of.
-fn check_mass(path: &str, mass: &MassProperties) -> Result<(), Refusal> {
+fn check_mass(path: &str, mass: &MassProperties) -> Result<(), ApiError> {
     let m = mass.mass;
     if !(m.is_finite() && m > 0.0) {
-        return Err(Refusal(format!("mass {m} kg of `{path}` is not positive")));
+        return Err(ApiError(format!("mass {m} kg of `{path}` is not positive")));
     }
     if !mass.center_of_mass.iter().chain(&mass.inertia).all(|x| x.is_finite()) {
-        return Err(Refusal(format!("centre of mass or inertia of `{path}` has numbers that are not finite")));
+        return Err(ApiError(format!("centre of mass or inertia of `{path}` has numbers that are not finite")));
     }
     let [least, middle, largest] = mass.principal_moments();
     if least < -1e-12 * largest.abs() {
-        return Err(Refusal(format!("inertia of `{path}` has a negative principal moment, {least:.6e} kg·m²")));
+        return Err(ApiError(format!("inertia of `{path}` has a negative principal moment, {least:.6e} kg·m²")));
     }
     if mass.triangle_excess() > TRIANGLE_SLACK {
         let sum = least + middle;
-        return Err(Refusal(format!(
+        return Err(ApiError(format!(
             "no rigid body has the inertia of `{path}`: its largest principal moment {largest:.6e} kg·m² exceeds the sum of the others, {sum:.6e}"
         )));
     }

@@ -1,16 +1,16 @@
 //! Collections: sets of objects that clients and scripts put together, to be looked at as one.
 
-use super::table::{Handle, Table};
-use super::{Desk, Refusal};
+use super::registry::{Handle, ObjectRegistry};
+use super::{ApiError, SimApi};
 
 /// The first handle of a collection: objects have smaller ones.
 const FIRST: i32 = 900_000;
 /// Collections that may exist at once.
-const MOST: usize = 10_000;
+const MAX_COLLECTIONS: usize = 10_000;
 /// Rules of one of them.
-const MOST_ITEMS: usize = 10_000;
+const MAX_ITEMS: usize = 10_000;
 
-/// What a rule of a collection names.
+/// Objects that a rule of a collection selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Item {
     /// Every object, those that are made later, too.
@@ -27,7 +27,7 @@ pub enum Item {
 #[derive(Clone, Debug, Default)]
 pub struct Collection {
     name: String,
-    /// Whether it adds.
+    /// True if it adds.
     items: Vec<(Item, bool)>,
 }
 
@@ -42,16 +42,16 @@ impl Collection {
     }
 }
 
-impl Table {
+impl ObjectRegistry {
     /// Makes an empty collection.
     ///
     /// # Errors
     ///
     /// There are too many.
-    pub fn create_collection(&mut self, name: &str) -> Result<Handle, Refusal> {
+    pub fn create_collection(&mut self, name: &str) -> Result<Handle, ApiError> {
         let all = &mut self.senses.collections;
-        if all.len() >= MOST {
-            return Err(Refusal(format!("there are {MOST} collections already: destroy some")));
+        if all.len() >= MAX_COLLECTIONS {
+            return Err(ApiError(format!("there are {MAX_COLLECTIONS} collections already: destroy some")));
         }
         let handle = all.last_key_value().map_or(Handle(FIRST), |(last, _)| Handle(last.0 + 1));
         all.insert(handle, Collection { name: name.to_owned(), items: Vec::new() });
@@ -65,15 +65,15 @@ impl Table {
         found.map(|(handle, _)| *handle)
     }
 
-    /// Whether a handle is one of a collection.
+    /// Returns true if a handle is one of a collection.
     #[must_use]
     pub fn is_collection(&self, handle: Handle) -> bool {
         self.senses.collections.contains_key(&handle)
     }
 
-    fn collection(&mut self, handle: Handle) -> Result<&mut Collection, Refusal> {
+    fn collection(&mut self, handle: Handle) -> Result<&mut Collection, ApiError> {
         let found = self.senses.collections.get_mut(&handle);
-        found.ok_or_else(|| Refusal(format!("there is no collection with the handle {}", handle.0)))
+        found.ok_or_else(|| ApiError(format!("there is no collection with the handle {}", handle.0)))
     }
 
     /// Adds a rule to a collection, or one that takes away.
@@ -81,10 +81,10 @@ impl Table {
     /// # Errors
     ///
     /// There is no such collection, or it has too many rules.
-    pub fn add_to_collection(&mut self, handle: Handle, item: Item, adds: bool) -> Result<(), Refusal> {
+    pub fn add_to_collection(&mut self, handle: Handle, item: Item, adds: bool) -> Result<(), ApiError> {
         let collection = self.collection(handle)?;
-        if collection.items.len() >= MOST_ITEMS {
-            return Err(Refusal(format!("a collection has {MOST_ITEMS} items at most: empty it")));
+        if collection.items.len() >= MAX_ITEMS {
+            return Err(ApiError(format!("a collection has {MAX_ITEMS} items at most: empty it")));
         }
         collection.items.push((item, adds));
         Ok(())
@@ -95,7 +95,7 @@ impl Table {
     /// # Errors
     ///
     /// There is no such collection.
-    pub fn empty_collection(&mut self, handle: Handle) -> Result<(), Refusal> {
+    pub fn empty_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.collection(handle)?.items.clear();
         Ok(())
     }
@@ -105,7 +105,7 @@ impl Table {
     /// # Errors
     ///
     /// There is no such collection.
-    pub fn remove_collection(&mut self, handle: Handle) -> Result<(), Refusal> {
+    pub fn remove_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.collection(handle)?;
         self.senses.collections.remove(&handle);
         Ok(())
@@ -116,10 +116,10 @@ impl Table {
     /// # Errors
     ///
     /// There is no such collection.
-    pub fn collected(&self, handle: Handle) -> Result<Vec<Handle>, Refusal> {
+    pub fn collected(&self, handle: Handle) -> Result<Vec<Handle>, ApiError> {
         let found = self.senses.collections.get(&handle);
         let collection =
-            found.ok_or_else(|| Refusal(format!("there is no collection with the handle {}", handle.0)))?;
+            found.ok_or_else(|| ApiError(format!("there is no collection with the handle {}", handle.0)))?;
         let mut members = std::collections::BTreeSet::new();
         for (item, adds) in &collection.items {
             let named: Vec<Handle> = match *item {
@@ -143,7 +143,7 @@ impl Table {
     }
 }
 
-/// What can be looked at as one.
+/// Object, collection or everything, where a function accepts any of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entity {
     /// Everything.
@@ -154,17 +154,17 @@ pub enum Entity {
     Collection(Handle),
 }
 
-impl Desk<'_> {
-    /// What a handle means where an object, a collection or −2 for all may stand.
+impl SimApi<'_> {
+    /// Entity of a handle: an object, a collection, or all for −2.
     ///
     /// # Errors
     ///
     /// It is none of them.
-    pub fn entity(&self, handle: Handle) -> Result<Entity, Refusal> {
+    pub fn entity(&self, handle: Handle) -> Result<Entity, ApiError> {
         Ok(match handle {
             Handle(-2) => Entity::All,
-            h if self.table.is_collection(h) => Entity::Collection(h),
-            h => Entity::Object(self.table.entry(h)?.handle),
+            h if self.registry.is_collection(h) => Entity::Collection(h),
+            h => Entity::Object(self.registry.entry(h)?.handle),
         })
     }
 
@@ -173,11 +173,11 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// It is a collection that is gone.
-    pub(super) fn members(&self, entity: Entity) -> Result<Vec<Handle>, Refusal> {
+    pub(super) fn members(&self, entity: Entity) -> Result<Vec<Handle>, ApiError> {
         match entity {
-            Entity::All => Ok(self.table.entries().map(|e| e.handle).collect()),
+            Entity::All => Ok(self.registry.entries().map(|e| e.handle).collect()),
             Entity::Object(one) => Ok(vec![one]),
-            Entity::Collection(handle) => self.table.collected(handle),
+            Entity::Collection(handle) => self.registry.collected(handle),
         }
     }
 }

@@ -1,6 +1,6 @@
-//! The conventions of V-REP and CoppeliaSim for poses, converted at the door. Facts: rotations are right-handed; Euler angles
-//! (α, β, γ) mean R = Rx(α)·Ry(β)·Rz(γ); quaternions are x, y, z, w; matrices are the upper 3×4 part row by row; poses are
-//! position, then quaternion. Lengths `[m]`, angles `[rad]`.
+//! The conventions of V-REP and CoppeliaSim for poses, converted at the boundary. Facts: rotations are right-handed;
+//! Euler angles (α, β, γ) mean R = Rx(α)·Ry(β)·Rz(γ); quaternions are x, y, z, w; matrices are the upper 3×4 part row
+//! by row; poses are position, then quaternion. Lengths `[m]`, angles `[rad]`.
 
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::elementary::{asin, atan2, sin_cos};

@@ -1,4 +1,5 @@
-//! Distances and collisions of objects and collections, now: of bodies with shapes, of shapes made at run time, and of points.
+//! Distances and collisions of objects and collections, now: of bodies with shapes, of shapes made at run time, and of
+//! points.
 
 use std::sync::{Arc, OnceLock};
 
@@ -9,11 +10,11 @@ use sincro_dynamics::model::Shape;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::senses::handle_of;
-use super::{Desk, Entity, Handle, Kind, Refusal};
+use super::{ApiError, Entity, Handle, Kind, SimApi};
 
 /// The closest points of two entities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearness {
+pub struct DistanceResult {
     /// `[m]`; 0 if they meet.
     pub distance: f64,
     /// On the first and the second, in the world `[m]`.
@@ -29,12 +30,12 @@ struct Part {
     at: Pose<f64>,
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Everything of an entity that has a place: surfaces, and points of single objects that have none.
-    fn parts(&mut self, entity: Entity) -> Result<Vec<Part>, Refusal> {
+    fn parts(&mut self, entity: Entity) -> Result<Vec<Part>, ApiError> {
         let members = self.members(entity)?;
         let found: Vec<(Handle, Arc<Geometry>, Attached<f64>)> = {
-            let pieces = self.table.senses.pieces().filter(|p| members.binary_search(&handle_of(p)).is_ok());
+            let pieces = self.registry.senses.pieces().filter(|p| members.binary_search(&handle_of(p)).is_ok());
             pieces.map(|p| (handle_of(p), p.geometry.clone(), p.at)).collect()
         };
         let mut parts = Vec::with_capacity(found.len());
@@ -44,9 +45,9 @@ impl Desk<'_> {
         if let Entity::Object(object) = entity
             && parts.is_empty()
         {
-            let entry = self.table.entry(object)?;
+            let entry = self.registry.entry(object)?;
             if !matches!(entry.kind, Kind::Frame | Kind::Dummy) {
-                return Err(Refusal(format!("`{}` has no shape that a distance could be measured from", entry.path)));
+                return Err(ApiError(format!("`{}` has no shape that a distance could be measured from", entry.path)));
             }
             let frame = entry.frame;
             parts.push(Part { object, geometry: point(), at: self.place(&frame) });
@@ -54,12 +55,13 @@ impl Desk<'_> {
         Ok(parts)
     }
 
-    /// The closest points of two entities, if they are within `most` `[m]`. All means everything that has a shape and is not part of the other.
+    /// The closest points of two entities, if they are within `most` `[m]`. All means everything that has a shape and
+    /// is not part of the other.
     ///
     /// # Errors
     ///
     /// One of them is gone, or is an object without shape that is no point either.
-    pub fn distance(&mut self, one: Entity, two: Entity, most: f64) -> Result<Option<Nearness>, Refusal> {
+    pub fn distance(&mut self, one: Entity, two: Entity, most: f64) -> Result<Option<DistanceResult>, ApiError> {
         let (mut first, mut second) = (self.parts(one)?, self.parts(two)?);
         match (one, two) {
             (_, Entity::All) => {
@@ -72,7 +74,7 @@ impl Desk<'_> {
             }
             _ => {}
         }
-        let mut best: Option<Nearness> = None;
+        let mut best: Option<DistanceResult> = None;
         for a in &first {
             for b in second.iter().filter(|b| b.object != a.object) {
                 let limit = best.map_or(most, |best| best.distance);
@@ -85,7 +87,7 @@ impl Desk<'_> {
                     && best.is_none_or(|best| found.distance < best.distance)
                 {
                     let points = found.points.map(|p| a.at.point(p));
-                    best = Some(Nearness { distance: found.distance, points, objects: [a.object, b.object] });
+                    best = Some(DistanceResult { distance: found.distance, points, objects: [a.object, b.object] });
                 }
                 if best.is_some_and(|best| best.distance == 0.0) {
                     return Ok(best);
@@ -100,18 +102,18 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// One of them is gone, or is an object without shape.
-    pub fn collision(&mut self, one: Entity, two: Entity) -> Result<Option<[Handle; 2]>, Refusal> {
+    pub fn collision(&mut self, one: Entity, two: Entity) -> Result<Option<[Handle; 2]>, ApiError> {
         for entity in [one, two] {
             if let Entity::Object(object) = entity
-                && !self.table.senses.pieces().any(|piece| handle_of(piece) == object)
+                && !self.registry.senses.pieces().any(|piece| handle_of(piece) == object)
             {
-                let path = &self.table.entry(object)?.path;
-                return Err(Refusal(format!("`{path}` has no shape: it meets nothing")));
+                let path = &self.registry.entry(object)?.path;
+                return Err(ApiError(format!("`{path}` has no shape: it meets nothing")));
             }
         }
         let (first, second) = (self.members(one)?, self.members(two)?);
         let is_of = |members: &[Handle], body: Handle| members.binary_search(&body).is_ok();
-        let pressing = self.touches().into_iter().map(|touch| touch.bodies).find_map(|[a, b]| {
+        let pressing = self.contact_points().into_iter().map(|contact| contact.bodies).find_map(|[a, b]| {
             if is_of(&first, a) && is_of(&second, b) {
                 Some([a, b])
             } else {

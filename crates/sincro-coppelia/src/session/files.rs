@@ -1,16 +1,17 @@
-//! Files that clients send, if whoever runs the server lets them: in one folder of the session, with plain names, not too many.
+//! Files that clients send, if whoever runs the server lets them: in one folder of the session, with plain names, not
+//! too many.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Refusal;
+use super::ApiError;
 
 /// Files that may be there at once.
-const MOST: usize = 200;
+const MAX_FILES: usize = 200;
 /// Bytes of all of them.
-const MOST_BYTES: u64 = 64 << 20;
+const MAX_BYTES: u64 = 64 << 20;
 /// Longest name.
-const LONGEST: usize = 200;
+const MAX_NAME_LEN: usize = 200;
 
 /// A folder for what clients send.
 #[derive(Clone, Debug)]
@@ -25,7 +26,7 @@ impl Files {
         Self { folder }
     }
 
-    /// Where they are.
+    /// Folder of the files.
     #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
@@ -36,16 +37,16 @@ impl Files {
     /// # Errors
     ///
     /// It is no plain name.
-    pub fn place(&self, name: &str) -> Result<PathBuf, Refusal> {
+    pub fn place(&self, name: &str) -> Result<PathBuf, ApiError> {
         let is_plain = !name.is_empty()
-            && name.len() <= LONGEST
+            && name.len() <= MAX_NAME_LEN
             && !name.starts_with('.')
             && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | ' '));
         if is_plain {
             return Ok(self.folder.join(name));
         }
         let short: String = name.chars().take(100).collect();
-        Err(Refusal(format!(
+        Err(ApiError(format!(
             "`{short}` is no name of a file here: letters, digits, `.`, `_`, `-` and spaces, no folders"
         )))
     }
@@ -55,18 +56,18 @@ impl Files {
     /// # Errors
     ///
     /// It is no plain name, there are too many or too large ones, or it cannot be written.
-    pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Refusal> {
+    pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), ApiError> {
         let place = self.place(name)?;
-        let refused = |e: std::io::Error| Refusal(format!("`{name}` cannot be written: {e}"));
+        let refused = |e: std::io::Error| ApiError(format!("`{name}` cannot be written: {e}"));
         fs::create_dir_all(&self.folder).map_err(refused)?;
         let (mut n, mut total) = (0, bytes.len() as u64);
         for other in fs::read_dir(&self.folder).map_err(refused)?.flatten().filter(|other| other.path() != place) {
             n += 1;
             total += other.metadata().map_or(0, |about| about.len());
         }
-        if n >= MOST || total > MOST_BYTES {
-            let mib = MOST_BYTES >> 20;
-            return Err(Refusal(format!("clients may send {MOST} files of {mib} MiB together: erase some")));
+        if n >= MAX_FILES || total > MAX_BYTES {
+            let mib = MAX_BYTES >> 20;
+            return Err(ApiError(format!("clients may send {MAX_FILES} files of {mib} MiB together: erase some")));
         }
         fs::write(place, bytes).map_err(refused)
     }
@@ -76,8 +77,8 @@ impl Files {
     /// # Errors
     ///
     /// There is none of that name.
-    pub fn erase(&self, name: &str) -> Result<(), Refusal> {
+    pub fn erase(&self, name: &str) -> Result<(), ApiError> {
         let place = self.place(name)?;
-        fs::remove_file(place).map_err(|_| Refusal(format!("there is no file `{name}` that a client has sent")))
+        fs::remove_file(place).map_err(|_| ApiError(format!("there is no file `{name}` that a client has sent")))
     }
 }

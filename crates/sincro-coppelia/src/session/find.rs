@@ -1,14 +1,15 @@
 //! Finding objects by the names that V-REP and CoppeliaSim clients use.
 //!
-//! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]` takes the i-th match among
-//! the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for any run and any character. Without, it is a name
-//! of V-REP: `joint`, `joint#` for the first of that name, `joint#0`, `joint#1` for the second and third.
+//! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
+//! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
+//! any run and any character. Without, it is a name of V-REP: `joint`, `joint#` for the first of that name, `joint#0`,
+//! `joint#1` for the second and third.
 
-use super::Refusal;
-use super::table::{Entry, Handle, Table};
+use super::ApiError;
+use super::registry::{Entry, Handle, ObjectRegistry};
 
 /// Longest path that is looked for.
-const LONGEST: usize = 1_000;
+const MAX_PATH_LEN: usize = 1_000;
 
 /// One level of a path.
 struct Element {
@@ -17,26 +18,26 @@ struct Element {
     among: Option<usize>,
 }
 
-/// How to look for an object.
+/// Options of a search for an object.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Search {
-    /// What `.` and `..` start from: the object of the script that asks.
+    /// Start of `.` and `..`: the object of the calling script.
     pub from: Option<Handle>,
     /// Which match is wanted, from 0.
     pub index: usize,
-    /// Whether a path without a leading sign is one all the same, below this object.
+    /// True if a path without a leading sign is one all the same, below this object.
     pub below: Option<Handle>,
 }
 
-impl Table {
+impl ObjectRegistry {
     /// The object of a name or path.
     ///
     /// # Errors
     ///
     /// There is none; the message names the nearest.
-    pub fn find(&self, text: &str, search: Search) -> Result<Handle, Refusal> {
-        if text.len() > LONGEST {
-            return Err(Refusal(format!("a path of {} bytes is longer than {LONGEST}", text.len())));
+    pub fn find(&self, text: &str, search: Search) -> Result<Handle, ApiError> {
+        if text.len() > MAX_PATH_LEN {
+            return Err(ApiError(format!("a path of {} bytes is longer than {MAX_PATH_LEN}", text.len())));
         }
         let found = match text.chars().next() {
             Some('/' | '.' | ':') => self.find_path(text, search)?,
@@ -58,10 +59,10 @@ impl Table {
         self.entries().filter(|e| e.name == name).nth(nth).map(|e| e.handle)
     }
 
-    fn find_path(&self, text: &str, search: Search) -> Result<Option<Handle>, Refusal> {
+    fn find_path(&self, text: &str, search: Search) -> Result<Option<Handle>, ApiError> {
         let (mut start, mut rest) = (None, text);
         let own =
-            || search.from.ok_or_else(|| Refusal(format!("`{text}` starts at the object of a script, and none asks")));
+            || search.from.ok_or_else(|| ApiError(format!("`{text}` starts at the object of a script, and none asks")));
         if let Some(tail) = rest.strip_prefix("::").or_else(|| rest.strip_prefix(':')) {
             // models are not marked here: the outermost object of the tree is the model
             let mut at = own()?;
@@ -84,7 +85,7 @@ impl Table {
         }
         let (rest, index) = split_number(rest, '{', '}').unwrap_or((rest, search.index));
         let Some(elements) = rest.split('/').map(element).collect::<Option<Vec<_>>>() else {
-            return Err(Refusal(format!("`{text}` is no path of objects")));
+            return Err(ApiError(format!("`{text}` is no path of objects")));
         };
         let mut left = index;
         Ok(self.search(start, &elements, &mut left))
@@ -120,13 +121,13 @@ impl Table {
         below.into_iter().find_map(|o| self.search(Some(o.handle), path, left))
     }
 
-    fn missing(&self, text: &str) -> Refusal {
+    fn missing(&self, text: &str) -> ApiError {
         let name = text.rsplit('/').next().unwrap_or(text);
         let mut known: Vec<&str> = self.entries().flat_map(|e| [e.name.as_str(), e.path.as_str()]).collect();
         known.dedup();
         let near = sincro_scene::suggest::nearest(name, known.iter().copied());
         let hint = near.map(|n| format!(": did you mean `{n}`?")).unwrap_or_default();
-        Refusal(format!("Object does not exist: `{text}`{hint}"))
+        ApiError(format!("Object does not exist: `{text}`{hint}"))
     }
 }
 
@@ -145,7 +146,7 @@ fn split_number(text: &str, open: char, close: char) -> Option<(&str, usize)> {
     Some((head, number.parse().ok()?))
 }
 
-/// Whether a name fits a pattern with `*` and `?`; time grows with the product of their lengths at most.
+/// Returns true if a name fits a pattern with `*` and `?`; time grows with the product of their lengths at most.
 fn fits(pattern: &[char], name: &str) -> bool {
     let name: Vec<char> = name.chars().collect();
     let (mut p, mut n, mut retry) = (0, 0, None);

@@ -1,13 +1,13 @@
-//! Graphs: what clients and scripts record by `sim.addGraphStream` and `sim.setGraphStreamValue`. Any object of the scene is a graph, a `[[frame]]`
-//! named `graph` say; each stream becomes a column of the run, `/graph.name`.
+//! Graphs: what clients and scripts record by `sim.addGraphStream` and `sim.setGraphStreamValue`. Any object of the
+//! scene is a graph, a `[[frame]]` named `graph` say; each stream becomes a column of the run, `/graph.name`.
 
-use super::table::Handle;
-use super::{Desk, Refusal};
+use super::registry::Handle;
+use super::{ApiError, SimApi};
 
 /// Streams that may exist at once.
-const MOST: usize = 200;
+const MAX_STREAMS: usize = 200;
 /// Bytes of a name or unit.
-const LONGEST: usize = 100;
+const MAX_LABEL_LEN: usize = 100;
 
 /// A stream of a graph.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Stream {
     pub column: String,
     /// Its unit, as it was given.
     pub unit: String,
-    /// What it was last told; not a number before.
+    /// Latest value; not a number before the first.
     pub value: f64,
     factor: f64,
     offset: f64,
@@ -60,28 +60,28 @@ impl Graphs {
     }
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// A stream of a graph; that of the same name if there is one. Its number in the graph.
     ///
     /// # Errors
     ///
     /// There is no such object, there are too many streams, or the name is none.
-    pub fn add_stream(&mut self, graph: Handle, name: &str, unit: &str) -> Result<i64, Refusal> {
-        let path = self.table.entry(graph)?.path.clone();
-        let is_plain = |text: &str| text.len() <= LONGEST && !text.chars().any(char::is_control);
+    pub fn add_stream(&mut self, graph: Handle, name: &str, unit: &str) -> Result<i64, ApiError> {
+        let path = self.registry.entry(graph)?.path.clone();
+        let is_plain = |text: &str| text.len() <= MAX_LABEL_LEN && !text.chars().any(char::is_control);
         if name.is_empty() || !is_plain(name) || !is_plain(unit) {
-            return Err(Refusal(format!(
-                "a stream of a graph has a name and a unit of up to {LONGEST} bytes in one line"
+            return Err(ApiError(format!(
+                "a stream of a graph has a name and a unit of up to {MAX_LABEL_LEN} bytes in one line"
             )));
         }
         let of_run = self.is_running();
-        let graphs = &mut self.table.graphs;
+        let graphs = &mut self.registry.graphs;
         if let Some(k) = graphs.place(graph, name) {
             unit.clone_into(&mut graphs.streams[k].unit);
             return Ok(graphs.streams[k].number);
         }
-        if graphs.streams.len() >= MOST {
-            return Err(Refusal(format!("there are {MOST} streams of graphs already")));
+        if graphs.streams.len() >= MAX_STREAMS {
+            return Err(ApiError(format!("there are {MAX_STREAMS} streams of graphs already")));
         }
         let (name, unit, column) = (name.to_owned(), unit.to_owned(), format!("{path}.{name}"));
         let of_graph = graphs.streams.iter().filter(|s| s.graph == graph);
@@ -91,20 +91,20 @@ impl Desk<'_> {
         Ok(number)
     }
 
-    fn stream(&mut self, graph: Handle, number: i64) -> Result<&mut Stream, Refusal> {
-        let path = self.table.entry(graph)?.path.clone();
-        let found = self.table.graphs.streams.iter_mut().find(|s| s.graph == graph && s.number == number);
+    fn stream(&mut self, graph: Handle, number: i64) -> Result<&mut Stream, ApiError> {
+        let path = self.registry.entry(graph)?.path.clone();
+        let found = self.registry.graphs.streams.iter_mut().find(|s| s.graph == graph && s.number == number);
         found.ok_or_else(|| {
-            Refusal(format!("the graph `{path}` has no stream {number}: addGraphStream gives their numbers"))
+            ApiError(format!("the graph `{path}` has no stream {number}: addGraphStream gives their numbers"))
         })
     }
 
-    /// What a stream shows from now on.
+    /// Sets the value of a stream from now on.
     ///
     /// # Errors
     ///
     /// There is no such object or stream.
-    pub fn set_stream(&mut self, graph: Handle, number: i64, value: f64) -> Result<(), Refusal> {
+    pub fn set_stream(&mut self, graph: Handle, number: i64, value: f64) -> Result<(), ApiError> {
         let stream = self.stream(graph, number)?;
         stream.value = stream.factor * value + stream.offset;
         Ok(())
@@ -115,9 +115,9 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object or stream, or a number is not finite.
-    pub fn scale_stream(&mut self, graph: Handle, number: i64, (factor, offset): (f64, f64)) -> Result<(), Refusal> {
+    pub fn scale_stream(&mut self, graph: Handle, number: i64, (factor, offset): (f64, f64)) -> Result<(), ApiError> {
         if !(factor.is_finite() && offset.is_finite()) {
-            return Err(Refusal(format!("factor {factor} and offset {offset}, expected numbers")));
+            return Err(ApiError(format!("factor {factor} and offset {offset}, expected numbers")));
         }
         let stream = self.stream(graph, number)?;
         (stream.factor, stream.offset) = (factor, offset);
@@ -129,11 +129,11 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object.
-    pub fn clear_graph(&mut self, graph: Option<Handle>) -> Result<(), Refusal> {
+    pub fn clear_graph(&mut self, graph: Option<Handle>) -> Result<(), ApiError> {
         if let Some(graph) = graph {
-            self.table.entry(graph)?;
+            self.registry.entry(graph)?;
         }
-        let graphs = &mut self.table.graphs;
+        let graphs = &mut self.registry.graphs;
         for (k, stream) in graphs.streams.iter_mut().enumerate().filter(|(_, s)| graph.is_none_or(|g| s.graph == g)) {
             stream.value = f64::NAN;
             if !graphs.cleared.contains(&k) {

@@ -6,26 +6,27 @@
 //! Δq = Jᵀ·(J·Jᵀ + λ²·I)⁻¹·e          (key `wampler1986`)
 //! ```
 //!
-//! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most 0.2 rad or 0.1 m an iteration and
-//! within its limits. Environments are no worlds of their own here: objects keep their handles, joints start from where they are.
+//! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most 0.2 rad or
+//! 0.1 m an iteration and within its limits. Environments are no worlds of their own here: objects keep their handles,
+//! joints start from where they are.
 
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_math::elementary::atan2;
 
-use super::table::Handle;
-use super::{Desk, Phase, Reference, Refusal};
+use super::registry::Handle;
+use super::{ApiError, Phase, Reference, SimApi};
 
 /// Environments, groups in one.
-const MOST: usize = 32;
+const MAX_COUNT: usize = 32;
 /// Elements in a group: with them and the iterations the longest call takes less than a second.
-const MOST_ELEMENTS: usize = 16;
+const MAX_ELEMENTS: usize = 16;
 /// Iterations that may be asked for.
-const MOST_ITERATIONS: i64 = 1_000;
-/// What a joint moves in an iteration at most `[rad]`.
-const MOST_TURN: f64 = 0.2;
+const MAX_ITERATIONS: i64 = 1_000;
+/// Largest rotation of a joint in one iteration `[rad]`.
+const MAX_ROTATION_STEP: f64 = 0.2;
 /// The same of a sliding joint `[m]`.
-const MOST_SLIDE: f64 = 0.1;
+const MAX_TRANSLATION_STEP: f64 = 0.1;
 /// λ² of the methods without damping: only what is singular is touched.
 const LEAST_DAMPING: f64 = 1e-12;
 
@@ -60,54 +61,55 @@ pub struct Group {
 /// A tip and its target.
 #[derive(Clone, Debug)]
 pub struct Element {
-    /// What carries the joints; none: the world.
+    /// Base of the chain; none: the world.
     pub base: Option<Handle>,
-    /// What is to be moved.
+    /// Tip of the chain (end effector).
     pub tip: Handle,
-    /// Where to.
+    /// Target of the tip.
     pub target: Handle,
-    /// What is to agree.
+    /// Constraints between tip and target, as a set of bits.
     pub constraints: i64,
     /// `[m]`, `[rad]`.
     pub precision: [f64; 2],
-    /// Of position and orientation.
+    /// Weights of position and orientation.
     pub weights: [f64; 2],
 }
 
-/// How it went.
+/// Result of solving a group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// Whether all elements are within their precision.
+    /// True if all elements are within their precision.
     pub is_reached: bool,
-    /// Whether a joint ended at a limit.
+    /// True if a joint ended at a limit.
     pub hit_limit: bool,
     /// Largest errors left `[m]`, `[rad]`.
     pub errors: [f64; 2],
 }
 
 /// A joint that is moved.
-struct Mover {
+struct IkJoint {
     handle: Handle,
     q_idx: usize,
     is_sliding: bool,
     bounds: [f64; 2],
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// A new environment; its number.
     ///
     /// # Errors
     ///
     /// There are too many.
-    pub fn create_environment(&mut self) -> Result<usize, Refusal> {
-        let free = self.table.environments.iter().position(Option::is_none).unwrap_or(self.table.environments.len());
-        if free >= MOST {
-            return Err(Refusal(format!("there are {MOST} environments already: erase some")));
+    pub fn create_environment(&mut self) -> Result<usize, ApiError> {
+        let free =
+            self.registry.environments.iter().position(Option::is_none).unwrap_or(self.registry.environments.len());
+        if free >= MAX_COUNT {
+            return Err(ApiError(format!("there are {MAX_COUNT} environments already: erase some")));
         }
-        if free == self.table.environments.len() {
-            self.table.environments.push(None);
+        if free == self.registry.environments.len() {
+            self.registry.environments.push(None);
         }
-        self.table.environments[free] = Some(Environment::default());
+        self.registry.environments[free] = Some(Environment::default());
         Ok(free)
     }
 
@@ -116,16 +118,16 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn erase_environment(&mut self, environment: i64) -> Result<(), Refusal> {
+    pub fn erase_environment(&mut self, environment: i64) -> Result<(), ApiError> {
         self.environment(environment)?;
-        self.table.environments[environment as usize] = None;
+        self.registry.environments[environment as usize] = None;
         Ok(())
     }
 
-    fn environment(&mut self, number: i64) -> Result<&mut Environment, Refusal> {
+    fn environment(&mut self, number: i64) -> Result<&mut Environment, ApiError> {
         let k = usize::try_from(number).ok();
-        let found = k.and_then(|k| self.table.environments.get_mut(k)?.as_mut());
-        found.ok_or_else(|| Refusal(format!("there is no environment {number}")))
+        let found = k.and_then(|k| self.registry.environments.get_mut(k)?.as_mut());
+        found.ok_or_else(|| ApiError(format!("there is no environment {number}")))
     }
 
     /// A new group; its number.
@@ -133,13 +135,13 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such environment, it has too many, or one of the name (empty for none).
-    pub fn create_group(&mut self, environment: i64, name: &str) -> Result<usize, Refusal> {
+    pub fn create_group(&mut self, environment: i64, name: &str) -> Result<usize, ApiError> {
         let groups = &mut self.environment(environment)?.groups;
-        if groups.len() >= MOST {
-            return Err(Refusal(format!("there are {MOST} groups already")));
+        if groups.len() >= MAX_COUNT {
+            return Err(ApiError(format!("there are {MAX_COUNT} groups already")));
         }
         if !name.is_empty() && (name.len() > 100 || groups.iter().any(|group| group.name == name)) {
-            return Err(Refusal(format!("a group has a name of its own of up to 100 bytes, not `{name:.100}`")));
+            return Err(ApiError(format!("a group has a name of its own of up to 100 bytes, not `{name:.100}`")));
         }
         // CoppeliaSim's: the pseudo-inverse, three iterations
         groups.push(Group { name: name.to_owned(), damping: 0.0, iterations: 3, elements: Vec::new() });
@@ -151,7 +153,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such environment.
-    pub fn group_count(&mut self, environment: i64) -> Result<usize, Refusal> {
+    pub fn group_count(&mut self, environment: i64) -> Result<usize, ApiError> {
         Ok(self.environment(environment)?.groups.len())
     }
 
@@ -160,19 +162,19 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none.
-    pub fn group_of_name(&self, environment: Option<i64>, name: &str) -> Result<(i64, i64), Refusal> {
+    pub fn group_of_name(&self, environment: Option<i64>, name: &str) -> Result<(i64, i64), ApiError> {
         self.named_groups()
             .find(|(e, _, known)| environment.is_none_or(|wanted| wanted == *e) && *known == name)
             .map(|(e, group, _)| (e, group))
             .ok_or_else(|| {
                 let help = "groups have the names that simIK.createGroup gives them";
-                Refusal(format!("there is no group `{name:.100}` of inverse kinematics: {help}"))
+                ApiError(format!("there is no group `{name:.100}` of inverse kinematics: {help}"))
             })
     }
 
     /// Environment, number and name of all groups with names.
     pub fn named_groups(&self) -> impl Iterator<Item = (i64, i64, &str)> {
-        let environments = self.table.environments.iter().enumerate();
+        let environments = self.registry.environments.iter().enumerate();
         let groups = environments.flat_map(|(e, environment)| {
             environment.iter().flat_map(move |environment| {
                 environment.groups.iter().enumerate().map(move |(k, group)| (e as i64, k as i64, group.name.as_str()))
@@ -181,10 +183,10 @@ impl Desk<'_> {
         groups.filter(|(_, _, name)| !name.is_empty())
     }
 
-    fn group(&mut self, environment: i64, number: i64) -> Result<&mut Group, Refusal> {
+    fn group(&mut self, environment: i64, number: i64) -> Result<&mut Group, ApiError> {
         let groups = &mut self.environment(environment)?.groups;
         let found = usize::try_from(number).ok().and_then(|k| groups.get_mut(k));
-        found.ok_or_else(|| Refusal(format!("there is no group {number} in the environment")))
+        found.ok_or_else(|| ApiError(format!("there is no group {number} in the environment")))
     }
 
     /// Sets how a group is solved: λ, none for the pseudo-inverse, and iterations.
@@ -192,10 +194,10 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such group, or a number makes no sense.
-    pub fn set_calculation(&mut self, environment: i64, group: i64, damping: f64, n: i64) -> Result<(), Refusal> {
-        if !(damping.is_finite() && damping >= 0.0 && (1..=MOST_ITERATIONS).contains(&n)) {
-            let expected = format!("damping 0 or more, 1 to {MOST_ITERATIONS} iterations");
-            return Err(Refusal(format!("damping {damping} and {n} iterations, expected {expected}")));
+    pub fn set_calculation(&mut self, environment: i64, group: i64, damping: f64, n: i64) -> Result<(), ApiError> {
+        if !(damping.is_finite() && damping >= 0.0 && (1..=MAX_ITERATIONS).contains(&n)) {
+            let expected = format!("damping 0 or more, 1 to {MAX_ITERATIONS} iterations");
+            return Err(ApiError(format!("damping {damping} and {n} iterations, expected {expected}")));
         }
         let group = self.group(environment, group)?;
         (group.damping, group.iterations) = (damping, n as usize);
@@ -207,20 +209,20 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such group or object, no joint lies between base and tip, or the constraints make no sense.
-    pub fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, Refusal> {
-        self.table.entry(element.tip)?;
-        self.table.entry(element.target)?;
+    pub fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, ApiError> {
+        self.registry.entry(element.tip)?;
+        self.registry.entry(element.target)?;
         let bits = element.constraints;
         if !(1..32).contains(&bits) || bits & (ALPHA_BETA | GAMMA) == GAMMA {
             let known = "x 1, y 2, z 4, alpha_beta 8, and with that gamma 16";
-            return Err(Refusal(format!("constraints {bits}, expected a sum of {known}")));
+            return Err(ApiError(format!("constraints {bits}, expected a sum of {known}")));
         }
-        if self.movers(std::slice::from_ref(&element))?.is_empty() {
-            return Err(Refusal::new("no joint that turns or slides lies between base and tip"));
+        if self.ik_joints(std::slice::from_ref(&element))?.is_empty() {
+            return Err(ApiError::new("no joint that turns or slides lies between base and tip"));
         }
         let elements = &mut self.group(environment, group)?.elements;
-        if elements.len() >= MOST_ELEMENTS {
-            return Err(Refusal(format!("there are {MOST_ELEMENTS} elements already")));
+        if elements.len() >= MAX_ELEMENTS {
+            return Err(ApiError(format!("there are {MAX_ELEMENTS} elements already")));
         }
         elements.push(element);
         Ok(elements.len() - 1)
@@ -231,14 +233,14 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn element(&mut self, environment: i64, group: i64, number: i64) -> Result<&mut Element, Refusal> {
+    pub fn element(&mut self, environment: i64, group: i64, number: i64) -> Result<&mut Element, ApiError> {
         let elements = &mut self.group(environment, group)?.elements;
         let found = usize::try_from(number).ok().and_then(|k| elements.get_mut(k));
-        found.ok_or_else(|| Refusal(format!("there is no element {number} in the group")))
+        found.ok_or_else(|| ApiError(format!("there is no element {number} in the group")))
     }
 
-    /// Solves a group. If it is reached, or `allow_error`, and `apply`: joints with a motor in position or spring mode get it as their
-    /// target while a run is on, all others are put there.
+    /// Solves a group. If it is reached, or `allow_error`, and `apply`: joints with a motor in position or spring mode
+    /// get it as their target while a run is on, all others are put there.
     ///
     /// # Errors
     ///
@@ -248,7 +250,7 @@ impl Desk<'_> {
         environment: i64,
         group: i64,
         (apply, allow_error): (bool, bool),
-    ) -> Result<Outcome, Refusal> {
+    ) -> Result<Outcome, ApiError> {
         let (outcome, found) = self.solve_group(environment, group)?;
         if apply && (outcome.is_reached || allow_error) {
             found.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))?;
@@ -260,47 +262,47 @@ impl Desk<'_> {
     ///
     /// # Errors
     ///
-    /// As [`Desk::handle_group`].
-    pub fn solve_group(&mut self, environment: i64, group: i64) -> Result<(Outcome, Vec<(Handle, f64)>), Refusal> {
+    /// As [`SimApi::handle_group`].
+    pub fn solve_group(&mut self, environment: i64, group: i64) -> Result<(Outcome, Vec<(Handle, f64)>), ApiError> {
         let group = self.group(environment, group)?.clone();
         if group.elements.is_empty() {
-            return Err(Refusal::new("the group has no elements"));
+            return Err(ApiError::new("the group has no elements"));
         }
-        let movers = self.movers(&group.elements)?;
-        let before: Vec<f64> = movers.iter().map(|m| self.world.state.q[m.q_idx]).collect();
-        let solved = self.solve(&group, &movers);
-        let after: Vec<(Handle, f64)> = movers.iter().map(|m| (m.handle, self.world.state.q[m.q_idx])).collect();
-        self.put(&movers, &before);
+        let ik_joints = self.ik_joints(&group.elements)?;
+        let before: Vec<f64> = ik_joints.iter().map(|m| self.world.state.q[m.q_idx]).collect();
+        let solved = self.solve(&group, &ik_joints);
+        let after: Vec<(Handle, f64)> = ik_joints.iter().map(|m| (m.handle, self.world.state.q[m.q_idx])).collect();
+        self.put(&ik_joints, &before);
         Ok((solved?, after))
     }
 
-    fn put(&mut self, movers: &[Mover], q: &[f64]) {
-        movers.iter().zip(q).for_each(|(mover, q)| self.world.state.q[mover.q_idx] = *q);
+    fn put(&mut self, ik_joints: &[IkJoint], q: &[f64]) {
+        ik_joints.iter().zip(q).for_each(|(ik_joint, q)| self.world.state.q[ik_joint.q_idx] = *q);
         self.moved();
     }
 
     /// A motor in position or spring mode gets it as its target while a run is on; any other joint is put there.
-    pub(super) fn apply(&mut self, joint: Handle, q: f64) -> Result<(), Refusal> {
+    pub(super) fn apply(&mut self, joint: Handle, q: f64) -> Result<(), ApiError> {
         use sincro_dynamics::actuation::MotorMode::{Position, Spring};
         let has_target = matches!(self.joint_mode(joint)?, Position | Spring);
-        if self.table.phase != Phase::Stopped && has_target {
+        if self.registry.phase != Phase::Stopped && has_target {
             return self.set_target_position(joint, q);
         }
         self.set_joint_position(joint, q)
     }
 
     /// The joints between bases and tips, each once.
-    fn movers(&self, elements: &[Element]) -> Result<Vec<Mover>, Refusal> {
-        let mut movers: Vec<Mover> = Vec::new();
+    fn ik_joints(&self, elements: &[Element]) -> Result<Vec<IkJoint>, ApiError> {
+        let mut ik_joints: Vec<IkJoint> = Vec::new();
         for element in elements {
             let mut at = Some(element.tip);
             while let Some(handle) = at.filter(|handle| Some(*handle) != element.base) {
-                let entry = self.table.entry(handle)?;
+                let entry = self.registry.entry(handle)?;
                 at = entry.parent;
-                let Ok(joint) = self.table.joint(handle) else { continue };
+                let Ok(joint) = self.registry.joint(handle) else { continue };
                 let is_sliding = matches!(joint.kind, JointKind::Prismatic { .. });
                 let is_turning = matches!(joint.kind, JointKind::Revolute { .. });
-                if !(is_sliding || is_turning) || movers.iter().any(|m| m.handle == handle) {
+                if !(is_sliding || is_turning) || ik_joints.iter().any(|m| m.handle == handle) {
                     continue;
                 }
                 let bounds = match self.joint_interval(handle)? {
@@ -308,36 +310,36 @@ impl Desk<'_> {
                     (false, [low, range]) if low.is_finite() => [low, low + range],
                     (false, _) => [f64::NEG_INFINITY, f64::INFINITY],
                 };
-                movers.push(Mover { handle, q_idx: joint.q_idx, is_sliding, bounds });
+                ik_joints.push(IkJoint { handle, q_idx: joint.q_idx, is_sliding, bounds });
             }
             if at != element.base {
-                return Err(Refusal::new("the base carries the tip of no element: it must be one of its ancestors"));
+                return Err(ApiError::new("the base carries the tip of no element: it must be one of its ancestors"));
             }
         }
-        Ok(movers)
+        Ok(ik_joints)
     }
 
     /// Iterates; the state is left where the last iteration put it.
-    fn solve(&mut self, group: &Group, movers: &[Mover]) -> Result<Outcome, Refusal> {
+    fn solve(&mut self, group: &Group, ik_joints: &[IkJoint]) -> Result<Outcome, ApiError> {
         let mut hit_limit = false;
         for iteration in 0..=group.iterations {
             let (errors, is_reached) = self.errors(&group.elements)?;
             if is_reached || iteration == group.iterations {
                 return Ok(Outcome { is_reached, hit_limit, errors });
             }
-            let (rows, e) = self.rows(&group.elements, movers)?;
+            let (rows, e) = self.rows(&group.elements, ik_joints)?;
             let damping = (group.damping * group.damping).max(LEAST_DAMPING);
             let Some(x) = normal(&rows, &e, damping) else {
-                return Err(Refusal::new("the group cannot be solved: its equations are not finite"));
+                return Err(ApiError::new("the group cannot be solved: its equations are not finite"));
             };
             hit_limit = false;
-            for (k, mover) in movers.iter().enumerate() {
+            for (k, ik_joint) in ik_joints.iter().enumerate() {
                 let change: f64 = rows.iter().zip(&x).map(|(row, x)| row[k] * x).sum();
-                let most = if mover.is_sliding { MOST_SLIDE } else { MOST_TURN };
-                let wanted = self.world.state.q[mover.q_idx] + change.clamp(-most, most);
-                let q = wanted.clamp(mover.bounds[0], mover.bounds[1]);
+                let most = if ik_joint.is_sliding { MAX_TRANSLATION_STEP } else { MAX_ROTATION_STEP };
+                let wanted = self.world.state.q[ik_joint.q_idx] + change.clamp(-most, most);
+                let q = wanted.clamp(ik_joint.bounds[0], ik_joint.bounds[1]);
                 hit_limit |= q != wanted;
-                self.world.state.q[mover.q_idx] = q;
+                self.world.state.q[ik_joint.q_idx] = q;
             }
             self.moved();
         }
@@ -345,12 +347,12 @@ impl Desk<'_> {
     }
 
     /// Poses of tip and target.
-    fn ends(&mut self, element: &Element) -> Result<[Pose<f64>; 2], Refusal> {
+    fn ends(&mut self, element: &Element) -> Result<[Pose<f64>; 2], ApiError> {
         Ok([self.pose(element.tip, Reference::World)?, self.pose(element.target, Reference::World)?])
     }
 
     /// Largest errors of position and orientation, and whether all are within their precision.
-    fn errors(&mut self, elements: &[Element]) -> Result<([f64; 2], bool), Refusal> {
+    fn errors(&mut self, elements: &[Element]) -> Result<([f64; 2], bool), ApiError> {
         let (mut errors, mut is_reached) = ([0.0_f64; 2], true);
         for element in elements {
             let [tip, target] = self.ends(element)?;
@@ -364,27 +366,27 @@ impl Desk<'_> {
     }
 
     /// The axes in which x, y and z are meant: the base's.
-    fn axes(&mut self, element: &Element) -> Result<sincro_dynamics::spatial::Mat3<f64>, Refusal> {
+    fn axes(&mut self, element: &Element) -> Result<sincro_dynamics::spatial::Mat3<f64>, ApiError> {
         let Some(base) = element.base else { return Ok(sincro_dynamics::spatial::Mat3::identity()) };
         Ok(self.pose(base, Reference::World)?.rot)
     }
 
     /// Rows of the weighted Jacobian, a column for each joint, and the weighted errors.
-    fn rows(&mut self, elements: &[Element], movers: &[Mover]) -> Result<(Vec<Vec<f64>>, Vec<f64>), Refusal> {
+    fn rows(&mut self, elements: &[Element], ik_joints: &[IkJoint]) -> Result<(Vec<Vec<f64>>, Vec<f64>), ApiError> {
         let (mut rows, mut e) = (Vec::new(), Vec::new());
         for element in elements {
             let [tip, target] = self.ends(element)?;
             let frame = self.axes(element)?.transpose();
-            let chain = self.movers(std::slice::from_ref(element))?;
-            let mut columns = Vec::with_capacity(movers.len());
-            for mover in movers {
-                if !chain.iter().any(|m| m.handle == mover.handle) {
+            let chain = self.ik_joints(std::slice::from_ref(element))?;
+            let mut columns = Vec::with_capacity(ik_joints.len());
+            for ik_joint in ik_joints {
+                if !chain.iter().any(|m| m.handle == ik_joint.handle) {
                     columns.push((Vec3::zero(), Vec3::zero()));
                     continue;
                 }
-                let joint = self.pose(mover.handle, Reference::World)?;
+                let joint = self.pose(ik_joint.handle, Reference::World)?;
                 let axis = joint.rot.col(2);
-                columns.push(match mover.is_sliding {
+                columns.push(match ik_joint.is_sliding {
                     true => (axis, Vec3::zero()),
                     false => (axis.cross(tip.pos - joint.pos), axis),
                 });

@@ -1,26 +1,27 @@
 //! Joints with one coordinate: what they do and what they are told.
 //!
-//! V-REP's motors in the words of this program: motor off is `free`, velocity control `velocity`, position control `position`, spring-damper
-//! control `spring`, force control `torque`. A target that the present mode does not use is kept for when the mode changes.
+//! V-REP's motors in the words of this program: motor off is `free`, velocity control `velocity`, position control
+//! `position`, spring-damper control `spring`, force control `torque`. A target that the present mode does not use is
+//! kept for when the mode changes.
 
 use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 
-use super::table::{Handle, JointEntry};
-use super::{Desk, Refusal};
+use super::registry::{Handle, JointEntry};
+use super::{ApiError, SimApi};
 
-/// Velocity a unit of error of a motor that becomes a position motor and has no gain: that of V-REP's default P = 0.1 in steps
-/// of 5 ms [1/s].
+/// Velocity a unit of error of a motor that becomes a position motor and has no gain: that of V-REP's default P = 0.1
+/// in steps of 5 ms [1/s].
 const POSITION_GAIN: f64 = 20.0;
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Position `[rad]` or `[m]`; of a joint that turns without end within (−π, π], as V-REP tells it.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_position(&self, handle: Handle) -> Result<f64, Refusal> {
-        let q = self.world.state.q[self.table.joint(handle)?.q_idx];
+    pub fn joint_position(&self, handle: Handle) -> Result<f64, ApiError> {
+        let q = self.world.state.q[self.registry.joint(handle)?.q_idx];
         Ok(if self.joint_interval(handle)?.0 { within_a_turn(q) } else { q })
     }
 
@@ -29,8 +30,8 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, or the number is not finite.
-    pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> Result<(), Refusal> {
-        let q_idx = self.table.joint(handle)?.q_idx;
+    pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> Result<(), ApiError> {
+        let q_idx = self.registry.joint(handle)?.q_idx;
         self.world.state.q[q_idx] = finite(position, "position")?;
         self.moved();
         Ok(())
@@ -41,11 +42,11 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+    pub fn joint_velocity(&self, handle: Handle) -> Result<f64, ApiError> {
         if let Some(rotor) = self.rotor(handle)? {
             return Ok(self.rotor_speed(rotor));
         }
-        Ok(self.world.state.v[self.table.joint(handle)?.v_idx])
+        Ok(self.world.state.v[self.registry.joint(handle)?.v_idx])
     }
 
     /// Sets the velocity of a joint [rad/s] or [m/s].
@@ -53,33 +54,33 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, or the number is not finite.
-    pub fn set_joint_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), Refusal> {
-        let v_idx = self.table.joint(handle)?.v_idx;
+    pub fn set_joint_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), ApiError> {
+        let v_idx = self.registry.joint(handle)?.v_idx;
         self.world.state.v[v_idx] = finite(velocity, "velocity")?;
         self.moved();
         Ok(())
     }
 
-    /// The force that V-REP reports [N·m] or `[N]`: **minus** the mean effort of the motor over the last step. None before the first
-    /// step, and for a joint without motor.
+    /// The force that V-REP reports [N·m] or `[N]`: **minus** the mean effort of the motor over the last step. None
+    /// before the first step, and for a joint without motor.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_force(&self, handle: Handle) -> Result<Option<f64>, Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn joint_force(&self, handle: Handle) -> Result<Option<f64>, ApiError> {
+        let joint = self.registry.joint(handle)?;
         let Some(motor) = joint.motor else { return Ok(None) };
-        let before = self.table.impulse_before(motor);
-        Ok(before.map(|before| (before - self.world.state.totals[2 + motor]) / self.table.sample_time()))
+        let before = self.registry.impulse_before(motor);
+        Ok(before.map(|before| (before - self.world.state.totals[2 + motor]) / self.registry.sample_time()))
     }
 
-    /// What the motor of a joint now is; none without motor.
+    /// Present parameters of the motor of a joint; none without motor.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_motor(&self, handle: Handle) -> Result<Option<Motor<f64>>, Refusal> {
-        Ok(self.table.joint(handle)?.drive)
+    pub fn joint_motor(&self, handle: Handle) -> Result<Option<Motor<f64>>, ApiError> {
+        Ok(self.registry.joint(handle)?.drive)
     }
 
     /// Mode of the motor; `free` without one.
@@ -87,7 +88,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_mode(&self, handle: Handle) -> Result<MotorMode, Refusal> {
+    pub fn joint_mode(&self, handle: Handle) -> Result<MotorMode, ApiError> {
         if self.rotor(handle)?.is_some() {
             return Ok(MotorMode::Velocity);
         }
@@ -99,7 +100,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, or it has no motor.
-    pub fn set_joint_mode(&mut self, handle: Handle, mode: MotorMode) -> Result<(), Refusal> {
+    pub fn set_joint_mode(&mut self, handle: Handle, mode: MotorMode) -> Result<(), ApiError> {
         self.change_motor(handle, |motor| {
             motor.mode = mode;
             if mode == MotorMode::Position && motor.kp == 0.0 {
@@ -114,29 +115,30 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or a number is negative or not a number.
-    pub fn change_motor(&mut self, handle: Handle, change: impl FnOnce(&mut Motor<f64>)) -> Result<(), Refusal> {
-        let joint = self.table.joint_mut(handle)?;
+    pub fn change_motor(&mut self, handle: Handle, change: impl FnOnce(&mut Motor<f64>)) -> Result<(), ApiError> {
+        let joint = self.registry.joint_mut(handle)?;
         let (Some(index), Some(mut motor)) = (joint.motor, joint.drive) else { return Err(self.without_motor(handle)) };
         change(&mut motor);
         if let Some((name, x)) = motor.numbers().into_iter().find(|(_, x)| x.is_nan() || *x < 0.0) {
-            return Err(Refusal(format!("{name} would be {x}, expected a number that is not negative")));
+            return Err(ApiError(format!("{name} would be {x}, expected a number that is not negative")));
         }
-        self.table.joint_mut(handle)?.drive = Some(motor);
+        self.registry.joint_mut(handle)?.drive = Some(motor);
         self.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
         self.moved();
         Ok(())
     }
 
-    /// Velocity that a joint was told [rad/s] or [m/s]: by a client or script, else by the scene; 0 if its motor takes no velocity.
+    /// Velocity that a joint was told [rad/s] or [m/s]: by a client or script, else by the scene; 0 if its motor takes
+    /// no velocity.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn target_velocity(&self, handle: Handle) -> Result<f64, Refusal> {
+    pub fn target_velocity(&self, handle: Handle) -> Result<f64, ApiError> {
         if let Some(rotor) = self.rotor(handle)? {
             return Ok(self.rotor_target(rotor));
         }
-        let joint = self.table.joint(handle)?;
+        let joint = self.registry.joint(handle)?;
         Ok(joint.target_velocity.unwrap_or_else(|| self.commanded(joint, MotorMode::Velocity)))
     }
 
@@ -145,7 +147,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or the number is not finite.
-    pub fn set_target_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), Refusal> {
+    pub fn set_target_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), ApiError> {
         if let Some(rotor) = self.rotor(handle)? {
             return self.set_rotor_target(rotor, finite(velocity, "target velocity")?);
         }
@@ -158,8 +160,8 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn target_position(&self, handle: Handle) -> Result<f64, Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn target_position(&self, handle: Handle) -> Result<f64, ApiError> {
+        let joint = self.registry.joint(handle)?;
         let of_scene = || match joint.drive.map(|m| m.mode) {
             Some(mode @ (MotorMode::Position | MotorMode::Spring)) => self.commanded(joint, mode),
             _ => 0.0,
@@ -172,18 +174,19 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or the number is not finite.
-    pub fn set_target_position(&mut self, handle: Handle, position: f64) -> Result<(), Refusal> {
+    pub fn set_target_position(&mut self, handle: Handle, position: f64) -> Result<(), ApiError> {
         self.joint_with_motor(handle)?.target_position = Some(finite(position, "target position")?);
         self.command(handle)
     }
 
-    /// Effort of a motor in torque mode, else the largest effort that it may use [N·m] or `[N]`; infinite without limit.
+    /// Effort of a motor in torque mode, else the largest effort that it may use [N·m] or `[N]`; infinite without
+    /// limit.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn target_force(&self, handle: Handle) -> Result<f64, Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn target_force(&self, handle: Handle) -> Result<f64, ApiError> {
+        let joint = self.registry.joint(handle)?;
         Ok(match joint.drive {
             None => 0.0,
             Some(motor) if motor.mode == MotorMode::Torque => {
@@ -193,13 +196,13 @@ impl Desk<'_> {
         })
     }
 
-    /// Tells a motor in torque mode its effort, any other the largest effort that it may use [N·m] or `[N]`. If it is not `signed` (V-REP before
-    /// 4.3), the effort has the direction of the target velocity.
+    /// Tells a motor in torque mode its effort, any other the largest effort that it may use [N·m] or `[N]`. If it is
+    /// not `signed` (V-REP before 4.3), the effort has the direction of the target velocity.
     ///
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or the number is not finite.
-    pub fn set_target_force(&mut self, handle: Handle, force: f64, signed: bool) -> Result<(), Refusal> {
+    pub fn set_target_force(&mut self, handle: Handle, force: f64, signed: bool) -> Result<(), ApiError> {
         let force = finite(force, "force")?;
         let joint = self.joint_with_motor(handle)?;
         let is_torque = joint.drive.is_some_and(|m| m.mode == MotorMode::Torque);
@@ -212,13 +215,14 @@ impl Desk<'_> {
         self.command(handle)
     }
 
-    /// Where a joint may go: whether it turns without end, its lower limit and its range `[rad]` or `[m]`; infinite where there is no stop.
+    /// Interval of a joint: true if it is cyclic, its lower limit and its range `[rad]` or `[m]`; infinite where there
+    /// is no stop.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_interval(&self, handle: Handle) -> Result<(bool, [f64; 2]), Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn joint_interval(&self, handle: Handle) -> Result<(bool, [f64; 2]), ApiError> {
+        let joint = self.registry.joint(handle)?;
         let limits = &self.world.model().constraints().limits;
         let bound = |sign: f64| limits.iter().find(|l| l.dof == joint.v_idx && l.sign == sign).map(|l| l.bound);
         Ok(match (bound(1.0), bound(-1.0)) {
@@ -232,16 +236,16 @@ impl Desk<'_> {
         })
     }
 
-    /// What a joint follows: another joint, offset and factor, if the scene couples them.
+    /// Dependency of a joint: the other joint, offset and factor, if the scene couples them.
     ///
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, ApiError> {
+        let joint = self.registry.joint(handle)?;
         let mut couplings = self.world.model().constraints().gears.iter();
         let Some(coupling) = couplings.find(|c| c.dofs[1] == joint.v_idx) else { return Ok(None) };
-        let master = self.table.joints().iter().find(|j| j.v_idx == coupling.dofs[0]);
+        let master = self.registry.joints().iter().find(|j| j.v_idx == coupling.dofs[0]);
         Ok(master.map(|master| (master.handle, coupling.offset, coupling.ratio)))
     }
 
@@ -251,14 +255,15 @@ impl Desk<'_> {
         let Some(motor) = motor else { return 0.0 };
         // before the first step nothing is latched
         let latched = || self.world.state.commands[motor];
-        let present = || if self.world.state.tick == 0 { self.table.scene_command(motor, 0.0) } else { latched() };
-        self.table.held(motor).unwrap_or_else(present)
+        let present = || if self.world.state.tick == 0 { self.registry.scene_command(motor, 0.0) } else { latched() };
+        self.registry.held(motor).unwrap_or_else(present)
     }
 
-    /// Holds what a motor is told in its present mode, if it was told anything; where its target was on its way to is forgotten.
-    fn command(&mut self, handle: Handle) -> Result<(), Refusal> {
-        self.table.courses.remove(&handle);
-        let joint = self.table.joint(handle)?;
+    /// Holds what a motor is told in its present mode, if it was told anything; where its target was on its way to is
+    /// forgotten.
+    fn command(&mut self, handle: Handle) -> Result<(), ApiError> {
+        self.registry.joint_motions.remove(&handle);
+        let joint = self.registry.joint(handle)?;
         let (Some(motor), Some(drive)) = (joint.motor, joint.drive) else { return Ok(()) };
         let position = self.world.state.q[joint.q_idx];
         let (told, default) = match drive.mode {
@@ -269,20 +274,20 @@ impl Desk<'_> {
         };
         // the scene's own command is meant for the scene's own mode
         let unless_told = (joint.scene_mode != Some(drive.mode)).then_some(default);
-        self.table.hold(motor, told.or(unless_told));
+        self.registry.hold(motor, told.or(unless_told));
         Ok(())
     }
 
-    fn joint_with_motor(&mut self, handle: Handle) -> Result<&mut JointEntry, Refusal> {
-        if self.table.joint(handle)?.motor.is_none() {
+    fn joint_with_motor(&mut self, handle: Handle) -> Result<&mut JointEntry, ApiError> {
+        if self.registry.joint(handle)?.motor.is_none() {
             return Err(self.without_motor(handle));
         }
-        self.table.joint_mut(handle)
+        self.registry.joint_mut(handle)
     }
 
-    fn without_motor(&self, handle: Handle) -> Refusal {
-        let path = self.table.entry(handle).map_or("", |e| e.path.as_str());
-        Refusal(format!("joint `{path}` has no motor; give it one in the scene: motor = {{ mode = \"velocity\" }}"))
+    fn without_motor(&self, handle: Handle) -> ApiError {
+        let path = self.registry.entry(handle).map_or("", |e| e.path.as_str());
+        ApiError(format!("joint `{path}` has no motor; give it one in the scene: motor = {{ mode = \"velocity\" }}"))
     }
 }
 
@@ -293,8 +298,8 @@ fn within_a_turn(angle: f64) -> f64 {
 }
 
 /// A finite number; a negative zero is a zero, since some clients can send no other.
-fn finite(x: f64, what: &str) -> Result<f64, Refusal> {
-    if x.is_finite() { Ok(x + 0.0) } else { Err(Refusal(format!("the {what} is {x}, expected a finite number"))) }
+fn finite(x: f64, what: &str) -> Result<f64, ApiError> {
+    if x.is_finite() { Ok(x + 0.0) } else { Err(ApiError(format!("the {what} is {x}, expected a finite number"))) }
 }
 
 #[cfg(test)]

@@ -1,17 +1,17 @@
 //! Parameters of vision sensors, by the numbers that clients use for them.
 
 use super::program::unknown;
-use super::table::Handle;
-use super::{Desk, Refusal};
+use super::registry::Handle;
+use super::{ApiError, SimApi};
 use sincro_scene::camera::Optics;
 
 /// View angle of a vision sensor that was orthographic `[rad]`: 60°, as V-REP has it.
 const DEFAULT_ANGLE: f64 = std::f64::consts::FRAC_PI_3;
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Pixels of a vision sensor, and whether lines meet in its pictures.
-    pub(super) fn set_vision_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), Refusal> {
-        let optics = self.table.vision_sensor(handle)?.optics;
+    pub(super) fn set_vision_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), ApiError> {
+        let optics = self.registry.vision_sensor(handle)?.optics;
         let side = usize::try_from(value).unwrap_or_default();
         let [columns, rows] = optics.resolution;
         let changed = match id {
@@ -30,12 +30,12 @@ impl Desk<'_> {
             (true, true) => changed.with_view_size(size),
             (true, false) => changed.with_view_angle(angle),
         };
-        self.table.change_vision(handle, |sensor| sensor.optics = changed)
+        self.registry.change_vision(handle, |sensor| sensor.optics = changed)
     }
 
-    /// Where the pictures of a vision sensor begin and end, and what they show.
-    pub(super) fn set_vision_float(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), Refusal> {
-        let optics = self.table.vision_sensor(handle)?.optics;
+    /// Sets the clipping planes and the field of view of a vision sensor.
+    pub(super) fn set_vision_float(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), ApiError> {
+        let optics = self.registry.vision_sensor(handle)?.optics;
         let is_flat = optics.view_angle() == 0.0;
         let changed = match id {
             1000 => Optics { near: value, ..optics },
@@ -47,16 +47,17 @@ impl Desk<'_> {
             1005 => optics,
             _ => return Err(unknown("float vision sensor", id)),
         };
-        self.table.change_vision(handle, |sensor| sensor.optics = changed)
+        self.registry.change_vision(handle, |sensor| sensor.optics = changed)
     }
 }
 
 /// Whole numbers of a vision sensor: pixels, what is drawn how (all, by one way), whether lines meet.
-pub(super) fn vision_int(optics: &Optics, id: i64) -> Result<i64, Refusal> {
+pub(super) fn vision_int(optics: &Optics, id: i64) -> Result<i64, ApiError> {
     Ok(match id {
         1002 => optics.resolution[0] as i64,
         1003 => optics.resolution[1] as i64,
-        // lights that are off, attributes of drawing, its way (OpenGL is the nearest in kind), colours and depths that are left out
+        // lights that are off, attributes of drawing, its way (OpenGL is the nearest in kind), colours and depths that
+        // are left out
         1006 | 1007 | 1017 | 1020 | 1021 => 0,
         // the one thing that is drawn: all
         1008 => -1,
@@ -66,7 +67,7 @@ pub(super) fn vision_int(optics: &Optics, id: i64) -> Result<i64, Refusal> {
 }
 
 /// Numbers of a vision sensor: where pictures begin and end `[m]`, angle `[rad]` or size `[m]` of the longer side.
-pub(super) fn vision_float(optics: &Optics, id: i64) -> Result<f64, Refusal> {
+pub(super) fn vision_float(optics: &Optics, id: i64) -> Result<f64, ApiError> {
     match id {
         1000 => Ok(optics.near),
         1001 => Ok(optics.far),

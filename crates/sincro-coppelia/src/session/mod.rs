@@ -1,14 +1,15 @@
-//! A live session: a loaded scene that clients and scripts start, step, look at and act on, in V-REP's and CoppeliaSim's terms.
+//! Live session: a loaded scene that clients and scripts start, step, read and change through the API of V-REP and
+//! CoppeliaSim.
 //!
-//! | who | is |
+//! | type | role |
 //! |---|---|
-//! | [`Table`] | the objects with their handles and names, signals, what is held: plain data, lives in the [`LockStep`] |
-//! | [`Desk`] | a table with its world, made for one call or phase: one function for each thing that can be asked or done |
-//! | [`api`] | the same by name, as `sim.getJointPosition`: [`Value`]s in, [`Value`]s out; what Lua and ZeroMQ share |
+//! | [`ObjectRegistry`] | the objects with their handles and names, signals, held commands: plain data, lives in the [`LockStep`] |
+//! | [`SimApi`] | a registry with its world, created for one call or phase: the typed functions of the API |
+//! | [`api`] | the same functions by name, as `sim.getJointPosition`: [`Value`]s in, [`Value`]s out; what Lua and ZeroMQ share |
 //! | [`Session`] | the life of runs: start, step, pause, stop, load; each is recorded, hashed and reported as any run |
 //!
-//! A step of a session lasts [`Table::sample_time`], a whole number of base steps: commands are latched at its start and held, as those of any
-//! controller. Nothing here has a clock, a thread or a socket.
+//! A step of a session lasts [`ObjectRegistry::sample_time`], a whole number of base steps: commands are latched at its
+//! start and held, as those of any controller. Nothing here has a clock, a thread or a socket.
 
 pub mod api;
 mod bodies;
@@ -18,27 +19,27 @@ mod collections;
 pub mod constants;
 mod contacts;
 pub mod convention;
-mod desk;
 mod distances;
+mod error;
 mod files;
 mod find;
 mod graphs;
 pub mod ik;
 mod joints;
 mod lens;
-mod made;
 mod motions;
 mod note;
 mod pairs;
 mod parameters;
 mod program;
 mod proximity;
-mod refusal;
+mod registry;
 mod rotors;
+mod runtime_objects;
 mod senses;
 pub mod shapes;
 mod signals;
-mod table;
+mod sim_api;
 mod unpack;
 mod value;
 mod vision;
@@ -50,17 +51,17 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 
 pub use collections::{Collection, Entity, Item};
-pub use contacts::Touch;
-pub use desk::{Desk, Reference};
-pub use distances::Nearness;
+pub use contacts::ContactPoint;
+pub use distances::DistanceResult;
+pub use error::ApiError;
 pub use files::Files;
 pub use find::Search;
 pub use graphs::{Graphs, Stream};
-pub use motions::{Motion, Stepped};
+pub use motions::{Motion, MotionStep};
 pub use pairs::Answer;
-pub use refusal::Refusal;
+pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry, Request};
 pub use signals::Signals;
-pub use table::{Entry, Handle, JointEntry, Kind, LogLine, Request, Table};
+pub use sim_api::{Reference, SimApi};
 pub use value::{Arguments, Value};
 pub use vision::Sensors;
 
@@ -76,7 +77,7 @@ use sincro_sim::results::Status;
 use sincro_sim::run::{LockStep, Manner, Recording, RunError, Simulated, method_for};
 use sincro_sim::trace::Trace;
 
-/// What a simulation is doing.
+/// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// No run.
@@ -90,7 +91,7 @@ pub enum Phase {
 /// A run that has ended.
 #[derive(Debug)]
 pub struct Finished {
-    /// What it gave.
+    /// Results.
     pub simulated: Simulated,
     /// The scene that it was a run of.
     pub loaded: Loaded,
@@ -114,7 +115,7 @@ pub struct Session {
     grants: Grants,
 }
 
-/// What clients may do beyond the simulation: nothing, unless whoever opens the session says so.
+/// Permissions of clients beyond the simulation; none by default.
 #[derive(Clone, Debug, Default)]
 pub struct Grants {
     /// Send files, to this folder, and load scenes from it.
@@ -133,14 +134,15 @@ const EXAMPLES: &[(&str, &str)] = &[
 /// A run under way.
 struct Run {
     recording: Recording,
-    /// What the table was before it.
-    before: Table,
-    /// Where it started from.
+    /// Object registry before the run.
+    before: ObjectRegistry,
+    /// State at the start.
     start: State<f64>,
 }
 
 impl Session {
-    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says (`simulation_step`).
+    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says
+    /// (`simulation_step`).
     ///
     /// # Errors
     ///
@@ -167,12 +169,12 @@ impl Session {
         sample_time: Option<f64>,
     ) -> Result<Self, Problems> {
         let (method, warnings) = method_for(&loaded);
-        let mut table = Table::new(&loaded, loaded.experiment.simulation_ticks);
+        let mut registry = ObjectRegistry::new(&loaded, loaded.experiment.simulation_ticks);
         if let Some(dt) = sample_time {
-            let refused = |Refusal(message)| Problems::from(sincro_scene::problem::Problem::nowhere(message));
-            table.set_sample_time(dt).map_err(refused)?;
+            let refused = |ApiError(message)| Problems::from(sincro_scene::problem::Problem::nowhere(message));
+            registry.set_sample_time(dt).map_err(refused)?;
         }
-        let lockstep = fresh(&loaded, method, table);
+        let lockstep = fresh(&loaded, method, registry);
         let root = folder.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         Ok(Self {
             folder: folder.to_path_buf(),
@@ -211,19 +213,19 @@ impl Session {
     ///
     /// # Panics
     ///
-    /// Never: a session's lock-step has a table.
-    pub fn desk(&mut self) -> Desk<'_> {
-        ApiController::desk(&mut self.lockstep).expect("a session's lock-step has a table")
+    /// Never: a session's lock-step has a registry.
+    pub fn sim(&mut self) -> SimApi<'_> {
+        ApiController::sim(&mut self.lockstep).expect("a session's lock-step has a registry")
     }
 
     /// The objects.
-    pub fn table(&mut self) -> &mut Table {
-        self.desk().table
+    pub fn registry(&mut self) -> &mut ObjectRegistry {
+        self.sim().registry
     }
 
-    /// What the simulation is doing.
+    /// State of the simulation.
     pub fn phase(&mut self) -> Phase {
-        self.table().phase
+        self.registry().phase
     }
 
     /// Simulation time `[s]`; 0 while stopped.
@@ -254,8 +256,8 @@ impl Session {
     /// # Errors
     ///
     /// There is no such function, or it refused.
-    pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
-        let result = api::call(&mut self.desk(), name, arguments)?;
+    pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
+        let result = api::call(&mut self.sim(), name, arguments)?;
         self.do_requests()?;
         Ok(result)
     }
@@ -271,7 +273,7 @@ impl Session {
         kind: Option<sincro_scene::script::Kind>,
         function: &str,
         arguments: &[Value],
-    ) -> Result<Vec<Value>, Refusal> {
+    ) -> Result<Vec<Value>, ApiError> {
         let results = ApiController::call_script(&mut self.lockstep, (object, kind), function, arguments)?;
         self.do_requests()?;
         Ok(results)
@@ -282,14 +284,14 @@ impl Session {
         self.grants = grants;
     }
 
-    /// Where clients may send files.
+    /// Folder for files of clients.
     ///
     /// # Errors
     ///
     /// They may not.
-    pub fn files(&self) -> Result<&Files, Refusal> {
+    pub fn files(&self) -> Result<&Files, ApiError> {
         let refused = "clients send and erase no files here: `sincro serve --grant files` lets them";
-        self.grants.files.as_ref().ok_or_else(|| Refusal::new(refused))
+        self.grants.files.as_ref().ok_or_else(|| ApiError::new(refused))
     }
 
     /// Runs a text in the script on an object, then does what it asked for.
@@ -302,10 +304,10 @@ impl Session {
         object: Handle,
         kind: Option<sincro_scene::script::Kind>,
         text: &str,
-    ) -> Result<Vec<Value>, Refusal> {
+    ) -> Result<Vec<Value>, ApiError> {
         if !self.grants.evaluation {
             let refused = "texts of clients are not run here: `sincro serve --grant scripts` lets them";
-            return Err(Refusal::new(refused));
+            return Err(ApiError::new(refused));
         }
         let results = ApiController::evaluate(&mut self.lockstep, (object, kind), text)?;
         self.do_requests()?;
@@ -317,9 +319,9 @@ impl Session {
     /// # Errors
     ///
     /// The first of it that was refused; the rest is done.
-    pub fn do_requests(&mut self) -> Result<(), Refusal> {
+    pub fn do_requests(&mut self) -> Result<(), ApiError> {
         let mut first = Ok(());
-        for request in self.table().take_requests() {
+        for request in self.registry().take_requests() {
             let done = match request {
                 Request::Start => self.start(),
                 Request::Pause => self.pause(),
@@ -339,26 +341,26 @@ impl Session {
     /// # Errors
     ///
     /// Nothing can be recorded, or a block of the diagram gives what is not a finite number: the run has then ended.
-    pub fn start(&mut self) -> Result<(), Refusal> {
+    pub fn start(&mut self) -> Result<(), ApiError> {
         match self.phase() {
             Phase::Running => return Ok(()),
             Phase::Paused => {
                 self.tell_scripts(host::Phase::Resume)?;
-                self.table().phase = Phase::Running;
+                self.registry().phase = Phase::Running;
                 return Ok(());
             }
             Phase::Stopped => {}
         }
-        if std::mem::take(&mut self.table().is_model_changed) {
+        if std::mem::take(&mut self.registry().is_model_changed) {
             self.adopt();
         }
-        let before = self.table().clone();
-        self.table().begin_run();
+        let before = self.registry().clone();
+        self.registry().begin_run();
         let start = self.lockstep.state().clone();
         self.settle(&start);
         let recording = Recording::new(&self.loaded, &mut self.lockstep, Manner::default()).map_err(told)?;
         self.run = Some(Run { recording, before, start });
-        self.table().phase = Phase::Running;
+        self.registry().phase = Phase::Running;
         self.steps = 0;
         let first = self.lockstep.start();
         if let Some(run) = &mut self.run {
@@ -379,19 +381,20 @@ impl Session {
         }
     }
 
-    /// What clients have changed of the model while stopped is the scene's from now on, until it is closed: the next run is made as if the file said so.
+    /// Makes changes of the model that clients made while stopped part of the scene, until it is closed: the next run
+    /// is made as if the file said so.
     fn adopt(&mut self) {
         let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
         let scene = &mut self.loaded.scene;
         Arc::make_mut(&mut scene.model).copy_parameters_from(self.lockstep.world().model());
-        let table = ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
-        for (object, entry) in scene.objects.iter_mut().zip(table.entries()) {
+        let registry = ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
+        for (object, entry) in scene.objects.iter_mut().zip(registry.entries()) {
             if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {
                 *mass = *new;
             }
         }
         (self.method, self.warnings) = method_for(&self.loaded);
-        self.lockstep = fresh(&self.loaded, self.method, *table);
+        self.lockstep = fresh(&self.loaded, self.method, *registry);
         let initial = &self.loaded.scene.initial;
         if q != initial.q || v != initial.v {
             // nothing of what was settled for other numbers is kept
@@ -405,20 +408,21 @@ impl Session {
     /// # Errors
     ///
     /// A script fails in `sysCall_suspend`: the run has ended.
-    pub fn pause(&mut self) -> Result<(), Refusal> {
+    pub fn pause(&mut self) -> Result<(), ApiError> {
         if self.phase() == Phase::Running {
             self.tell_scripts(host::Phase::Suspend)?;
-            self.table().phase = Phase::Paused;
+            self.registry().phase = Phase::Paused;
         }
         Ok(())
     }
 
-    /// To be called now and then while the run is paused: scripts have `sysCall_suspended` called, and what they ask for is done.
+    /// To be called now and then while the run is paused: scripts have `sysCall_suspended` called, and what they ask
+    /// for is done.
     ///
     /// # Errors
     ///
     /// A script fails: the run has ended.
-    pub fn idle(&mut self) -> Result<(), Refusal> {
+    pub fn idle(&mut self) -> Result<(), ApiError> {
         if self.phase() != Phase::Paused {
             return Ok(());
         }
@@ -427,7 +431,7 @@ impl Session {
     }
 
     /// Tells the scripts of the run of a pause.
-    fn tell_scripts(&mut self, phase: host::Phase) -> Result<(), Refusal> {
+    fn tell_scripts(&mut self, phase: host::Phase) -> Result<(), ApiError> {
         ApiController::tell_scripts(&mut self.lockstep, phase).map_err(|halt| {
             let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
             self.fail(status)
@@ -439,7 +443,7 @@ impl Session {
     /// # Errors
     ///
     /// None yet.
-    pub fn stop(&mut self) -> Result<(), Refusal> {
+    pub fn stop(&mut self) -> Result<(), ApiError> {
         let (tick, time) = (self.lockstep.tick(), self.lockstep.t());
         let lasted = tick >= self.loaded.experiment.n_steps;
         self.end(if lasted { Status::Completed } else { Status::Interrupted { tick, time } });
@@ -451,12 +455,12 @@ impl Session {
     /// # Errors
     ///
     /// The world or the diagram could not go on: the run has ended, what was recorded is kept.
-    pub fn step(&mut self) -> Result<(), Refusal> {
-        let table = self.table();
-        if table.phase != Phase::Running {
+    pub fn step(&mut self) -> Result<(), ApiError> {
+        let registry = self.registry();
+        if registry.phase != Phase::Running {
             return Ok(());
         }
-        for _ in 0..table.sample_ticks() {
+        for _ in 0..registry.sample_ticks() {
             let advanced = self.lockstep.advance();
             let Some(run) = &mut self.run else { return Ok(()) };
             if advanced.as_ref().err().is_none_or(sincro_sim::run::Halt::is_after_step) {
@@ -472,30 +476,30 @@ impl Session {
         self.do_requests()
     }
 
-    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one, or a file that a client has sent. A run that is on
-    /// is ended.
+    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one, or a file that a
+    /// client has sent. A run that is on is ended.
     ///
     /// # Errors
     ///
     /// It lies elsewhere, or something is wrong with it; the scene that was loaded stays.
-    pub fn load(&mut self, path: &str) -> Result<(), Refusal> {
+    pub fn load(&mut self, path: &str) -> Result<(), ApiError> {
         let allowed = self.allowed(path);
         let sent = if allowed.is_ok() { None } else { self.sent(path) };
         let folder = sent.clone().map_or(allowed, Ok)?;
         let loaded = load(&folder, &[], self.loaded.extensions).map_err(|problems| {
             let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
-            Refusal(format!("the scene `{path}` cannot be loaded: {first}"))
+            ApiError(format!("the scene `{path}` cannot be loaded: {first}"))
         })?;
         if let Some(place) = sent.as_deref().and_then(Path::parent) {
             let is_inside = |file: &Path| file.canonicalize().is_ok_and(|file| file.starts_with(place));
             if let Some(outside) = loaded.sources.iter().find(|source| !is_inside(&source.path)) {
                 let outside = outside.path.display();
-                return Err(Refusal(format!("the scene `{path}` takes `{outside}`, which no client has sent")));
+                return Err(ApiError(format!("the scene `{path}` takes `{outside}`, which no client has sent")));
             }
         }
         self.stop()?;
         let mut other =
-            Self::new(&folder, &[], loaded, None).map_err(|_| Refusal::new("the scene cannot be loaded"))?;
+            Self::new(&folder, &[], loaded, None).map_err(|_| ApiError::new("the scene cannot be loaded"))?;
         other.finished = std::mem::take(&mut self.finished);
         other.root.clone_from(&self.root);
         other.grants.clone_from(&self.grants);
@@ -511,8 +515,8 @@ impl Session {
     }
 
     /// The scene folder that a client means, if it may be loaded.
-    fn allowed(&self, path: &str) -> Result<PathBuf, Refusal> {
-        let refused = |why: &str| Refusal(format!("the scene `{path}` {why}"));
+    fn allowed(&self, path: &str) -> Result<PathBuf, ApiError> {
+        let refused = |why: &str| ApiError(format!("the scene `{path}` {why}"));
         // V-REP's scenes are files; here the folder of the same name
         let stem = path.strip_suffix(".ttt").or_else(|| path.strip_suffix(".simscene.xml")).unwrap_or(path);
         let stem = EXAMPLES.iter().find(|(known, _)| stem.ends_with(known)).map_or(stem, |(_, here)| here);
@@ -527,14 +531,14 @@ impl Session {
         Ok(whole)
     }
 
-    fn fail(&mut self, status: Status) -> Refusal {
+    fn fail(&mut self, status: Status) -> ApiError {
         let message = match &status {
             Status::Stopped { reason, help, .. } => format!("the run stopped: {reason}; {help}"),
             _ => "the run stopped".to_owned(),
         };
-        self.table().log(200, message.clone());
+        self.registry().log(200, message.clone());
         self.end(status);
-        Refusal(message)
+        ApiError(message)
     }
 
     /// Keeps what the run gave and goes back to where it started.
@@ -546,7 +550,7 @@ impl Session {
                 Status::Stopped { reason, .. } => reason,
                 _ => String::new(),
             };
-            self.table().log(200, words);
+            self.registry().log(200, words);
         }
         let warnings = self.warnings.clone();
         match run.recording.finish(&mut self.lockstep, status, self.method, warnings) {
@@ -554,49 +558,50 @@ impl Session {
                 let (loaded, steps) = (self.loaded.clone(), self.steps);
                 self.finished.push(Finished { simulated, loaded, steps });
             }
-            Err(error) => self.table().log(200, format!("{error}")),
+            Err(error) => self.registry().log(200, format!("{error}")),
         }
-        let mut table = *ApiController::take_table(&mut self.lockstep).expect("a session's lock-step has a table");
-        table.end_run(run.before);
-        table.phase = Phase::Stopped;
-        self.lockstep = fresh(&self.loaded, self.method, table);
+        let mut registry =
+            *ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
+        registry.end_run(run.before);
+        registry.phase = Phase::Stopped;
+        self.lockstep = fresh(&self.loaded, self.method, registry);
         self.lockstep.place(run.start, &[]);
         self.restore();
         self.steps = 0;
     }
 
-    /// What a client changed before the run is so again.
+    /// Restores changes that a client made before the run.
     fn restore(&mut self) {
         self.restore_motors();
-        self.desk().restore_pairs();
+        self.sim().restore_pairs();
     }
 
     /// Motors that a client changed before the run are so again.
     fn restore_motors(&mut self) {
-        let desk = self.desk();
-        for joint in desk.table.joints() {
+        let sim = self.sim();
+        for joint in sim.registry.joints() {
             if let (Some(index), Some(motor)) = (joint.motor, joint.drive)
-                && desk.world.model().motors()[index]
+                && sim.world.model().motors()[index]
                     != (sincro_dynamics::actuation::Motor { dof: joint.v_idx, ..motor })
             {
-                desk.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
+                sim.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
             }
         }
     }
 }
 
-/// A lock-step that has not started, with a table.
-fn fresh(loaded: &Loaded, method: MethodKind, table: Table) -> LockStep {
+/// A lock-step that has not started, with a registry.
+fn fresh(loaded: &Loaded, method: MethodKind, registry: ObjectRegistry) -> LockStep {
     let mut lockstep = LockStep::new(loaded, method, false);
-    ApiController::set_table(&mut lockstep, table);
+    ApiController::set_registry(&mut lockstep, registry);
     lockstep
 }
 
-fn told(error: RunError) -> Refusal {
+fn told(error: RunError) -> ApiError {
     match error {
         RunError::Problems(problems) => {
-            Refusal(problems.0.first().map_or_else(|| "nothing can be recorded".into(), |p| p.message.clone()))
+            ApiError(problems.0.first().map_or_else(|| "nothing can be recorded".into(), |p| p.message.clone()))
         }
-        RunError::File(error) => Refusal(error.to_string()),
+        RunError::File(error) => ApiError(error.to_string()),
     }
 }

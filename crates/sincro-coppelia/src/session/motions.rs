@@ -1,18 +1,19 @@
-//! Motions under way that clients and scripts have asked for: of numbers (`sim.ruckigPos`), and of the targets of motors (`sim.setJointTargetPosition` with
-//! limits). They are part of the table: snapshots hold them, and they end with the run.
+//! Motions under way that clients and scripts have asked for: of numbers (`sim.ruckigPos`), and of the targets of
+//! motors (`sim.setJointTargetPosition` with limits). They are part of the registry: snapshots hold them, and they end
+//! with the run.
 
 use std::collections::BTreeMap;
 
 use sincro_dynamics::actuation::MotorMode;
 
-use super::table::{Handle, Table};
-use super::{Desk, Refusal};
-use crate::motion::{Axis, Goal, Limits, Point, Profile, Synchronization, Unplannable, plan};
+use super::registry::{Handle, ObjectRegistry};
+use super::{ApiError, SimApi};
+use crate::motion::{Axis, Goal, Limits, PlanError, Point, Profile, Synchronization, plan};
 
 /// Motions of numbers that may be under way at once.
-const MOST: usize = 1_000;
+const MAX_MOTIONS: usize = 1_000;
 /// Axes of one of them.
-const MOST_AXES: usize = 100;
+const MAX_AXES: usize = 100;
 /// A motion that lacks less than this has ended `[s]`: sums of steps are no multiples of them.
 const DONE: f64 = 1e-9;
 
@@ -24,12 +25,12 @@ pub struct Motion {
     elapsed: f64,
 }
 
-/// What one step of a motion gives.
+/// Result of one step of a motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stepped {
-    /// Whether all axes have arrived.
+pub struct MotionStep {
+    /// True if all axes have arrived.
     pub is_done: bool,
-    /// Where the axes are.
+    /// States of the axes.
     pub points: Vec<Point>,
     /// Time that is left `[s]`; negative if the last step was longer than what was left.
     pub left: f64,
@@ -44,39 +45,39 @@ pub(super) struct Motions {
 
 /// The motion of the target of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Course {
+pub(super) struct JointMotion {
     profile: Profile,
     elapsed: f64,
     is_velocity: bool,
 }
 
 impl Motion {
-    /// Of axes.
+    /// Plans a motion of axes.
     ///
     /// # Errors
     ///
     /// There are none or too many, or a number makes no sense.
-    pub fn new(axes: &[Axis], synchronization: Synchronization) -> Result<Self, Refusal> {
-        if axes.is_empty() || axes.len() > MOST_AXES {
-            return Err(Refusal(format!("{} degrees of freedom, expected 1 to {MOST_AXES}", axes.len())));
+    pub fn new(axes: &[Axis], synchronization: Synchronization) -> Result<Self, ApiError> {
+        if axes.is_empty() || axes.len() > MAX_AXES {
+            return Err(ApiError(format!("{} degrees of freedom, expected 1 to {MAX_AXES}", axes.len())));
         }
         let profiles = plan(axes, synchronization)
-            .map_err(|Unplannable { axis, why }| Refusal(format!("degree of freedom {}: {why}", axis + 1)))?;
+            .map_err(|PlanError { axis, why }| ApiError(format!("degree of freedom {}: {why}", axis + 1)))?;
         let duration = profiles.iter().map(Profile::duration).fold(0.0, f64::max);
         Ok(Self { profiles, duration, elapsed: 0.0 })
     }
 
-    /// How long it takes in all `[s]`.
+    /// Total duration `[s]`.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    fn step(&mut self, dt: f64) -> Stepped {
+    fn step(&mut self, dt: f64) -> MotionStep {
         self.elapsed += dt;
         let is_done = self.elapsed >= self.duration - DONE;
         let t = if is_done { self.elapsed.max(self.duration) } else { self.elapsed };
-        Stepped {
+        MotionStep {
             is_done,
             points: self.profiles.iter().map(|profile| profile.at(t)).collect(),
             left: self.duration - self.elapsed,
@@ -85,21 +86,21 @@ impl Motion {
 }
 
 impl Motions {
-    fn get(&mut self, handle: i64) -> Result<&mut Motion, Refusal> {
-        self.list.get_mut(&handle).ok_or_else(|| Refusal(format!("there is no motion with the handle {handle}")))
+    fn get(&mut self, handle: i64) -> Result<&mut Motion, ApiError> {
+        self.list.get_mut(&handle).ok_or_else(|| ApiError(format!("there is no motion with the handle {handle}")))
     }
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Keeps a motion; its handle.
     ///
     /// # Errors
     ///
     /// There are too many.
-    pub fn add_motion(&mut self, motion: Motion) -> Result<i64, Refusal> {
-        let motions = &mut self.table.motions;
-        if motions.list.len() >= MOST {
-            return Err(Refusal(format!("there are {MOST} motions already: remove some (sim.ruckigRemove)")));
+    pub fn add_motion(&mut self, motion: Motion) -> Result<i64, ApiError> {
+        let motions = &mut self.registry.motions;
+        if motions.list.len() >= MAX_MOTIONS {
+            return Err(ApiError(format!("there are {MAX_MOTIONS} motions already: remove some (sim.ruckigRemove)")));
         }
         let handle = motions.next;
         motions.next += 1;
@@ -112,10 +113,10 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none, or the time is none.
-    pub fn step_motion(&mut self, handle: i64, dt: f64) -> Result<Stepped, Refusal> {
-        let motion = self.table.motions.get(handle)?;
+    pub fn step_motion(&mut self, handle: i64, dt: f64) -> Result<MotionStep, ApiError> {
+        let motion = self.registry.motions.get(handle)?;
         if !(dt.is_finite() && dt > 0.0) {
-            return Err(Refusal(format!("the cycle time is {dt} s, expected a finite time above 0")));
+            return Err(ApiError(format!("the cycle time is {dt} s, expected a finite time above 0")));
         }
         Ok(motion.step(dt))
     }
@@ -125,88 +126,98 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none.
-    pub fn remove_motion(&mut self, handle: i64) -> Result<(), Refusal> {
-        self.table.motions.get(handle)?;
-        self.table.motions.list.remove(&handle);
+    pub fn remove_motion(&mut self, handle: i64) -> Result<(), ApiError> {
+        self.registry.motions.get(handle)?;
+        self.registry.motions.list.remove(&handle);
         Ok(())
     }
 
-    /// Tells a joint its position and lets the target of its motor, in position or spring mode, go there within limits of velocity, acceleration and
-    /// jerk: from where the joint is, or from where the target is if it is on its way. In any other mode the position is kept for later.
+    /// Tells a joint its position and lets the target of its motor, in position or spring mode, go there within limits
+    /// of velocity, acceleration and jerk: from where the joint is, or from where the target is if it is on its way. In
+    /// any other mode the position is kept for later.
     ///
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or a number makes no sense.
-    pub fn go_to_position(&mut self, handle: Handle, position: f64, [v, a, j]: [f64; 3]) -> Result<(), Refusal> {
-        let joint = self.table.joint(handle)?;
+    pub fn go_to_position(&mut self, handle: Handle, position: f64, [v, a, j]: [f64; 3]) -> Result<(), ApiError> {
+        let joint = self.registry.joint(handle)?;
         let (q_idx, v_idx, motor) = (joint.q_idx, joint.v_idx, joint.motor);
         let here = Point { p: self.world.state.q[q_idx], v: self.world.state.v[v_idx], a: 0.0 };
-        let start = self.table.courses.get(&handle).filter(|c| !c.is_velocity).map_or(here, Course::now);
+        let start = self.registry.joint_motions.get(&handle).filter(|c| !c.is_velocity).map_or(here, JointMotion::now);
         let axis = Axis { start, limits: Limits::symmetric(v, a, j), goal: Goal::Position(position, 0.0) };
         let profile = planned(axis)?;
         // forgets where the target was on its way to
         self.set_target_position(handle, position)?;
         let is_followed = matches!(self.joint_mode(handle)?, MotorMode::Position | MotorMode::Spring);
-        self.follow(handle, motor.filter(|_| is_followed), Course { profile, elapsed: 0.0, is_velocity: false });
+        self.start_joint_motion(
+            handle,
+            motor.filter(|_| is_followed),
+            JointMotion { profile, elapsed: 0.0, is_velocity: false },
+        );
         Ok(())
     }
 
-    /// Tells a joint its velocity and lets the target of its motor, in velocity mode, go there within limits of acceleration and jerk: from the
-    /// velocity that the joint has, or from that of the target if it is on its way.
+    /// Tells a joint its velocity and lets the target of its motor, in velocity mode, go there within limits of
+    /// acceleration and jerk: from the velocity that the joint has, or from that of the target if it is on its way.
     ///
     /// # Errors
     ///
-    /// As of [`Desk::go_to_position`].
-    pub fn go_to_velocity(&mut self, handle: Handle, velocity: f64, [a, j]: [f64; 2]) -> Result<(), Refusal> {
-        let joint = self.table.joint(handle)?;
+    /// As of [`SimApi::go_to_position`].
+    pub fn go_to_velocity(&mut self, handle: Handle, velocity: f64, [a, j]: [f64; 2]) -> Result<(), ApiError> {
+        let joint = self.registry.joint(handle)?;
         let (v_idx, motor) = (joint.v_idx, joint.motor);
         let here = Point { p: 0.0, v: self.world.state.v[v_idx], a: 0.0 };
-        let start = self.table.courses.get(&handle).filter(|c| c.is_velocity).map_or(here, Course::now);
+        let start = self.registry.joint_motions.get(&handle).filter(|c| c.is_velocity).map_or(here, JointMotion::now);
         let profile = planned(Axis { start, limits: Limits::symmetric(1.0, a, j), goal: Goal::Velocity(velocity) })?;
         self.set_target_velocity(handle, velocity)?;
         let is_followed = self.joint_mode(handle)? == MotorMode::Velocity;
-        self.follow(handle, motor.filter(|_| is_followed), Course { profile, elapsed: 0.0, is_velocity: true });
+        self.start_joint_motion(
+            handle,
+            motor.filter(|_| is_followed),
+            JointMotion { profile, elapsed: 0.0, is_velocity: true },
+        );
         Ok(())
     }
 
-    fn follow(&mut self, handle: Handle, motor: Option<usize>, course: Course) {
+    fn start_joint_motion(&mut self, handle: Handle, motor: Option<usize>, joint_motion: JointMotion) {
         let Some(motor) = motor else { return };
-        self.table.hold(motor, Some(course.value()));
-        self.table.courses.insert(handle, course);
+        self.registry.hold(motor, Some(joint_motion.value()));
+        self.registry.joint_motions.insert(handle, joint_motion);
     }
 }
 
-fn planned(axis: Axis) -> Result<Profile, Refusal> {
+fn planned(axis: Axis) -> Result<Profile, ApiError> {
     let profiles = plan(&[axis], Synchronization::None);
-    Ok(profiles.map_err(|Unplannable { why, .. }| Refusal(format!("the joint cannot go there: {why}")))?[0])
+    Ok(profiles.map_err(|PlanError { why, .. }| ApiError(format!("the joint cannot go there: {why}")))?[0])
 }
 
-impl Course {
+impl JointMotion {
     fn now(&self) -> Point {
         self.profile.at(self.elapsed)
     }
 
-    /// What the motor is told.
+    /// Target of the motor.
     fn value(&self) -> f64 {
         if self.is_velocity { self.now().v } else { self.now().p }
     }
 }
 
-impl Table {
-    /// Lets the targets of motors that are on their way go on by a base step: a motor is told where its target is to be at the end of it.
+impl ObjectRegistry {
+    /// Lets the targets of motors that are on their way go on by a base step: a motor is told where its target is to be
+    /// at the end of it.
     pub(crate) fn move_targets(&mut self) {
-        if self.courses.is_empty() {
+        if self.joint_motions.is_empty() {
             return;
         }
         let step = self.base_step();
-        let mut courses = std::mem::take(&mut self.courses);
-        courses.retain(|handle, course| {
-            course.elapsed += step;
+        let mut joint_motions = std::mem::take(&mut self.joint_motions);
+        joint_motions.retain(|handle, joint_motion| {
+            joint_motion.elapsed += step;
             if let Ok(Some(motor)) = self.joint(*handle).map(|joint| joint.motor) {
-                self.hold(motor, Some(course.value()));
+                self.hold(motor, Some(joint_motion.value()));
             }
-            course.elapsed < course.profile.duration()
+            joint_motion.elapsed < joint_motion.profile.duration()
         });
-        self.courses = courses;
+        self.joint_motions = joint_motions;
     }
 }

@@ -1,11 +1,11 @@
-//! What clients and scripts said of a run: kept with it, bounded.
+//! Messages of clients and scripts, kept with the run; their number is bounded.
 
 use sincro_sim::controller::Message;
 
 /// Messages that are kept of a run: who says something at every tick must not fill the memory.
-const MOST: usize = 10_000;
+const MAX_MESSAGES: usize = 10_000;
 /// Bytes of a message that are kept.
-const LONGEST: usize = 10_000;
+const MAX_MESSAGE_LEN: usize = 10_000;
 
 /// See the head of this file.
 #[derive(Clone, Debug, Default)]
@@ -17,15 +17,15 @@ pub(crate) struct Notes {
 impl Notes {
     /// Adds one; those that are too many are counted.
     pub fn add(&mut self, t: f64, object: &str, text: &str) {
-        if self.messages.len() == MOST {
+        if self.messages.len() == MAX_MESSAGES {
             self.n_dropped += 1;
             return;
         }
-        let text = text[..text.floor_char_boundary(LONGEST)].to_owned();
+        let text = text[..text.floor_char_boundary(MAX_MESSAGE_LEN)].to_owned();
         self.messages.push(Message { t, object: object.to_owned(), text });
     }
 
-    /// What is kept, and how many were too many.
+    /// Messages that are kept, and the number of those that were dropped.
     pub fn all(&self) -> (&[Message], usize) {
         (&self.messages, self.n_dropped)
     }

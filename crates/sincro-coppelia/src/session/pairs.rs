@@ -1,20 +1,21 @@
-//! Pairs of bodies that may touch: who is near, and what a script says that a pair is to do in the coming step (`sysCall_contact`).
+//! Pairs of bodies that may touch: who is near, and what a script says that a pair is to do in the coming step
+//! (`sysCall_contact`).
 
 use sincro_dynamics::contact::Material;
 
-use super::table::{Handle, Table};
-use super::{Desk, Refusal};
+use super::registry::{Handle, ObjectRegistry};
+use super::{ApiError, SimApi};
 use sincro_sim::load::Loaded;
 
 /// A pair of surfaces of the model, by its bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Pair {
     bodies: [Handle; 2],
-    /// What the scene says that they do to each other.
+    /// Contact material of the scene for the pair.
     material: Material,
 }
 
-/// What a script says of a pair.
+/// Answer of a script about a pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Answer {
     /// They pass through each other.
@@ -26,11 +27,11 @@ pub struct Answer {
 }
 
 /// The pairs of a scene, in the model's order.
-pub(super) fn pairs_of(loaded: &Loaded, table: &Table) -> Vec<Pair> {
+pub(super) fn pairs_of(loaded: &Loaded, registry: &ObjectRegistry) -> Vec<Pair> {
     let set = loaded.scene.model.constraints();
     let body = |k: usize| {
         let name = &set.colliders[k].name;
-        table.entries().find(|e| e.path == *name).map_or(Handle(-1), |e| e.handle)
+        registry.entries().find(|e| e.path == *name).map_or(Handle(-1), |e| e.handle)
     };
     let both = |a: usize, b: usize| {
         let mut bodies = [body(a), body(b)];
@@ -40,17 +41,18 @@ pub(super) fn pairs_of(loaded: &Loaded, table: &Table) -> Vec<Pair> {
     set.pairs.iter().map(|p| Pair { bodies: both(p.a, p.b), material: p.material }).collect()
 }
 
-impl Desk<'_> {
-    /// Pairs of bodies that may come to touch within the coming step, each once, in the order of the scene. From now on each does what the scene says.
+impl SimApi<'_> {
+    /// Pairs of bodies that may come to touch within the coming step, each once, in the order of the scene. From now on
+    /// each does what the scene says.
     pub fn near_bodies(&mut self) -> Vec<[Handle; 2]> {
         self.restore_pairs();
         let mut near = Vec::new();
-        let step = self.table.sample_time();
+        let step = self.registry.sample_time();
         self.world.near(step, &mut near);
         self.moved();
         let mut bodies: Vec<[Handle; 2]> = Vec::new();
-        for pair in near.into_iter().map(|k| &self.table.pairs[k]) {
-            let is_told = pair.bodies.iter().any(|body| self.table.passing.contains(body));
+        for pair in near.into_iter().map(|k| &self.registry.pairs[k]) {
+            let is_told = pair.bodies.iter().any(|body| self.registry.passing.contains(body));
             if !is_told && !bodies.contains(&pair.bodies) {
                 bodies.push(pair.bodies);
             }
@@ -58,19 +60,19 @@ impl Desk<'_> {
         bodies
     }
 
-    /// What two bodies do to each other until [`Desk::near_bodies`] is asked again.
+    /// Sets the contact law of two bodies until the next [`SimApi::near_bodies`].
     ///
     /// # Errors
     ///
     /// A coefficient is none.
-    pub fn answer(&mut self, bodies: [Handle; 2], answer: Answer) -> Result<(), Refusal> {
+    pub fn answer(&mut self, bodies: [Handle; 2], answer: Answer) -> Result<(), ApiError> {
         if let Some(x) = answer.friction.filter(|x| !(x.is_finite() && *x >= 0.0)) {
-            return Err(Refusal(format!("friction {x} of a contact, expected 0 or more")));
+            return Err(ApiError(format!("friction {x} of a contact, expected 0 or more")));
         }
         if let Some(x) = answer.restitution.filter(|x| !(0.0..=1.0).contains(x)) {
-            return Err(Refusal(format!("restitution {x} of a contact, expected 0 to 1")));
+            return Err(ApiError(format!("restitution {x} of a contact, expected 0 to 1")));
         }
-        for (k, pair) in self.table.pairs.iter().enumerate().filter(|(_, pair)| pair.bodies == bodies) {
+        for (k, pair) in self.registry.pairs.iter().enumerate().filter(|(_, pair)| pair.bodies == bodies) {
             let mut material = pair.material;
             material.friction = answer.friction.unwrap_or(material.friction);
             material.restitution = answer.restitution.unwrap_or(material.restitution);
@@ -81,8 +83,8 @@ impl Desk<'_> {
 
     /// Every pair does what the scene says, but those of bodies that pass through all others.
     pub(super) fn restore_pairs(&mut self) {
-        for (k, pair) in self.table.pairs.iter().enumerate() {
-            let passes = pair.bodies.iter().any(|body| self.table.passing.contains(body));
+        for (k, pair) in self.registry.pairs.iter().enumerate() {
+            let passes = pair.bodies.iter().any(|body| self.registry.passing.contains(body));
             self.world.set_pair(k, passes, pair.material);
         }
     }

@@ -4,24 +4,24 @@ use sincro_dynamics::actuation::MotorMode;
 
 use super::lens::{vision_float, vision_int};
 use super::program::unknown;
-use super::table::{Handle, Kind};
-use super::{Desk, Refusal};
+use super::registry::{Handle, Kind};
+use super::{ApiError, SimApi};
 
-/// Why a shape that was made at run time does not move by itself.
+/// Message for a runtime shape, which is never dynamic.
 pub(super) const STATIC: &str = "what is made at run time is static and touches nothing: it is seen, measured and put somewhere; give bodies that move or touch in the scene";
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// A whole-number parameter of an object.
     ///
     /// # Errors
     ///
     /// There is no such object or parameter.
-    pub fn object_int(&mut self, handle: Handle, id: i64) -> Result<i64, Refusal> {
-        let entry = self.table.entry(handle)?;
-        let mode = |desk: &Self| desk.joint_mode(handle);
+    pub fn object_int(&mut self, handle: Handle, id: i64) -> Result<i64, ApiError> {
+        let entry = self.registry.entry(handle)?;
+        let mode = |sim: &Self| sim.joint_mode(handle);
         Ok(match (id, &entry.kind) {
             (10, _) => 1,
-            (_, Kind::Vision(_)) => vision_int(&self.table.vision_sensor(handle)?.optics, id)?,
+            (_, Kind::Vision(_)) => vision_int(&self.registry.vision_sensor(handle)?.optics, id)?,
             (2000, Kind::Joint(_)) => i64::from(mode(self)? != MotorMode::Free),
             (2001, Kind::Joint(_)) => i64::from(matches!(mode(self)?, MotorMode::Position | MotorMode::Spring)),
             (2030, Kind::Joint(_)) => i64::from(mode(self)? == MotorMode::Velocity),
@@ -40,17 +40,17 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object or parameter, or it cannot be set.
-    pub fn set_object_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), Refusal> {
-        let entry = self.table.entry(handle)?;
+    pub fn set_object_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), ApiError> {
+        let entry = self.registry.entry(handle)?;
         if let Kind::Vision(_) = entry.kind {
             return self.set_vision_int(handle, id, value);
         }
         if entry.kind == Kind::Shape && matches!(id, 3003 | 3004 | 3019) {
             // static and not respondable it is
-            return if (value != 0) == (id == 3003) { Ok(()) } else { Err(Refusal::new(STATIC)) };
+            return if (value != 0) == (id == 3003) { Ok(()) } else { Err(ApiError::new(STATIC)) };
         }
         let is_body = matches!(entry.kind, Kind::Body(_));
-        let belongs = |what: &str| Refusal(format!("`{}`: {what}", entry.path));
+        let belongs = |what: &str| ApiError(format!("`{}`: {what}", entry.path));
         match id {
             3004 if is_body => return self.set_respondable(handle, value != 0),
             3003 if is_body => {
@@ -80,12 +80,12 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object or parameter.
-    pub fn object_float(&mut self, handle: Handle, id: i64) -> Result<f64, Refusal> {
-        let motor = |desk: &Self| {
-            Ok(desk.joint_motor(handle)?.unwrap_or(sincro_dynamics::actuation::Motor::new(MotorMode::Free)))
+    pub fn object_float(&mut self, handle: Handle, id: i64) -> Result<f64, ApiError> {
+        let motor = |sim: &Self| {
+            Ok(sim.joint_motor(handle)?.unwrap_or(sincro_dynamics::actuation::Motor::new(MotorMode::Free)))
         };
-        if let (1000.., Kind::Vision(_)) = (id, &self.table.entry(handle)?.kind) {
-            return vision_float(&self.table.vision_sensor(handle)?.optics, id);
+        if let (1000.., Kind::Vision(_)) = (id, &self.registry.entry(handle)?.kind) {
+            return vision_float(&self.registry.vision_sensor(handle)?.optics, id);
         }
         match id {
             11..=13 => Ok(self.velocity(handle)?.0[(id - 11) as usize]),
@@ -110,8 +110,8 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object or parameter, or it cannot be set.
-    pub fn set_object_float(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), Refusal> {
-        if let Kind::Vision(_) = self.table.entry(handle)?.kind {
+    pub fn set_object_float(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), ApiError> {
+        if let Kind::Vision(_) = self.registry.entry(handle)?.kind {
             return self.set_vision_float(handle, id, value);
         }
         match id {
@@ -139,7 +139,7 @@ fn control_number(mode: MotorMode) -> i64 {
 }
 
 /// The mode of dynamic control of a number.
-fn control_mode(number: i64) -> Result<MotorMode, Refusal> {
+fn control_mode(number: i64) -> Result<MotorMode, ApiError> {
     Ok(match number {
         0 => MotorMode::Free,
         1 => MotorMode::Torque,
@@ -147,7 +147,7 @@ fn control_mode(number: i64) -> Result<MotorMode, Refusal> {
         8 => MotorMode::Position,
         12 => MotorMode::Spring,
         _ => {
-            return Err(Refusal(format!(
+            return Err(ApiError(format!(
                 "{number} is no control mode: free 0, force 1, velocity 4, position 8, spring 12"
             )));
         }

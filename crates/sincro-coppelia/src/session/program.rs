@@ -1,11 +1,12 @@
-//! Parameters of the simulator, by the numbers and names that clients use for them. Those of objects are in `parameters.rs`.
+//! Parameters of the simulator, by the numbers and names that clients use for them. Those of objects are in
+//! `parameters.rs`.
 //!
-//! What belongs to windows, editing and the computer has a fixed answer, and takes settings without effect: programs that turn the display off
-//! for speed run as they are.
+//! What belongs to windows, editing and the computer has a fixed answer, and takes settings without effect: programs
+//! that turn the display off for speed run as they are.
 
-use super::{Desk, Phase, Refusal};
+use super::{ApiError, Phase, SimApi};
 
-/// What is answered for the version: the last that had the legacy remote API, which is what clients check for.
+/// Version that clients are told: the last one with the legacy remote API, which is what they check for.
 const PROGRAM_VERSION: i64 = 40_501;
 
 /// A parameter whose answer is always the same: number, name without `sim.`, answer.
@@ -96,7 +97,8 @@ const TRUTHS: &[Fixed<bool>] = &[
     (58, "boolparam_execunsafe", false),
 ];
 
-/// Texts: folders of a program that is not installed. Clients build paths of scenes from them that are looked for by their last part.
+/// Texts: folders of a program that is not installed. Clients build paths of scenes from them that are looked for by
+/// their last part.
 const TEXTS: &[Fixed<&str>] = &[
     (0, "stringparam_application_path", ""),
     (1, "stringparam_video_filename", ""),
@@ -125,7 +127,7 @@ const SCENE_PATH: i64 = 13;
 const SCENE_FOLDER: i64 = 14;
 const SCENE_NAME: i64 = 15;
 
-/// How often a stop was asked for.
+/// Number of stop requests.
 const STOP_REQUESTS: i64 = 29;
 /// Base steps in a step of clients.
 const STEP_DIVIDER: i64 = 7;
@@ -154,16 +156,16 @@ pub fn names() -> impl Iterator<Item = (&'static str, i64)> {
     whole.chain(truths).chain(texts).chain(NAMES.iter().copied())
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// A whole-number parameter of the simulator.
     ///
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn int_parameter(&self, id: i64) -> Result<i64, Refusal> {
+    pub fn int_parameter(&self, id: i64) -> Result<i64, ApiError> {
         match id {
-            STOP_REQUESTS => Ok(self.table.stop_requests),
-            STEP_DIVIDER => Ok((self.table.sample_time() / self.table.base_step()).round() as i64),
+            STOP_REQUESTS => Ok(self.registry.stop_requests),
+            STEP_DIVIDER => Ok((self.registry.sample_time() / self.registry.base_step()).round() as i64),
             _ => fixed(WHOLE, id, "whole-number"),
         }
     }
@@ -173,13 +175,13 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number, or it says how the world is computed.
-    pub fn set_int_parameter(&self, id: i64) -> Result<(), Refusal> {
+    pub fn set_int_parameter(&self, id: i64) -> Result<(), ApiError> {
         match id {
-            DYNAMIC_ENGINE => Err(Refusal::new(
+            DYNAMIC_ENGINE => Err(ApiError::new(
                 "there is one way to compute the world, exact but for the error bar: choose the integrator by `method` in experiment.toml",
             )),
             STEP_DIVIDER => {
-                Err(Refusal::new("the physics step is the scene's base step: set `step` in experiment.toml"))
+                Err(ApiError::new("the physics step is the scene's base step: set `step` in experiment.toml"))
             }
             _ => self.int_parameter(id).map(|_| ()),
         }
@@ -190,10 +192,10 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn float_parameter(&self, id: i64) -> Result<f64, Refusal> {
+    pub fn float_parameter(&self, id: i64) -> Result<f64, ApiError> {
         match id {
-            TIME_STEP => Ok(self.table.sample_time()),
-            _ if PHYSICS_STEP.contains(&id) => Ok(self.table.base_step()),
+            TIME_STEP => Ok(self.registry.sample_time()),
+            _ if PHYSICS_STEP.contains(&id) => Ok(self.registry.base_step()),
             _ => Err(unknown("float", id)),
         }
     }
@@ -203,11 +205,11 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number, or it cannot be set.
-    pub fn set_float_parameter(&mut self, id: i64, value: f64) -> Result<(), Refusal> {
+    pub fn set_float_parameter(&mut self, id: i64, value: f64) -> Result<(), ApiError> {
         match id {
-            TIME_STEP => self.table.set_sample_time(value),
+            TIME_STEP => self.registry.set_sample_time(value),
             _ if PHYSICS_STEP.contains(&id) => {
-                Err(Refusal::new("the physics step is the scene's base step: set `step` in experiment.toml"))
+                Err(ApiError::new("the physics step is the scene's base step: set `step` in experiment.toml"))
             }
             _ => Err(unknown("float", id)),
         }
@@ -218,7 +220,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn bool_parameter(&self, id: i64) -> Result<bool, Refusal> {
+    pub fn bool_parameter(&self, id: i64) -> Result<bool, ApiError> {
         fixed(TRUTHS, id, "truth")
     }
 
@@ -227,7 +229,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn array_parameter(&self, id: i64) -> Result<[f64; 3], Refusal> {
+    pub fn array_parameter(&self, id: i64) -> Result<[f64; 3], ApiError> {
         if id == GRAVITY { Ok(self.world.model().gravity().0) } else { Err(unknown("vector", id)) }
     }
 
@@ -236,7 +238,7 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number, or a number is not finite.
-    pub fn set_array_parameter(&mut self, id: i64, value: [f64; 3]) -> Result<(), Refusal> {
+    pub fn set_array_parameter(&mut self, id: i64, value: [f64; 3]) -> Result<(), ApiError> {
         if id == GRAVITY { self.set_gravity(value) } else { Err(unknown("vector", id)) }
     }
 
@@ -245,8 +247,8 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn string_parameter(&self, id: i64) -> Result<String, Refusal> {
-        let path = &self.table.scene_path;
+    pub fn string_parameter(&self, id: i64) -> Result<String, ApiError> {
+        let path = &self.registry.scene_path;
         let (folder, _) = path.rsplit_once('/').unwrap_or_default();
         match id {
             SCENE_PATH => Ok(path.clone()),
@@ -259,7 +261,7 @@ impl Desk<'_> {
     /// The simulation's state as clients know it, see [`super::constants`].
     #[must_use]
     pub fn simulation_state(&self) -> i64 {
-        match self.table.phase {
+        match self.registry.phase {
             Phase::Stopped => 0,
             Phase::Paused => 8,
             Phase::Running if self.world.state.tick == 0 => 16,
@@ -268,13 +270,13 @@ impl Desk<'_> {
     }
 }
 
-fn fixed<T: Copy>(list: &[Fixed<T>], id: i64, kind: &str) -> Result<T, Refusal> {
+fn fixed<T: Copy>(list: &[Fixed<T>], id: i64, kind: &str) -> Result<T, ApiError> {
     list.iter().find(|p| p.0 == id).map(|p| p.2).ok_or_else(|| unknown(kind, id))
 }
 
 /// There is no parameter of that number.
-pub(super) fn unknown(kind: &str, id: i64) -> Refusal {
-    Refusal(format!("there is no {kind} parameter {id} here"))
+pub(super) fn unknown(kind: &str, id: i64) -> ApiError {
+    ApiError(format!("there is no {kind} parameter {id} here"))
 }
 
 #[cfg(test)]

@@ -1,40 +1,42 @@
-//! Proximity sensors as clients and scripts have them: what was seen when they were handled last, and what is there now.
+//! Proximity sensors as clients and scripts have them: what was seen when they were handled last, and what is there
+//! now.
 
 use sincro_dynamics::geometry::FieldOfView;
 
-use super::senses::{Look, handle_of};
-use super::table::{Handle, Kind, WORLD};
-use super::{Desk, Entity, Refusal};
+use super::registry::{Handle, Kind, WORLD};
+use super::senses::{ProximityEntry, handle_of};
+use super::{ApiError, Entity, SimApi};
 use sincro_sim::proximity::{Detection, Eye};
 
-impl Desk<'_> {
-    fn look_of(&self, handle: Handle) -> Result<&Look, Refusal> {
-        let entry = self.table.entry(handle)?;
-        let look = self.table.senses.looks.get(&entry.handle);
-        look.ok_or_else(|| Refusal(format!("`{}` is no proximity sensor", entry.path)))
+impl SimApi<'_> {
+    fn proximity_entry(&self, handle: Handle) -> Result<&ProximityEntry, ApiError> {
+        let entry = self.registry.entry(handle)?;
+        let sensor = self.registry.senses.proximity.get(&entry.handle);
+        sensor.ok_or_else(|| ApiError(format!("`{}` is no proximity sensor", entry.path)))
     }
 
-    /// What a proximity sensor saw when it was handled last, a scene's sensors at each of their samples; none if it has not been yet.
+    /// Reading of a proximity sensor when it was handled last, a scene's sensors at each of their samples; none before
+    /// the first.
     ///
     /// # Errors
     ///
     /// There is no such object, or it is no proximity sensor.
-    pub fn proximity(&self, handle: Handle) -> Result<Option<Option<Detection>>, Refusal> {
-        Ok(self.look_of(handle)?.saw)
+    pub fn proximity(&self, handle: Handle) -> Result<Option<Option<Detection>>, ApiError> {
+        Ok(self.proximity_entry(handle)?.saw)
     }
 
-    /// What a proximity sensor sees of an entity now, within `most` `[m]`; the reading stays.
+    /// Detection of an entity by a proximity sensor now, within `most` `[m]`; the reading stays.
     ///
     /// # Errors
     ///
     /// There is no such object, it is no proximity sensor, or the entity is gone.
-    pub fn look_at(&mut self, handle: Handle, entity: Entity, most: f64) -> Result<Option<Detection>, Refusal> {
-        let look = self.look_of(handle)?;
-        let (eye, blind_below) = (look.eye.clone(), look.blind_below);
-        let at = self.table.entry(handle)?.frame;
+    pub fn look_at(&mut self, handle: Handle, entity: Entity, most: f64) -> Result<Option<Detection>, ApiError> {
+        let entry = self.proximity_entry(handle)?;
+        let (eye, blind_below) = (entry.eye.clone(), entry.blind_below);
+        let at = self.registry.entry(handle)?.frame;
         let x_we = self.place(&at);
         let members = if entity == Entity::All { Vec::new() } else { self.members(entity)? };
-        let (senses, t) = (&self.table.senses, self.t);
+        let (senses, t) = (&self.registry.senses, self.t);
         let pieces = senses.pieces().filter(|piece| {
             if entity == Entity::All {
                 eye.admits(&at, piece)
@@ -46,31 +48,39 @@ impl Desk<'_> {
         Ok(saw.filter(|saw| saw.distance >= blind_below))
     }
 
-    /// Lets a proximity sensor look: the reading is what is there now. A sensor of the scene has its sample of the present tick already while a run is on.
+    /// Lets a proximity sensor look: the reading is what is there now. A sensor of the scene has its sample of the
+    /// present tick already while a run is on.
     ///
     /// # Errors
     ///
     /// There is no such object, or it is no proximity sensor.
-    pub fn handle_proximity(&mut self, handle: Handle) -> Result<Option<Detection>, Refusal> {
-        if self.look_of(handle)?.is_of_scene
+    pub fn handle_proximity(&mut self, handle: Handle) -> Result<Option<Detection>, ApiError> {
+        if self.proximity_entry(handle)?.is_of_scene
             && self.is_running()
             && let Some(saw) = self.proximity(handle)?
         {
             return Ok(saw);
         }
         let saw = self.look_at(handle, Entity::All, f64::INFINITY)?;
-        self.table.tell(handle, saw);
+        self.registry.tell(handle, saw);
         Ok(saw)
     }
 
-    /// Lets all proximity sensors look, those that wait to be told only if `explicit`: what the one that is closest to something saw.
+    /// Lets all proximity sensors look, those that wait to be told only if `explicit`: what the one that is closest to
+    /// something saw.
     ///
     /// # Errors
     ///
     /// None yet.
-    pub fn handle_proximities(&mut self, explicit: bool) -> Result<Option<Detection>, Refusal> {
-        let all: Vec<Handle> =
-            self.table.senses.looks.iter().filter(|(_, l)| explicit || !l.is_explicit).map(|(h, _)| *h).collect();
+    pub fn handle_proximities(&mut self, explicit: bool) -> Result<Option<Detection>, ApiError> {
+        let all: Vec<Handle> = self
+            .registry
+            .senses
+            .proximity
+            .iter()
+            .filter(|(_, l)| explicit || !l.is_explicit)
+            .map(|(h, _)| *h)
+            .collect();
         let mut nearest: Option<Detection> = None;
         for handle in all {
             let saw = self.handle_proximity(handle)?;
@@ -82,13 +92,13 @@ impl Desk<'_> {
     }
 
     /// The sensors that were made at run time look, as a main script makes them; not those that wait to be told.
-    pub(crate) fn handle_made_sensors(&mut self) {
-        let looks = &self.table.senses.looks;
+    pub(crate) fn handle_runtime_sensors(&mut self) {
+        let proximity = &self.registry.senses.proximity;
         let made: Vec<Handle> =
-            looks.iter().filter(|(_, l)| !l.is_of_scene && !l.is_explicit).map(|(h, _)| *h).collect();
+            proximity.iter().filter(|(_, l)| !l.is_of_scene && !l.is_explicit).map(|(h, _)| *h).collect();
         for handle in made {
             let saw = self.look_at(handle, Entity::All, f64::INFINITY);
-            self.table.tell(handle, saw.ok().flatten());
+            self.registry.tell(handle, saw.ok().flatten());
         }
     }
 
@@ -97,24 +107,24 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object, or it is no proximity sensor.
-    pub fn reset_proximity(&mut self, handle: Handle) -> Result<(), Refusal> {
-        let own = self.table.entry(handle)?.handle;
-        self.look_of(own)?;
-        if let Some(look) = self.table.senses.looks.get_mut(&own) {
-            look.saw = None;
+    pub fn reset_proximity(&mut self, handle: Handle) -> Result<(), ApiError> {
+        let own = self.registry.entry(handle)?.handle;
+        self.proximity_entry(own)?;
+        if let Some(entry) = self.registry.senses.proximity.get_mut(&own) {
+            entry.saw = None;
         }
         Ok(())
     }
 
     /// Forgets what all proximity sensors saw, of those that wait to be told only if `explicit`.
     pub fn reset_proximities(&mut self, explicit: bool) {
-        for look in self.table.senses.looks.values_mut().filter(|l| explicit || !l.is_explicit) {
-            look.saw = None;
+        for entry in self.registry.senses.proximity.values_mut().filter(|l| explicit || !l.is_explicit) {
+            entry.saw = None;
         }
     }
 
-    /// Makes a proximity sensor in the world's origin: one that looks only when it is told to if it `is_explicit`, and sees nothing while something is
-    /// nearer than `blind_below` `[m]`.
+    /// Makes a proximity sensor in the world's origin: one that looks only when it is told to if it `is_explicit`, and
+    /// sees nothing while something is nearer than `blind_below` `[m]`.
     ///
     /// # Errors
     ///
@@ -124,10 +134,13 @@ impl Desk<'_> {
         field: FieldOfView,
         is_explicit: bool,
         blind_below: f64,
-    ) -> Result<Handle, Refusal> {
-        let handle = self.table.create("ProximitySensor", Kind::Proximity, WORLD)?;
+    ) -> Result<Handle, ApiError> {
+        let handle = self.registry.create("ProximitySensor", Kind::Proximity, WORLD)?;
         let eye = Eye { field, with: Vec::new(), carrier: None };
-        self.table.senses.looks.insert(handle, Look { eye, is_explicit, is_of_scene: false, blind_below, saw: None });
+        self.registry
+            .senses
+            .proximity
+            .insert(handle, ProximityEntry { eye, is_explicit, is_of_scene: false, blind_below, saw: None });
         Ok(handle)
     }
 }

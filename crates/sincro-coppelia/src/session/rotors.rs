@@ -1,15 +1,15 @@
-//! Rotors, as clients and scripts know them: joints with an ideal motor that have a speed and no position. What V-REP's propellers have as
-//! the joint that turns them.
+//! Rotors, as clients and scripts know them: joints with an ideal motor that have a speed and no position. What V-REP's
+//! propellers have as the joint that turns them.
 
 use sincro_dynamics::aero::rotor::SpeedFrom;
 
-use super::table::{Handle, Kind};
-use super::{Desk, Refusal};
+use super::registry::{Handle, Kind};
+use super::{ApiError, SimApi};
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Index of a rotor among the model's; none for any other object.
-    pub(super) fn rotor(&self, handle: Handle) -> Result<Option<usize>, Refusal> {
-        Ok(match self.table.entry(handle)?.kind {
+    pub(super) fn rotor(&self, handle: Handle) -> Result<Option<usize>, ApiError> {
+        Ok(match self.registry.entry(handle)?.kind {
             Kind::Rotor(index) => Some(index),
             _ => None,
         })
@@ -20,16 +20,16 @@ impl Desk<'_> {
         self.world.rotor_speed(sincro_dynamics::ids::RotorId::new(rotor))
     }
 
-    /// What a rotor was told [rad/s].
+    /// Target speed of a rotor [rad/s].
     pub(super) fn rotor_target(&self, rotor: usize) -> f64 {
         let Some(command) = self.world.model().rotors()[rotor].speed.command() else { return self.rotor_speed(rotor) };
         let latched = self.world.state.commands[command];
-        let present = if self.world.state.tick == 0 { self.table.scene_command(command, 0.0) } else { latched };
-        self.table.held(command).unwrap_or(present)
+        let present = if self.world.state.tick == 0 { self.registry.scene_command(command, 0.0) } else { latched };
+        self.registry.held(command).unwrap_or(present)
     }
 
     /// Tells a rotor its speed [rad/s].
-    pub(super) fn set_rotor_target(&mut self, rotor: usize, speed: f64) -> Result<(), Refusal> {
+    pub(super) fn set_rotor_target(&mut self, rotor: usize, speed: f64) -> Result<(), ApiError> {
         let model = self.world.model();
         let Some(command) = model.rotors()[rotor].speed.command() else {
             let path = &model.names().rotors[rotor];
@@ -37,11 +37,11 @@ impl Desk<'_> {
                 SpeedFrom::Joint { dof, .. } => model.names().dof_name(dof),
                 _ => "",
             };
-            return Err(Refusal(format!(
+            return Err(ApiError(format!(
                 "the rotor `{path}` turns with the joint `{joint}`: set that joint's velocity"
             )));
         };
-        self.table.hold(command, Some(speed));
+        self.registry.hold(command, Some(speed));
         Ok(())
     }
 }

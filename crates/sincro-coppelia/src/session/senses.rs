@@ -1,4 +1,4 @@
-//! What a table knows of what can be seen: the scene's pieces, what clients and scripts have made, their proximity sensors, their collections.
+//! Visible pieces of a registry, of the scene and of runtime objects, with its proximity sensors and collections.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,80 +9,80 @@ use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::spatial::Pose;
 
 use super::collections::Collection;
-use super::{Entry, Handle, Kind, Refusal, Table};
+use super::{ApiError, Entry, Handle, Kind, ObjectRegistry};
 use sincro_scene::scene::Scene;
 use sincro_scene::scenery::{Piece, Scenery};
 use sincro_sim::proximity::{Detection, Eye};
 
 /// Corners and heights of everything that clients and scripts make together.
-const MOST_CORNERS: usize = 2_000_000;
+const MAX_CORNERS: usize = 2_000_000;
 /// Colour of what is made without one.
 const PLAIN: [u8; 3] = [0xc9, 0xa1, 0x5b];
 
 /// See the head of this file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Senses {
-    /// Of the scene.
+    /// Pieces of the scene.
     pub scenery: Scenery,
-    /// Of what was made, where it is now.
-    made: Vec<Piece>,
-    /// Where each of them stands in its object.
+    /// Pieces of runtime objects, at their present poses.
+    runtime: Vec<Piece>,
+    /// Pose of each of them in its object.
     places: Vec<Pose<f64>>,
     /// Proximity sensors.
-    pub looks: BTreeMap<Handle, Look>,
+    pub proximity: BTreeMap<Handle, ProximityEntry>,
     /// By their handles.
     pub collections: BTreeMap<Handle, Collection>,
 }
 
 /// A proximity sensor and what it saw last.
 #[derive(Clone, Debug)]
-pub(super) struct Look {
+pub(super) struct ProximityEntry {
     pub eye: Eye,
-    /// Whether it looks only when it is told to.
+    /// True if it looks only when it is told to.
     pub is_explicit: bool,
-    /// Whether it belongs to the scene, which samples it.
+    /// True if it belongs to the scene, which samples it.
     pub is_of_scene: bool,
-    /// What is nearer than this makes it blind `[m]`.
+    /// Minimum distance: anything nearer blinds the sensor `[m]`.
     pub blind_below: f64,
-    /// What it saw when it looked last; none if it has not looked yet.
+    /// Latest reading; none before the first.
     pub saw: Option<Option<Detection>>,
 }
 
 impl Senses {
-    /// Of a scene.
+    /// Pieces and sensors of a scene.
     pub fn new(scene: &Scene) -> Self {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
-        let mut looks = BTreeMap::new();
+        let mut proximity = BTreeMap::new();
         for spec in &scene.sensors {
             let (Some(eye), Some(own)) = (Eye::of(spec, scene), object_of(&spec.path)) else { continue };
-            looks.insert(
+            proximity.insert(
                 Handle(own as i32 + 1),
-                Look { eye, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },
+                ProximityEntry { eye, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },
             );
         }
-        Self { scenery: scene.scenery().clone(), looks, ..Self::default() }
+        Self { scenery: scene.scenery().clone(), proximity, ..Self::default() }
     }
 
     /// Every piece, the scene's first.
     pub fn pieces(&self) -> impl Iterator<Item = &Piece> {
-        self.scenery.pieces.iter().chain(&self.made)
+        self.scenery.pieces.iter().chain(&self.runtime)
     }
 
-    /// What an object that was made consists of, each with its place in the object.
+    /// Pieces of a runtime object, each with its pose in the object.
     pub fn parts_of(&self, own: Handle) -> Vec<(Piece, Pose<f64>)> {
-        let parts = self.made.iter().zip(&self.places).filter(|(piece, _)| handle_of(piece) == own);
+        let parts = self.runtime.iter().zip(&self.places).filter(|(piece, _)| handle_of(piece) == own);
         parts.map(|(piece, place)| (piece.clone(), *place)).collect()
     }
 
-    /// Whether an object that was made can be seen.
-    pub fn has_made(&self, own: Handle) -> bool {
-        self.made.iter().any(|piece| handle_of(piece) == own)
+    /// Returns true if an object that was made can be seen.
+    pub fn has_runtime_pieces(&self, own: Handle) -> bool {
+        self.runtime.iter().any(|piece| handle_of(piece) == own)
     }
 
     /// An object that was made is gone.
     pub fn forget(&mut self, own: Handle) {
         self.forget_parts(own);
-        self.looks.remove(&own);
+        self.proximity.remove(&own);
         for collection in self.collections.values_mut() {
             collection.forget(own);
         }
@@ -90,16 +90,16 @@ impl Senses {
 
     /// Takes away what an object that was made consists of.
     pub fn forget_parts(&mut self, own: Handle) {
-        let stays: Vec<bool> = self.made.iter().map(|piece| handle_of(piece) != own).collect();
+        let stays: Vec<bool> = self.runtime.iter().map(|piece| handle_of(piece) != own).collect();
         let mut stay = stays.iter();
-        self.made.retain(|_| *stay.next().expect("one for each"));
+        self.runtime.retain(|_| *stay.next().expect("one for each"));
         let mut stay = stays.iter();
         self.places.retain(|_| *stay.next().expect("one for each"));
     }
 
     /// Colours the part that was added last.
     pub fn paint_last(&mut self, color: [u8; 3]) {
-        if let Some(last) = self.made.last_mut() {
+        if let Some(last) = self.runtime.last_mut() {
             last.color = color;
         }
     }
@@ -107,32 +107,32 @@ impl Senses {
     /// Adds a part to an object that was made.
     pub fn add(&mut self, own: Handle, frame: &Attached<f64>, geometry: Arc<Geometry>, place: Pose<f64>) {
         let at = Attached { pose: frame.pose.compose(&place), ..*frame };
-        self.made.push(Piece { object: own.0 as usize - 1, at, geometry, color: PLAIN });
+        self.runtime.push(Piece { object: own.0 as usize - 1, at, geometry, color: PLAIN });
         self.places.push(place);
     }
 
     /// The object has moved to another frame.
     pub fn moved(&mut self, own: Handle, frame: &Attached<f64>) {
-        for (piece, place) in self.made.iter_mut().zip(&self.places).filter(|(piece, _)| handle_of(piece) == own) {
+        for (piece, place) in self.runtime.iter_mut().zip(&self.places).filter(|(piece, _)| handle_of(piece) == own) {
             piece.at = Attached { pose: frame.pose.compose(place), ..*frame };
         }
     }
 
     /// Colours everything of an object.
     pub fn paint(&mut self, own: Handle, color: [u8; 3]) {
-        for piece in self.scenery.pieces.iter_mut().chain(&mut self.made).filter(|piece| handle_of(piece) == own) {
+        for piece in self.scenery.pieces.iter_mut().chain(&mut self.runtime).filter(|piece| handle_of(piece) == own) {
             piece.color = color;
         }
     }
 
     /// A surface ready to be looked at; refused if it has no extent, or if there would be too many corners.
-    pub fn prepare(&self, surface: Surface) -> Result<Arc<Geometry>, Refusal> {
-        let there: usize = self.made.iter().map(|piece| corners(piece.geometry.surface())).sum();
-        if there + corners(&surface) > MOST_CORNERS {
-            return Err(Refusal(format!("what is made at run time may have {MOST_CORNERS} corners together")));
+    pub fn prepare(&self, surface: Surface) -> Result<Arc<Geometry>, ApiError> {
+        let there: usize = self.runtime.iter().map(|piece| corners(piece.geometry.surface())).sum();
+        if there + corners(&surface) > MAX_CORNERS {
+            return Err(ApiError(format!("what is made at run time may have {MAX_CORNERS} corners together")));
         }
         let geometry = Geometry::new(surface)
-            .ok_or_else(|| Refusal::new("the surface has no extent, or its triangles are none"))?;
+            .ok_or_else(|| ApiError::new("the surface has no extent, or its triangles are none"))?;
         Ok(Arc::new(geometry))
     }
 }
@@ -150,19 +150,19 @@ fn corners(surface: &Surface) -> usize {
     }
 }
 
-impl Table {
+impl ObjectRegistry {
     /// Pieces of what clients and scripts have made.
-    pub(crate) fn made_pieces(&self) -> &[Piece] {
-        &self.senses.made
+    pub(crate) fn runtime_pieces(&self) -> &[Piece] {
+        &self.senses.runtime
     }
 
     /// No proximity sensor has looked yet.
     pub(super) fn reset_looks(&mut self) {
-        self.senses.looks.values_mut().for_each(|look| look.saw = None);
+        self.senses.proximity.values_mut().for_each(|entry| entry.saw = None);
     }
 
-    /// A run has ended: nobody has looked, shapes and sensors that were made in it, beyond the first `n_before` objects, are gone with it, as in V-REP, and
-    /// the others are where their objects are.
+    /// A run has ended: nobody has looked, shapes and sensors that were made in it, beyond the first `n_before`
+    /// objects, are gone with it, as in V-REP, and the others are where their objects are.
     pub(super) fn settle_senses(&mut self, n_before: usize) {
         self.reset_looks();
         let is_new = |e: &&Entry| {
@@ -173,7 +173,7 @@ impl Table {
             self.remove(handle).expect("it was made");
         }
         let made: Vec<(Handle, Attached<f64>)> =
-            self.entries().filter(|e| e.is_made).map(|e| (e.handle, e.frame)).collect();
+            self.entries().filter(|e| e.is_runtime).map(|e| (e.handle, e.frame)).collect();
         for (handle, frame) in made {
             self.senses.moved(handle, &frame);
         }
@@ -186,15 +186,15 @@ impl Table {
             self.senses.add(to, &frame, piece.geometry, place);
             self.senses.paint_last(piece.color);
         }
-        if let Some(look) = self.senses.looks.get(&from).cloned() {
-            self.senses.looks.insert(to, Look { saw: None, ..look });
+        if let Some(entry) = self.senses.proximity.get(&from).cloned() {
+            self.senses.proximity.insert(to, ProximityEntry { saw: None, ..entry });
         }
     }
 
-    /// What a proximity sensor has seen.
+    /// Stores the reading of a proximity sensor.
     pub(crate) fn tell(&mut self, sensor: Handle, saw: Option<Detection>) {
-        if let Some(look) = self.senses.looks.get_mut(&sensor) {
-            look.saw = Some(saw);
+        if let Some(entry) = self.senses.proximity.get_mut(&sensor) {
+            entry.saw = Some(saw);
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Shapes that clients and scripts make: seen by sensors, measured by distances, moved where they are put; they weigh nothing and touch nothing.
+//! Shapes that clients and scripts make: seen by sensors, measured by distances, moved where they are put; they weigh
+//! nothing and touch nothing.
 
 use std::path::{Component, Path};
 use std::sync::Arc;
@@ -8,20 +9,20 @@ use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::model::Shape;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
+use super::registry::{Handle, Kind, WORLD};
 use super::senses::handle_of;
-use super::table::{Handle, Kind, WORLD};
-use super::{Desk, Reference, Refusal};
+use super::{ApiError, Reference, SimApi};
 use sincro_scene::scene::Triangles;
 
 /// Triangles of one mesh.
-const MOST_TRIANGLES: usize = 200_000;
+const MAX_TRIANGLES: usize = 200_000;
 /// Largest length of anything that is made `[m]`.
-const MOST_LENGTH: f64 = 1e6;
+const MAX_LENGTH: f64 = 1e6;
 
-/// What a shape is, as clients know it.
+/// Properties of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapeInfo {
-    /// Whether it has several parts.
+    /// True if it has several parts.
     pub is_compound: bool,
     /// `sim.primitiveshape_…`; 0 for meshes and hulls.
     pub primitive: i64,
@@ -29,19 +30,19 @@ pub struct ShapeInfo {
     pub size: [f64; 3],
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Makes a shape in the world's origin of parts, each with its place.
     ///
     /// # Errors
     ///
     /// There are too many objects or corners, or a part has no extent.
-    pub fn create_shape(&mut self, name: &str, parts: Vec<(Surface, Pose<f64>)>) -> Result<Handle, Refusal> {
-        let ready = parts.into_iter().map(|(surface, place)| Ok((self.table.senses.prepare(surface)?, place)));
-        let ready = ready.collect::<Result<Vec<_>, Refusal>>()?;
-        let handle = self.table.create(name, Kind::Shape, WORLD)?;
+    pub fn create_shape(&mut self, name: &str, parts: Vec<(Surface, Pose<f64>)>) -> Result<Handle, ApiError> {
+        let ready = parts.into_iter().map(|(surface, place)| Ok((self.registry.senses.prepare(surface)?, place)));
+        let ready = ready.collect::<Result<Vec<_>, ApiError>>()?;
+        let handle = self.registry.create(name, Kind::Shape, WORLD)?;
         self.finish_pictures();
         for (geometry, place) in ready {
-            self.table.senses.add(handle, &WORLD, geometry, place);
+            self.registry.senses.add(handle, &WORLD, geometry, place);
         }
         Ok(handle)
     }
@@ -51,14 +52,14 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// A triangle names no corner, a number is not finite, or there are too many.
-    pub fn create_mesh(&mut self, corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Handle, Refusal> {
+    pub fn create_mesh(&mut self, corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Handle, ApiError> {
         let (low, high) = bounds(corners)?;
-        if triangles.is_empty() || triangles.len() > MOST_TRIANGLES {
+        if triangles.is_empty() || triangles.len() > MAX_TRIANGLES {
             let n = triangles.len();
-            return Err(Refusal(format!("a mesh of {n} triangles: expected one to {MOST_TRIANGLES}")));
+            return Err(ApiError(format!("a mesh of {n} triangles: expected one to {MAX_TRIANGLES}")));
         }
         if let Some(k) = triangles.iter().flatten().find(|k| **k as usize >= corners.len()) {
-            return Err(Refusal(format!("there is no corner {k}: there are {}, counted from 0", corners.len())));
+            return Err(ApiError(format!("there is no corner {k}: there are {}, counted from 0", corners.len())));
         }
         let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
         let around = corners.iter().map(|p| std::array::from_fn(|k| p[k] - middle[k])).collect();
@@ -79,16 +80,16 @@ impl Desk<'_> {
         rows: usize,
         size: f64,
         heights: Vec<f64>,
-    ) -> Result<Handle, Refusal> {
+    ) -> Result<Handle, ApiError> {
         if columns < 2 || rows < 2 || columns.checked_mul(rows) != Some(heights.len()) {
             let n = heights.len();
-            return Err(Refusal(format!(
+            return Err(ApiError(format!(
                 "{n} heights for {columns} by {rows} points: expected two rows of two at least, all filled"
             )));
         }
         length(size)?;
         if let Some(bad) = heights.iter().find(|h| !is_near(**h)) {
-            return Err(Refusal(format!("a height of {bad}")));
+            return Err(ApiError(format!("a height of {bad}")));
         }
         let size = [size, size * (rows - 1) as f64 / (columns - 1) as f64];
         self.create_shape("Heightfield", vec![(Surface::HeightField { columns, heights, size }, Pose::identity())])
@@ -99,19 +100,19 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// It lies elsewhere, cannot be read, or is no mesh.
-    pub(super) fn read_mesh(&self, name: &str, scale: f64) -> Result<Triangles, Refusal> {
+    pub(super) fn read_mesh(&self, name: &str, scale: f64) -> Result<Triangles, ApiError> {
         length(scale)?;
         let path = Path::new(name);
         if name.is_empty() || !path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
-            return Err(Refusal(format!("`{name}` is no file of the scene's folder: give a path inside it")));
+            return Err(ApiError(format!("`{name}` is no file of the scene's folder: give a path inside it")));
         }
-        let folder = Path::new(&self.table.scene_path).parent().unwrap_or(Path::new("."));
+        let folder = Path::new(&self.registry.scene_path).parent().unwrap_or(Path::new("."));
         let whole = folder.join(path).canonicalize();
-        let whole = whole.map_err(|e| Refusal(format!("`{name}` cannot be read: {e}")))?;
+        let whole = whole.map_err(|e| ApiError(format!("`{name}` cannot be read: {e}")))?;
         if !folder.canonicalize().is_ok_and(|folder| whole.starts_with(folder)) {
-            return Err(Refusal(format!("`{name}` lies outside the scene's folder")));
+            return Err(ApiError(format!("`{name}` lies outside the scene's folder")));
         }
-        let mut mesh = sincro_scene::scene::mesh_of_file(&whole).map_err(|why| Refusal(format!("`{name}`: {why}")))?;
+        let mut mesh = sincro_scene::scene::mesh_of_file(&whole).map_err(|why| ApiError(format!("`{name}`: {why}")))?;
         for x in mesh.corners.iter_mut().flatten() {
             *x *= scale;
         }
@@ -119,12 +120,12 @@ impl Desk<'_> {
     }
 
     /// The shape of a handle, which was made at run time.
-    fn shape_made(&self, handle: Handle) -> Result<Handle, Refusal> {
-        let entry = self.table.entry(handle)?;
+    fn runtime_shape(&self, handle: Handle) -> Result<Handle, ApiError> {
+        let entry = self.registry.entry(handle)?;
         if entry.kind == Kind::Shape {
             return Ok(entry.handle);
         }
-        Err(Refusal(format!("`{}` is no shape that was made at run time: change it in the scene", entry.path)))
+        Err(ApiError(format!("`{}` is no shape that was made at run time: change it in the scene", entry.path)))
     }
 
     /// One shape of several: the first one keeps its frame and name, the others are gone.
@@ -132,25 +133,25 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There are fewer than two, or one belongs to the scene.
-    pub fn group_shapes(&mut self, shapes: &[Handle]) -> Result<Handle, Refusal> {
-        let [first, others @ ..] = shapes else { return Err(Refusal::new("give two shapes at least")) };
+    pub fn group_shapes(&mut self, shapes: &[Handle]) -> Result<Handle, ApiError> {
+        let [first, others @ ..] = shapes else { return Err(ApiError::new("give two shapes at least")) };
         if others.is_empty() || (1..shapes.len()).any(|k| shapes[..k].contains(&shapes[k])) {
-            return Err(Refusal::new("give two shapes at least, each once"));
+            return Err(ApiError::new("give two shapes at least, each once"));
         }
         for shape in shapes {
-            self.shape_made(*shape)?;
+            self.runtime_shape(*shape)?;
         }
         self.finish_pictures();
-        let frame = self.table.entry(*first)?.frame;
+        let frame = self.registry.entry(*first)?.frame;
         let x_wf = self.pose(*first, Reference::World)?;
         for other in others {
             let x_fo = x_wf.inverse().compose(&self.pose(*other, Reference::World)?);
-            for (piece, place) in self.table.senses.parts_of(*other) {
-                self.table.senses.add(*first, &frame, piece.geometry, x_fo.compose(&place));
+            for (piece, place) in self.registry.senses.parts_of(*other) {
+                self.registry.senses.add(*first, &frame, piece.geometry, x_fo.compose(&place));
                 let color = piece.color;
-                self.table.senses.paint_last(color);
+                self.registry.senses.paint_last(color);
             }
-            self.table.remove(*other)?;
+            self.registry.remove(*other)?;
         }
         Ok(*first)
     }
@@ -160,21 +161,21 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// It belongs to the scene.
-    pub fn ungroup_shape(&mut self, shape: Handle) -> Result<Vec<Handle>, Refusal> {
-        self.shape_made(shape)?;
+    pub fn ungroup_shape(&mut self, shape: Handle) -> Result<Vec<Handle>, ApiError> {
+        self.runtime_shape(shape)?;
         self.finish_pictures();
-        let parts = self.table.senses.parts_of(shape);
-        let (x_ws, parent) = (self.pose(shape, Reference::World)?, self.table.entry(shape)?.parent);
+        let parts = self.registry.senses.parts_of(shape);
+        let (x_ws, parent) = (self.pose(shape, Reference::World)?, self.registry.entry(shape)?.parent);
         let mut all = Vec::new();
         for (piece, place) in &parts {
-            let made = self.table.create("Shape", Kind::Shape, WORLD)?;
-            self.table.senses.add(made, &WORLD, piece.geometry.clone(), Pose::identity());
-            self.table.senses.paint_last(piece.color);
+            let made = self.registry.create("Shape", Kind::Shape, WORLD)?;
+            self.registry.senses.add(made, &WORLD, piece.geometry.clone(), Pose::identity());
+            self.registry.senses.paint_last(piece.color);
             self.set_pose(made, &x_ws.compose(place), Reference::World)?;
             self.set_parent(made, parent, true)?;
             all.push(made);
         }
-        self.table.remove(shape)?;
+        self.registry.remove(shape)?;
         Ok(all)
     }
 
@@ -183,21 +184,21 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// It belongs to the scene, or the factor is not positive.
-    pub fn scale_shape(&mut self, shape: Handle, factor: f64) -> Result<(), Refusal> {
-        self.shape_made(shape)?;
+    pub fn scale_shape(&mut self, shape: Handle, factor: f64) -> Result<(), ApiError> {
+        self.runtime_shape(shape)?;
         length(factor)?;
-        let (parts, frame) = (self.table.senses.parts_of(shape), self.table.entry(shape)?.frame);
+        let (parts, frame) = (self.registry.senses.parts_of(shape), self.registry.entry(shape)?.frame);
         let scaled = parts.iter().map(|(piece, place)| {
             let geometry = Geometry::new(scaled(piece.geometry.surface(), factor));
-            let geometry = geometry.ok_or_else(|| Refusal::new("it would have no extent"))?;
+            let geometry = geometry.ok_or_else(|| ApiError::new("it would have no extent"))?;
             Ok((Arc::new(geometry), Pose { pos: place.pos.scale(factor), ..*place }, piece.color))
         });
-        let scaled = scaled.collect::<Result<Vec<_>, Refusal>>()?;
+        let scaled = scaled.collect::<Result<Vec<_>, ApiError>>()?;
         self.finish_pictures();
-        self.table.senses.forget_parts(shape);
+        self.registry.senses.forget_parts(shape);
         for (geometry, place, color) in scaled {
-            self.table.senses.add(shape, &frame, geometry, place);
-            self.table.senses.paint_last(color);
+            self.registry.senses.add(shape, &frame, geometry, place);
+            self.registry.senses.paint_last(color);
         }
         Ok(())
     }
@@ -207,26 +208,31 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such object, or a number is none.
-    pub fn paint(&mut self, handle: Handle, color: [f64; 3]) -> Result<(), Refusal> {
-        let own = self.table.entry(handle)?.handle;
+    pub fn paint(&mut self, handle: Handle, color: [f64; 3]) -> Result<(), ApiError> {
+        let own = self.registry.entry(handle)?.handle;
         if color.iter().any(|x| x.is_nan()) {
-            return Err(Refusal::new("a colour has numbers that are none"));
+            return Err(ApiError::new("a colour has numbers that are none"));
         }
         self.finish_pictures();
-        self.table.senses.paint(own, color.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
+        self.registry.senses.paint(own, color.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
         Ok(())
     }
 
-    /// What a shape or body looks like.
+    /// Geometry of a shape or body.
     ///
     /// # Errors
     ///
     /// There is no such object, or it has no shape.
-    pub fn shape_info(&self, handle: Handle) -> Result<ShapeInfo, Refusal> {
-        let own = self.table.entry(handle)?;
-        let pieces: Vec<&Surface> =
-            self.table.senses.pieces().filter(|p| handle_of(p) == own.handle).map(|p| p.geometry.surface()).collect();
-        let Some(first) = pieces.first() else { return Err(Refusal(format!("`{}` has no shape", own.path))) };
+    pub fn shape_info(&self, handle: Handle) -> Result<ShapeInfo, ApiError> {
+        let own = self.registry.entry(handle)?;
+        let pieces: Vec<&Surface> = self
+            .registry
+            .senses
+            .pieces()
+            .filter(|p| handle_of(p) == own.handle)
+            .map(|p| p.geometry.surface())
+            .collect();
+        let Some(first) = pieces.first() else { return Err(ApiError(format!("`{}` has no shape", own.path))) };
         let (primitive, size) = if pieces.len() > 1 { (0, [0.0; 3]) } else { primitive(first) };
         Ok(ShapeInfo { is_compound: pieces.len() > 1, primitive, size })
     }
@@ -237,7 +243,7 @@ impl Desk<'_> {
 /// # Errors
 ///
 /// There is none of that number, or it cannot have these lengths.
-pub fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface, Pose<f64>), Refusal> {
+pub fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface, Pose<f64>), ApiError> {
     let [x, y, z] = size;
     let used = match kind {
         1 | 2 => 2,
@@ -250,7 +256,7 @@ pub fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface,
         if size[1..n].iter().all(|other| (other - x).abs() <= 1e-9 * x) {
             return Ok(());
         }
-        Err(Refusal(format!("a {what} with the lengths {size:?} is not round: make a mesh with createMeshShape")))
+        Err(ApiError(format!("a {what} with the lengths {size:?} is not round: make a mesh with createMeshShape")))
     };
     let plain = Pose::identity();
     let solid = Surface::Solid;
@@ -277,13 +283,13 @@ pub fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface,
         8 => {
             round("capsule", 2)?;
             if z < x {
-                return Err(Refusal(format!("a capsule with the lengths {size:?} is shorter than it is wide")));
+                return Err(ApiError(format!("a capsule with the lengths {size:?} is shorter than it is wide")));
             }
             ("Capsule", solid(Shape::Capsule { radius: 0.5 * x, length: z - x }), plain)
         }
         _ => {
             let known = "plane 1, disc 2, cuboid 3, spheroid 4, cylinder 5, cone 6, capsule 8";
-            return Err(Refusal(format!("{kind} is no primitive shape: {known}")));
+            return Err(ApiError(format!("{kind} is no primitive shape: {known}")));
         }
     })
 }
@@ -329,22 +335,22 @@ fn scaled(surface: &Surface, k: f64) -> Surface {
     }
 }
 
-fn length(x: f64) -> Result<(), Refusal> {
-    if x > 0.0 && x <= MOST_LENGTH {
+fn length(x: f64) -> Result<(), ApiError> {
+    if x > 0.0 && x <= MAX_LENGTH {
         return Ok(());
     }
-    Err(Refusal(format!("{x} is no length or factor here: expected more than 0, at most {MOST_LENGTH}")))
+    Err(ApiError(format!("{x} is no length or factor here: expected more than 0, at most {MAX_LENGTH}")))
 }
 
 /// Neither far away nor no number.
 fn is_near(x: f64) -> bool {
-    x.abs() <= MOST_LENGTH
+    x.abs() <= MAX_LENGTH
 }
 
 /// The box that holds some corners.
-fn bounds(corners: &[[f64; 3]]) -> Result<([f64; 3], [f64; 3]), Refusal> {
+fn bounds(corners: &[[f64; 3]]) -> Result<([f64; 3], [f64; 3]), ApiError> {
     if corners.is_empty() || corners.iter().flatten().any(|x| !is_near(*x)) {
-        return Err(Refusal::new("corners are missing, not finite, or too far away"));
+        return Err(ApiError::new("corners are missing, not finite, or too far away"));
     }
     let bound = |f: fn(f64, f64) -> f64| {
         corners[1..].iter().fold(corners[0], |all, p| std::array::from_fn(|k| f(all[k], p[k])))

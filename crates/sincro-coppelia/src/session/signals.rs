@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::Refusal;
+use super::ApiError;
 
 /// Names of one kind that may exist at once.
-const MOST_NAMES: usize = 10_000;
+const MAX_NAMES: usize = 10_000;
 /// Bytes of one string signal.
-const MOST_BYTES: usize = 64 << 20;
+const MAX_BYTES: usize = 64 << 20;
 
 /// Signals of one kind.
 #[derive(Clone, Debug)]
@@ -40,9 +40,9 @@ impl<T> Signals<T> {
     /// # Errors
     ///
     /// There are too many names.
-    pub fn set(&mut self, name: &str, value: T, of_run: bool) -> Result<(), Refusal> {
-        if self.by_name.len() >= MOST_NAMES && !self.by_name.contains_key(name) {
-            return Err(Refusal(format!("there are {MOST_NAMES} signals already: clear some")));
+    pub fn set(&mut self, name: &str, value: T, of_run: bool) -> Result<(), ApiError> {
+        if self.by_name.len() >= MAX_NAMES && !self.by_name.contains_key(name) {
+            return Err(ApiError(format!("there are {MAX_NAMES} signals already: clear some")));
         }
         self.by_name.insert(name.to_owned(), Held { value, of_run });
         Ok(())
@@ -81,11 +81,11 @@ impl Signals<Vec<u8>> {
     /// # Errors
     ///
     /// It becomes too long, or there are too many names.
-    pub fn append(&mut self, name: &str, bytes: &[u8], of_run: bool) -> Result<(), Refusal> {
+    pub fn append(&mut self, name: &str, bytes: &[u8], of_run: bool) -> Result<(), ApiError> {
         let Some(held) = self.by_name.get_mut(name) else { return self.set(name, bytes.to_vec(), of_run) };
-        if held.value.len() + bytes.len() > MOST_BYTES {
-            return Err(Refusal(format!(
-                "string signal `{name}` is longer than {MOST_BYTES} bytes: read and clear it"
+        if held.value.len() + bytes.len() > MAX_BYTES {
+            return Err(ApiError(format!(
+                "string signal `{name}` is longer than {MAX_BYTES} bytes: read and clear it"
             )));
         }
         held.value.extend_from_slice(bytes);

@@ -1,6 +1,6 @@
 //! Values as they pass between the simulator and scripts or clients: what Lua tables, CBOR and JSON have in common.
 
-use super::{Handle, Refusal};
+use super::{ApiError, Handle};
 
 /// A value of any kind.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -161,13 +161,13 @@ impl From<&str> for Value {
 pub struct Arguments<'a>(pub &'a [Value]);
 
 impl<'a> Arguments<'a> {
-    /// How many were given.
+    /// Number of arguments.
     #[must_use]
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether none was given.
+    /// Returns true if none was given.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -179,15 +179,15 @@ impl<'a> Arguments<'a> {
         self.0.get(k).unwrap_or(&Value::Nil)
     }
 
-    /// Whether argument `k` was given and is not nil.
+    /// Returns true if argument `k` was given and is not nil.
     #[must_use]
     pub fn has(&self, k: usize) -> bool {
         *self.get(k) != Value::Nil
     }
 
-    fn wrong(&self, k: usize, expected: &str) -> Refusal {
+    fn wrong(&self, k: usize, expected: &str) -> ApiError {
         let found = if k < self.len() { self.get(k).word() } else { "nothing" };
-        Refusal(format!("argument {} is {found}, expected {expected}", k + 1))
+        ApiError(format!("argument {} is {found}, expected {expected}", k + 1))
     }
 
     /// A whole number.
@@ -195,7 +195,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given, or nothing.
-    pub fn int(&self, k: usize) -> Result<i64, Refusal> {
+    pub fn int(&self, k: usize) -> Result<i64, ApiError> {
         self.get(k).as_int().ok_or_else(|| self.wrong(k, "a whole number"))
     }
 
@@ -204,7 +204,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given.
-    pub fn int_or(&self, k: usize, default: i64) -> Result<i64, Refusal> {
+    pub fn int_or(&self, k: usize, default: i64) -> Result<i64, ApiError> {
         if self.has(k) { self.int(k) } else { Ok(default) }
     }
 
@@ -213,7 +213,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given, or nothing.
-    pub fn real(&self, k: usize) -> Result<f64, Refusal> {
+    pub fn real(&self, k: usize) -> Result<f64, ApiError> {
         let given = self.0.get(k).and_then(Value::as_real);
         given.ok_or_else(|| self.wrong(k, "a number"))
     }
@@ -223,7 +223,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given.
-    pub fn bool_or(&self, k: usize, default: bool) -> Result<bool, Refusal> {
+    pub fn bool_or(&self, k: usize, default: bool) -> Result<bool, ApiError> {
         if !self.has(k) {
             return Ok(default);
         }
@@ -235,7 +235,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given, or nothing.
-    pub fn text(&self, k: usize) -> Result<&'a str, Refusal> {
+    pub fn text(&self, k: usize) -> Result<&'a str, ApiError> {
         self.get(k).as_text().ok_or_else(|| self.wrong(k, "text"))
     }
 
@@ -244,7 +244,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given, or nothing.
-    pub fn bytes(&self, k: usize) -> Result<&'a [u8], Refusal> {
+    pub fn bytes(&self, k: usize) -> Result<&'a [u8], ApiError> {
         self.get(k).as_bytes().ok_or_else(|| self.wrong(k, "bytes or text"))
     }
 
@@ -253,10 +253,10 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given, or another number of them.
-    pub fn reals<const N: usize>(&self, k: usize) -> Result<[f64; N], Refusal> {
+    pub fn reals<const N: usize>(&self, k: usize) -> Result<[f64; N], ApiError> {
         let list = self.get(k).as_reals().ok_or_else(|| self.wrong(k, &format!("a list of {N} numbers")))?;
         let n = list.len();
-        list.try_into().map_err(|_| Refusal(format!("argument {} has {n} numbers, expected {N}", k + 1)))
+        list.try_into().map_err(|_| ApiError(format!("argument {} has {n} numbers, expected {N}", k + 1)))
     }
 
     /// A handle as it was given, flags included.
@@ -264,7 +264,7 @@ impl<'a> Arguments<'a> {
     /// # Errors
     ///
     /// Something else was given, or nothing.
-    pub fn handle(&self, k: usize) -> Result<i32, Refusal> {
+    pub fn handle(&self, k: usize) -> Result<i32, ApiError> {
         let n = self.get(k).as_int().and_then(|n| i32::try_from(n).ok());
         n.ok_or_else(|| self.wrong(k, "a handle"))
     }

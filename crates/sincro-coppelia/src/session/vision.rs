@@ -1,45 +1,46 @@
 //! Vision sensors: cameras whose pictures clients and scripts read.
 //!
-//! As in V-REP a picture is that of the last handling: at the end of every step of clients and scripts, before the scripts sense; that of a sensor
-//! with explicit handling when a client or script asks. It is drawn when somebody reads it, from the coordinates kept at the handling: a sensor that
-//! nobody reads costs nothing, and looking changes nothing. Before its first handling a sensor shows what it would see now.
+//! As in V-REP a picture is that of the last handling: at the end of every step of clients and scripts, before the
+//! scripts sense; that of a sensor with explicit handling when a client or script asks. It is drawn when somebody reads
+//! it, from the coordinates kept at the handling: a sensor that nobody reads costs nothing, and looking changes
+//! nothing. Before its first handling a sensor shows what it would see now.
 
 use sincro_dynamics::kinematics;
 use sincro_dynamics::scratch::Scratch;
 
+use super::registry::{Handle, Kind, ObjectRegistry};
 use super::senses::handle_of;
-use super::table::{Handle, Kind, Table};
-use super::{Desk, Refusal};
+use super::{ApiError, SimApi};
 use sincro_scene::camera::{Image, Layer, Optics, Part, Renderer};
 use sincro_scene::scene::VisionSensor;
 use sincro_scene::scenery::placed;
 
 /// Pixels that all vision sensors may have together: 16 Mi, which take 250 MB once they are read.
-const MOST_PIXELS: usize = 1 << 24;
+const MAX_PIXELS: usize = 1 << 24;
 
-/// The vision sensors of a table.
+/// The vision sensors of a registry.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Vision {
-    eyes: Vec<Eye>,
+    slots: Vec<SensorSlot>,
     /// Coordinates at the last handling of all that are not handled explicitly.
     q: Vec<f64>,
-    studio: Studio,
+    buffers: DrawingBuffers,
 }
 
 /// One of them.
 #[derive(Clone, Debug)]
-struct Eye {
+struct SensorSlot {
     sensor: VisionSensor,
     /// Made by a client or script; none of the scene's.
-    is_made: bool,
+    is_runtime: bool,
     is_removed: bool,
-    shows: Shows,
+    shows: ImageState,
     image: Option<Image>,
 }
 
-/// What the picture of a sensor is.
+/// State of the image of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shows {
+enum ImageState {
     /// Not handled since the run began.
     Nothing,
     /// Handled, not drawn yet.
@@ -48,14 +49,14 @@ enum Shows {
     Drawn,
 }
 
-/// What drawing needs besides; a copy begins anew.
+/// Renderer and scratch of drawing; a copy starts empty.
 #[derive(Debug, Default)]
-struct Studio {
+struct DrawingBuffers {
     renderer: Option<Renderer>,
     scratch: Option<Scratch<f64>>,
 }
 
-impl Clone for Studio {
+impl Clone for DrawingBuffers {
     fn clone(&self) -> Self {
         Self::default()
     }
@@ -74,29 +75,29 @@ pub enum Sensors {
 
 impl Vision {
     /// Adds a sensor; its index.
-    pub fn add(&mut self, sensor: VisionSensor, is_made: bool) -> usize {
-        let eye = Eye { sensor, is_made, is_removed: false, shows: Shows::Nothing, image: None };
-        match self.eyes.iter().position(|eye| eye.is_removed) {
+    pub fn add(&mut self, sensor: VisionSensor, is_runtime: bool) -> usize {
+        let slot = SensorSlot { sensor, is_runtime, is_removed: false, shows: ImageState::Nothing, image: None };
+        match self.slots.iter().position(|slot| slot.is_removed) {
             Some(k) => {
-                self.eyes[k] = eye;
+                self.slots[k] = slot;
                 k
             }
             None => {
-                self.eyes.push(eye);
-                self.eyes.len() - 1
+                self.slots.push(slot);
+                self.slots.len() - 1
             }
         }
     }
 
     pub fn remove(&mut self, k: usize) {
-        (self.eyes[k].is_removed, self.eyes[k].image) = (true, None);
+        (self.slots[k].is_removed, self.slots[k].image) = (true, None);
     }
 
     /// All that are not handled explicitly are handled.
     pub fn handle(&mut self, q: &[f64]) {
         let mut is_used = false;
-        for eye in self.eyes.iter_mut().filter(|eye| !eye.sensor.is_explicit && !eye.sensor.is_external) {
-            (eye.shows, is_used) = (Shows::Handled, true);
+        for slot in self.slots.iter_mut().filter(|slot| !slot.sensor.is_explicit && !slot.sensor.is_external) {
+            (slot.shows, is_used) = (ImageState::Handled, true);
         }
         if is_used {
             self.q.clear();
@@ -106,54 +107,54 @@ impl Vision {
 
     /// Forgets all pictures.
     pub fn forget(&mut self) {
-        for eye in &mut self.eyes {
-            (eye.shows, eye.image) = (Shows::Nothing, None);
+        for slot in &mut self.slots {
+            (slot.shows, slot.image) = (ImageState::Nothing, None);
         }
     }
 
     /// Sensors of the scene are as they were `before` a run.
     pub fn end_run(&mut self, before: Self) {
         self.forget();
-        for (now, then) in self.eyes.iter_mut().zip(before.eyes) {
-            if !now.is_made {
+        for (now, then) in self.slots.iter_mut().zip(before.slots) {
+            if !now.is_runtime {
                 now.sensor = then.sensor;
             }
         }
     }
 
     /// Refuses pixels that would be too many together with those of all sensors but `except`.
-    fn make_room(&self, optics: &Optics, except: Option<usize>) -> Result<(), Refusal> {
+    fn make_room(&self, optics: &Optics, except: Option<usize>) -> Result<(), ApiError> {
         let area = |optics: &Optics| optics.resolution[0] * optics.resolution[1];
-        let others = self.eyes.iter().enumerate().filter(|(k, eye)| !eye.is_removed && Some(*k) != except);
-        let taken: usize = others.map(|(_, eye)| area(&eye.sensor.optics)).sum();
-        if taken + area(optics) > MOST_PIXELS {
-            return Err(Refusal(format!(
-                "all vision sensors together would have more than {MOST_PIXELS} pixels: remove some, or give them fewer"
+        let others = self.slots.iter().enumerate().filter(|(k, slot)| !slot.is_removed && Some(*k) != except);
+        let taken: usize = others.map(|(_, slot)| area(&slot.sensor.optics)).sum();
+        if taken + area(optics) > MAX_PIXELS {
+            return Err(ApiError(format!(
+                "all vision sensors together would have more than {MAX_PIXELS} pixels: remove some, or give them fewer"
             )));
         }
         Ok(())
     }
 }
 
-fn checked(optics: &Optics) -> Result<(), Refusal> {
-    optics.check().map_err(|wrong| Refusal(format!("{} cannot be: expected {}", wrong.found, wrong.expected)))
+fn checked(optics: &Optics) -> Result<(), ApiError> {
+    optics.check().map_err(|wrong| ApiError(format!("{} cannot be: expected {}", wrong.found, wrong.expected)))
 }
 
 /// Another angle over the longer side `[rad]`, if it is one.
-pub(super) fn with_angle(optics: Optics, angle: f64) -> Result<Optics, Refusal> {
+pub(super) fn with_angle(optics: Optics, angle: f64) -> Result<Optics, ApiError> {
     if angle > 0.0 && angle < std::f64::consts::PI {
         return Ok(optics.with_view_angle(angle));
     }
-    Err(Refusal(format!("a view angle of {angle} rad cannot be: expected more than 0 and less than π")))
+    Err(ApiError(format!("a view angle of {angle} rad cannot be: expected more than 0 and less than π")))
 }
 
-impl Table {
+impl ObjectRegistry {
     /// The index of the vision sensor of a handle.
-    fn eye(&self, handle: Handle) -> Result<usize, Refusal> {
+    fn vision_index(&self, handle: Handle) -> Result<usize, ApiError> {
         let entry = self.entry(handle)?;
         let Kind::Vision(k) = entry.kind else {
             let help = "give a [[camera]] of the scene a `resolution`, or make one with createVisionSensor";
-            return Err(Refusal(format!("`{}` is no vision sensor: {help}", entry.path)));
+            return Err(ApiError(format!("`{}` is no vision sensor: {help}", entry.path)));
         };
         Ok(k)
     }
@@ -163,8 +164,8 @@ impl Table {
     /// # Errors
     ///
     /// There is no such object, or it is none.
-    pub fn vision_sensor(&self, handle: Handle) -> Result<&VisionSensor, Refusal> {
-        Ok(&self.vision.eyes[self.eye(handle)?].sensor)
+    pub fn vision_sensor(&self, handle: Handle) -> Result<&VisionSensor, ApiError> {
+        Ok(&self.vision.slots[self.vision_index(handle)?].sensor)
     }
 
     /// Changes a vision sensor; its picture is forgotten if that has another size or another lens.
@@ -172,17 +173,17 @@ impl Table {
     /// # Errors
     ///
     /// There is no such object, it is none, or its pictures could not be drawn; it is then as it was.
-    pub fn change_vision(&mut self, handle: Handle, change: impl FnOnce(&mut VisionSensor)) -> Result<(), Refusal> {
-        let k = self.eye(handle)?;
-        let mut sensor = self.vision.eyes[k].sensor.clone();
+    pub fn change_vision(&mut self, handle: Handle, change: impl FnOnce(&mut VisionSensor)) -> Result<(), ApiError> {
+        let k = self.vision_index(handle)?;
+        let mut sensor = self.vision.slots[k].sensor.clone();
         change(&mut sensor);
         checked(&sensor.optics)?;
         self.vision.make_room(&sensor.optics, Some(k))?;
-        let eye = &mut self.vision.eyes[k];
-        if eye.sensor.optics != sensor.optics {
-            (eye.shows, eye.image) = (Shows::Nothing, None);
+        let slot = &mut self.vision.slots[k];
+        if slot.sensor.optics != sensor.optics {
+            (slot.shows, slot.image) = (ImageState::Nothing, None);
         }
-        eye.sensor = sensor;
+        slot.sensor = sensor;
         Ok(())
     }
 
@@ -191,7 +192,7 @@ impl Table {
     /// # Errors
     ///
     /// There are too many objects or pixels, or its pictures could not be drawn.
-    pub fn create_vision_sensor(&mut self, sensor: VisionSensor) -> Result<Handle, Refusal> {
+    pub fn create_vision_sensor(&mut self, sensor: VisionSensor) -> Result<Handle, ApiError> {
         checked(&sensor.optics)?;
         self.vision.make_room(&sensor.optics, None)?;
         let handle = self.create_dummy("VisionSensor")?;
@@ -204,47 +205,47 @@ impl Table {
     /// # Errors
     ///
     /// There is no such object, or it is none.
-    pub fn reset_vision(&mut self, which: Sensors) -> Result<(), Refusal> {
+    pub fn reset_vision(&mut self, which: Sensors) -> Result<(), ApiError> {
         let one = match which {
-            Sensors::One(handle) => Some(self.eye(handle)?),
+            Sensors::One(handle) => Some(self.vision_index(handle)?),
             _ => None,
         };
-        for (k, eye) in self.vision.eyes.iter_mut().enumerate() {
-            if one.is_none_or(|one| one == k) && (which != Sensors::NotExplicit || !eye.sensor.is_explicit) {
-                (eye.shows, eye.image) = (Shows::Nothing, None);
+        for (k, slot) in self.vision.slots.iter_mut().enumerate() {
+            if one.is_none_or(|one| one == k) && (which != Sensors::NotExplicit || !slot.sensor.is_explicit) {
+                (slot.shows, slot.image) = (ImageState::Nothing, None);
             }
         }
         Ok(())
     }
 }
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// Handles vision sensors: what they show is what is seen now. Sensors with external input keep what was written.
     ///
     /// # Errors
     ///
     /// There is no such object, or it is none.
-    pub fn handle_vision(&mut self, which: Sensors) -> Result<(), Refusal> {
+    pub fn handle_vision(&mut self, which: Sensors) -> Result<(), ApiError> {
         let q = std::mem::take(&mut self.world.state.q);
         if which != Sensors::NotExplicit {
-            let entries = self.table.entries().filter(|e| matches!(e.kind, Kind::Vision(_)));
+            let entries = self.registry.entries().filter(|e| matches!(e.kind, Kind::Vision(_)));
             let all: Vec<Handle> = entries.map(|e| e.handle).collect();
             let wanted = |handle: &Handle| which == Sensors::All || which == Sensors::One(*handle);
             for handle in all.into_iter().filter(wanted) {
-                let k = self.table.eye(handle).unwrap_or_default();
-                let sensor = &self.table.vision.eyes[k].sensor;
+                let k = self.registry.vision_index(handle).unwrap_or_default();
+                let sensor = &self.registry.vision.slots[k].sensor;
                 if !sensor.is_external && (sensor.is_explicit || which != Sensors::All) {
                     self.draw(handle, k, &q);
-                    self.table.vision.eyes[k].shows = Shows::Drawn;
+                    self.registry.vision.slots[k].shows = ImageState::Drawn;
                 }
             }
         }
         if !matches!(which, Sensors::One(_)) {
-            self.table.vision.handle(&q);
+            self.registry.vision.handle(&q);
         }
         self.world.state.q = q;
         match which {
-            Sensors::One(handle) => self.table.eye(handle).map(|_| ()),
+            Sensors::One(handle) => self.registry.vision_index(handle).map(|_| ()),
             _ => Ok(()),
         }
     }
@@ -258,73 +259,74 @@ impl Desk<'_> {
     /// # Panics
     ///
     /// Never: a picture has been drawn.
-    pub fn vision_image(&mut self, handle: Handle) -> Result<&Image, Refusal> {
-        let k = self.table.eye(handle)?;
-        let eye = &self.table.vision.eyes[k];
-        match eye.shows {
-            Shows::Handled => {
-                let q = std::mem::take(&mut self.table.vision.q);
+    pub fn vision_image(&mut self, handle: Handle) -> Result<&Image, ApiError> {
+        let k = self.registry.vision_index(handle)?;
+        let slot = &self.registry.vision.slots[k];
+        match slot.shows {
+            ImageState::Handled => {
+                let q = std::mem::take(&mut self.registry.vision.q);
                 self.draw(handle, k, &q);
-                (self.table.vision.q, self.table.vision.eyes[k].shows) = (q, Shows::Drawn);
+                (self.registry.vision.q, self.registry.vision.slots[k].shows) = (q, ImageState::Drawn);
             }
-            Shows::Nothing if !eye.sensor.is_external => {
+            ImageState::Nothing if !slot.sensor.is_external => {
                 let q = std::mem::take(&mut self.world.state.q);
                 self.draw(handle, k, &q);
                 self.world.state.q = q;
             }
             _ => {}
         }
-        let eye = &mut self.table.vision.eyes[k];
-        let (optics, background) = (eye.sensor.optics, eye.sensor.background);
-        Ok(eye.image.get_or_insert_with(|| {
+        let slot = &mut self.registry.vision.slots[k];
+        let (optics, background) = (slot.sensor.optics, slot.sensor.background);
+        Ok(slot.image.get_or_insert_with(|| {
             let mut image = Image::new(&optics);
             image.clear(&optics, background);
             image
         }))
     }
 
-    /// What is known of the picture of a vision sensor: least, greatest and mean of intensity, red, green, blue and depth. None before its first
-    /// handling.
+    /// Statistics of the image of a vision sensor: least, greatest and mean of intensity, red, green, blue and depth.
+    /// None before its first handling.
     ///
     /// # Errors
     ///
     /// There is no such object, or it is none.
-    pub fn read_vision(&mut self, handle: Handle) -> Result<Option<[f64; 15]>, Refusal> {
-        let k = self.table.eye(handle)?;
-        if self.table.vision.eyes[k].shows == Shows::Nothing {
+    pub fn read_vision(&mut self, handle: Handle) -> Result<Option<[f64; 15]>, ApiError> {
+        let k = self.registry.vision_index(handle)?;
+        if self.registry.vision.slots[k].shows == ImageState::Nothing {
             return Ok(None);
         }
         Ok(Some(self.vision_image(handle)?.statistics()))
     }
 
-    /// Writes into the picture of a vision sensor; the next handling draws over it unless the sensor has external input.
+    /// Writes into the picture of a vision sensor; the next handling draws over it unless the sensor has external
+    /// input.
     ///
     /// # Errors
     ///
     /// There is no such object, it is none, the part is not in its picture, or there are fewer bytes than that has.
-    pub fn write_vision(&mut self, handle: Handle, part: Part, layer: Layer, bytes: &[u8]) -> Result<(), Refusal> {
+    pub fn write_vision(&mut self, handle: Handle, part: Part, layer: Layer, bytes: &[u8]) -> Result<(), ApiError> {
         self.has_part(handle, part)?;
         let n = part.size[0] * part.size[1] * layer.width();
         if bytes.len() < n {
-            return Err(Refusal(format!("there are {} bytes, expected {n}", bytes.len())));
+            return Err(ApiError(format!("there are {} bytes, expected {n}", bytes.len())));
         }
-        let k = self.table.eye(handle)?;
+        let k = self.registry.vision_index(handle)?;
         self.vision_image(handle)?;
-        let eye = &mut self.table.vision.eyes[k];
-        if let Some(image) = &mut eye.image {
+        let slot = &mut self.registry.vision.slots[k];
+        if let Some(image) = &mut slot.image {
             image.write(part, layer, bytes);
         }
-        eye.shows = Shows::Drawn;
+        slot.shows = ImageState::Drawn;
         Ok(())
     }
 
-    /// Whether a part lies in the picture of a vision sensor.
+    /// Returns true if a part lies in the picture of a vision sensor.
     ///
     /// # Errors
     ///
     /// It does not.
-    pub fn has_part(&mut self, handle: Handle, part: Part) -> Result<(), Refusal> {
-        let [columns, rows] = self.table.vision_sensor(handle)?.optics.resolution;
+    pub fn has_part(&mut self, handle: Handle, part: Part) -> Result<(), ApiError> {
+        let [columns, rows] = self.registry.vision_sensor(handle)?.optics.resolution;
         let fits = |k: usize, n: usize| {
             part.size[k] > 0 && part.position[k].checked_add(part.size[k]).is_some_and(|end| end <= n)
         };
@@ -332,53 +334,53 @@ impl Desk<'_> {
             return Ok(());
         }
         let ([x, y], [w, h]) = (part.position, part.size);
-        Err(Refusal(format!("a part of {w} × {h} pixels at {x}, {y} is not in a picture of {columns} × {rows}")))
+        Err(ApiError(format!("a part of {w} × {h} pixels at {x}, {y} is not in a picture of {columns} × {rows}")))
     }
 
-    /// What a vision sensor sees now of one object alone, or of all; whether it is in the picture. The sensor's own picture stays.
+    /// Image of one object alone, or of all, now; true if it is in the image. The sensor's own image stays.
     ///
     /// # Errors
     ///
     /// There is no such object, it is none, or it has external input.
-    pub fn check_vision(&mut self, handle: Handle, object: Option<Handle>) -> Result<(bool, Image), Refusal> {
-        let k = self.table.eye(handle)?;
-        if self.table.vision.eyes[k].sensor.is_external {
-            return Err(Refusal::new("the vision sensor has external input: it sees nothing by itself"));
+    pub fn check_vision(&mut self, handle: Handle, object: Option<Handle>) -> Result<(bool, Image), ApiError> {
+        let k = self.registry.vision_index(handle)?;
+        if self.registry.vision.slots[k].sensor.is_external {
+            return Err(ApiError::new("the vision sensor has external input: it sees nothing by itself"));
         }
         if let Some(object) = object {
-            self.table.entry(object)?;
+            self.registry.entry(object)?;
         }
-        let kept = self.table.vision.eyes[k].image.take();
+        let kept = self.registry.vision.slots[k].image.take();
         let q = std::mem::take(&mut self.world.state.q);
         self.draw_some(handle, k, &q, object);
         self.world.state.q = q;
-        let image = std::mem::replace(&mut self.table.vision.eyes[k].image, kept);
-        let image = image.ok_or_else(|| Refusal::new("nothing was drawn"))?;
+        let image = std::mem::replace(&mut self.registry.vision.slots[k].image, kept);
+        let image = image.ok_or_else(|| ApiError::new("nothing was drawn"))?;
         let is_seen = image.pieces().iter().any(|piece| *piece != sincro_scene::camera::NOTHING);
         Ok((is_seen, image))
     }
 
-    /// A sensor that is about to be moved has the picture of where it was, and where something is about to change that others see, they have
-    /// theirs.
+    /// A sensor that is about to be moved has the picture of where it was, and where something is about to change that
+    /// others see, they have theirs.
     pub(super) fn before_move(&mut self, handle: Handle) {
-        if self.table.eye(handle).is_ok() {
+        if self.registry.vision_index(handle).is_ok() {
             self.finish_picture(handle);
-        } else if self.table.senses.has_made(handle) {
+        } else if self.registry.senses.has_runtime_pieces(handle) {
             self.finish_pictures();
         }
     }
 
-    /// What is made, coloured or taken away from now on is not in the pictures of the last handling.
+    /// Draws the images of the last handling, before pieces are added, coloured or removed.
     pub(super) fn finish_pictures(&mut self) {
-        let eyes = self.table.entries().filter(|e| matches!(e.kind, Kind::Vision(_)));
-        for handle in eyes.map(|e| e.handle).collect::<Vec<_>>() {
+        let slots = self.registry.entries().filter(|e| matches!(e.kind, Kind::Vision(_)));
+        for handle in slots.map(|e| e.handle).collect::<Vec<_>>() {
             self.finish_picture(handle);
         }
     }
 
     fn finish_picture(&mut self, handle: Handle) {
-        if let Ok(k) = self.table.eye(handle)
-            && self.table.vision.eyes[k].shows == Shows::Handled
+        if let Ok(k) = self.registry.vision_index(handle)
+            && self.registry.vision.slots[k].shows == ImageState::Handled
         {
             // it exists: nothing is refused
             let _ = self.vision_image(handle);
@@ -391,16 +393,16 @@ impl Desk<'_> {
 
     /// Draws what sensor `k` sees at coordinates `q`: all, or one object alone.
     fn draw_some(&mut self, handle: Handle, k: usize, q: &[f64], object: Option<Handle>) {
-        let (model, table) = (self.world.model(), &mut *self.table);
-        let Ok(frame) = table.entry(handle).map(|entry| entry.frame) else { return };
-        let Vision { eyes, studio, .. } = &mut table.vision;
-        let scratch = studio.scratch.get_or_insert_with(|| Scratch::new(model));
+        let (model, registry) = (self.world.model(), &mut *self.registry);
+        let Ok(frame) = registry.entry(handle).map(|entry| entry.frame) else { return };
+        let Vision { slots, buffers, .. } = &mut registry.vision;
+        let scratch = buffers.scratch.get_or_insert_with(|| Scratch::new(model));
         kinematics::poses(model, q, scratch);
         let x_wc = kinematics::frame_pose(scratch, &frame);
-        let Eye { sensor, image, .. } = &mut eyes[k];
+        let SensorSlot { sensor, image, .. } = &mut slots[k];
         let image = image.get_or_insert_with(|| Image::new(&sensor.optics));
-        let pieces = table.senses.pieces().filter(|piece| object.is_none_or(|object| handle_of(piece) == object));
+        let pieces = registry.senses.pieces().filter(|piece| object.is_none_or(|object| handle_of(piece) == object));
         let pieces = placed(pieces, scratch);
-        studio.renderer.get_or_insert_default().draw(pieces, (&x_wc, &sensor.optics), sensor.background, image);
+        buffers.renderer.get_or_insert_default().draw(pieces, (&x_wc, &sensor.optics), sensor.background, image);
     }
 }

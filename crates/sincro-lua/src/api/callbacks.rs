@@ -2,17 +2,17 @@
 
 use mlua::{Error, Function, Lua, MultiValue, Value as LuaValue};
 
-use super::{Shelf, scripts};
+use super::{ApiContext, scripts};
 use crate::convert;
 use crate::guard::Guard;
 
 /// Scripts that may be calling each other at once.
 const MAX_DEPTH: usize = 16;
 
-pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
-    let (shared, index, own) = (shelf.shared.clone(), shelf.index, shelf.own);
+pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
+    let (shared, index, own) = (context.shared.clone(), context.index, context.own);
     let depth = std::sync::Arc::new(std::sync::atomic::AtomicUsize::new(0));
-    shelf.add("callScriptFunction", move |lua, (first, second, arguments): (LuaValue, LuaValue, MultiValue)| {
+    context.add("callScriptFunction", move |lua, (first, second, arguments): (LuaValue, LuaValue, MultiValue)| {
         let fail = |message: String| Error::RuntimeError(format!("{message} (in function 'sim.callScriptFunction')"));
         // both orders are about: (handle, name) and (name, handle), where an old name is `function@object`
         let (name, handle) = match (&first, &second) {
@@ -23,8 +23,8 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         let (name, place) = match name.split_once('@') {
             None => (name.clone(), scripts::place_of(&shared, index, handle)),
             Some((name, object)) => {
-                let object = shared.with_desk(own, |desk| super::object_of_name(desk, own, object));
-                let object = object.map_err(|refusal| super::refused("callScriptFunction", &refusal))?;
+                let object = shared.with_sim(own, |sim| super::object_of_name(sim, own, object));
+                let object = object.map_err(|error| super::refused("callScriptFunction", &error))?;
                 (name.to_owned(), scripts::script_on(&shared.scripts, object, None))
             }
         };
@@ -45,8 +45,8 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         });
         result.map_err(|error| fail(format!("`{name}` of the script of `{path}`: {}", crate::fault::words(&error).0)))
     })?;
-    let guard = shelf.guard.clone();
-    shelf.add("testCB", move |lua, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {
+    let guard = context.guard.clone();
+    context.add("testCB", move |lua, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {
         let mut result = MultiValue::new();
         for _ in 0..=n.unwrap_or(99) {
             // a function in C has no instructions that are counted

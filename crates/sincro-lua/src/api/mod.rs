@@ -1,7 +1,8 @@
 //! The functions of `sim`, for one script.
 //!
-//! What the simulation can be asked is [`sincro_coppelia::session::api`]: the same for scripts and clients. Here it becomes Lua, as
-//! `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their parameters, each other, threads.
+//! What the simulation can be asked is [`sincro_coppelia::session::api`]: the same for scripts and clients. Here it
+//! becomes Lua, as `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their
+//! parameters, each other, threads.
 
 mod callbacks;
 mod moves;
@@ -14,7 +15,7 @@ pub(crate) use callbacks::find as function_of;
 pub(crate) use scripts::script_on;
 
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
-use sincro_coppelia::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
+use sincro_coppelia::session::{ApiError, Arguments, Handle, Search, Value, api, constants};
 
 use crate::convert;
 use crate::guard::Guard;
@@ -22,8 +23,8 @@ use crate::machine::CALL_TYPES;
 use crate::sandbox::Waits;
 use crate::shared::{Shared, handle_of};
 
-/// Where functions of `sim` are put, under all their names.
-pub(crate) struct Shelf<'a> {
+/// Context of the registration of `sim`'s functions, under all their names.
+pub(crate) struct ApiContext<'a> {
     lua: &'a Lua,
     sim: Table,
     shared: &'a Arc<Shared>,
@@ -43,29 +44,29 @@ pub(crate) fn offer(
     waits: &Waits,
 ) -> mlua::Result<()> {
     let own = handle_of(&shared.scripts[index]);
-    let shelf = Shelf { lua, sim: lua.create_table()?, shared, index, own, guard };
-    constants_of(&shelf)?;
+    let context = ApiContext { lua, sim: lua.create_table()?, shared, index, own, guard };
+    constants_of(&context)?;
     for function in api::functions() {
-        let called = shelf.of_session("sim", function)?;
-        shelf.put(function.name, called)?;
+        let called = context.of_session("sim", function)?;
+        context.put(function.name, called)?;
     }
     for (old, present) in api::old_names() {
-        if let Some(function) = shelf.sim.get::<Option<Function>>(present)? {
-            shelf.put(old, function)?;
+        if let Some(function) = context.sim.get::<Option<Function>>(present)? {
+            context.put(old, function)?;
         }
     }
-    shelf.replace_some()?;
-    scripts::offer(&shelf)?;
-    threads::offer(&shelf, waits)?;
-    moves::offer(&shelf, waits)?;
-    callbacks::offer(&shelf)?;
-    absent(&shelf)?;
-    lua.globals().set("sim", &shelf.sim)?;
-    let ik = inverse_kinematics(&shelf)?;
-    modules(&shelf, ik)
+    context.replace_some()?;
+    scripts::offer(&context)?;
+    threads::offer(&context, waits)?;
+    moves::offer(&context, waits)?;
+    callbacks::offer(&context)?;
+    absent(&context)?;
+    lua.globals().set("sim", &context.sim)?;
+    let ik = inverse_kinematics(&context)?;
+    modules(&context, ik)
 }
 
-impl Shelf<'_> {
+impl ApiContext<'_> {
     /// Puts a function under its present name, and as V-REP had it.
     fn put(&self, name: &str, function: Function) -> mlua::Result<()> {
         let mut letters = name.chars();
@@ -99,8 +100,8 @@ impl Shelf<'_> {
                     function.name
                 )));
             }
-            let result = shared.with_desk(own, |desk| (function.run)(desk, Arguments(&given)));
-            let named = |Refusal(message): Refusal| {
+            let result = shared.with_sim(own, |sim| (function.run)(sim, Arguments(&given)));
+            let named = |ApiError(message): ApiError| {
                 Error::RuntimeError(format!("{message} (in function '{module}.{}')", function.name))
             };
             let values = result.map_err(named)?;
@@ -112,8 +113,8 @@ impl Shelf<'_> {
     fn replace_some(&self) -> mlua::Result<()> {
         let (shared, own) = (self.shared.clone(), self.own);
         self.add("getObjectHandle", move |_, name: String| {
-            let found = shared.with_desk(own, |desk| object_of_name(desk, own, &name));
-            found.map(|handle| handle.0).map_err(|refusal| refused("getObjectHandle", &refusal))
+            let found = shared.with_sim(own, |sim| object_of_name(sim, own, &name));
+            found.map(|handle| handle.0).map_err(|error| refused("getObjectHandle", &error))
         })?;
         let (shared, index) = (self.shared.clone(), self.index);
         self.add("addStatusbarMessage", move |_, text: Option<String>| {
@@ -142,25 +143,25 @@ impl Shelf<'_> {
     }
 }
 
-/// The object of a name, by V-REP's rule for scripts: a name without `#` means the one that has the suffix of the script's own object, if
-/// there is one.
-fn object_of_name(desk: &mut sincro_coppelia::session::Desk<'_>, own: Handle, name: &str) -> Result<Handle, Refusal> {
+/// The object of a name, by V-REP's rule for scripts: a name without `#` means the one that has the suffix of the
+/// script's own object, if there is one.
+fn object_of_name(sim: &mut sincro_coppelia::session::SimApi<'_>, own: Handle, name: &str) -> Result<Handle, ApiError> {
     let search = Search { from: Some(own), ..Search::default() };
     let is_plain = !name.contains('#') && !name.starts_with(['/', '.', ':']);
-    let table = &desk.table;
-    if is_plain && let Ok(entry) = table.entry(own) {
-        let place = table.entries().filter(|e| e.name == entry.name).position(|e| e.handle == own);
+    let registry = &sim.registry;
+    if is_plain && let Ok(entry) = registry.entry(own) {
+        let place = registry.entries().filter(|e| e.name == entry.name).position(|e| e.handle == own);
         if let Some(k) = place.filter(|k| *k > 0)
-            && let Ok(found) = table.find(&format!("{name}#{}", k - 1), search)
+            && let Ok(found) = registry.find(&format!("{name}#{}", k - 1), search)
         {
             return Ok(found);
         }
     }
-    table.find(name, search)
+    registry.find(name, search)
 }
 
 /// A refusal as an error of Lua.
-fn refused(name: &str, Refusal(message): &Refusal) -> Error {
+fn refused(name: &str, ApiError(message): &ApiError) -> Error {
     Error::RuntimeError(format!("{message} (in function 'sim.{name}')"))
 }
 
@@ -169,12 +170,12 @@ fn named(name: &str, error: Error) -> Error {
 }
 
 /// Functions that are not here, as such that say why.
-fn absent(shelf: &Shelf<'_>) -> mlua::Result<()> {
+fn absent(context: &ApiContext<'_>) -> mlua::Result<()> {
     for name in api::absent() {
-        if shelf.sim.get::<Option<Function>>(name)?.is_none() {
+        if context.sim.get::<Option<Function>>(name)?.is_none() {
             let why = api::why_absent(name).unwrap_or_default();
             let message = format!("sim.{name} is not offered: {why}");
-            shelf
+            context
                 .add(name, move |_, _: MultiValue| -> mlua::Result<()> { Err(Error::RuntimeError(message.clone())) })?;
         }
     }
@@ -182,18 +183,18 @@ fn absent(shelf: &Shelf<'_>) -> mlua::Result<()> {
 }
 
 /// Numbers by name: `sim.x` and `sim_x`.
-fn constants_of(shelf: &Shelf<'_>) -> mlua::Result<()> {
-    let globals = shelf.lua.globals();
+fn constants_of(context: &ApiContext<'_>) -> mlua::Result<()> {
+    let globals = context.lua.globals();
     for (name, value) in constants::constants() {
-        shelf.sim.set(name, value)?;
+        context.sim.set(name, value)?;
         globals.set(format!("sim_{name}"), value)?;
     }
     for (name, _, number) in CALL_TYPES {
         let old = if name == "init" { "initialization" } else { name };
-        shelf.sim.set(format!("syscb_{name}"), number)?;
+        context.sim.set(format!("syscb_{name}"), number)?;
         globals.set(format!("sim_syscb_{name}"), number)?;
         for kind in ["child", "main", "customization"] {
-            shelf.sim.set(format!("{kind}scriptcall_{old}"), number)?;
+            context.sim.set(format!("{kind}scriptcall_{old}"), number)?;
             globals.set(format!("sim_{kind}scriptcall_{old}"), number)?;
         }
     }
@@ -201,10 +202,10 @@ fn constants_of(shelf: &Shelf<'_>) -> mlua::Result<()> {
 }
 
 /// The table `simIK`.
-fn inverse_kinematics(shelf: &Shelf<'_>) -> mlua::Result<Table> {
-    let module = shelf.lua.create_table()?;
+fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
+    let module = context.lua.create_table()?;
     for function in api::ik_functions() {
-        module.set(function.name, shelf.of_session("simIK", function)?)?;
+        module.set(function.name, context.of_session("simIK", function)?)?;
     }
     for (old, present) in api::old_ik_names() {
         module.set(old, module.get::<Function>(present)?)?;
@@ -212,14 +213,14 @@ fn inverse_kinematics(shelf: &Shelf<'_>) -> mlua::Result<Table> {
     for (name, value) in api::ik::CONSTANTS {
         module.set(*name, *value)?;
     }
-    shelf.lua.globals().set("simIK", &module)?;
+    context.lua.globals().set("simIK", &module)?;
     Ok(module)
 }
 
 /// `require 'sim'`, and the modules that are not there.
-fn modules(shelf: &Shelf<'_>, ik: Table) -> mlua::Result<()> {
-    let sim = shelf.sim.clone();
-    let require = shelf.lua.create_function(move |_, name: String| {
+fn modules(context: &ApiContext<'_>, ik: Table) -> mlua::Result<()> {
+    let sim = context.sim.clone();
+    let require = context.lua.create_function(move |_, name: String| {
         if name == "simIK" || name == "simIK-1" {
             return Ok(ik.clone());
         }
@@ -230,19 +231,19 @@ fn modules(shelf: &Shelf<'_>, ik: Table) -> mlua::Result<()> {
             "there is no module '{name}': scripts have `sim` and `simIK`, and load no files"
         )))
     })?;
-    shelf.lua.globals().set("require", require)
+    context.lua.globals().set("require", require)
 }
 
 /// The value of a signal of any kind, for those who wait for it.
 pub(crate) fn signal(lua: &Lua, shared: &Shared, own: Handle, name: &str) -> mlua::Result<LuaValue> {
-    let found = shared.with_desk(own, |desk| {
-        let table = &desk.table;
-        let integer = table.integers.get(name).map(|x| Value::Int(*x));
-        let float = || table.floats.get(name).map(|x| Value::Real(*x));
-        let text = || table.strings.get(name).map(|x| Value::Bytes(x.clone()));
+    let found = shared.with_sim(own, |sim| {
+        let registry = &sim.registry;
+        let integer = registry.integers.get(name).map(|x| Value::Int(*x));
+        let float = || registry.floats.get(name).map(|x| Value::Real(*x));
+        let text = || registry.strings.get(name).map(|x| Value::Bytes(x.clone()));
         Ok(integer.or_else(float).or_else(text))
     });
-    match found.map_err(|refusal| refused("waitForSignal", &refusal))? {
+    match found.map_err(|error| refused("waitForSignal", &error))? {
         Some(value) => convert::to_lua(lua, &value),
         None => Ok(LuaValue::Nil),
     }

@@ -1,14 +1,15 @@
-//! Functions that move something and wait until it is there, and their single steps with functions to call back: `moves.lua`, over the session's own.
+//! Functions that move something and wait until it is there, and their single steps with functions to call back:
+//! `moves.lua`, over the session's own.
 
 use mlua::{Error, Function, MultiValue, Table};
-use sincro_coppelia::session::{Refusal, api};
+use sincro_coppelia::session::{ApiError, api};
 
-use super::Shelf;
+use super::ApiContext;
 use crate::convert;
 use crate::sandbox::Waits;
 
-pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
-    let lua = shelf.lua;
+pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()> {
+    let lua = context.lua;
     let host = lua.create_table()?;
     let names = lua.create_table()?;
     for (name, _, this) in api::MOVES {
@@ -16,7 +17,7 @@ pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
         if !host.contains_key(this.stem())? {
             let steps = lua.create_table()?;
             for step in ["init", "step", "cleanup"] {
-                let own: Function = shelf.sim.get(format!("{}_{step}", this.stem()))?;
+                let own: Function = context.sim.get(format!("{}_{step}", this.stem()))?;
                 steps.set(step, own)?;
             }
             host.set(this.stem(), steps)?;
@@ -24,17 +25,17 @@ pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
     }
     host.set("names", names)?;
     host.set("switch", &waits.switch)?;
-    let stepping: Function = shelf.sim.get("setStepping")?;
+    let stepping: Function = context.sim.get("setStepping")?;
     host.set("stepping", stepping)?;
     let coroutine: Table = lua.globals().get("coroutine")?;
     let yieldable: Function = coroutine.get("isyieldable")?;
     host.set("yieldable", yieldable)?;
-    let (shared, own) = (shelf.shared.clone(), shelf.own);
+    let (shared, own) = (context.shared.clone(), context.own);
     let parameters = lua.create_function(move |lua, (name, given): (String, MultiValue)| {
         let this = known(&name)?;
         let given = convert::list_from_lua(given).map_err(|error| super::named(&name, error))?;
-        let map = shared.with_desk(own, |desk| this.parameters(desk, &given));
-        convert::to_lua(lua, &map.map_err(|refusal: Refusal| super::refused(&name, &refusal))?)
+        let map = shared.with_sim(own, |sim| this.parameters(sim, &given));
+        convert::to_lua(lua, &map.map_err(|error: ApiError| super::refused(&name, &error))?)
     })?;
     host.set("parameters", parameters)?;
     let results = lua.create_function(move |lua, (name, data): (String, mlua::Value)| {
@@ -45,7 +46,7 @@ pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
     let functions: Table = lua.load(include_str!("../moves.lua")).set_name("=sincro").call(host)?;
     for pair in functions.pairs::<String, Function>() {
         let (name, function) = pair?;
-        shelf.put(&name, function.clone())?;
+        context.put(&name, function.clone())?;
         // as V-REP wrote them
         if let Some(rest) = name.strip_prefix("rml") {
             lua.globals().set(format!("simRML{rest}"), function)?;

@@ -3,17 +3,17 @@
 use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
-use sincro_coppelia::session::{Handle, Refusal};
+use sincro_coppelia::session::{ApiError, Handle};
 use sincro_scene::script::{Kind, Script};
 
-use super::Shelf;
+use super::ApiContext;
 use crate::shared::{Shared, handle_of};
 
 /// Handle of the first script: beyond those of objects, below the flags.
 pub(super) const FIRST_SCRIPT: i64 = 1_000_000;
 
 /// Parameters of all scripts together.
-const MOST_PARAMETERS: usize = 10_000;
+const MAX_PARAMETERS: usize = 10_000;
 
 const SELF: i64 = -4;
 const CUSTOMIZATION: i64 = 6;
@@ -44,9 +44,9 @@ fn kind_of(script_type: i64) -> Kind {
     if script_type == CUSTOMIZATION { Kind::Customization } else { Kind::Child }
 }
 
-pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
-    let (shared, index) = (shelf.shared.clone(), shelf.index);
-    shelf.add("getObjectAssociatedWithScript", move |_, script: i64| {
+pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
+    let (shared, index) = (context.shared.clone(), context.index);
+    context.add("getObjectAssociatedWithScript", move |_, script: i64| {
         let k = place_of(&shared, index, script).ok_or_else(|| unknown(script, "getObjectAssociatedWithScript"))?;
         Ok(handle_of(&shared.scripts[k]).0)
     })?;
@@ -54,20 +54,20 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         ("getScriptAssociatedWithObject", Kind::Child),
         ("getCustomizationScriptAssociatedWithObject", Kind::Customization),
     ] {
-        let (shared, own) = (shelf.shared.clone(), shelf.own);
-        shelf.add(name, move |_, object: i32| {
+        let (shared, own) = (context.shared.clone(), context.own);
+        context.add(name, move |_, object: i32| {
             let object = if object == -4 { own } else { Handle(object) };
             Ok(script_on(&shared.scripts, object, Some(kind)).map_or(-1, handle_of_place))
         })?;
     }
-    let (shared, own) = (shelf.shared.clone(), shelf.own);
-    shelf.add("getScript", move |_, (script_type, object): (i64, Option<LuaValue>)| {
+    let (shared, own) = (context.shared.clone(), context.own);
+    context.add("getScript", move |_, (script_type, object): (i64, Option<LuaValue>)| {
         let object = match object {
             None | Some(LuaValue::Nil) => own,
             Some(LuaValue::String(path)) => {
                 let path = path.to_string_lossy();
-                let found = shared.with_desk(own, |desk| super::object_of_name(desk, own, &path));
-                found.map_err(|refusal| super::refused("getScript", &refusal))?
+                let found = shared.with_sim(own, |sim| super::object_of_name(sim, own, &path));
+                found.map_err(|error| super::refused("getScript", &error))?
             }
             Some(LuaValue::Integer(SELF)) => own,
             Some(LuaValue::Integer(h)) => Handle(i32::try_from(h).unwrap_or(-1)),
@@ -75,25 +75,25 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
         };
         Ok(script_on(&shared.scripts, object, Some(kind_of(script_type))).map_or(-1, handle_of_place))
     })?;
-    let shared = shelf.shared.clone();
-    shelf.add("getScriptHandle", move |_, name: Option<String>| {
+    let shared = context.shared.clone();
+    context.add("getScriptHandle", move |_, name: Option<String>| {
         let found = match name {
             None => Some(index),
             Some(name) => shared.scripts.iter().position(|s| s.path.rsplit('/').next() == name.split('#').next()),
         };
         Ok(found.map_or(-1, handle_of_place))
     })?;
-    let shared = shelf.shared.clone();
-    shelf.add("getScriptSimulationParameter", move |lua, (script, name, as_text): (i64, String, Option<bool>)| {
+    let shared = context.shared.clone();
+    context.add("getScriptSimulationParameter", move |lua, (script, name, as_text): (i64, String, Option<bool>)| {
         let script = object_with(&shared, index, script, "getScriptSimulationParameter")?;
         let found =
-            shared.with_desk(script, |desk| Ok(desk.table.script_parameters.get(&(script, name.clone())).cloned()));
-        let text = found.map_err(|refusal| super::refused("getScriptSimulationParameter", &refusal))?;
+            shared.with_sim(script, |sim| Ok(sim.registry.script_parameters.get(&(script, name.clone())).cloned()));
+        let text = found.map_err(|error| super::refused("getScriptSimulationParameter", &error))?;
         let Some(text) = text else { return Ok(LuaValue::Nil) };
         if as_text == Some(true) { lua.create_string(text).map(LuaValue::String) } else { value_of(lua, &text) }
     })?;
-    let shared = shelf.shared.clone();
-    shelf.add("setScriptSimulationParameter", move |lua, (script, name, value): (i64, String, LuaValue)| {
+    let shared = context.shared.clone();
+    context.add("setScriptSimulationParameter", move |lua, (script, name, value): (i64, String, LuaValue)| {
         let script = object_with(&shared, index, script, "setScriptSimulationParameter")?;
         let text = match &value {
             LuaValue::Boolean(truth) => truth.to_string(),
@@ -105,24 +105,24 @@ pub(super) fn offer(shelf: &Shelf<'_>) -> mlua::Result<()> {
                 ))
             })?,
         };
-        let done = shared.with_desk(script, |desk| {
-            let parameters = &mut desk.table.script_parameters;
+        let done = shared.with_sim(script, |sim| {
+            let parameters = &mut sim.registry.script_parameters;
             let key = (script, name);
-            if parameters.len() >= MOST_PARAMETERS && !parameters.contains_key(&key) {
-                return Err(Refusal(format!("there are {MOST_PARAMETERS} parameters already")));
+            if parameters.len() >= MAX_PARAMETERS && !parameters.contains_key(&key) {
+                return Err(ApiError(format!("there are {MAX_PARAMETERS} parameters already")));
             }
             parameters.insert(key, text);
             Ok(1)
         });
-        done.map_err(|refusal| super::refused("setScriptSimulationParameter", &refusal))
+        done.map_err(|error| super::refused("setScriptSimulationParameter", &error))
     })?;
     // a script's suffix is that of its object
-    shelf.add("setNameSuffix", |_, _: LuaValue| Ok(-1))?;
-    shelf.add("getStackTraceback", |lua, _: Option<LuaValue>| {
+    context.add("setNameSuffix", |_, _: LuaValue| Ok(-1))?;
+    context.add("getStackTraceback", |lua, _: Option<LuaValue>| {
         let trace: mlua::Function = lua.globals().get::<mlua::Table>("debug")?.get("traceback")?;
         trace.call::<LuaValue>(())
     })?;
-    shelf.add("getNameSuffix", |_, name: Option<String>| {
+    context.add("getNameSuffix", |_, name: Option<String>| {
         let suffix = name.and_then(|name| name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<i64>().ok()));
         Ok(suffix.unwrap_or(-1))
     })
@@ -136,7 +136,7 @@ fn object_with(shared: &Arc<Shared>, index: usize, handle: i64, function: &str) 
     of_script.or_else(of_object).ok_or_else(|| unknown(handle, function))
 }
 
-/// What a stored text stands for: nil, false, true, a number, else the text.
+/// Value of a stored text: nil, false, true, a number, else the text.
 fn value_of(lua: &mlua::Lua, text: &str) -> mlua::Result<LuaValue> {
     match text {
         "nil" => return Ok(LuaValue::Nil),

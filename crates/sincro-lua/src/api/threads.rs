@@ -5,23 +5,23 @@ use std::sync::atomic::{AtomicI64, Ordering};
 
 use mlua::{MultiValue, Value};
 
-use super::Shelf;
+use super::ApiContext;
 use crate::sandbox::Waits;
 
-pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
+pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()> {
     for name in ["switchThread", "step", "yield", "handleExtCalls"] {
-        shelf.put(name, waits.switch.clone())?;
+        context.put(name, waits.switch.clone())?;
     }
-    shelf.put("wait", waits.wait.clone())?;
-    shelf.put("waitForSignal", waits.wait_for_signal.clone())?;
-    let guard = shelf.guard.clone();
-    shelf.add("setThreadAutomaticSwitch", move |_, by_itself: Value| {
+    context.put("wait", waits.wait.clone())?;
+    context.put("waitForSignal", waits.wait_for_signal.clone())?;
+    let guard = context.guard.clone();
+    context.add("setThreadAutomaticSwitch", move |_, by_itself: Value| {
         let before = guard.set_switching(!matches!(by_itself, Value::Nil | Value::Boolean(false) | Value::Integer(0)));
         Ok(i64::from(before))
     })?;
     // stepping and automatic switching are the same switch, seen from its two sides
-    let (guard, level) = (shelf.guard.clone(), Arc::new(AtomicI64::new(0)));
-    shelf.add("setStepping", move |_, wanted: Value| {
+    let (guard, level) = (context.guard.clone(), Arc::new(AtomicI64::new(0)));
+    context.add("setStepping", move |_, wanted: Value| {
         let before = level.load(Ordering::Relaxed);
         let after = match wanted {
             Value::Integer(n) => n.max(0),
@@ -33,7 +33,7 @@ pub(super) fn offer(shelf: &Shelf<'_>, waits: &Waits) -> mlua::Result<()> {
         Ok(before)
     })?;
     for name in ["setThreadSwitchTiming", "setThreadResumeLocation", "setThreadIsFree", "acquireLock", "releaseLock"] {
-        shelf.add(name, |_, _: MultiValue| Ok(0))?;
+        context.add(name, |_, _: MultiValue| Ok(0))?;
     }
-    shelf.add("getThreadId", |_, ()| Ok(0))
+    context.add("getThreadId", |_, ()| Ok(0))
 }

@@ -1,8 +1,9 @@
-//! `__close` of scripts, taken away while a call is doomed.
+//! `__close` of scripts, disabled while a call is stopped.
 //!
-//! An error that the hook raises unwinds the function that was running before the hook has returned: the `__close` of its variables would run with
-//! hooks off, for ever if it likes. So each metatable is remembered when it is set, and before the hook raises an error `__close` of all of
-//! them becomes a function that does nothing. Nothing is lost: a call that has reached its limit runs no more code.
+//! An error that the hook raises unwinds the function that was running before the hook has returned: the `__close` of
+//! its variables would run with hooks off, for ever if it likes. So each metatable is remembered when it is set, and
+//! before the hook raises an error `__close` of all of them becomes a function that does nothing. Nothing is lost: a
+//! call that has reached its limit runs no more code.
 
 use mlua::{Function, Lua, MultiValue, Table, Value};
 

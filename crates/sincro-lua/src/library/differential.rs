@@ -1,4 +1,5 @@
-//! The pattern functions against those of Lua itself: the same results and the same errors for random patterns and subjects.
+//! The pattern functions against those of Lua itself: the same results and the same errors for random patterns and
+//! subjects.
 
 use std::time::Duration;
 

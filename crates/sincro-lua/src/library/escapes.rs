@@ -1,4 +1,5 @@
-//! Ways out of the limits, each tried: finalizers, work in library functions that no instruction counts, errors caught, coroutines, the clock.
+//! Ways out of the limits, each tried: finalizers, work in library functions that no instruction counts, errors caught,
+//! coroutines, the clock.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -41,13 +42,13 @@ impl Sandbox {
         let done = self.lua.load(text).set_name("=script").call::<mlua::Value>(());
         let done = done.and_then(|value| self.guard.check().map(|()| value));
         done.and_then(|value| value.to_string())
-            .map_err(|error| if self.guard.is_doomed() { self.guard.words() } else { fault::words(&error).0 })
+            .map_err(|error| if self.guard.is_stopped() { self.guard.words() } else { fault::words(&error).0 })
     }
 
     fn reaches_the_limit(&self, text: &str) {
         let words = format!("one call took more than {BUDGET} instructions");
         assert_eq!(self.call(text), Err(words), "{text}");
-        self.guard.forgive(&self.lua);
+        self.guard.resume_script(&self.lua);
     }
 }
 
@@ -326,7 +327,7 @@ fn a_call_without_time_ends_at_its_first_check() {
         let sandbox = Sandbox::without_time();
         assert_eq!(sandbox.call(text), Err("one call took more than 0 s".to_owned()), "{text}");
         assert!(sandbox.guard.help().unwrap().contains("collects garbage"));
-        sandbox.guard.forgive(&sandbox.lua);
+        sandbox.guard.resume_script(&sandbox.lua);
         assert_eq!(sandbox.call("return 1 + 1"), Ok("2".to_owned()));
     }
 }
@@ -338,7 +339,7 @@ fn time_that_is_lent_is_given_back() {
     with.guard.begin(false);
     let late = without.guard.lend_time(&with.guard, || with.guard.check_clock(&with.lua));
     assert!(late.is_err() && with.guard.words().contains(" s"));
-    with.guard.forgive(&with.lua);
+    with.guard.resume_script(&with.lua);
     assert!(with.guard.check_clock(&with.lua).is_ok());
 }
 

@@ -1,7 +1,9 @@
-//! Functions of Lua's libraries whose time the count of instructions does not bound, written anew or charged for before they run.
+//! Functions of Lua's libraries whose time the count of instructions does not bound, written anew or charged for before
+//! they run.
 //!
-//! Lua's hook sees instructions of Lua code only: a library function in C runs unseen, however long. Those whose time grows faster than the
-//! memory of their arguments are here; what each adds to the count depends on its arguments alone, so it is the same on every machine.
+//! Lua's hook sees instructions of Lua code only: a library function in C runs unseen, however long. Those whose time
+//! grows faster than the memory of their arguments are here; what each adds to the count depends on its arguments
+//! alone, so it is the same on every machine.
 //!
 //! | functions | bound |
 //! |---|---|
@@ -10,7 +12,7 @@
 //! | `table.insert`, `remove`, `move`, `concat` | 8 elements an instruction, charged before anything is moved |
 //! | `table.sort` | own merge sort, one instruction an element and a comparison |
 //! | `collectgarbage` | [`base::COLLECTION`] instructions each |
-//! | `setmetatable` | no finalizers: hooks are off in them; `__close` is taken away from doomed calls (`closers.rs`) |
+//! | `setmetatable` | no finalizers: hooks are off in them; `__close` is disabled in stopped calls (`closers.rs`) |
 //! | `coroutine.close` | not after a limit was reached in the coroutine: its hooks are off |
 //!
 //! Functions that are not here take time in proportion to their arguments' or results' size, which `max_memory` bounds.

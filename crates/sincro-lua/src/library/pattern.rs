@@ -1,9 +1,11 @@
 //! Patterns of Lua: parser and backtracking matcher.
 //!
-//! Source: Lua 5.4 reference manual, §6.4.1. Matching by backtracking takes exponential time in the worst case, so that every step is counted
-//! and added to the script's instructions ([`Meter`]): a pathological pattern reaches the limit of the call as a loop without end does.
+//! Source: Lua 5.4 reference manual, §6.4.1. Matching by backtracking takes exponential time in the worst case, so that
+//! every step is counted and added to the script's instructions ([`Meter`]): a pathological pattern reaches the limit
+//! of the call as a loop without end does.
 //!
-//! Errors of a pattern are found where the matcher arrives at them, as in Lua: `("abc"):find("x[")` is nil, `("x"):find("x[")` an error.
+//! Errors of a pattern are found where the matcher arrives at them, as in Lua: `("abc"):find("x[")` is nil,
+//! `("x"):find("x[")` an error.
 
 use std::sync::Arc;
 

@@ -1,7 +1,8 @@
 //! `table.sort` by merging: stable, `n log₂ n` comparisons at most whatever the order before, the same in every run.
 //!
-//! Lua's own sort is a quicksort, quadratic for orders that are made for it, whose pivots depend on the clock. An order that contradicts itself
-//! is no error here: the result is then some permutation. Where a comparison fails the table stays as it was.
+//! Lua's own sort is a quicksort, quadratic for orders that are made for it, whose pivots depend on the clock. An order
+//! that contradicts itself is no error here: the result is then some permutation. Where a comparison fails the table
+//! stays as it was.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -11,8 +12,8 @@ use mlua::{Error, Function, Lua, MultiValue, Table, Value};
 use super::{Arguments, Library, put, type_name};
 use crate::guard::Guard;
 
-/// Elements up to which all are held at once; of larger tables each is fetched when it is compared, because references from outside
-/// of Lua are few.
+/// Elements up to which all are held at once; of larger tables each is fetched when it is compared, because references
+/// from outside of Lua are few.
 const MAX_HELD: usize = 1000;
 
 /// Largest table, as in Lua.

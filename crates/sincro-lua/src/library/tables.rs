@@ -1,5 +1,5 @@
-//! `table.insert`, `remove`, `move` and `concat`: what they move is charged for before it is moved. `table.unpack` and `pack` are Lua's own: the
-//! stack, a million values, bounds them.
+//! `table.insert`, `remove`, `move` and `concat`: what they move is charged for before it is moved. `table.unpack` and
+//! `pack` are Lua's own: the stack, a million values, bounds them.
 //!
 //! Source: Lua 5.4 reference manual, §6.6.
 

@@ -16,7 +16,7 @@ fn session(code: &str) -> Session {
 }
 
 fn told(session: &mut Session) -> Vec<String> {
-    session.table().take_log().into_iter().map(|line| line.text).collect()
+    session.registry().take_log().into_iter().map(|line| line.text).collect()
 }
 
 #[test]

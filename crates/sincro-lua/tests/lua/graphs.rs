@@ -1,4 +1,4 @@
-//! What scripts tell to graphs is recorded with the run.
+//! Values of graphs that scripts set are recorded with the run.
 
 use sincro_coppelia::session::{Session, Value};
 use sincro_sim::Extensions;

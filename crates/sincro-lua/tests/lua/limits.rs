@@ -1,4 +1,4 @@
-//! What a script may not do, and what is said when it does.
+//! Limits of scripts, and the messages when they are reached.
 
 use sincro_sim::results::Status;
 

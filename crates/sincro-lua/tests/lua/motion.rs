@@ -1,4 +1,5 @@
-//! Motions on command from scripts: `sim.moveToConfig`, `sim.moveToPose`, Ruckig's and Reflexxes's names, targets that go within limits.
+//! Motions on command from scripts: `sim.moveToConfig`, `sim.moveToPose`, Ruckig's and Reflexxes's names, targets that
+//! go within limits.
 
 use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Profile, Synchronization, plan};
 use sincro_sim::results::Status;
@@ -6,7 +7,8 @@ use sincro_sim::run::Simulated;
 
 use super::world::{open, run};
 
-/// Two joints in line without gravity, the first with a motor in position mode, the second in velocity mode; a free ball; a point on the world.
+/// Two joints in line without gravity, the first with a motor in position mode, the second in velocity mode; a free
+/// ball; a point on the world.
 const SCENE: &str = r#"
 gravity = [0.0, 0.0, 0.0]
 [[joint]]

@@ -1,7 +1,7 @@
 //! The same law through Rust, a diagram, a block in Lua and a script gives the same bits.
 
 use sincro_coppelia::api_controller::ApiController;
-use sincro_coppelia::session::Table;
+use sincro_coppelia::session::ObjectRegistry;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
 use sincro_sim::run::LockStep;
@@ -34,13 +34,13 @@ fn with_diagram(diagram: &str) -> Loaded {
 #[test]
 fn one_law_through_every_door_gives_one_hash() {
     let plain = open(&[("scene.toml", PENDULUM), ("experiment.toml", EXPERIMENT)]).unwrap();
-    let mut table = Some(Box::new(Table::new(&plain, 1)));
+    let mut registry = Some(Box::new(ObjectRegistry::new(&plain, 1)));
     let rust = trace(&plain, |run| {
-        if let Some(table) = table.take() {
-            ApiController::set_table(run, *table);
+        if let Some(registry) = registry.take() {
+            ApiController::set_registry(run, *registry);
         }
         let (q, v) = (run.state().q[0], run.state().v[0]);
-        ApiController::desk(run).unwrap().table.hold(0, Some(-20.0 * q - 4.0 * v));
+        ApiController::sim(run).unwrap().registry.hold(0, Some(-20.0 * q - 4.0 * v));
     });
 
     let diagram = with_diagram(

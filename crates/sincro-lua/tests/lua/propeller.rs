@@ -61,7 +61,8 @@ fn agree(script: f64, reference: f64) -> bool {
     if script.is_nan() || reference.is_nan() {
         return script.is_nan() && reference.is_nan();
     }
-    // cubes are rounded once in the script and twice in the reference; Ferrari's roots of differences lose half the digits at worst
+    // cubes are rounded once in the script and twice in the reference; Ferrari's roots of differences lose half the
+    // digits at worst
     (script - reference).abs() <= 1e-7 * reference.abs() + 1e-9
 }
 
@@ -98,16 +99,16 @@ fn the_printed_script_gives_what_its_formulas_give() {
             *v = if k % 50 == 0 { 0.0 } else { random.between(-15.0, 15.0) };
         }
         run.place(state, &[]);
-        let mut desk = ApiController::desk(&mut run).unwrap();
-        let propeller = desk.table.find("/air/propeller", Search::default()).unwrap();
-        let joint = desk.table.find("propeller_joint", Search::default()).unwrap();
-        desk.set_target_velocity(joint, speed).unwrap();
-        let (velocity, _) = desk.center_velocity(propeller).unwrap();
-        let rotation = desk.pose(propeller, Reference::World).unwrap().rot.0;
+        let mut sim = ApiController::sim(&mut run).unwrap();
+        let propeller = sim.registry.find("/air/propeller", Search::default()).unwrap();
+        let joint = sim.registry.find("propeller_joint", Search::default()).unwrap();
+        sim.set_target_velocity(joint, speed).unwrap();
+        let (velocity, _) = sim.center_velocity(propeller).unwrap();
+        let rotation = sim.pose(propeller, Reference::World).unwrap().rot.0;
         let expected = printed::evaluate(&rotor, 1.225, speed + 1e-5, Vec3(velocity), &Mat3(rotation));
         let advanced = run.advance();
-        let table = &ApiController::desk(&mut run).unwrap().table;
-        let signal = |name: &str| *table.floats.get(name).unwrap();
+        let registry = &ApiController::sim(&mut run).unwrap().registry;
+        let signal = |name: &str| *registry.floats.get(name).unwrap();
         let given = [signal("thrust"), signal("torque"), signal("inflow")];
         let wanted = [expected.thrust, expected.torque, expected.inflow_ratio];
         for (a, b) in given.into_iter().zip(wanted) {

@@ -1,4 +1,5 @@
-//! What scripts find out of contacts, force sensors and stops; `sysCall_joint`; float signals and messages in what is kept of a run.
+//! Contacts, force sensors and joint limits from scripts; `sysCall_joint`; float signals and messages in what is kept
+//! of a run.
 
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
@@ -67,7 +68,7 @@ object = "/loose/box"
 file = "a.lua"
 "#;
 
-/// What a script on the box does, `more` at the end of the scene file.
+/// Runs a script on the box, with `more` at the end of the scene file.
 fn with_box(code: &str, record: &str, more: &str) -> Simulated {
     let experiment = EXPERIMENT.replace("record = [\"/hinge.position\", \"/hinge.motor_torque_now\"]", record);
     let scene = format!("{SCENE}{more}");

@@ -72,7 +72,7 @@ pub fn run(loaded: &Loaded) -> Simulated {
     simulate(loaded, Manner::default(), &mut watch).unwrap()
 }
 
-/// What the pendulum's script said; the run must come to its end.
+/// Messages of the pendulum's script; the run must complete.
 pub fn said(code: &str) -> Vec<String> {
     let loaded = with_script(code, "").unwrap_or_else(|problems| panic!("{problems}"));
     let run = run(&loaded);
@@ -80,7 +80,7 @@ pub fn said(code: &str) -> Vec<String> {
     run.messages.into_iter().map(|m| m.text).collect()
 }
 
-/// Why the run of a script stopped, and the help.
+/// Reason why the run of a script stopped, and the help.
 pub fn stop(code: &str) -> (String, String) {
     let loaded = with_script(code, "").unwrap_or_else(|problems| panic!("{problems}"));
     match run(&loaded).status {

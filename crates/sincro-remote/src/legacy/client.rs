@@ -5,15 +5,15 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use sincro_coppelia::session::{Phase, Refusal};
+use sincro_coppelia::session::{ApiError, Phase};
 
 use super::functions::{self, Call};
 use super::message::{self, Command, Head, Mode, ReplyHead};
-use crate::hub::{ClientId, Floor, Hub};
+use crate::hub::{ClientId, Hub, SessionGuard};
 use crate::limits;
 
 /// Errors that are kept for `simxGetLastErrors`.
-const MOST_ERRORS: usize = 50;
+const MAX_ERRORS: usize = 50;
 /// Enabling, disabling and triggering of synchronous steps; closing.
 const SYNCHRONOUS_ON: u16 = 0x0001;
 const SYNCHRONOUS_OFF: u16 = 0x0002;
@@ -90,27 +90,27 @@ impl Client {
         // the head is written over at the end, when its state is known
         Head::default().write(out);
         let (hub, mut goes_on) = (self.hub.clone(), true);
-        let mut floor = hub.enter();
-        floor.seen(self.id);
+        let mut guard = hub.enter();
+        guard.seen(self.id);
         let triggers = |c: &&Command<'_>| c.function() == TRIGGER;
         for command in commands.iter().filter(|c| !triggers(c)) {
             goes_on &= command.function() != FINISH;
-            self.command(&mut floor, command, out);
+            self.command(&mut guard, command, out);
         }
         let mut stepped = false;
         if let Some(trigger) = commands.iter().find(triggers) {
-            let result = self.ready_to_step(&mut floor);
-            drop(floor);
+            let result = self.ready_to_step(&mut guard);
+            drop(guard);
             let result = result.and_then(|()| hub.step(self.id));
             stepped = result.is_ok();
-            floor = hub.enter();
+            guard = hub.enter();
             let answer = self.judged(result.map(|()| Vec::new()), trigger.function());
-            self.reply(&mut floor, trigger.code, trigger.ident, &answer, out);
+            self.reply(&mut guard, trigger.code, trigger.ident, &answer, out);
         }
-        self.repeat(&mut floor, stepped, out);
+        self.repeat(&mut guard, stepped, out);
         self.send_pieces(out);
-        let state = state(&mut floor);
-        drop(floor);
+        let state = state(&mut guard);
+        drop(guard);
         hub.wake();
         let server_time = self.started.elapsed().as_millis() as i32;
         let mut written = Vec::with_capacity(message::MESSAGE_HEAD);
@@ -119,33 +119,33 @@ impl Client {
         Ok(goes_on)
     }
 
-    fn ready_to_step(&self, floor: &mut Floor) -> Result<(), Refusal> {
-        if !floor.is_stepping(self.id) {
-            return Err(Refusal::new("synchronous mode is off: a trigger does nothing"));
+    fn ready_to_step(&self, guard: &mut SessionGuard) -> Result<(), ApiError> {
+        if !guard.is_stepping(self.id) {
+            return Err(ApiError::new("synchronous mode is off: a trigger does nothing"));
         }
-        if floor.session.phase() != Phase::Running {
-            return Err(Refusal::new("the simulation does not run: a trigger does nothing"));
+        if guard.session.phase() != Phase::Running {
+            return Err(ApiError::new("the simulation does not run: a trigger does nothing"));
         }
         Ok(())
     }
 
-    fn command(&mut self, floor: &mut Floor, command: &Command<'_>, out: &mut Vec<u8>) {
+    fn command(&mut self, guard: &mut SessionGuard, command: &Command<'_>, out: &mut Vec<u8>) {
         let key = (command.function(), command.ident.to_vec());
         match command.mode() {
-            None => self.fail(floor, command, "this mode of operation is never sent", out),
+            None => self.fail(guard, command, "this mode of operation is never sent", out),
             Some(Mode::Once) => {
-                let answer = self.execute(floor, key.0, command.ident, command.data);
-                self.reply(floor, command.code, command.ident, &answer, out);
+                let answer = self.execute(guard, key.0, command.ident, command.data);
+                self.reply(guard, command.code, command.ident, &answer, out);
             }
             Some(Mode::Stream) => {
-                self.keep(floor, key, command.data.to_vec(), command, None, out);
+                self.keep(guard, key, command.data.to_vec(), command, None, out);
             }
-            Some(Mode::SplitOnce | Mode::SplitStream) => self.piece(floor, key, command, out),
+            Some(Mode::SplitOnce | Mode::SplitStream) => self.piece(guard, key, command, out),
             Some(Mode::Discontinue) => {
                 self.streams.remove(&key);
                 self.pieces.remove(&key);
                 self.outgoing.retain(|o| (o.code as u16, &o.ident) != (key.0, &key.1));
-                self.reply(floor, command.code, command.ident, &Answer { failed: false, data: Vec::new() }, out);
+                self.reply(guard, command.code, command.ident, &Answer { failed: false, data: Vec::new() }, out);
             }
         }
     }
@@ -153,7 +153,7 @@ impl Client {
     /// Keeps a command to be repeated; the same command is replaced.
     fn keep(
         &mut self,
-        floor: &mut Floor,
+        guard: &mut SessionGuard,
         key: Key,
         data: Vec<u8>,
         command: &Command<'_>,
@@ -161,7 +161,7 @@ impl Client {
         out: &mut Vec<u8>,
     ) {
         if self.streams.len() >= limits::STREAMS && !self.streams.contains_key(&key) {
-            return self.fail(floor, command, "too many commands are streamed: discontinue some", out);
+            return self.fail(guard, command, "too many commands are streamed: discontinue some", out);
         }
         let pause = if piece.is_some() { 0 } else { command.delay };
         let last = self.streams.get(&key).and_then(|known| known.last);
@@ -170,7 +170,7 @@ impl Client {
     }
 
     /// A piece of a command; executed when it is complete.
-    fn piece(&mut self, floor: &mut Floor, key: Key, command: &Command<'_>, out: &mut Vec<u8>) {
+    fn piece(&mut self, guard: &mut SessionGuard, key: Key, command: &Command<'_>, out: &mut Vec<u8>) {
         let total = command.full_size as i64 - (message::COMMAND_HEAD + command.ident.len()) as i64;
         let (offset, n) = (command.offset as i64, command.data.len() as i64);
         let taken: usize = self.pieces.values().map(Vec::len).sum();
@@ -182,7 +182,7 @@ impl Client {
         if total < n || offset != whole.len() as i64 || offset + n > total || taken + command.data.len() > limits::SPLIT
         {
             self.pieces.remove(&key);
-            return self.fail(floor, command, "a piece of a split command does not fit what came before it", out);
+            return self.fail(guard, command, "a piece of a split command does not fit what came before it", out);
         }
         whole.extend_from_slice(command.data);
         if (whole.len() as i64) < total {
@@ -191,20 +191,20 @@ impl Client {
         let data = self.pieces.remove(&key).unwrap_or_default();
         let piece = usize::from(command.delay).max(100);
         if command.mode() == Some(Mode::SplitStream) {
-            return self.keep(floor, key, data, command, Some(piece), out);
+            return self.keep(guard, key, data, command, Some(piece), out);
         }
-        let answer = self.execute(floor, key.0, command.ident, &data);
-        self.send_later(floor, command.code, &key, answer, piece);
+        let answer = self.execute(guard, key.0, command.ident, &data);
+        self.send_later(guard, command.code, &key, answer, piece);
     }
 
-    fn send_later(&mut self, floor: &mut Floor, code: i32, key: &Key, answer: Answer, piece: usize) {
-        let time = time_ms(floor);
+    fn send_later(&mut self, guard: &mut SessionGuard, code: i32, key: &Key, answer: Answer, piece: usize) {
+        let time = time_ms(guard);
         let Answer { failed, data } = answer;
         self.outgoing.push_back(Outgoing { code, ident: key.1.clone(), time, failed, data, sent: 0, piece });
     }
 
     /// Executes what is repeated and due. After a step everything is: what is read with it must not be older.
-    fn repeat(&mut self, floor: &mut Floor, stepped: bool, out: &mut Vec<u8>) {
+    fn repeat(&mut self, guard: &mut SessionGuard, stepped: bool, out: &mut Vec<u8>) {
         let now = Instant::now();
         let due = |s: &Stream| stepped || s.last.is_none_or(|last| now - last >= s.pause);
         let keys: Vec<Key> = self.streams.iter().filter(|(_, s)| due(s)).map(|(k, _)| k.clone()).collect();
@@ -217,7 +217,7 @@ impl Client {
             stream.last = Some(now);
             let (code, piece) = (stream.code, stream.piece);
             let data = std::mem::take(&mut stream.data);
-            let answer = self.execute(floor, key.0, &key.1, &data);
+            let answer = self.execute(guard, key.0, &key.1, &data);
             let has_delivered = key.0 == TAKE_STRING && !answer.failed;
             if has_delivered {
                 self.streams.remove(&key);
@@ -225,8 +225,8 @@ impl Client {
                 stream.data = data;
             }
             match piece {
-                Some(piece) => self.send_later(floor, code, &key, answer, piece),
-                None => self.reply(floor, code, &key.1, &answer, out),
+                Some(piece) => self.send_later(guard, code, &key, answer, piece),
+                None => self.reply(guard, code, &key.1, &answer, out),
             }
         }
     }
@@ -249,32 +249,32 @@ impl Client {
         self.outgoing.retain(|answer| answer.sent < answer.data.len());
     }
 
-    fn execute(&mut self, floor: &mut Floor, function: u16, ident: &[u8], data: &[u8]) -> Answer {
+    fn execute(&mut self, guard: &mut SessionGuard, function: u16, ident: &[u8], data: &[u8]) -> Answer {
         let result = match function {
             SYNCHRONOUS_ON => {
-                if !floor.is_stepping(self.id) {
-                    floor.set_stepping(self.id, true);
+                if !guard.is_stepping(self.id) {
+                    guard.set_stepping(self.id, true);
                 }
                 Ok(Vec::new())
             }
             SYNCHRONOUS_OFF => {
-                floor.stop_stepping(self.id);
+                guard.stop_stepping(self.id);
                 Ok(Vec::new())
             }
             FINISH => Ok(Vec::new()),
             LAST_ERRORS => Ok(self.take_errors()),
             // a trigger that is streamed or split would step without being asked
-            TRIGGER => Err(Refusal::new("a trigger is sent once, not streamed")),
-            _ => functions::run(floor, &Call { function, ident, data }),
+            TRIGGER => Err(ApiError::new("a trigger is sent once, not streamed")),
+            _ => functions::run(guard, &Call { function, ident, data }),
         };
         self.judged(result, function)
     }
 
-    fn judged(&mut self, result: Result<Vec<u8>, Refusal>, function: u16) -> Answer {
+    fn judged(&mut self, result: Result<Vec<u8>, ApiError>, function: u16) -> Answer {
         match result {
             Ok(data) => Answer { failed: false, data },
-            Err(Refusal(message)) => {
-                if self.errors.len() == MOST_ERRORS {
+            Err(ApiError(message)) => {
+                if self.errors.len() == MAX_ERRORS {
                     self.errors.pop_front();
                 }
                 self.errors.push_back(format!("{message} (command 0x{function:04x})"));
@@ -294,25 +294,25 @@ impl Client {
         data
     }
 
-    fn fail(&mut self, floor: &mut Floor, command: &Command<'_>, why: &str, out: &mut Vec<u8>) {
-        let answer = self.judged(Err(Refusal::new(why)), command.function());
-        self.reply(floor, command.code, command.ident, &answer, out);
+    fn fail(&mut self, guard: &mut SessionGuard, command: &Command<'_>, why: &str, out: &mut Vec<u8>) {
+        let answer = self.judged(Err(ApiError::new(why)), command.function());
+        self.reply(guard, command.code, command.ident, &answer, out);
     }
 
-    fn reply(&self, floor: &mut Floor, code: i32, ident: &[u8], answer: &Answer, out: &mut Vec<u8>) {
-        let head = ReplyHead { code, time: time_ms(floor), failed: answer.failed, piece: None };
+    fn reply(&self, guard: &mut SessionGuard, code: i32, ident: &[u8], answer: &Answer, out: &mut Vec<u8>) {
+        let head = ReplyHead { code, time: time_ms(guard), failed: answer.failed, piece: None };
         message::write_reply(&head, ident, &answer.data, out);
     }
 }
 
 /// Simulation time as replies carry it [ms].
-fn time_ms(floor: &mut Floor) -> i32 {
-    let t = if floor.session.phase() == Phase::Stopped { 0.0 } else { floor.session.t() };
+fn time_ms(guard: &mut SessionGuard) -> i32 {
+    let t = if guard.session.phase() == Phase::Stopped { 0.0 } else { guard.session.t() };
     (t * 1000.0).round() as i32
 }
 
-fn state(floor: &mut Floor) -> u8 {
-    match floor.session.phase() {
+fn state(guard: &mut SessionGuard) -> u8 {
+    match guard.session.phase() {
         Phase::Stopped => 0,
         Phase::Running => 1,
         Phase::Paused => 3,

@@ -1,10 +1,10 @@
-//! What the commands of the legacy API do: simulation, joints, signals, parameters.
+//! Commands of the legacy API: simulation, joints, signals, parameters.
 
-use sincro_coppelia::session::{Desk, Handle, Refusal, Search};
+use sincro_coppelia::session::{ApiError, Handle, Search, SimApi};
 
 use super::message::{float, int, text};
 use super::{files, group, objects, seeing, sensing};
-use crate::hub::Floor;
+use crate::hub::SessionGuard;
 
 /// `simxGetObjectHandle`
 pub(super) const GET_HANDLE: u16 = 0x3001;
@@ -18,37 +18,37 @@ pub(super) struct Call<'a> {
 }
 
 /// Data of a reply.
-pub(super) type Reply = Result<Vec<u8>, Refusal>;
+pub(super) type Reply = Result<Vec<u8>, ApiError>;
 
 impl<'a> Call<'a> {
     /// The object that the identification begins with.
-    pub fn handle(&self) -> Result<Handle, Refusal> {
+    pub fn handle(&self) -> Result<Handle, ApiError> {
         Ok(Handle(self.ident_int(0)?))
     }
 
-    pub fn ident_int(&self, k: usize) -> Result<i32, Refusal> {
-        int(self.ident, 4 * k).ok_or_else(|| Refusal::new("the identification is shorter than it should be"))
+    pub fn ident_int(&self, k: usize) -> Result<i32, ApiError> {
+        int(self.ident, 4 * k).ok_or_else(|| ApiError::new("the identification is shorter than it should be"))
     }
 
-    pub fn name(&self) -> Result<&'a str, Refusal> {
-        text(self.ident).map(|(text, _)| text).ok_or_else(|| Refusal::new("the name is not UTF-8"))
+    pub fn name(&self) -> Result<&'a str, ApiError> {
+        text(self.ident).map(|(text, _)| text).ok_or_else(|| ApiError::new("the name is not UTF-8"))
     }
 
-    pub fn int(&self, at: usize) -> Result<i32, Refusal> {
+    pub fn int(&self, at: usize) -> Result<i32, ApiError> {
         int(self.data, at).ok_or_else(short)
     }
 
-    pub fn float(&self, at: usize) -> Result<f64, Refusal> {
+    pub fn float(&self, at: usize) -> Result<f64, ApiError> {
         float(self.data, at).ok_or_else(short)
     }
 
-    pub fn floats<const N: usize>(&self, at: usize) -> Result<[f64; N], Refusal> {
+    pub fn floats<const N: usize>(&self, at: usize) -> Result<[f64; N], ApiError> {
         super::message::floats(self.data, at).ok_or_else(short)
     }
 }
 
-fn short() -> Refusal {
-    Refusal::new("the data is shorter than it should be")
+fn short() -> ApiError {
+    ApiError::new("the data is shorter than it should be")
 }
 
 pub(super) fn done() -> Reply {
@@ -69,38 +69,38 @@ pub(super) fn counted(list: &[Handle]) -> Reply {
 }
 
 /// Runs a function.
-pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
+pub(super) fn run(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
     match call.function {
-        0x1007 => simulation(floor, call),
-        function if files::COMMANDS.contains(&function) => files::run(floor, call),
-        0x3401 => super::script::run(floor, call),
+        0x1007 => simulation(guard, call),
+        function if files::COMMANDS.contains(&function) => files::run(guard, call),
+        0x3401 => super::script::run(guard, call),
         0x0005 => {
-            floor.act(sincro_coppelia::session::Session::stop)?;
+            guard.act(sincro_coppelia::session::Session::stop)?;
             done()
         }
-        _ => on_desk(&mut floor.session.desk(), call),
+        _ => on_sim_api(&mut guard.session.sim(), call),
     }
 }
 
-fn simulation(floor: &mut Floor, call: &Call<'_>) -> Reply {
+fn simulation(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
     let what = call.ident_int(0)?;
-    floor.act(|session| match what {
+    guard.act(|session| match what {
         0 => session.start(),
         1 => session.pause(),
         2 => {
-            session.table().stop_requests += 1;
+            session.registry().stop_requests += 1;
             session.stop()
         }
-        _ => Err(Refusal(format!("{what} is neither start 0 nor pause 1 nor stop 2"))),
+        _ => Err(ApiError(format!("{what} is neither start 0 nor pause 1 nor stop 2"))),
     })?;
     done()
 }
 
-fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    if let Some(reply) = sensing::run(desk, call) {
+fn on_sim_api(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    if let Some(reply) = sensing::run(sim, call) {
         return reply;
     }
-    if let Some(reply) = seeing::run(desk, call) {
+    if let Some(reply) = seeing::run(sim, call) {
         return reply;
     }
     match call.function {
@@ -121,96 +121,96 @@ fn on_desk(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
         | 0x1037
         | 0x3019 => {
             if call.function == 0x200c {
-                group::run(desk, call)
+                group::run(sim, call)
             } else {
-                objects::run(desk, call)
+                objects::run(sim, call)
             }
         }
-        0x1001..0x1010 | 0x1038 => joint(desk, call),
-        0x101d..=0x1025 => parameter(desk, call),
-        0x300d..=0x3018 => signal(desk, call),
+        0x1001..0x1010 | 0x1038 => joint(sim, call),
+        0x101d..=0x1025 => parameter(sim, call),
+        0x300d..=0x3018 => signal(sim, call),
         0x3008 => {
-            desk.log(450, call.name()?);
+            sim.log(450, call.name()?);
             done()
         }
-        other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
+        other => Err(ApiError(format!("command 0x{other:04x} is not offered here"))),
     }
 }
 
-fn joint(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+fn joint(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let joint = call.handle()?;
     match call.function {
-        0x1001 => reals([desk.joint_position(joint)?]),
-        0x1002 => desk.set_joint_position(joint, call.float(0)?).and_then(|()| done()),
-        0x1008 => desk.set_target_velocity(joint, call.float(0)?).and_then(|()| done()),
-        0x100c => desk.set_target_position(joint, call.float(0)?).and_then(|()| done()),
+        0x1001 => reals([sim.joint_position(joint)?]),
+        0x1002 => sim.set_joint_position(joint, call.float(0)?).and_then(|()| done()),
+        0x1008 => sim.set_target_velocity(joint, call.float(0)?).and_then(|()| done()),
+        0x100c => sim.set_target_position(joint, call.float(0)?).and_then(|()| done()),
         0x100d => {
-            let force = desk.joint_force(joint)?;
-            reals([force.ok_or_else(|| Refusal::new("there is no force before the first step, nor without a motor"))?])
+            let force = sim.joint_force(joint)?;
+            reals([force.ok_or_else(|| ApiError::new("there is no force before the first step, nor without a motor"))?])
         }
-        0x1038 => reals([desk.target_force(joint)?]),
-        0x100e => desk.set_target_force(joint, call.float(0)?, false).and_then(|()| done()),
+        0x1038 => reals([sim.target_force(joint)?]),
+        0x100e => sim.set_target_force(joint, call.float(0)?, false).and_then(|()| done()),
         0x100a => {
-            let pose = desk.joint_pose(joint)?;
+            let pose = sim.joint_pose(joint)?;
             reals(sincro_coppelia::session::convention::matrix_of(&pose))
         }
-        other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
+        other => Err(ApiError(format!("command 0x{other:04x} is not offered here"))),
     }
 }
 
-fn parameter(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+fn parameter(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let id = i64::from(call.ident_int(0)?);
     match call.function {
-        0x1021 => ints([i32::try_from(desk.int_parameter(id)?).unwrap_or(i32::MAX)]),
+        0x1021 => ints([i32::try_from(sim.int_parameter(id)?).unwrap_or(i32::MAX)]),
         // what belongs to windows: taken, and of no effect here
-        0x1022 => call.int(0).and_then(|_| desk.set_int_parameter(id)).and_then(|()| done()),
-        0x1023 => reals([desk.float_parameter(id)?]),
+        0x1022 => call.int(0).and_then(|_| sim.set_int_parameter(id)).and_then(|()| done()),
+        0x1023 => reals([sim.float_parameter(id)?]),
         // what a client means by a float is the nearest number that the base step has a multiple of
-        0x1024 => desk.set_float_parameter(id, call.float(0)?).and_then(|()| done()),
-        0x101f => ints([i32::from(desk.bool_parameter(id)?)]),
+        0x1024 => sim.set_float_parameter(id, call.float(0)?).and_then(|()| done()),
+        0x101f => ints([i32::from(sim.bool_parameter(id)?)]),
         // display and real time: taken, and of no effect here
-        0x1020 => desk.bool_parameter(id).and_then(|_| call.int(0)).and_then(|_| done()),
-        0x101d => reals(desk.array_parameter(id)?),
-        0x101e => desk.set_array_parameter(id, call.floats(0)?).and_then(|()| done()),
+        0x1020 => sim.bool_parameter(id).and_then(|_| call.int(0)).and_then(|_| done()),
+        0x101d => reals(sim.array_parameter(id)?),
+        0x101e => sim.set_array_parameter(id, call.floats(0)?).and_then(|()| done()),
         0x1025 => {
-            let mut text = desk.string_parameter(id)?.into_bytes();
+            let mut text = sim.string_parameter(id)?.into_bytes();
             text.push(0);
             Ok(text)
         }
-        other => Err(Refusal(format!("command 0x{other:04x} is not offered here"))),
+        other => Err(ApiError(format!("command 0x{other:04x} is not offered here"))),
     }
 }
 
-fn signal(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    let (name, of_run) = (call.name()?, desk.is_running());
-    let unset = || Refusal(format!("there is no signal `{name}`"));
-    let table = &mut *desk.table;
+fn signal(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let (name, of_run) = (call.name()?, sim.is_running());
+    let unset = || ApiError(format!("there is no signal `{name}`"));
+    let registry = &mut *sim.registry;
     if matches!(call.function, 0x3015 | 0x3016) {
-        table.make_room(call.data.len())?;
+        registry.make_room(call.data.len())?;
     }
     match call.function {
-        0x3010 => reals([*table.floats.get(name).ok_or_else(unset)?]),
-        0x3013 => table.floats.set(name, call.float(0)?, of_run).and_then(|()| done()),
-        0x300d => clear(table.floats.clear(name)),
+        0x3010 => reals([*registry.floats.get(name).ok_or_else(unset)?]),
+        0x3013 => registry.floats.set(name, call.float(0)?, of_run).and_then(|()| done()),
+        0x300d => clear(registry.floats.clear(name)),
         0x3011 => {
-            let x = *table.integers.get(name).ok_or_else(unset)?;
+            let x = *registry.integers.get(name).ok_or_else(unset)?;
             ints([x.clamp(i32::MIN.into(), i32::MAX.into()) as i32])
         }
-        0x3014 => table.integers.set(name, call.int(0)?.into(), of_run).and_then(|()| done()),
-        0x300e => clear(table.integers.clear(name)),
-        0x3012 => table.strings.get(name).cloned().ok_or_else(unset),
-        0x3015 => table.strings.set(name, call.data.to_vec(), of_run).and_then(|()| done()),
-        0x300f => clear(table.strings.clear(name)),
-        0x3016 => table.strings.append(name, call.data, of_run).and_then(|()| done()),
+        0x3014 => registry.integers.set(name, call.int(0)?.into(), of_run).and_then(|()| done()),
+        0x300e => clear(registry.integers.clear(name)),
+        0x3012 => registry.strings.get(name).cloned().ok_or_else(unset),
+        0x3015 => registry.strings.set(name, call.data.to_vec(), of_run).and_then(|()| done()),
+        0x300f => clear(registry.strings.clear(name)),
+        0x3016 => registry.strings.append(name, call.data, of_run).and_then(|()| done()),
         0x3017 => {
-            let bytes = table.strings.get(name).cloned().ok_or_else(unset)?;
-            table.strings.clear(name);
+            let bytes = registry.strings.get(name).cloned().ok_or_else(unset)?;
+            registry.strings.clear(name);
             Ok(bytes)
         }
         _ => {
-            let bytes = table.strings.get(name).cloned().unwrap_or_default();
+            let bytes = registry.strings.get(name).cloned().unwrap_or_default();
             if !bytes.is_empty() {
-                table.strings.clear(name);
+                registry.strings.clear(name);
             }
             Ok(bytes)
         }
@@ -222,6 +222,6 @@ fn clear(_n: usize) -> Reply {
 }
 
 /// The object of a name or path.
-pub(super) fn find(desk: &Desk<'_>, name: &str) -> Result<Handle, Refusal> {
-    desk.table.find(name, Search::default())
+pub(super) fn find(sim: &SimApi<'_>, name: &str) -> Result<Handle, ApiError> {
+    sim.registry.find(name, Search::default())
 }

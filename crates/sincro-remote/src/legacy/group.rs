@@ -1,11 +1,11 @@
 //! `simxGetObjectGroupData`: one kind of data of all objects of a type.
 
 use sincro_coppelia::session::convention::{euler_of, quaternion_of};
-use sincro_coppelia::session::{Desk, Entry, Handle, Kind, Reference, Refusal};
+use sincro_coppelia::session::{ApiError, Entry, Handle, Kind, Reference, SimApi};
 
 use super::functions::{Call, Reply};
 
-/// What is gathered.
+/// Collected values of a group.
 #[derive(Default)]
 struct Gathered {
     handles: Vec<i32>,
@@ -15,16 +15,16 @@ struct Gathered {
 }
 
 /// Runs the function.
-pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+pub(super) fn run(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let (objects, what) = (call.ident_int(0)?, call.ident_int(1)?);
     let mut all = Gathered::default();
     let handles = match Handle(objects) {
-        collection if desk.table.is_collection(collection) => desk.table.collected(collection)?,
-        _ => desk.objects_of_type(objects.into()),
+        collection if sim.registry.is_collection(collection) => sim.registry.collected(collection)?,
+        _ => sim.objects_of_type(objects.into()),
     };
     for handle in handles {
         all.handles.push(handle.0);
-        add(desk, handle, what, &mut all)?;
+        add(sim, handle, what, &mut all)?;
     }
     let counts = [all.handles.len(), all.ints.len(), all.floats.len(), all.texts.len()];
     let mut data: Vec<u8> = counts.into_iter().flat_map(|n| (n as i32).to_le_bytes()).collect();
@@ -37,16 +37,16 @@ pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     Ok(data)
 }
 
-fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Result<(), Refusal> {
-    let entry: Entry = desk.table.entry(handle)?.clone();
+fn add(sim: &mut SimApi<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Result<(), ApiError> {
+    let entry: Entry = sim.registry.entry(handle)?.clone();
     let against = if what % 2 == 1 { Reference::World } else { Reference::Parent };
     match what {
         0 | 20 => all.texts.push(entry.name),
         21 => all.texts.push(entry.path),
-        1 => all.ints.push(desk.type_of(&entry) as i32),
+        1 => all.ints.push(sim.type_of(&entry) as i32),
         2 => all.ints.push(entry.parent.map_or(-1, |h| h.0)),
         3..=12 => {
-            let pose = desk.pose(handle, against)?;
+            let pose = sim.pose(handle, against)?;
             if matches!(what, 3 | 4 | 9..=12) {
                 all.floats.extend(pose.pos.0);
             }
@@ -59,14 +59,14 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
         }
         15 => match entry.kind {
             Kind::Joint(Some(_)) => {
-                all.floats.push(desk.joint_position(handle)?);
-                all.floats.push(desk.joint_force(handle)?.unwrap_or(0.0));
+                all.floats.push(sim.joint_position(handle)?);
+                all.floats.push(sim.joint_force(handle)?.unwrap_or(0.0));
             }
             _ => all.floats.extend([0.0; 2]),
         },
         13 => {
             let (state, object, numbers) = match entry.kind {
-                Kind::Proximity => super::sensing::seen(desk, handle)?,
+                Kind::Proximity => super::sensing::seen(sim, handle)?,
                 _ => (0, -1, [0.0; 6]),
             };
             all.ints.extend([state, object]);
@@ -74,7 +74,7 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
         }
         14 => match entry.kind {
             Kind::ForceSensor(_) => {
-                let (force, torque) = desk.force_sensor(handle)?;
+                let (force, torque) = sim.force_sensor(handle)?;
                 all.ints.push(1);
                 all.floats.extend(force.into_iter().chain(torque));
             }
@@ -85,8 +85,8 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
         },
         16 => match entry.kind {
             Kind::Joint(Some(_)) => {
-                let (is_cyclic, [low, range]) = desk.joint_interval(handle)?;
-                all.ints.extend([desk.joint_type(handle)? as i32, 5]);
+                let (is_cyclic, [low, range]) = sim.joint_interval(handle)?;
+                all.ints.extend([sim.joint_type(handle)? as i32, 5]);
                 all.floats.extend(if is_cyclic { [0.0, -1.0] } else { [low, range] });
             }
             Kind::Rotor(_) => {
@@ -99,7 +99,7 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
             }
         },
         17..=19 => {
-            let (linear, angular) = desk.velocity(handle)?;
+            let (linear, angular) = sim.velocity(handle)?;
             if what != 18 {
                 all.floats.extend(linear);
             }
@@ -107,7 +107,7 @@ fn add(desk: &mut Desk<'_>, handle: Handle, what: i32, all: &mut Gathered) -> Re
                 all.floats.extend(angular);
             }
         }
-        _ => return Err(Refusal(format!("there is no group data {what} here"))),
+        _ => return Err(ApiError(format!("there is no group data {what} here"))),
     }
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! Messages of the legacy API: a head of 18 bytes, then commands of 26 bytes, an identification and data each. Little endian.
+//! Messages of the legacy API: a head of 18 bytes, then commands of 26 bytes, an identification and data each. Little
+//! endian.
 
 use crate::limits;
 
@@ -50,7 +51,7 @@ impl Head {
     }
 }
 
-/// What is to be done with a command.
+/// Operation mode of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Once.
@@ -68,17 +69,17 @@ pub enum Mode {
 /// A command, as it was sent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Command<'a> {
-    /// What: low 16 bits; how: the rest.
+    /// Command in the low 16 bits; operation mode in the rest.
     pub code: i32,
     /// Whole size; larger than this command if it is a piece.
     pub full_size: i32,
-    /// Where the data stands in the whole.
+    /// Offset of the data in the whole.
     pub offset: i32,
     /// Shortest time between two executions `[ms]`, or longest piece.
     pub delay: u16,
     /// Bit 0: keep it beside one like it.
     pub status: u8,
-    /// What it is about.
+    /// Identifier of its subject.
     pub ident: &'a [u8],
     /// With what.
     pub data: &'a [u8],
@@ -151,14 +152,14 @@ pub fn commands(message: &[u8]) -> Result<Vec<Command<'_>>, &'static str> {
     Ok(commands)
 }
 
-/// What a reply is, beside its data.
+/// Header of a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReplyHead {
     /// As in the command.
     pub code: i32,
     /// Simulation time at execution `[ms]`; 0 while stopped.
     pub time: i32,
-    /// Whether it failed.
+    /// True if it failed.
     pub failed: bool,
     /// Whole size of a reply in pieces and where this one stands; none if it is whole.
     pub piece: Option<(i32, i32)>,

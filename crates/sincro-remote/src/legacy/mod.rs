@@ -7,8 +7,8 @@
 //! | `client.rs` | operation modes: streaming, splitting, discontinuing |
 //! | `functions.rs`, `objects.rs`, `group.rs`, `sensing.rs`, `seeing.rs`, `files.rs`, `script.rs` | what each command does |
 //!
-//! Everything in a message is executed before it is answered, the trigger of a synchronous step last, and what is streamed after that:
-//! values read with a trigger are those after the step.
+//! Everything in a message is executed before it is answered, the trigger of a synchronous step last, and what is
+//! streamed after that: values read with a trigger are those after the step.
 
 mod client;
 mod files;

@@ -1,4 +1,5 @@
-//! Messages of the legacy API as packets: a head of three 16-bit integers (1, length of the payload, packets to come), then the payload.
+//! Messages of the legacy API as packets: a head of three 16-bit integers (1, length of the payload, packets to come),
+//! then the payload.
 
 use std::io::{self, ErrorKind, Read, Write};
 

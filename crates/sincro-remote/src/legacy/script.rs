@@ -1,35 +1,35 @@
 //! `simxCallScriptFunction`: whole numbers, numbers, texts and bytes to a function of a script, and the same four back.
 
-use sincro_coppelia::session::{Handle, Refusal, Search, Value};
+use sincro_coppelia::session::{ApiError, Handle, Search, Value};
 
 use super::functions::{Call, Reply};
 use super::message::{float, int, text};
-use crate::hub::Floor;
+use crate::hub::SessionGuard;
 use crate::zmq::kind_of;
 
 /// Runs the function.
-pub(super) fn run(floor: &mut Floor, call: &Call<'_>) -> Reply {
+pub(super) fn run(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
     let kind = call.ident_int(0)?;
     let (object, n) = call.ident.get(4..).and_then(text).ok_or_else(short)?;
     let (function, _) = call.ident.get(4 + n..).and_then(text).ok_or_else(short)?;
     let arguments = arguments(call.data)?;
-    let results = floor.act(|session| {
+    let results = guard.act(|session| {
         // without a name the number is the handle of the script, which is that of its object here
         let handle = match object {
             "" => Handle(kind),
-            name => session.table().find(name, Search::default())?,
+            name => session.registry().find(name, Search::default())?,
         };
         session.call_script(handle, kind_of(kind.into()), function, &arguments)
     })?;
     reply(&results)
 }
 
-fn short() -> Refusal {
-    Refusal::new("the call of a script is shorter than it should be")
+fn short() -> ApiError {
+    ApiError::new("the call of a script is shorter than it should be")
 }
 
 /// Counts, then the values; what is not there is no value.
-fn arguments(data: &[u8]) -> Result<Vec<Value>, Refusal> {
+fn arguments(data: &[u8]) -> Result<Vec<Value>, ApiError> {
     let mut counts = [0; 4];
     for (k, count) in counts.iter_mut().enumerate() {
         let n = int(data, 4 * k).and_then(|n| usize::try_from(n).ok());
@@ -62,9 +62,9 @@ fn reply(results: &[Value]) -> Reply {
         Some(Value::List(list)) => Ok(&list[..]),
         None | Some(Value::Nil) => Ok(&[][..]),
         Some(Value::Map(map)) if map.is_empty() => Ok(&[][..]),
-        Some(other) => Err(Refusal(format!("result {} of the function is {}, expected a list", k + 1, other.word()))),
+        Some(other) => Err(ApiError(format!("result {} of the function is {}, expected a list", k + 1, other.word()))),
     };
-    let wrong = |what: &str| Refusal(format!("the function gave a list that has something else than {what}"));
+    let wrong = |what: &str| ApiError(format!("the function gave a list that has something else than {what}"));
     let ints = list(0)?.iter().map(|x| x.as_int().and_then(|x| i32::try_from(x).ok())).collect::<Option<Vec<_>>>();
     let ints = ints.ok_or_else(|| wrong("whole numbers"))?;
     let floats = list(1)?.iter().map(Value::as_real).collect::<Option<Vec<_>>>().ok_or_else(|| wrong("numbers"))?;

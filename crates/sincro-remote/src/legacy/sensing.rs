@@ -1,6 +1,6 @@
-//! What the commands of the legacy API do: sensors, collisions, distances; and why those that are not here are not.
+//! Commands of the legacy API: sensors, collisions, distances; and the reasons for those that are not offered.
 
-use sincro_coppelia::session::{Desk, Entity, Handle, Refusal};
+use sincro_coppelia::session::{ApiError, Entity, Handle, SimApi};
 
 use super::functions::{Call, Reply, counted, ints, reals};
 
@@ -17,48 +17,48 @@ const REFUSED: &[(&[u16], &str)] = &[
 ];
 
 /// The answer of a command of this file; none for any other.
-pub(super) fn run(desk: &mut Desk<'_>, call: &Call<'_>) -> Option<Reply> {
+pub(super) fn run(sim: &mut SimApi<'_>, call: &Call<'_>) -> Option<Reply> {
     match call.function {
-        0x100f => Some(force_sensor(desk, call)),
-        0x200f => Some(collision(desk, call)),
-        0x2010 => Some(distance(desk, call)),
-        0x1009 => Some(proximity(desk, call)),
-        0x102e => Some(copies(desk, call)),
+        0x100f => Some(force_sensor(sim, call)),
+        0x200f => Some(collision(sim, call)),
+        0x2010 => Some(distance(sim, call)),
+        0x1009 => Some(proximity(sim, call)),
+        0x102e => Some(copies(sim, call)),
         function => {
             let (_, why) = REFUSED.iter().find(|(functions, _)| functions.contains(&function))?;
-            Some(Err(Refusal::new(*why)))
+            Some(Err(ApiError::new(*why)))
         }
     }
 }
 
 /// State (bit 0: there are data), force, torque; the numbers are not aligned.
-fn force_sensor(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    let (force, torque) = desk.force_sensor(call.handle()?)?;
+fn force_sensor(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let (force, torque) = sim.force_sensor(call.handle()?)?;
     let mut data = vec![1];
     data.extend(reals(force.into_iter().chain(torque))?);
     Ok(data)
 }
 
 /// The two bodies or collections of a call; −2 is everything.
-fn entities(desk: &Desk<'_>, call: &Call<'_>) -> Result<[Entity; 2], Refusal> {
-    Ok([desk.entity(Handle(call.ident_int(0)?))?, desk.entity(Handle(call.ident_int(1)?))?])
+fn entities(sim: &SimApi<'_>, call: &Call<'_>) -> Result<[Entity; 2], ApiError> {
+    Ok([sim.entity(Handle(call.ident_int(0)?))?, sim.entity(Handle(call.ident_int(1)?))?])
 }
 
-/// Whether two bodies press on each other, or their surfaces meet.
-fn collision(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    let [one, two] = entities(desk, call)?;
-    ints([i32::from(desk.collision(one, two)?.is_some())])
+/// Returns true if two bodies press on each other, or their surfaces meet.
+fn collision(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let [one, two] = entities(sim, call)?;
+    ints([i32::from(sim.collision(one, two)?.is_some())])
 }
 
-fn distance(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    let [one, two] = entities(desk, call)?;
-    let found = desk.distance(one, two, f64::INFINITY)?;
-    reals([found.ok_or_else(|| Refusal::new("there is nothing that a distance could be measured to"))?.distance])
+fn distance(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let [one, two] = entities(sim, call)?;
+    let found = sim.distance(one, two, f64::INFINITY)?;
+    reals([found.ok_or_else(|| ApiError::new("there is nothing that a distance could be measured to"))?.distance])
 }
 
 /// State, point in the sensor's axes, object, normal; the numbers are not aligned.
-fn proximity(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
-    let (state, object, numbers) = seen(desk, call.handle()?)?;
+fn proximity(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let (state, object, numbers) = seen(sim, call.handle()?)?;
     let mut data = vec![state as u8];
     data.extend(reals(numbers[..3].iter().copied())?);
     data.extend(ints([object])?);
@@ -66,9 +66,9 @@ fn proximity(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
     Ok(data)
 }
 
-/// What a proximity sensor saw: state, object, point and normal; zeros and −1 if nothing.
-pub(super) fn seen(desk: &Desk<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 6]), Refusal> {
-    Ok(match desk.proximity(sensor)?.flatten() {
+/// Reading of a proximity sensor: state, object, point and normal; zeros and −1 if nothing.
+pub(super) fn seen(sim: &SimApi<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 6]), ApiError> {
+    Ok(match sim.proximity(sensor)?.flatten() {
         Some(saw) => {
             let ([x, y, z], [u, v, w]) = (saw.point.0, saw.normal.0);
             (1, Handle::from(&saw).0, [x, y, z, u, v, w])
@@ -78,8 +78,8 @@ pub(super) fn seen(desk: &Desk<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 6
 }
 
 /// Copies of what was made by clients or scripts.
-fn copies(desk: &mut Desk<'_>, call: &Call<'_>) -> Reply {
+fn copies(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let handles = (0..call.data.len() / 4).map(|k| call.int(4 * k).map(Handle)).collect::<Result<Vec<_>, _>>()?;
-    let copies = handles.into_iter().map(|handle| desk.copy(handle)).collect::<Result<Vec<_>, _>>()?;
+    let copies = handles.into_iter().map(|handle| sim.copy(handle)).collect::<Result<Vec<_>, _>>()?;
     counted(&copies)
 }

@@ -1,23 +1,23 @@
-//! What a door of the regular API offers beside the session's own functions: stepping, waiting, locks, information. The ZeroMQ and the WebSocket
-//! door have it in common.
+//! Functions of the regular API beside the session's own: stepping, waiting, locks, information. The ZeroMQ and the
+//! WebSocket endpoint share them.
 
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
 use sincro_coppelia::session::api::Move;
-use sincro_coppelia::session::{Arguments, Handle, Refusal, Search, Value, api, constants};
+use sincro_coppelia::session::{ApiError, Arguments, Handle, Search, Value, api, constants};
 use sincro_scene::script::Kind;
 
-use super::moves::Moving;
+use super::moves::ClientMotion;
 use crate::hub::{ClientId, Hub};
 use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
 const MODULES: &str = "the modules sim and simIK are offered";
 /// Longest real wait of one call.
-const LONGEST_WAIT: f64 = 3_600.0;
+const MAX_WAIT: f64 = 3_600.0;
 
-/// Functions of the door, with what they give and take.
+/// Functions of the endpoint, with their signatures.
 const FUNCTIONS: &[(&str, &str)] = &[
     ("setStepping", "int previousLevel=sim.setStepping(bool enabled)"),
     ("step", "sim.step(int steps=1)"),
@@ -43,35 +43,35 @@ const FUNCTIONS: &[(&str, &str)] = &[
 /// Functions that could do harm; a client is told so.
 const UNSAFE: &[&str] = &["_evalExec"];
 
-/// What a call gives.
-pub(crate) enum Said {
+/// Outcome of a call.
+pub(crate) enum CallOutcome {
     /// Its results.
     Done(Vec<Value>),
     /// The client must run a callback: its name, what it is given, and what comes after.
     Callback { name: String, arguments: Vec<Value>, after: After },
 }
 
-/// What comes after a callback of the client.
+/// Continuation after a callback of the client.
 pub(crate) enum After {
     /// The same again, this often; then its results are those of the call.
     Again(i64),
     /// The next step of a motion.
-    Move(Box<Moving>),
+    Move(Box<ClientMotion>),
 }
 
-/// A client at the door.
-pub(crate) struct Door {
+/// Endpoint of one client.
+pub(crate) struct Endpoint {
     pub hub: Arc<Hub>,
     pub id: ClientId,
 }
 
-impl Door {
+impl Endpoint {
     /// Calls a function.
     ///
     /// # Errors
     ///
     /// There is none of that name, or it refused.
-    pub fn call(&self, name: &str, arguments: &[Value]) -> Result<Said, Refusal> {
+    pub fn call(&self, name: &str, arguments: &[Value]) -> Result<CallOutcome, ApiError> {
         let bare = name.strip_prefix("sim.").unwrap_or(name);
         let a = Arguments(arguments);
         let results = match bare {
@@ -100,7 +100,7 @@ impl Door {
             "getScript" | "getScriptHandle" => self.script_of(a)?,
             name if let Some(this) = Move::of(name) => return self.begin_move(this, name, arguments),
             name if UNSAFE.contains(&name) => {
-                return Err(Refusal(format!("sim.{name} is not allowed over the network")));
+                return Err(ApiError(format!("sim.{name} is not allowed over the network")));
             }
             _ => {
                 let mut results = self.session(name, arguments)?;
@@ -111,7 +111,7 @@ impl Door {
                 results
             }
         };
-        Ok(Said::Done(results))
+        Ok(CallOutcome::Done(results))
     }
 
     /// The client has run a callback, with these results.
@@ -119,48 +119,54 @@ impl Door {
     /// # Errors
     ///
     /// What comes after it cannot be done.
-    pub fn answer(&self, name: &str, arguments: &[Value], after: After, results: &[Value]) -> Result<Said, Refusal> {
+    pub fn answer(
+        &self,
+        name: &str,
+        arguments: &[Value],
+        after: After,
+        results: &[Value],
+    ) -> Result<CallOutcome, ApiError> {
         match after {
             After::Again(left) if left > 0 => {
                 let (name, arguments) = (name.to_owned(), arguments.to_vec());
-                Ok(Said::Callback { name, arguments, after: After::Again(left - 1) })
+                Ok(CallOutcome::Callback { name, arguments, after: After::Again(left - 1) })
             }
-            After::Again(_) => Ok(Said::Done(results.to_vec())),
-            After::Move(moving) => self.answer_move(*moving, results),
+            After::Again(_) => Ok(CallOutcome::Done(results.to_vec())),
+            After::Move(motion) => self.answer_move(*motion, results),
         }
     }
 
     /// The client runs no callbacks, or is gone: what would come after one is given up.
-    pub fn decline(&self, after: After, why: &str) -> Refusal {
-        let refusal = Refusal::new(why);
+    pub fn decline(&self, after: After, why: &str) -> ApiError {
+        let error = ApiError::new(why);
         match after {
-            After::Again(_) => refusal,
-            After::Move(moving) => self.give_up(&moving, refusal),
+            After::Again(_) => error,
+            After::Move(motion) => self.give_up(&motion, error),
         }
     }
 
     /// Calls a function of a script: (name, script, …), (script, name, …), or (`name@object`, type, …) of old clients.
-    fn script(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+    fn script(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
         let (name, other) =
             if a.get(0).as_text().is_some() { (a.text(0)?, a.int(1)?) } else { (a.text(1)?, a.int(0)?) };
         let arguments = a.0.get(2..).unwrap_or_default();
-        let mut floor = self.hub.enter();
-        floor.seen(self.id);
-        let results = floor.act(|session| match name.split_once('@') {
+        let mut guard = self.hub.enter();
+        guard.seen(self.id);
+        let results = guard.act(|session| match name.split_once('@') {
             Some((function, object)) => {
-                let object = session.table().find(object, Search::default())?;
+                let object = session.registry().find(object, Search::default())?;
                 session.call_script(object, kind_of(other), function, arguments)
             }
             None => {
                 // scripts have the handles of their objects here
-                let object = i32::try_from(other).map_err(|_| Refusal(format!("{other} is no handle")))?;
+                let object = i32::try_from(other).map_err(|_| ApiError(format!("{other} is no handle")))?;
                 session.call_script(Handle(object), None, name, arguments)
             }
         });
-        drop(floor);
+        drop(guard);
         self.hub.wake();
         let mut results =
-            results.map_err(|Refusal(e)| Refusal(format!("{e} (in function 'sim.callScriptFunction')")))?;
+            results.map_err(|ApiError(e)| ApiError(format!("{e} (in function 'sim.callScriptFunction')")))?;
         if results.is_empty() {
             results.push(Value::Nil);
         }
@@ -168,61 +174,61 @@ impl Door {
     }
 
     /// Runs a text in a script, if that is granted: (text, script) or (`text@object`, type).
-    fn evaluate(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+    fn evaluate(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
         let (text, script) = (a.text(0)?, a.int_or(1, 0)?);
-        let mut floor = self.hub.enter();
-        floor.seen(self.id);
-        let results = floor.act(|session| {
+        let mut guard = self.hub.enter();
+        guard.seen(self.id);
+        let results = guard.act(|session| {
             let named = text.rsplit_once('@').and_then(|(text, name)| {
-                let object = session.table().find(name, Search::default()).ok()?;
+                let object = session.registry().find(name, Search::default()).ok()?;
                 Some((text, object))
             });
             match named {
                 Some((text, object)) => session.evaluate(object, kind_of(script), text),
                 None => {
-                    let object = i32::try_from(script).map_err(|_| Refusal(format!("{script} is no handle")))?;
+                    let object = i32::try_from(script).map_err(|_| ApiError(format!("{script} is no handle")))?;
                     session.evaluate(Handle(object), None, text)
                 }
             }
         });
-        drop(floor);
+        drop(guard);
         self.hub.wake();
-        results.map_err(|Refusal(e)| Refusal(format!("{e} (in function 'sim.executeScriptString')")))
+        results.map_err(|ApiError(e)| ApiError(format!("{e} (in function 'sim.executeScriptString')")))
     }
 
     /// The script of an object: it has the object's handle.
-    fn script_of(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
-        let mut floor = self.hub.enter();
-        let table = floor.session.table();
+    fn script_of(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
+        let mut guard = self.hub.enter();
+        let registry = guard.session.registry();
         let object = match a.get(1) {
-            Value::Text(path) => table.find(path, Search::default())?,
-            _ => table.entry(Handle(a.handle(if a.has(1) { 1 } else { 0 })?))?.handle,
+            Value::Text(path) => registry.find(path, Search::default())?,
+            _ => registry.entry(Handle(a.handle(if a.has(1) { 1 } else { 0 })?))?.handle,
         };
         Ok(vec![object.into()])
     }
 
-    pub(super) fn session(&self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, Refusal> {
+    pub(super) fn session(&self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
         if !name.starts_with("sim") {
             let short: String = name.chars().take(100).collect();
-            return Err(Refusal(format!("No such function: {short}")));
+            return Err(ApiError(format!("No such function: {short}")));
         }
-        let mut floor = self.hub.enter();
-        floor.seen(self.id);
-        let result = floor.act(|session| session.call(name, arguments));
-        drop(floor);
+        let mut guard = self.hub.enter();
+        guard.seen(self.id);
+        let result = guard.act(|session| session.call(name, arguments));
+        drop(guard);
         self.hub.wake();
         result
     }
 
     /// One step, or as many as are asked for in one call.
-    fn steps(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+    fn steps(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
         // old clients give a truth value: it means nothing
         let n = match a.get(0) {
             Value::Nil | Value::Bool(_) => 1,
             _ => a.int(0)?,
         };
         if !(1..=limits::STEPS).contains(&n) {
-            return Err(Refusal(format!("{n} steps, expected 1 to {}", limits::STEPS)));
+            return Err(ApiError(format!("{n} steps, expected 1 to {}", limits::STEPS)));
         }
         for _ in 0..n {
             self.hub.step(self.id)?;
@@ -230,18 +236,18 @@ impl Door {
         Ok(Vec::new())
     }
 
-    fn wait(&self, a: Arguments<'_>) -> Result<Vec<Value>, Refusal> {
+    fn wait(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
         let dt = a.real(0)?;
-        if !(0.0..=LONGEST_WAIT).contains(&dt) {
-            return Err(Refusal(format!("a wait of {dt} s, expected 0 to {LONGEST_WAIT} s")));
+        if !(0.0..=MAX_WAIT).contains(&dt) {
+            return Err(ApiError(format!("a wait of {dt} s, expected 0 to {MAX_WAIT} s")));
         }
         if !a.bool_or(1, true)? {
             std::thread::sleep(Duration::from_secs_f64(dt));
             return Ok(vec![Value::Real(0.0)]);
         }
         let now = || {
-            let mut floor = self.hub.enter();
-            (floor.session.t(), floor.session.phase() == sincro_coppelia::session::Phase::Running)
+            let mut guard = self.hub.enter();
+            (guard.session.t(), guard.session.phase() == sincro_coppelia::session::Phase::Running)
         };
         let end = now().0 + dt;
         loop {
@@ -263,11 +269,11 @@ pub(crate) fn kind_of(number: i64) -> Option<Kind> {
     }
 }
 
-fn callback(a: Arguments<'_>) -> Result<Said, Refusal> {
+fn callback(a: Arguments<'_>) -> Result<CallOutcome, ApiError> {
     let name = a.text(1)?;
     let name = name.strip_suffix("@func").unwrap_or(name).to_owned();
     let left = a.int_or(3, 99)?.clamp(0, 10_000);
-    Ok(Said::Callback { name, arguments: vec![a.get(0).clone(), a.get(2).clone()], after: After::Again(left) })
+    Ok(CallOutcome::Callback { name, arguments: vec![a.get(0).clone(), a.get(2).clone()], after: After::Again(left) })
 }
 
 /// Seconds of the wall clock: for clients that time themselves, not for the simulation.
@@ -301,11 +307,11 @@ fn tip(name: &str) -> Option<&'static str> {
 /// # Errors
 ///
 /// The module is not offered.
-pub(crate) fn info(module: &str) -> Result<Value, Refusal> {
+pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
     static SIM: OnceLock<Value> = OnceLock::new();
     static IK: OnceLock<Value> = OnceLock::new();
     if !is_offered(module) {
-        return Err(Refusal(format!("there is no module {module}: {MODULES}")));
+        return Err(ApiError(format!("there is no module {module}: {MODULES}")));
     }
     if module.starts_with("simIK") {
         let names = api::ik_functions().map(|f| f.name).chain(api::old_ik_names().map(|(old, _)| old));
@@ -323,7 +329,7 @@ fn members<'a>(names: impl Iterator<Item = &'a str>, constants: impl Iterator<It
     Value::Map(functions.chain(constants).collect())
 }
 
-/// Whether a module is here: `sim` and `simIK`, with or without a version.
+/// Returns true if a module is here: `sim` and `simIK`, with or without a version.
 pub(crate) fn is_offered(module: &str) -> bool {
     let (name, version) = module.split_once('-').unwrap_or((module, "1"));
     matches!(name, "sim" | "simIK") && version.parse() == Ok(1)
@@ -334,11 +340,11 @@ pub(crate) fn is_offered(module: &str) -> bool {
 /// # Errors
 ///
 /// The module is not offered.
-pub(crate) fn require(module: &str) -> Result<Vec<Value>, Refusal> {
+pub(crate) fn require(module: &str) -> Result<Vec<Value>, ApiError> {
     let short: String = module.chars().take(100).collect();
     if is_offered(module) {
         Ok(vec![Value::Nil])
     } else {
-        Err(Refusal(format!("there is no module {short}: {MODULES}")))
+        Err(ApiError(format!("there is no module {short}: {MODULES}")))
     }
 }

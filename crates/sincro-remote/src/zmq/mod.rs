@@ -1,10 +1,11 @@
-//! The ZeroMQ remote API of CoppeliaSim: one CBOR map each way, versions 2 and 1 told apart by whether a request has a `uuid`.
+//! The ZeroMQ remote API of CoppeliaSim: one CBOR map each way, versions 2 and 1 told apart by whether a request has a
+//! `uuid`.
 //!
 //! | file | has |
 //! |---|---|
 //! | `wire.rs` | ZMTP 3.0, as far as REP and PUB need it |
 //! | `rpc.rs` | requests, answers, callbacks |
-//! | `functions.rs` | what the door itself offers: stepping, waiting, locks, information |
+//! | `functions.rs` | functions of the endpoint itself: stepping, waiting, locks, information |
 //! | `moves.rs` | motions that last, with callbacks of the client |
 //! | `steps.rs` | the step counter that clients of version 1 wait for |
 
@@ -18,7 +19,7 @@ use std::sync::Arc;
 
 use crate::hub::Hub;
 use crate::listen::Connection;
-pub(crate) use functions::{Door, Said, info, kind_of};
+pub(crate) use functions::{CallOutcome, Endpoint, info, kind_of};
 pub use steps::Publisher;
 
 /// Serves one connection until it ends.

@@ -2,21 +2,21 @@
 
 use std::sync::Arc;
 
-use sincro_coppelia::session::{Refusal, Value};
+use sincro_coppelia::session::{ApiError, Value};
 
-use super::functions::{self, After, Door, Said};
+use super::functions::{self, After, CallOutcome, Endpoint};
 use crate::cbor;
 use crate::hub::Hub;
 use crate::limits;
 
 /// Longest identity of a client.
-const LONGEST_UUID: usize = 256;
+const MAX_UUID_LEN: usize = 256;
 
 /// One connection, and what it has not been answered yet.
 pub(super) struct Conversation {
     hub: Arc<Hub>,
     /// The client that the connection is of, once it has said so.
-    door: Option<(String, Door)>,
+    endpoint: Option<(String, Endpoint)>,
     /// Callbacks that the client is running, the last one first: it may call while it runs one.
     callbacks: Vec<Callback>,
 }
@@ -37,7 +37,7 @@ struct Request {
 
 impl Conversation {
     pub fn new(hub: Arc<Hub>) -> Self {
-        Self { hub, door: None, callbacks: Vec::new() }
+        Self { hub, endpoint: None, callbacks: Vec::new() }
     }
 
     /// Answers a request.
@@ -45,9 +45,9 @@ impl Conversation {
         let answer = match parse(request) {
             Ok(request) if request.uuid.is_none() => self.first_version(&request),
             Ok(request) => {
-                self.second_version(&request).unwrap_or_else(|Refusal(e)| map([("err", Value::Text(line(&e)))]))
+                self.second_version(&request).unwrap_or_else(|ApiError(e)| map([("err", Value::Text(line(&e)))]))
             }
-            Err(Refusal(e)) => map([("err", Value::Text(line(&e)))]),
+            Err(ApiError(e)) => map([("err", Value::Text(line(&e)))]),
         };
         let mut out = Vec::new();
         cbor::encode(&answer, &mut out);
@@ -55,26 +55,26 @@ impl Conversation {
     }
 
     /// The client of an identity; the connection becomes one of its.
-    fn door(&mut self, key: String) -> &Door {
-        if self.door.as_ref().is_none_or(|(known, _)| *known != key) {
+    fn endpoint(&mut self, key: String) -> &Endpoint {
+        if self.endpoint.as_ref().is_none_or(|(known, _)| *known != key) {
             self.leave();
             let id = self.hub.enter().attach(&key);
-            self.door = Some((key, Door { hub: self.hub.clone(), id }));
+            self.endpoint = Some((key, Endpoint { hub: self.hub.clone(), id }));
         }
-        &self.door.as_ref().expect("it was just opened").1
+        &self.endpoint.as_ref().expect("it was just opened").1
     }
 
     fn leave(&mut self) {
         let callbacks = std::mem::take(&mut self.callbacks);
-        if let Some((_, door)) = self.door.take() {
+        if let Some((_, endpoint)) = self.endpoint.take() {
             for callback in callbacks {
-                door.decline(callback.after, "the client is gone");
+                endpoint.decline(callback.after, "the client is gone");
             }
-            self.hub.detach(door.id);
+            self.hub.detach(endpoint.id);
         }
     }
 
-    fn second_version(&mut self, request: &Request) -> Result<Value, Refusal> {
+    fn second_version(&mut self, request: &Request) -> Result<Value, ApiError> {
         let key = format!("zmq {}", request.uuid.as_deref().unwrap_or_default());
         match request.function.as_str() {
             "_*end*_" => {
@@ -83,25 +83,25 @@ impl Conversation {
             }
             "_*executed*_" => return self.executed(&request.arguments),
             "zmqRemoteApi.require" => {
-                self.door(key);
+                self.endpoint(key);
                 return functions::require(text(&request.arguments)?).map(ret);
             }
             "zmqRemoteApi.info" => {
-                self.door(key);
+                self.endpoint(key);
                 return functions::info(text(&request.arguments)?).map(|info| ret(vec![info]));
             }
             _ => {}
         }
-        let said = self.door(key).call(&request.function, &request.arguments)?;
-        self.say(said)
+        let outcome = self.endpoint(key).call(&request.function, &request.arguments)?;
+        self.reply(outcome)
     }
 
-    fn say(&mut self, said: Said) -> Result<Value, Refusal> {
-        match said {
-            Said::Done(results) => Ok(ret(results)),
-            Said::Callback { name, arguments, after } => {
+    fn reply(&mut self, outcome: CallOutcome) -> Result<Value, ApiError> {
+        match outcome {
+            CallOutcome::Done(results) => Ok(ret(results)),
+            CallOutcome::Callback { name, arguments, after } => {
                 if self.callbacks.len() >= limits::CALLBACKS {
-                    return Err(Refusal(format!("{} callbacks have not been answered", limits::CALLBACKS)));
+                    return Err(ApiError(format!("{} callbacks have not been answered", limits::CALLBACKS)));
                 }
                 let answer = run(&name, &arguments);
                 self.callbacks.push(Callback { name, arguments, after });
@@ -111,59 +111,60 @@ impl Conversation {
     }
 
     /// The client has run a callback, or has waited.
-    fn executed(&mut self, results: &[Value]) -> Result<Value, Refusal> {
-        let (Some(Callback { name, arguments, after }), Some((_, door))) = (self.callbacks.pop(), &self.door) else {
+    fn executed(&mut self, results: &[Value]) -> Result<Value, ApiError> {
+        let (Some(Callback { name, arguments, after }), Some((_, endpoint))) = (self.callbacks.pop(), &self.endpoint)
+        else {
             return Ok(ret(Vec::new()));
         };
-        let said = door.answer(&name, &arguments, after, results)?;
-        self.say(said)
+        let outcome = endpoint.answer(&name, &arguments, after, results)?;
+        self.reply(outcome)
     }
 
     fn first_version(&mut self, request: &Request) -> Value {
         match self.first_version_call(request) {
             Ok(results) => map([("success", Value::Bool(true)), ("ret", Value::List(results))]),
-            Err(Refusal(e)) => map([("success", Value::Bool(false)), ("error", Value::Text(line(&e)))]),
+            Err(ApiError(e)) => map([("success", Value::Bool(false)), ("error", Value::Text(line(&e)))]),
         }
     }
 
-    fn first_version_call(&mut self, request: &Request) -> Result<Vec<Value>, Refusal> {
+    fn first_version_call(&mut self, request: &Request) -> Result<Vec<Value>, ApiError> {
         let given = &request.arguments;
-        let uuid = |k: usize| given.get(k).and_then(Value::as_text).unwrap_or("shared").chars().take(LONGEST_UUID);
+        let uuid = |k: usize| given.get(k).and_then(Value::as_text).unwrap_or("shared").chars().take(MAX_UUID_LEN);
         let key = |k: usize| format!("zmq 1 {}", uuid(k).collect::<String>());
         match request.function.as_str() {
             "zmqRemoteApi.info" => functions::info(text(given)?).map(|info| vec![info]),
             "zmqRemoteApi.require" => functions::require(text(given)?),
             "setStepping" => {
                 let on = given.first().and_then(Value::as_bool).unwrap_or(true);
-                let id = self.door(key(1)).id;
-                let mut floor = self.hub.enter();
-                floor.stop_stepping(id);
+                let id = self.endpoint(key(1)).id;
+                let mut guard = self.hub.enter();
+                guard.stop_stepping(id);
                 if on {
-                    floor.set_stepping(id, true);
+                    guard.set_stepping(id, true);
                 }
-                drop(floor);
+                drop(guard);
                 self.hub.wake();
                 Ok(Vec::new())
             }
             // answered at once: the client waits for the counter
             "step" => {
-                let id = self.door(key(0)).id;
-                let mut floor = self.hub.enter();
-                floor.ask_step(id);
-                let made = floor.advance_if_ready();
-                drop(floor);
+                let id = self.endpoint(key(0)).id;
+                let mut guard = self.hub.enter();
+                guard.ask_step(id);
+                let advanced = guard.advance_if_ready();
+                drop(guard);
                 self.hub.wake();
-                made.map(|()| Vec::new())
+                advanced.map(|()| Vec::new())
             }
             name => {
-                let door = match &self.door {
-                    Some((_, door)) => door,
-                    None => self.door(key(usize::MAX)),
+                let endpoint = match &self.endpoint {
+                    Some((_, endpoint)) => endpoint,
+                    None => self.endpoint(key(usize::MAX)),
                 };
-                match door.call(name, given)? {
-                    Said::Done(results) => Ok(results),
-                    Said::Callback { after, .. } => {
-                        Err(door.decline(after, "version 1 of the client has no callbacks"))
+                match endpoint.call(name, given)? {
+                    CallOutcome::Done(results) => Ok(results),
+                    CallOutcome::Callback { after, .. } => {
+                        Err(endpoint.decline(after, "version 1 of the client has no callbacks"))
                     }
                 }
             }
@@ -177,10 +178,10 @@ impl Drop for Conversation {
     }
 }
 
-fn parse(bytes: &[u8]) -> Result<Request, Refusal> {
-    let value = cbor::decode(bytes).map_err(|e| Refusal(format!("the request cannot be read: {e}")))?;
+fn parse(bytes: &[u8]) -> Result<Request, ApiError> {
+    let value = cbor::decode(bytes).map_err(|e| ApiError(format!("the request cannot be read: {e}")))?;
     let Value::Map(fields) = value else {
-        return Err(Refusal(format!("the request is {}, expected a map", value.word())));
+        return Err(ApiError(format!("the request is {}, expected a map", value.word())));
     };
     let (mut function, mut arguments, mut uuid, mut count) = (None, Vec::new(), None, None);
     for (key, value) in fields {
@@ -189,10 +190,10 @@ fn parse(bytes: &[u8]) -> Result<Request, Refusal> {
             ("args", Value::List(list)) => arguments = list,
             // Lua has one empty table
             ("args", Value::Map(list)) if list.is_empty() => {}
-            ("args", other) => return Err(Refusal(format!("`args` is {}, expected a list", other.word()))),
-            ("uuid", value) => uuid = value.as_text().filter(|text| text.len() <= LONGEST_UUID).map(str::to_owned),
+            ("args", other) => return Err(ApiError(format!("`args` is {}, expected a list", other.word()))),
+            ("uuid", value) => uuid = value.as_text().filter(|text| text.len() <= MAX_UUID_LEN).map(str::to_owned),
             ("argsL", value) => count = value.as_int().and_then(|n| usize::try_from(n).ok()),
-            ("eval", _) => return Err(Refusal::new("Lua text is not evaluated for clients")),
+            ("eval", _) => return Err(ApiError::new("Lua text is not evaluated for clients")),
             _ => {}
         }
     }
@@ -201,12 +202,12 @@ fn parse(bytes: &[u8]) -> Result<Request, Refusal> {
     if let Some(count) = count.filter(|n| (arguments.len()..=arguments.len() + 64).contains(n)) {
         arguments.resize(count, Value::Nil);
     }
-    let function = function.ok_or_else(|| Refusal::new("the request has no `func`"))?;
+    let function = function.ok_or_else(|| ApiError::new("the request has no `func`"))?;
     Ok(Request { function, arguments, uuid })
 }
 
-fn text(arguments: &[Value]) -> Result<&str, Refusal> {
-    arguments.first().and_then(Value::as_text).ok_or_else(|| Refusal::new("the name of a module is expected"))
+fn text(arguments: &[Value]) -> Result<&str, ApiError> {
+    arguments.first().and_then(Value::as_text).ok_or_else(|| ApiError::new("the name of a module is expected"))
 }
 
 fn map<const N: usize>(fields: [(&str, Value); N]) -> Value {

@@ -1,8 +1,8 @@
-//! ZMTP 3.0 over TCP with the NULL mechanism, as far as REP and PUB need it. Why not a library: a closed connection must be known at once, and
-//! a length that a peer makes up must not take memory; and it is this one file.
+//! ZMTP 3.0 over TCP with the NULL mechanism, as far as REP and PUB need it. Why not a library: a closed connection
+//! must be known at once, and a length that a peer makes up must not take memory; and it is this one file.
 //!
-//! Each side sends a greeting of 64 bytes, then a READY command, then frames: flags (1 more, 2 long, 4 command), length (1 byte, or 8 big endian),
-//! body.
+//! Each side sends a greeting of 64 bytes, then a READY command, then frames: flags (1 more, 2 long, 4 command), length
+//! (1 byte, or 8 big endian), body.
 
 use std::io::{self, ErrorKind, Read, Write};
 
@@ -13,7 +13,7 @@ const MORE: u8 = 1;
 const LONG: u8 = 2;
 const COMMAND: u8 = 4;
 /// Frames of one message.
-const MOST_FRAMES: usize = 16;
+const MAX_FRAMES: usize = 16;
 
 /// A frame.
 struct Frame {
@@ -92,7 +92,7 @@ impl Socket {
         loop {
             let frame = self.message_frame(n == 0)?;
             n += 1;
-            if n > MOST_FRAMES || (is_body && body.is_some()) {
+            if n > MAX_FRAMES || (is_body && body.is_some()) {
                 return Err(ErrorKind::InvalidData.into());
             }
             let has_more = frame.flags & MORE != 0;
@@ -150,7 +150,7 @@ pub fn write_frame(flags: u8, body: &[u8], out: &mut Vec<u8>) {
     out.extend(body);
 }
 
-/// What each side says first: signature, version 3.0, mechanism NULL.
+/// Greeting of each side: signature, version 3.0, mechanism NULL.
 #[must_use]
 pub fn greeting() -> [u8; 64] {
     let mut bytes = [0; 64];
@@ -159,7 +159,7 @@ pub fn greeting() -> [u8; 64] {
     bytes
 }
 
-/// Whether a peer of version 3 with the NULL mechanism says so.
+/// Returns true if a peer of version 3 with the NULL mechanism says so.
 #[must_use]
 pub fn is_greeting(bytes: &[u8; 64]) -> bool {
     let mechanism = bytes[12..32].split(|b| *b == 0).next();

@@ -1,10 +1,10 @@
-//! Arguments right and wrong for every name that a client may call, whatever the door.
+//! Arguments right and wrong for every name that a client may call, over every protocol.
 
 use sincro_coppelia::session::Value;
 
 use super::zmq_client::map;
 
-/// What starts and stops runs is tried elsewhere: here one is to go on.
+/// Functions that start and stop runs; other tests call them, because here one run continues.
 pub const ELSEWHERE: [&str; 5] = ["startSimulation", "stopSimulation", "closeScene", "loadScene", "pauseSimulation"];
 
 /// Functions that need what is not here: a script, sensors, bodies that touch, stops, couplings, groups, a motion, mesh
@@ -42,7 +42,7 @@ pub struct Things {
     pub made: Made,
 }
 
-/// What is made anew for each name, because some names remove it.
+/// Objects that are created for each name, because some functions remove them.
 pub struct Made {
     point: Value,
     shapes: [Value; 2],

@@ -102,8 +102,8 @@ proptest! {
             let mut arguments = arguments;
             arguments.insert(0, Value::Int(1 + (name.len() % 7) as i64));
             let _ = session.call(name, &arguments);
-            let finite = session.desk().world.state.q.iter().all(|x| x.is_finite());
-            session.table().take_log();
+            let finite = session.sim().world.state.q.iter().all(|x| x.is_finite());
+            session.registry().take_log();
             session.take_finished();
             prop_assert!(finite, "{name} {arguments:?} left a state that is not finite");
             Ok(())

@@ -30,7 +30,8 @@ fn a_client_is_answered_with_the_version_and_its_own_number() {
     assert_eq!(client.stream().read(&mut byte).unwrap(), 0, "simxFinish closes");
 }
 
-/// The thesis's loop: handles with `#`, blocking set, streaming get, trigger. Gives the streamed positions and the times.
+/// The thesis's loop: handles with `#`, blocking set, streaming get, trigger. Gives the streamed positions and the
+/// times.
 fn thesis_loop(client: &mut Client, steps: i32) -> Vec<(f32, i32)> {
     let joint = client.handle("joint1#");
     client.start();
@@ -271,7 +272,7 @@ fn time_advances_when_all_synchronous_clients_have_triggered() {
 
 #[test]
 fn a_client_that_is_silent_for_too_long_is_let_go() {
-    let options = Options { patience: Duration::from_millis(300), ..options() };
+    let options = Options { client_timeout: Duration::from_millis(300), ..options() };
     let server = serve_with("silent", &options);
     let (mut a, mut b) = (client(&server), client(&server));
     a.call(0x0001, &[], &[]).unwrap();

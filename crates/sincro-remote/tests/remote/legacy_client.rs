@@ -55,7 +55,7 @@ impl Command {
 pub struct Client {
     stream: TcpStream,
     id: i32,
-    /// Of the last reply that had commands.
+    /// State byte of the last reply that had commands.
     pub state: u8,
     pub reply_id: i32,
     /// Version byte of the last reply.

@@ -1,4 +1,5 @@
-//! Clients of every protocol against a server on loopback, ports of the system's choice. The clients are our own and speak what the real ones do.
+//! Clients of every protocol against a server on loopback, ports of the system's choice. The clients are our own and
+//! speak what the real ones do.
 
 mod all_names;
 mod arguments;

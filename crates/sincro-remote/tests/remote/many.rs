@@ -40,7 +40,7 @@ fn resident() -> Option<usize> {
 /// Set in the process of a test that is alone.
 const ALONE: &str = "SINCRO_TEST_ALONE";
 
-/// Whether this process is the test's own; if not, runs the test in one: beside it others take memory, too.
+/// Returns true if this process is the test's own; if not, runs the test in one: beside it others take memory, too.
 fn is_alone(test: &str) -> bool {
     if std::env::var_os(ALONE).is_some() {
         return true;

@@ -1,4 +1,5 @@
-//! Motions on command (`sim.moveToConfig` …) from clients of every kind: in steps of the simulation, with callbacks, alone and together, and cut short.
+//! Motions on command (`sim.moveToConfig` …) from clients of every kind: in steps of the simulation, with callbacks,
+//! alone and together, and cut short.
 
 use std::time::Duration;
 
@@ -11,7 +12,7 @@ use sincro_sim::trace::Trace;
 use super::scene::{finished, folder, options, serve};
 use super::zmq_client::{Client, field, map};
 
-/// How long the motion of `parameters` takes `[s]`.
+/// Duration of the motion of `parameters` `[s]`.
 fn duration() -> f64 {
     let (limits, goal) = (Limits::symmetric(1.0, 2.0, 10.0), Goal::Position(0.5, 0.0));
     plan(&[Axis { start: Point::default(), limits, goal }], Synchronization::None).unwrap()[0].duration()
@@ -64,7 +65,7 @@ fn with_callbacks(client: &mut Client, first: Value, mut act: impl FnMut(&mut Cl
 fn in_rust() -> Trace {
     let mut session = Session::open(&folder("moving-rust", ""), &[], Extensions::default(), None).unwrap();
     session.start().unwrap();
-    let handles = ["/joint1", "/joint2"].map(|path| session.table().find(path, Default::default()).unwrap());
+    let handles = ["/joint1", "/joint2"].map(|path| session.registry().find(path, Default::default()).unwrap());
     let given = parameters(&handles.map(Value::from), &[]);
     let mut data = session.call("sim.moveToConfig_init", &[given]).unwrap().remove(0);
     loop {
@@ -82,7 +83,7 @@ fn in_rust() -> Trace {
 #[test]
 fn a_motion_is_the_same_through_every_door() {
     let expected = in_rust();
-    let server = serve("moving-doors");
+    let server = serve("moving-protocols");
     let mut client = Client::connect(server.ports().zmq.unwrap(), Some("moving"));
     let both = joints(&mut client);
     start(&mut client);

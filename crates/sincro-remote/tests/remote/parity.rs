@@ -1,7 +1,8 @@
-//! The same control law through every door gives the same bits.
+//! The same control law over every protocol gives the same bits.
 //!
-//! The law is that of a joint that goes to 0.5 rad: velocity 1.93·(0.5 − q), rounded to 1/64 rad/s because the legacy wire has single precision. It is
-//! computed 20 times a second by a block diagram, in Rust, by a legacy client and by a ZeroMQ client.
+//! The law is that of a joint that goes to 0.5 rad: velocity 1.93·(0.5 − q), rounded to 1/64 rad/s because the legacy
+//! wire has single precision. It is computed 20 times a second by a block diagram, in Rust, by a legacy client and by a
+//! ZeroMQ client.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -50,11 +51,11 @@ fn session(folder: &Path) -> Session {
 
 fn in_rust(folder: &Path) -> Trace {
     let mut session = session(folder);
-    let joint = session.desk().table.find("joint1", Search::default()).unwrap();
+    let joint = session.sim().registry.find("joint1", Search::default()).unwrap();
     session.start().unwrap();
     for _ in 0..STEPS {
-        let q = session.desk().joint_position(joint).unwrap();
-        session.desk().set_target_velocity(joint, law(q)).unwrap();
+        let q = session.sim().joint_position(joint).unwrap();
+        session.sim().set_target_velocity(joint, law(q)).unwrap();
         session.step().unwrap();
     }
     session.trace().unwrap()

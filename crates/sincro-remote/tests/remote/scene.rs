@@ -69,8 +69,8 @@ pub fn folder(name: &str, more: &str) -> PathBuf {
 
 /// Loopback, any free ports.
 pub fn options() -> Options {
-    let patience = Duration::from_secs(600);
-    Options { legacy: vec![0], zmq: Some(0), ws: Some(0), patience, ..Options::default() }
+    let client_timeout = Duration::from_secs(600);
+    Options { legacy: vec![0], zmq: Some(0), ws: Some(0), client_timeout, ..Options::default() }
 }
 
 /// Serves the arm.

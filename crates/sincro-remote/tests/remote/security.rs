@@ -1,5 +1,5 @@
-//! Attacks on the ports, from pages and from programs: who is refused, who is closed, and that a client that steps notices nothing.
-//! Each line of the tables in `docs/security.md` that concerns the remote APIs has its test here.
+//! Attacks on the ports, from pages and from programs: who is refused, who is closed, and that a client that steps
+//! notices nothing. Each line of the tables in `docs/security.md` that concerns the remote APIs has its test here.
 
 use std::io::{Read, Write};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpStream};

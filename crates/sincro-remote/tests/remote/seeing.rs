@@ -7,15 +7,15 @@ use super::legacy_client::{Client, Command, ONCE, SPLIT, STREAM, ints};
 use super::scene::{folder, options, serve};
 use super::zmq_client::Client as Zmq;
 
-/// What the eye of the scene sees after `steps` steps.
+/// Image of the scene's vision sensor after `steps` steps.
 fn expected(name: &str, steps: usize) -> Vec<u8> {
     let mut session = Session::open(&folder(name, ""), &[], Extensions::default(), None).unwrap();
-    let eye = session.desk().table.find("/eye", Search::default()).unwrap();
+    let eye = session.sim().registry.find("/eye", Search::default()).unwrap();
     session.start().unwrap();
     for _ in 0..steps {
         session.step().unwrap();
     }
-    session.desk().vision_image(eye).unwrap().rgb().to_vec()
+    session.sim().vision_image(eye).unwrap().rgb().to_vec()
 }
 
 #[test]

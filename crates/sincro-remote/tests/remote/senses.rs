@@ -1,4 +1,5 @@
-//! Proximity sensors, distances and collections through both protocols, in the scene `stop-at-wall`; its law by a legacy client gives the bits of its diagram.
+//! Proximity sensors, distances and collections through both protocols, in the scene `stop-at-wall`; its law by a
+//! legacy client gives the bits of its diagram.
 
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;

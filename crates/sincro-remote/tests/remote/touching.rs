@@ -82,7 +82,7 @@ const WEIGHT: f64 = 9.81;
 fn what_touches_is_told_to_clients() {
     let server = serve("zmq", Grants::default());
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("touch"));
-    let [floor, box_, scale, arm, load] = ["/floor", "/box", "/scale", "/arm", "/load"].map(|p| client.object(p));
+    let [guard, box_, scale, arm, load] = ["/floor", "/box", "/scale", "/arm", "/load"].map(|p| client.object(p));
     client.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     client.call("sim.step", &[Value::Int(20)]).unwrap();
@@ -101,9 +101,9 @@ fn what_touches_is_told_to_clients() {
     }
     assert!(n >= 3 && (lift - WEIGHT).abs() < 1e-6, "{n} contacts carry {lift} N");
     let touch = |client: &mut Zmq, a: &Value, b: &Value| client.call("sim.checkCollision", &[a.clone(), b.clone()]);
-    assert_eq!(touch(&mut client, &floor, &box_).unwrap()[0], Value::Int(1));
+    assert_eq!(touch(&mut client, &guard, &box_).unwrap()[0], Value::Int(1));
     assert_eq!(touch(&mut client, &box_, &Value::Int(-2)).unwrap()[0], Value::Int(1));
-    assert!(touch(&mut client, &floor, &load).unwrap_err().contains("`/scale/load` has no shape"), "nothing to meet");
+    assert!(touch(&mut client, &guard, &load).unwrap_err().contains("`/scale/load` has no shape"), "nothing to meet");
 
     // what it carries pulls it down, and tips it about y
     let reading = client.call("sim.readForceSensor", std::slice::from_ref(&scale)).unwrap();
@@ -133,13 +133,13 @@ fn what_touches_is_told_to_clients() {
 fn what_touches_is_told_to_legacy_clients() {
     let server = serve("legacy", Grants::default());
     let mut client = Client::connect(server.ports().legacy[0]);
-    let [floor, box_, scale, load] = ["floor", "box", "scale", "load"].map(|name| client.handle(name));
+    let [guard, box_, scale, load] = ["floor", "box", "scale", "load"].map(|name| client.handle(name));
     client.start();
     for _ in 0..20 {
         client.trigger().unwrap();
     }
-    assert_eq!(client.call(0x200f, &ints(&[floor, box_]), &[]).unwrap().int(0), 1);
-    assert!(client.call(0x200f, &ints(&[floor, load]), &[]).is_err());
+    assert_eq!(client.call(0x200f, &ints(&[guard, box_]), &[]).unwrap().int(0), 1);
+    assert!(client.call(0x200f, &ints(&[guard, load]), &[]).is_err());
     let reading = client.call(0x100f, &ints(&[scale]), &[]).unwrap().data;
     let number = |at: usize| f32::from_le_bytes(reading[at..at + 4].try_into().unwrap());
     assert_eq!((reading.len(), reading[0]), (25, 1));
@@ -243,16 +243,16 @@ fn looking_at_contacts_and_force_sensors_changes_nothing() {
     let trace = |looks: bool| {
         let mut session =
             Session::open(&folder("looks"), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{:?}", p.0));
-        let find = |session: &mut Session, name: &str| session.table().find(name, Search::default()).unwrap();
+        let find = |session: &mut Session, name: &str| session.registry().find(name, Search::default()).unwrap();
         let [body, scale] = ["/box", "/scale"].map(|name| find(&mut session, name));
         session.start().unwrap();
         for k in 0..150 {
             // it slides, tips a little, comes to rest
             let force = if k < 60 { [8.0, 1.0, 0.5] } else { [0.0; 3] };
-            session.desk().add_force_and_torque(body, force, [0.02, 0.0, 0.01]).unwrap();
+            session.sim().add_force_and_torque(body, force, [0.02, 0.0, 0.01]).unwrap();
             if looks && k % 3 != 1 {
-                assert!(session.desk().touches().len() <= 8);
-                session.desk().force_sensor(scale).unwrap();
+                assert!(session.sim().contact_points().len() <= 8);
+                session.sim().force_sensor(scale).unwrap();
             }
             session.step().unwrap();
         }

@@ -1,4 +1,4 @@
-//! The WebSocket door: every name with arguments right and wrong, in JSON and in CBOR; and whatever else arrives.
+//! WebSocket: every name with arguments right and wrong, in JSON and in CBOR; and whatever else arrives.
 
 use std::io::Read;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use super::scene::serve;
 use super::ws_client::{Client, frame};
 use super::zmq_client::field;
 
-/// What is made anew for each name.
+/// Objects that are created for each name.
 fn made(client: &mut Client) -> Made {
     Made::new(|name, arguments| {
         let told = client.cbor(name, arguments);
@@ -100,7 +100,8 @@ fn frames_of_any_bytes_end_their_connection_at_most() {
         let body = bytes.new_tree(&mut runner).unwrap().current();
         let first = any::<u8>().new_tree(&mut runner).unwrap().current();
         let thrown = match k % 4 {
-            // bytes without any frame, bytes in a frame of any kind, a message in pieces, a request that is nearly right
+            // bytes without any frame, bytes in a frame of any kind, a message in pieces, a request that is nearly
+            // right
             0 => body,
             1 => frame(first, &body),
             2 => [frame(first & 0x0f, &body), frame(0x80, &body), frame(first & 0x8f, &[])].concat(),

@@ -59,7 +59,7 @@ pub fn field<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
 }
 
 impl Client {
-    /// Of version 2 with a `uuid`, else of version 1.
+    /// Connects as a client of version 2 with a `uuid`, else of version 1.
     pub fn connect(address: SocketAddr, uuid: Option<&str>) -> Self {
         let mut stream = TcpStream::connect(address).unwrap();
         shake_hands(&mut stream, "REQ");

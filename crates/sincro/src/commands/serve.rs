@@ -148,7 +148,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     // a run that is on is ended and kept, unless a script that does not return holds it
     sincro::abort_running_scripts();
     match server.hub().try_enter(LAST_CALL) {
-        Some(mut floor) => drop(floor.act(Session::stop)),
+        Some(mut guard) => drop(guard.act(Session::stop)),
         None => {
             eprintln!("error: the simulation does not answer; the run that is on is lost");
             std::process::exit(3);
@@ -164,7 +164,7 @@ fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
     let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_problems(&p))?;
     let session = open(&arguments.scene, &overrides, arguments.simulation_step);
     let session = session.map_err(|problems| diagnostics::refuse_problems(&problems))?;
-    let patience = seconds("--client-timeout", arguments.client_timeout)?;
+    let client_timeout = seconds("--client-timeout", arguments.client_timeout)?;
     let idle = seconds("--idle-timeout", arguments.idle_timeout)?;
     let legacy = match arguments.legacy_port.as_slice() {
         _ if arguments.no_legacy => Vec::new(),
@@ -177,7 +177,7 @@ fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
         zmq: (!arguments.no_zmq).then_some(arguments.zmq_port),
         ws: (!arguments.no_ws).then_some(arguments.ws_port),
         real_time: arguments.real_time,
-        patience,
+        client_timeout,
         deadlines: Deadlines { idle, ..Deadlines::default() },
         unauthenticated: arguments.unauthenticated,
     };
@@ -195,7 +195,7 @@ fn seconds(flag: &str, value: f64) -> Result<Duration, Exit> {
 fn print_ports(title: &str, server: &Server) {
     let list = |all: &[SocketAddr]| all.iter().map(SocketAddr::to_string).collect::<Vec<_>>().join(", ");
     let ports = server.ports();
-    let dt = server.hub().enter().session.table().sample_time();
+    let dt = server.hub().enter().session.registry().sample_time();
     say!("{title}");
     if !ports.legacy.is_empty() {
         say!("  legacy remote API   {}", list(&ports.legacy));
@@ -230,10 +230,10 @@ impl Watch {
     /// Who is attached, and how fast it goes.
     fn glance(&mut self, server: &Server) {
         // a script may hold it: then there is nothing new to tell
-        let Some(mut floor) = server.hub().try_enter(GLANCE) else { return };
-        let (clients, step, t) = (floor.n_clients(), floor.steps(), floor.session.t());
-        let runs = floor.session.phase() != sincro_coppelia::session::Phase::Stopped;
-        drop(floor);
+        let Some(mut guard) = server.hub().try_enter(GLANCE) else { return };
+        let (clients, step, t) = (guard.n_clients(), guard.steps(), guard.session.t());
+        let runs = guard.session.phase() != sincro_coppelia::session::Phase::Stopped;
+        drop(guard);
         if clients != self.clients {
             say!("  {} attached", diagnostics::count(clients, "client"));
             self.clients = clients;

@@ -55,8 +55,8 @@ fn serve(name: &str) -> Server {
         None,
     )
     .unwrap_or_else(|p| panic!("{:?}", p.0));
-    let patience = Duration::from_secs(600);
-    Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, patience, ..Options::default() })
+    let client_timeout = Duration::from_secs(600);
+    Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, client_timeout, ..Options::default() })
         .unwrap()
 }
 

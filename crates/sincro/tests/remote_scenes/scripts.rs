@@ -66,8 +66,8 @@ fn serve(name: &str, evaluation: bool) -> Server {
         Session::open(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }, None)
             .unwrap_or_else(|p| panic!("{:?}", p.0));
     session.grant(Grants { files: None, evaluation });
-    let patience = Duration::from_secs(600);
-    Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, patience, ..Options::default() })
+    let client_timeout = Duration::from_secs(600);
+    Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, client_timeout, ..Options::default() })
         .unwrap()
 }
 

@@ -1,6 +1,6 @@
 //! Functions of V-REP and CoppeliaSim that are not here: why, and what to do instead. They are not listed to clients.
 
-/// What a function would be about, its names, and what is told.
+/// Functions that are not offered: their names, and the reason that callers are given.
 const ABSENT: &[(&[&str], &str)] = &[
     (
         &["createForceSensor", "createJoint", "createPath", "createScript", "addScript", "createTexture"],
@@ -81,7 +81,7 @@ const ABSENT: &[(&[&str], &str)] = &[
     ),
 ];
 
-/// Why a function, by its present name, is not offered; none if nobody knows it.
+/// Reason why a function, by its present name, is not offered; none if the name is unknown.
 #[must_use]
 pub fn why_absent(name: &str) -> Option<&'static str> {
     ABSENT.iter().find(|(names, _)| names.contains(&name)).map(|(_, why)| *why)

@@ -1,11 +1,11 @@
-//! Shelf: bodies, forces on them, their mass.
+//! Functions: bodies, forces on them, their mass.
 
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::{Pose, Sym3, Vec3};
 
 use super::{Function, Outcome, done, handle, one};
 use crate::session::convention::{matrix_of, pose_of_matrix};
-use crate::session::{Arguments, Desk, Handle, Reference, Refusal, Value};
+use crate::session::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -49,107 +49,107 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "resetDynamicObject", tip: "int result=sim.resetDynamicObject(int objectHandle)", run: reset },
 ];
 
-fn body(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Handle, Refusal> {
-    handle(desk, a, 0)
+fn body(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Handle, ApiError> {
+    handle(sim, a, 0)
 }
 
-fn three(a: Arguments<'_>, k: usize) -> Result<[f64; 3], Refusal> {
+fn three(a: Arguments<'_>, k: usize) -> Result<[f64; 3], ApiError> {
     if a.has(k) { a.reals(k) } else { Ok([0.0; 3]) }
 }
 
-fn push(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    desk.add_force_and_torque(own, three(a, 1)?, three(a, 2)?)?;
+fn push(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    sim.add_force_and_torque(own, three(a, 1)?, three(a, 2)?)?;
     done()
 }
 
-fn push_at(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    desk.add_force(own, a.reals(1)?, a.reals(2)?)?;
+fn push_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    sim.add_force(own, a.reals(1)?, a.reals(2)?)?;
     done()
 }
 
-fn mass(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    one(desk.mass(own)?.mass)
+fn mass(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    one(sim.mass(own)?.mass)
 }
 
 fn nine(m: [f64; 6]) -> Value {
     Value::reals(Sym3(m).full().0.into_iter().flatten())
 }
 
-fn inertia(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    let mass = desk.mass(own)?;
+fn inertia(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    let mass = sim.mass(own)?;
     let at = sincro_dynamics::spatial::Pose::translation(Vec3(mass.center_of_mass));
     Ok(vec![nine(mass.inertia), Value::reals(matrix_of(&at))])
 }
 
 /// About the centre of mass, in the axes of the given frame, the world's if none is given.
-fn both(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    let mass = desk.mass(own)?;
-    let x_wb = desk.pose(own, Reference::World)?;
+fn both(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    let mass = sim.mass(own)?;
+    let x_wb = sim.pose(own, Reference::World)?;
     let x_fb = if a.has(1) { pose_of_matrix(&a.reals(1)?).inverse().compose(&x_wb) } else { x_wb };
     let placed = mass.placed(&x_fb.rot, x_fb.pos);
     Ok(vec![Value::Real(mass.mass), nine(placed.inertia), Value::reals(placed.center_of_mass)])
 }
 
 /// V-REP keeps the inertia of a unit of mass: it grows with the mass.
-fn set_mass(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    let scaled = desk.mass_scaled(own, a.real(1)?)?;
-    desk.set_mass(own, scaled)?;
+fn set_mass(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    let scaled = sim.mass_scaled(own, a.real(1)?)?;
+    sim.set_mass(own, scaled)?;
     done()
 }
 
 /// Six numbers of a symmetric matrix of nine; the mean of what should be the same, as far as rounding goes.
-fn symmetric(a: Arguments<'_>, k: usize) -> Result<Sym3<f64>, Refusal> {
+fn symmetric(a: Arguments<'_>, k: usize) -> Result<Sym3<f64>, ApiError> {
     let m: [f64; 9] = a.reals(k)?;
     let largest = m.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     if let Some((i, j)) = [(1, 3), (2, 6), (5, 7)].into_iter().find(|(i, j)| (m[*i] - m[*j]).abs() > 1e-6 * largest) {
-        return Err(Refusal(format!("the inertia is not symmetric: {} and {}", m[i], m[j])));
+        return Err(ApiError(format!("the inertia is not symmetric: {} and {}", m[i], m[j])));
     }
     let mean = |i: usize, j: usize| 0.5 * (m[i] + m[j]);
     Ok(Sym3([m[0], mean(1, 3), mean(2, 6), m[4], mean(5, 7), m[8]]))
 }
 
 /// About the centre of mass, which the matrix places in the shape, in the matrix's axes.
-fn set_inertia(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
+fn set_inertia(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
     let (inertia, at) = (symmetric(a, 1)?, pose_of_matrix(&a.reals(2)?));
-    let mass = desk.mass(own)?.mass;
+    let mass = sim.mass(own)?.mass;
     let about = MassProperties { mass, center_of_mass: [0.0; 3], inertia: inertia.0 };
-    desk.set_mass(own, about.placed(&at.rot, at.pos))?;
+    sim.set_mass(own, about.placed(&at.rot, at.pos))?;
     done()
 }
 
 /// Centre of mass and inertia are in the given frame, the world if none is given.
-fn set_both(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
+fn set_both(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
     let (mass, inertia, center_of_mass) = (a.real(1)?, symmetric(a, 2)?.0, a.reals(3)?);
-    let x_wb = desk.pose(own, Reference::World)?;
+    let x_wb = sim.pose(own, Reference::World)?;
     let x_wf = if a.has(4) { pose_of_matrix(&a.reals(4)?) } else { Pose::identity() };
     let x_bf = x_wb.inverse().compose(&x_wf);
     let given = MassProperties { mass, center_of_mass, inertia };
-    desk.set_mass(own, given.placed(&x_bf.rot, x_bf.pos))?;
+    sim.set_mass(own, given.placed(&x_bf.rot, x_bf.pos))?;
     one(1_i64)
 }
 
-fn compute(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    let mass = desk.mass_at_density(own, a.real(1)?)?;
-    desk.set_mass(own, mass)?;
+fn compute(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    let mass = sim.mass_at_density(own, a.real(1)?)?;
+    sim.set_mass(own, mass)?;
     one(1_i64)
 }
 
-fn is_dynamic(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = body(desk, a)?;
-    one(desk.is_running() && desk.table.entry(own)?.frame.link.is_some())
+fn is_dynamic(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = body(sim, a)?;
+    one(sim.is_running() && sim.registry.entry(own)?.frame.link.is_some())
 }
 
 /// The engine has no copies of objects that could be out of date: there is nothing to do.
-fn reset(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    body(desk, a)?;
+fn reset(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    body(sim, a)?;
     one(1_i64)
 }

@@ -1,10 +1,10 @@
-//! Shelf: numbers and tables as bytes, little-endian, and back.
+//! Functions: numbers and tables as bytes, little-endian, and back.
 
 use super::{Function, Outcome, one};
-use crate::session::{Arguments, Refusal, Value, cbor, unpack};
+use crate::session::{ApiError, Arguments, Value, cbor, unpack};
 
 /// Numbers of one call.
-const MOST: usize = 1 << 22;
+const MAX_NUMBERS: usize = 1 << 22;
 
 /// A sort of numbers: bytes of one, to bytes, from bytes, whether they are whole.
 struct Sort {
@@ -14,7 +14,8 @@ struct Sort {
     is_whole: bool,
 }
 
-/// A sort whose numbers are read and written by the type of that name; casts saturate: what does not fit becomes the nearest that does.
+/// A sort whose numbers are read and written by the type of that name; casts saturate: what does not fit becomes the
+/// nearest that does.
 macro_rules! sort {
     ($number:ty, $is_whole:expr) => {
         &Sort {
@@ -106,31 +107,31 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "unpackTable",
         tip: "map aTable=sim.unpackTable(buffer data)",
-        run: |_, a| unpack::read(a.bytes(0)?).map_err(Refusal).map(|value| vec![value]),
+        run: |_, a| unpack::read(a.bytes(0)?).map_err(ApiError).map(|value| vec![value]),
     },
 ];
 
 /// A place or count that may be left out.
-fn size(a: Arguments<'_>, k: usize) -> Result<usize, Refusal> {
+fn size(a: Arguments<'_>, k: usize) -> Result<usize, ApiError> {
     let n = a.int_or(k, 0)?;
-    usize::try_from(n).map_err(|_| Refusal(format!("argument {} is {n}, expected 0 or more", k + 1)))
+    usize::try_from(n).map_err(|_| ApiError(format!("argument {} is {n}, expected 0 or more", k + 1)))
 }
 
-/// How many of `n` are meant: 0 or nothing means all.
-fn some_of(n: usize, count: usize) -> Result<usize, Refusal> {
+/// Number of elements out of `n`: a `count` of 0 means all.
+fn some_of(n: usize, count: usize) -> Result<usize, ApiError> {
     let n = if count == 0 { n } else { n.min(count) };
-    if n > MOST { Err(Refusal(format!("{n} numbers are more than {MOST} in one call"))) } else { Ok(n) }
+    if n > MAX_NUMBERS { Err(ApiError(format!("{n} numbers are more than {MAX_NUMBERS} in one call"))) } else { Ok(n) }
 }
 
 fn pack(sort: &Sort, a: Arguments<'_>) -> Outcome {
     let Value::List(list) = a.get(0) else {
-        return Err(Refusal(format!("argument 1 is {}, expected a list of numbers", a.get(0).word())));
+        return Err(ApiError(format!("argument 1 is {}, expected a list of numbers", a.get(0).word())));
     };
     let (first, count) = (size(a, 1)?, size(a, 2)?);
     let n = some_of(list.len().saturating_sub(first), count)?;
     let mut packed = Vec::with_capacity(n * sort.size);
     for value in list.iter().skip(first).take(n) {
-        let wrong = || Refusal(format!("the list has {}, expected numbers", value.word()));
+        let wrong = || ApiError(format!("the list has {}, expected numbers", value.word()));
         (sort.to_bytes)(value.as_real().ok_or_else(wrong)?, &mut packed);
     }
     one(packed)

@@ -1,7 +1,7 @@
-//! Shelf: collections.
+//! Functions: collections.
 
 use super::{Function, Outcome, done, one, plain};
-use crate::session::{Arguments, Desk, Handle, Item, Refusal, Value};
+use crate::session::{ApiError, Arguments, Handle, Item, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "createCollection", tip: "int collectionHandle=sim.createCollection(int options=0)", run: create },
@@ -18,22 +18,22 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "emptyCollection",
         tip: "sim.emptyCollection(int collectionHandle)",
-        run: |d, a| d.table.empty_collection(Handle(a.handle(0)?)).and_then(|()| done()),
+        run: |d, a| d.registry.empty_collection(Handle(a.handle(0)?)).and_then(|()| done()),
     },
     Function { name: "removeCollection", tip: "sim.removeCollection(int collectionHandle)", run: remove },
     Function { name: "destroyCollection", tip: "sim.destroyCollection(int collectionHandle)", run: remove },
     Function {
         name: "getCollectionObjects",
         tip: "int[] objectHandles=sim.getCollectionObjects(int collectionHandle)",
-        run: |d, a| Ok(vec![Value::handles(d.table.collected(Handle(a.handle(0)?))?)]),
+        run: |d, a| Ok(vec![Value::handles(d.registry.collected(Handle(a.handle(0)?))?)]),
     },
     Function {
         name: "getCollectionHandle",
         tip: "int collectionHandle=sim.getCollectionHandle(string collectionName)",
         run: |d, a| {
             let name = a.text(0)?;
-            let found = d.table.collection_named(name.strip_suffix('#').unwrap_or(name));
-            one(found.ok_or_else(|| Refusal(format!("there is no collection `{}`", short(name))))?)
+            let found = d.registry.collection_named(name.strip_suffix('#').unwrap_or(name));
+            one(found.ok_or_else(|| ApiError(format!("there is no collection `{}`", short(name))))?)
         },
     },
 ];
@@ -42,26 +42,28 @@ fn short(name: &str) -> String {
     name.chars().take(100).collect()
 }
 
-/// Of options, or, as V-REP had it, of a name and options; the options override properties that objects do not have here.
-fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+/// Creates a collection from options, or, as in V-REP, from a name and options; the options override properties that
+/// objects do not have here.
+fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let name = if let Value::Text(_) | Value::Bytes(_) = a.get(0) { a.text(0)? } else { "" };
     if name.is_empty() {
         a.int_or(0, 0)?;
-    } else if desk.table.collection_named(name).is_some() {
-        return Err(Refusal(format!("there is a collection `{}` already", short(name))));
+    } else if sim.registry.collection_named(name).is_some() {
+        return Err(ApiError(format!("there is a collection `{}` already", short(name))));
     }
-    one(desk.table.create_collection(&short(name))?)
+    one(sim.registry.create_collection(&short(name))?)
 }
 
-fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.remove_collection(Handle(a.handle(0)?))?;
+fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.registry.remove_collection(Handle(a.handle(0)?))?;
     done()
 }
 
-/// What is −2 all, −8 single, −6 tree, −7 chain; option 1 takes away, option 2 leaves the base of a tree or the tip of a chain out.
-fn add(desk: &mut Desk<'_>, a: Arguments<'_>, (what, object): (usize, usize)) -> Outcome {
+/// Adds or removes an item. `what` is −2 for all, −8 single, −6 tree, −7 chain; option 1 takes away, option 2 leaves
+/// the base of a tree or the tip of a chain out.
+fn add(sim: &mut SimApi<'_>, a: Arguments<'_>, (what, object): (usize, usize)) -> Outcome {
     let (collection, options) = (Handle(a.handle(0)?), a.int_or(3, 0)?);
-    let base = || plain(desk, a.handle(object)?);
+    let base = || plain(sim, a.handle(object)?);
     let item = match a.handle(what)? {
         -2 => Item::All,
         -8 => Item::Single(base()?),
@@ -69,9 +71,9 @@ fn add(desk: &mut Desk<'_>, a: Arguments<'_>, (what, object): (usize, usize)) ->
         -7 => Item::Chain(base()?, options & 2 != 0),
         other => {
             let known = "sim.handle_all, handle_single, handle_tree or handle_chain";
-            return Err(Refusal(format!("{other} is no item of a collection: {known}")));
+            return Err(ApiError(format!("{other} is no item of a collection: {known}")));
         }
     };
-    desk.table.add_to_collection(collection, item, options & 1 == 0)?;
+    sim.registry.add_to_collection(collection, item, options & 1 == 0)?;
     done()
 }

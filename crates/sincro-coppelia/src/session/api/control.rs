@@ -1,7 +1,7 @@
-//! Shelf: the simulation itself, its parameters, messages.
+//! Functions: the simulation itself, its parameters, messages.
 
 use super::{Function, Outcome, done, one};
-use crate::session::{Arguments, Desk, Phase, Request, Value};
+use crate::session::{Arguments, Phase, Request, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "startSimulation", tip: "int result=sim.startSimulation()", run: |d, _| ask(d, Request::Start) },
@@ -22,7 +22,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "getSimulationTimeStep",
         tip: "float timeStep=sim.getSimulationTimeStep()",
-        run: |d, _| one(d.table.sample_time()),
+        run: |d, _| one(d.registry.sample_time()),
     },
     Function {
         name: "getIsRealTimeSimulation",
@@ -99,82 +99,82 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn ask(desk: &mut Desk<'_>, request: Request) -> Outcome {
-    desk.table.ask(request);
+fn ask(sim: &mut SimApi<'_>, request: Request) -> Outcome {
+    sim.registry.ask(request);
     one(1_i64)
 }
 
-fn load(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.ask(Request::Load(a.text(0)?.to_owned()));
+fn load(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.registry.ask(Request::Load(a.text(0)?.to_owned()));
     done()
 }
 
-fn log(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.log(a.int(0)? & 0xfff, a.text(1)?);
+fn log(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.log(a.int(0)? & 0xfff, a.text(1)?);
     done()
 }
 
-fn message(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.log(450, if a.has(0) { a.text(0)? } else { "" });
+fn message(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.log(450, if a.has(0) { a.text(0)? } else { "" });
     one(1_i64)
 }
 
-fn set_int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn set_int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     a.int(1)?;
-    desk.set_int_parameter(a.int(0)?)?;
+    sim.set_int_parameter(a.int(0)?)?;
     done()
 }
 
-fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.set_float_parameter(a.int(0)?, a.real(1)?)?;
+fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.set_float_parameter(a.int(0)?, a.real(1)?)?;
     done()
 }
 
-/// Switches of the display and of real time are taken and do nothing here: the first has no meaning without a window, the second is the
-/// server's.
-fn set_bool(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.bool_parameter(a.int(0)?)?;
+/// Switches of the display and of real time are taken and do nothing here: the first has no meaning without a window,
+/// the second is the server's.
+fn set_bool(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.bool_parameter(a.int(0)?)?;
     a.bool_or(1, false)?;
     done()
 }
 
-fn array(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    super::list(desk.array_parameter(a.int(0)?)?)
+fn array(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    super::list(sim.array_parameter(a.int(0)?)?)
 }
 
-fn set_array(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.set_array_parameter(a.int(0)?, a.reals(1)?)?;
+fn set_array(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.set_array_parameter(a.int(0)?, a.reals(1)?)?;
     done()
 }
 
 /// Named numbers are kept as text: all kinds share their names.
-fn number<T: std::str::FromStr>(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Option<T>, crate::session::Refusal> {
+fn number<T: std::str::FromStr>(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Option<T>, crate::session::ApiError> {
     let name = a.text(0)?;
-    let Some(bytes) = desk.table.named.get(name) else { return Ok(None) };
+    let Some(bytes) = sim.registry.named.get(name) else { return Ok(None) };
     let text = std::str::from_utf8(bytes).ok().and_then(|text| text.trim().parse().ok());
-    text.map(Some).ok_or_else(|| crate::session::Refusal(format!("the parameter `{name}` is no such number")))
+    text.map(Some).ok_or_else(|| crate::session::ApiError(format!("the parameter `{name}` is no such number")))
 }
 
-fn set_named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    keep_named(desk, a, a.bytes(1)?)
+fn set_named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    keep_named(sim, a, a.bytes(1)?)
 }
 
-fn keep_named(desk: &mut Desk<'_>, a: Arguments<'_>, bytes: impl AsRef<[u8]>) -> Outcome {
+fn keep_named(sim: &mut SimApi<'_>, a: Arguments<'_>, bytes: impl AsRef<[u8]>) -> Outcome {
     let (name, bytes) = (a.text(0)?, bytes.as_ref());
-    if desk.table.named.len() >= 1_000 && !desk.table.named.contains_key(name) {
-        return Err(crate::session::Refusal::new("there are 1000 named parameters already"));
+    if sim.registry.named.len() >= 1_000 && !sim.registry.named.contains_key(name) {
+        return Err(crate::session::ApiError::new("there are 1000 named parameters already"));
     }
-    desk.table.make_room(bytes.len())?;
-    desk.table.named.insert(name.to_owned(), bytes.to_vec());
+    sim.registry.make_room(bytes.len())?;
+    sim.registry.named.insert(name.to_owned(), bytes.to_vec());
     done()
 }
 
-fn named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    Ok(vec![desk.table.named.get(a.text(0)?).map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
+fn named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    Ok(vec![sim.registry.named.get(a.text(0)?).map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
 }
 
 impl Phase {
-    /// Whether a run is on, paused or not.
+    /// Returns true if a run is on, paused or not.
     #[must_use]
     pub fn is_on(self) -> bool {
         self != Self::Stopped

@@ -1,7 +1,7 @@
-//! Shelf: distances and collisions.
+//! Functions: distances and collisions.
 
 use super::{Function, Outcome, plain};
-use crate::session::{Arguments, Desk, Entity, Handle, Refusal, Value};
+use crate::session::{ApiError, Arguments, Entity, Handle, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -17,34 +17,34 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// The object, collection or −2 for all of argument `k`.
-pub(super) fn entity(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<Entity, Refusal> {
+pub(super) fn entity(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Entity, ApiError> {
     let raw = a.handle(k)?;
-    if raw == -2 || desk.table.is_collection(Handle(raw)) {
-        return desk.entity(Handle(raw));
+    if raw == -2 || sim.registry.is_collection(Handle(raw)) {
+        return sim.entity(Handle(raw));
     }
-    Ok(Entity::Object(plain(desk, raw)?))
+    Ok(Entity::Object(plain(sim, raw)?))
 }
 
 /// Both points and the distance; only 0 if nothing is within the threshold, which holds where it is above zero.
-fn distance(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let first = entity(desk, a, 0)?;
-    let second = if a.has(1) { entity(desk, a, 1)? } else { Entity::All };
+fn distance(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let first = entity(sim, a, 0)?;
+    let second = if a.has(1) { entity(sim, a, 1)? } else { Entity::All };
     let threshold = if a.has(2) { a.real(2)? } else { 0.0 };
     if threshold.is_nan() {
-        return Err(Refusal::new("the threshold is not a number"));
+        return Err(ApiError::new("the threshold is not a number"));
     }
     let most = if threshold > 0.0 { threshold } else { f64::INFINITY };
-    let Some(found) = desk.distance(first, second, most)? else { return Ok(vec![Value::Int(0)]) };
+    let Some(found) = sim.distance(first, second, most)? else { return Ok(vec![Value::Int(0)]) };
     let [p, q] = found.points.map(|p| p.0);
     let data = p.into_iter().chain(q).chain([found.distance]);
     Ok(vec![Value::Int(1), Value::reals(data), Value::handles(found.objects)])
 }
 
-/// Whether two bodies press on each other now, or their surfaces meet.
-fn collision(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let first = entity(desk, a, 0)?;
-    let second = if a.has(1) { entity(desk, a, 1)? } else { Entity::All };
-    Ok(match desk.collision(first, second)? {
+/// Returns true if two bodies press on each other now, or their surfaces meet.
+fn collision(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let first = entity(sim, a, 0)?;
+    let second = if a.has(1) { entity(sim, a, 1)? } else { Entity::All };
+    Ok(match sim.collision(first, second)? {
         Some(bodies) => vec![Value::Int(1), Value::handles(bodies)],
         None => vec![Value::Int(0), Value::List(Vec::new())],
     })

@@ -1,18 +1,18 @@
 //! Maps that are given to functions and given back: what they must have, in words where they have not.
 
-use crate::session::{Refusal, Value};
+use crate::session::{ApiError, Value};
 
 /// A map by its names, in its order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fields(Vec<(String, Value)>);
 
 impl Fields {
-    /// Of an argument.
-    pub fn of(value: &Value) -> Result<Self, Refusal> {
+    /// Fields of an argument.
+    pub fn of(value: &Value) -> Result<Self, ApiError> {
         match value {
             Value::Map(list) => Ok(Self(list.clone())),
             Value::List(list) if list.is_empty() => Ok(Self::default()),
-            other => Err(Refusal(format!("argument 1 is {}, expected a map of parameters", other.word()))),
+            other => Err(ApiError(format!("argument 1 is {}, expected a map of parameters", other.word()))),
         }
     }
 
@@ -25,7 +25,7 @@ impl Fields {
         self.0.iter().find(|(key, _)| key == name).map_or(&Value::Nil, |(_, value)| value)
     }
 
-    /// Whether it is there and not nil.
+    /// Returns true if it is there and not nil.
     pub fn has(&self, name: &str) -> bool {
         *self.get(name) != Value::Nil
     }
@@ -42,40 +42,40 @@ impl Fields {
         self.set(name, Value::reals(numbers));
     }
 
-    fn wrong(&self, name: &str, expected: &str) -> Refusal {
+    fn wrong(&self, name: &str, expected: &str) -> ApiError {
         if self.has(name) {
             let found = self.get(name);
             let found = match found {
                 Value::List(list) => format!("a list of {}", list.len()),
                 other => other.word().to_owned(),
             };
-            Refusal(format!("`{name}` is {found}, expected {expected}"))
+            ApiError(format!("`{name}` is {found}, expected {expected}"))
         } else {
-            Refusal(format!("`{name}` is missing, expected {expected}"))
+            ApiError(format!("`{name}` is missing, expected {expected}"))
         }
     }
 
-    pub fn int(&self, name: &str) -> Result<i64, Refusal> {
+    pub fn int(&self, name: &str) -> Result<i64, ApiError> {
         self.get(name).as_int().ok_or_else(|| self.wrong(name, "a whole number"))
     }
 
-    pub fn int_or(&self, name: &str, default: i64) -> Result<i64, Refusal> {
+    pub fn int_or(&self, name: &str, default: i64) -> Result<i64, ApiError> {
         if self.has(name) { self.int(name) } else { Ok(default) }
     }
 
-    pub fn handle(&self, name: &str) -> Result<i32, Refusal> {
+    pub fn handle(&self, name: &str) -> Result<i32, ApiError> {
         let handle = self.get(name).as_int().and_then(|n| i32::try_from(n).ok());
         handle.ok_or_else(|| self.wrong(name, "a handle"))
     }
 
-    pub fn real_or(&self, name: &str, default: f64) -> Result<f64, Refusal> {
+    pub fn real_or(&self, name: &str, default: f64) -> Result<f64, ApiError> {
         if !self.has(name) {
             return Ok(default);
         }
         self.get(name).as_real().ok_or_else(|| self.wrong(name, "a number"))
     }
 
-    pub fn bool_or(&self, name: &str, default: bool) -> Result<bool, Refusal> {
+    pub fn bool_or(&self, name: &str, default: bool) -> Result<bool, ApiError> {
         if !self.has(name) {
             return Ok(default);
         }
@@ -83,7 +83,7 @@ impl Fields {
     }
 
     /// A list of `n` numbers; of more, the first, if the function always took them so.
-    pub fn numbers(&self, name: &str, n: usize) -> Result<Vec<f64>, Refusal> {
+    pub fn numbers(&self, name: &str, n: usize) -> Result<Vec<f64>, ApiError> {
         let is_tolerant = self.has("tolerantArgs");
         let list = self.get(name).as_reals().filter(|list| list.len() == n || (is_tolerant && list.len() > n));
         let mut list = list.ok_or_else(|| self.wrong(name, &format!("a list of {}", counted(n))))?;
@@ -92,7 +92,7 @@ impl Fields {
     }
 
     /// The same, all alike if one number is given, and `default` if none is.
-    pub fn each(&self, name: &str, n: usize, default: impl FnOnce() -> Vec<f64>) -> Result<Vec<f64>, Refusal> {
+    pub fn each(&self, name: &str, n: usize, default: impl FnOnce() -> Vec<f64>) -> Result<Vec<f64>, ApiError> {
         match self.get(name) {
             Value::Nil => Ok(default()),
             Value::List(_) => self.numbers(name, n),

@@ -1,7 +1,8 @@
-//! Shelf: graphs. What is told to their streams is recorded with the run; curves, colours and windows are accepted and show nothing.
+//! Functions: graphs. Values of their streams are recorded with the run; curves, colours and windows are accepted and
+//! show nothing.
 
 use super::{Function, Outcome, done, handle, one};
-use crate::session::{Arguments, Desk, Handle, Refusal};
+use crate::session::{ApiError, Arguments, Handle, SimApi};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -47,64 +48,65 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn graph(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Handle, Refusal> {
-    handle(desk, a, 0)
+fn graph(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Handle, ApiError> {
+    handle(sim, a, 0)
 }
 
-fn add(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = graph(desk, a)?;
+fn add(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = graph(sim, a)?;
     // some scripts give a number for the unit: it then has none
     let unit = a.get(2).as_text().unwrap_or_default();
-    one(desk.add_stream(own, a.text(1)?, unit)?)
+    one(sim.add_stream(own, a.text(1)?, unit)?)
 }
 
-fn set(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = graph(desk, a)?;
-    desk.set_stream(own, a.int(1)?, a.real(2)?)?;
+fn set(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = graph(sim, a)?;
+    sim.set_stream(own, a.int(1)?, a.real(2)?)?;
     done()
 }
 
-/// Values as they are, multiplied and shifted; derivatives, integrals and means are made of the recorded signals afterwards.
-fn transform(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = graph(desk, a)?;
+/// Values as they are, multiplied and shifted; derivatives, integrals and means are made of the recorded signals
+/// afterwards.
+fn transform(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = graph(sim, a)?;
     if a.int(2)? != 0 || a.int_or(5, 1)? > 1 {
-        return Err(Refusal::new(
+        return Err(ApiError::new(
             "values are recorded as they are (transformation 0, a mean over 1): derivatives and means are made of signals.csv",
         ));
     }
     let real_or = |k: usize, default: f64| if a.has(k) { a.real(k) } else { Ok(default) };
-    desk.scale_stream(own, a.int(1)?, (real_or(3, 1.0)?, real_or(4, 0.0)?))?;
+    sim.scale_stream(own, a.int(1)?, (real_or(3, 1.0)?, real_or(4, 0.0)?))?;
     done()
 }
 
 /// V-REP's: a stream is made by its first value.
-fn set_named(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = graph(desk, a)?;
+fn set_named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = graph(sim, a)?;
     let value = a.real(2)?;
-    let stream = desk.add_stream(own, a.text(1)?, "")?;
-    desk.set_stream(own, stream, value)?;
+    let stream = sim.add_stream(own, a.text(1)?, "")?;
+    sim.set_stream(own, stream, value)?;
     one(1_i64)
 }
 
 /// The graph of a handle; none for all of them.
-fn one_or_all(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Option<Handle>, Refusal> {
-    if matches!(a.handle(0)?, -2 | -3) { Ok(None) } else { graph(desk, a).map(Some) }
+fn one_or_all(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Option<Handle>, ApiError> {
+    if matches!(a.handle(0)?, -2 | -3) { Ok(None) } else { graph(sim, a).map(Some) }
 }
 
-fn reset(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = one_or_all(desk, a)?;
-    desk.clear_graph(own)?;
+fn reset(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = one_or_all(sim, a)?;
+    sim.clear_graph(own)?;
     one(1_i64)
 }
 
 /// Streams are recorded at every row of the run, asked or not.
-fn sample(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one_or_all(desk, a)?;
+fn sample(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one_or_all(sim, a)?;
     one(1_i64)
 }
 
-fn curve(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    graph(desk, a)?;
+fn curve(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    graph(sim, a)?;
     a.text(1)?;
     one(1_i64)
 }

@@ -1,8 +1,8 @@
-//! Shelf: `simIK`, inverse kinematics.
+//! Functions: `simIK`, inverse kinematics.
 
 use super::{Function, Outcome, done, one, plain};
 use crate::session::ik::Element;
-use crate::session::{Arguments, Desk, Refusal, Value};
+use crate::session::{ApiError, Arguments, SimApi, Value};
 
 /// Functions of `simIK`, named without it.
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -86,81 +86,81 @@ pub(super) const LIMIT_HIT: i64 = 64;
 /// Precision that an element begins with `[m]`, `[rad]`: CoppeliaSim's half a millimetre and a tenth of a degree.
 const PRECISION: [f64; 2] = [0.0005, 0.1 * std::f64::consts::PI / 180.0];
 
-fn create(desk: &mut Desk<'_>, _: Arguments<'_>) -> Outcome {
-    one(desk.create_environment()? as i64)
+fn create(sim: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {
+    one(sim.create_environment()? as i64)
 }
 
-fn erase(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.erase_environment(a.int(0)?)?;
+fn erase(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.erase_environment(a.int(0)?)?;
     done()
 }
 
-fn create_group(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(desk.create_group(a.int(0)?, if a.has(1) { a.text(1)? } else { "" })? as i64)
+fn create_group(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(sim.create_group(a.int(0)?, if a.has(1) { a.text(1)? } else { "" })? as i64)
 }
 
-fn calculation(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn calculation(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let damping = match a.int(2)? {
         0 | 3 => 0.0,
         1 => a.real(3)?,
         other => {
-            return Err(Refusal(format!("method {other}: pseudo-inverse 0 and damped least squares 1 are offered")));
+            return Err(ApiError(format!("method {other}: pseudo-inverse 0 and damped least squares 1 are offered")));
         }
     };
-    desk.set_calculation(a.int(0)?, a.int(1)?, damping, a.int(4)?)?;
+    sim.set_calculation(a.int(0)?, a.int(1)?, damping, a.int(4)?)?;
     done()
 }
 
 /// Objects have the same handles in environments: the maps that CoppeliaSim returns besides are not needed.
-fn add(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn add(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let base = match a.handle(2)? {
         -1 => None,
-        other => Some(plain(desk, other)?),
+        other => Some(plain(sim, other)?),
     };
-    let (tip, target) = (super::handle(desk, a, 3)?, super::handle(desk, a, 4)?);
+    let (tip, target) = (super::handle(sim, a, 3)?, super::handle(sim, a, 4)?);
     let element = Element { base, tip, target, constraints: a.int(5)?, precision: PRECISION, weights: [1.0; 2] };
-    one(desk.add_element(a.int(0)?, a.int(1)?, element)? as i64)
+    one(sim.add_element(a.int(0)?, a.int(1)?, element)? as i64)
 }
 
-fn two(a: Arguments<'_>, what: &str) -> Result<[f64; 2], Refusal> {
+fn two(a: Arguments<'_>, what: &str) -> Result<[f64; 2], ApiError> {
     let numbers = a.reals(3)?;
     if numbers.iter().all(|x| x.is_finite() && *x >= 0.0) {
         return Ok(numbers);
     }
-    Err(Refusal(format!("{what} {numbers:?}, expected two numbers that are not negative")))
+    Err(ApiError(format!("{what} {numbers:?}, expected two numbers that are not negative")))
 }
 
-fn precision(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn precision(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let precision = two(a, "precision")?;
-    desk.element(a.int(0)?, a.int(1)?, a.int(2)?)?.precision = precision;
+    sim.element(a.int(0)?, a.int(1)?, a.int(2)?)?.precision = precision;
     done()
 }
 
-fn weights(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn weights(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let weights = two(a, "weights")?;
-    desk.element(a.int(0)?, a.int(1)?, a.int(2)?)?.weights = weights;
+    sim.element(a.int(0)?, a.int(1)?, a.int(2)?)?.weights = weights;
     done()
 }
 
 /// Options: `syncWorlds` puts the joints of the scene there, `allowError` also if not all is reached.
-fn handle(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn handle(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (mut apply, mut allow_error) = (false, false);
     match a.get(2) {
         Value::Map(options) => {
             for (name, value) in options {
-                let flag = value.as_bool().ok_or_else(|| Refusal(format!("option `{name}` is no truth value")))?;
+                let flag = value.as_bool().ok_or_else(|| ApiError(format!("option `{name}` is no truth value")))?;
                 match name.as_str() {
                     "syncWorlds" => apply = flag,
                     "allowError" => allow_error = flag,
-                    _ => return Err(Refusal(format!("there is no option `{name}`: syncWorlds, allowError"))),
+                    _ => return Err(ApiError(format!("there is no option `{name}`: syncWorlds, allowError"))),
                 }
             }
         }
         Value::Nil => {}
         Value::List(list) if list.is_empty() => {}
-        other => return Err(Refusal(format!("argument 3 is {}, expected a map of options", other.word()))),
+        other => return Err(ApiError(format!("argument 3 is {}, expected a map of options", other.word()))),
     }
-    let outcome = desk.handle_group(a.int(0)?, a.int(1)?, (apply, allow_error))?;
+    let outcome = sim.handle_group(a.int(0)?, a.int(1)?, (apply, allow_error))?;
     let result = if outcome.is_reached { 1_i64 } else { 2 };
     let tolerance = if outcome.is_reached { 0 } else { NOT_WITHIN_TOLERANCE };
     let flags = tolerance | if outcome.hit_limit { LIMIT_HIT } else { 0 };
@@ -168,7 +168,7 @@ fn handle(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// Environments are no worlds of their own: they are always as the scene is.
-fn sync(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.group_count(a.int(0)?)?;
+fn sync(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.group_count(a.int(0)?)?;
     done()
 }

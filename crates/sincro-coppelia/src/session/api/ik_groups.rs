@@ -1,7 +1,8 @@
-//! Shelf: groups of inverse kinematics as V-REP 3 has them, by name. Here a script or client makes them by `simIK.createGroup` with a name.
+//! Functions: groups of inverse kinematics as V-REP 3 has them, by name. Here a script or client makes them by
+//! `simIK.createGroup` with a name.
 
 use super::{Function, Outcome, handle, one};
-use crate::session::{Arguments, Desk, Handle, Refusal, Value};
+use crate::session::{ApiError, Arguments, Handle, SimApi, Value};
 
 /// Added to environment and group: a handle of its own, below those of scripts.
 const FIRST: i64 = 900_000;
@@ -22,42 +23,42 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn find(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn find(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let name = a.text(0)?;
-    let (environment, group) = desk.group_of_name(None, name.strip_suffix('#').unwrap_or(name))?;
+    let (environment, group) = sim.group_of_name(None, name.strip_suffix('#').unwrap_or(name))?;
     one(FIRST + IN_ONE * environment + group)
 }
 
 /// Environment and number of a group.
-fn parts(number: i64) -> Result<(i64, i64), Refusal> {
+fn parts(number: i64) -> Result<(i64, i64), ApiError> {
     let k = number.checked_sub(FIRST).filter(|k| (0..IN_ONE * IN_ONE).contains(k));
-    k.map(|k| (k / IN_ONE, k % IN_ONE)).ok_or_else(|| Refusal(format!("{number} is no handle of a group")))
+    k.map(|k| (k / IN_ONE, k % IN_ONE)).ok_or_else(|| ApiError(format!("{number} is no handle of a group")))
 }
 
 /// Moves the joints of a group, also if not all of it is reached; of all groups for −2 and −3: how many those were.
-fn solve(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn solve(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let number = a.int(0)?;
     if matches!(number, -2 | -3) {
-        let all: Vec<(i64, i64)> = desk.named_groups().map(|(e, group, _)| (e, group)).collect();
+        let all: Vec<(i64, i64)> = sim.named_groups().map(|(e, group, _)| (e, group)).collect();
         for (environment, group) in &all {
-            desk.handle_group(*environment, *group, (true, true))?;
+            sim.handle_group(*environment, *group, (true, true))?;
         }
         return one(all.len() as i64);
     }
     let (environment, group) = parts(number)?;
-    let outcome = desk.handle_group(environment, group, (true, true))?;
+    let outcome = sim.handle_group(environment, group, (true, true))?;
     one(if outcome.is_reached { SUCCESS } else { FAIL })
 }
 
-/// Where joints would be, in the order that is asked for; joints that are not of the group are where they are.
-fn check(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+/// Solved positions of joints, in the order of the request; joints outside the group keep their positions.
+fn check(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (environment, group) = parts(a.int(0)?)?;
-    let Value::List(joints) = a.get(1) else { return Err(Refusal::new("argument 2 is no list of handles")) };
-    let joints = (0..joints.len()).map(|k| handle(desk, Arguments(joints), k)).collect::<Result<Vec<Handle>, _>>()?;
-    let (outcome, found) = desk.solve_group(environment, group)?;
+    let Value::List(joints) = a.get(1) else { return Err(ApiError::new("argument 2 is no list of handles")) };
+    let joints = (0..joints.len()).map(|k| handle(sim, Arguments(joints), k)).collect::<Result<Vec<Handle>, _>>()?;
+    let (outcome, found) = sim.solve_group(environment, group)?;
     let place = |joint: Handle| match found.iter().find(|(own, _)| *own == joint) {
         Some((_, q)) => Ok(*q),
-        None => desk.joint_position(joint),
+        None => sim.joint_position(joint),
     };
     let places = joints.into_iter().map(place).collect::<Result<Vec<f64>, _>>()?;
     Ok(vec![Value::Int(if outcome.is_reached { SUCCESS } else { FAIL }), Value::reals(places)])

@@ -1,7 +1,7 @@
-//! Shelf: pictures as bytes, wherever they come from.
+//! Functions: pictures as bytes, wherever they come from.
 
 use super::{Function, Outcome};
-use crate::session::{Arguments, Desk, Refusal, Value};
+use crate::session::{ApiError, Arguments, SimApi, Value};
 use sincro_scene::camera::{MOST_PIXELS, png};
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -28,28 +28,33 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// Columns and rows in argument `k`.
-fn resolution(a: Arguments<'_>, k: usize) -> Result<[usize; 2], Refusal> {
+fn resolution(a: Arguments<'_>, k: usize) -> Result<[usize; 2], ApiError> {
     let sides = a.reals::<2>(k)?;
     let side = |x: f64| if x.fract() == 0.0 && (1.0..1e6).contains(&x) { x as usize } else { 0 };
     let [columns, rows] = sides.map(side);
     if columns == 0 || rows == 0 || columns * rows > MOST_PIXELS {
         let [x, y] = sides;
-        return Err(Refusal(format!("a picture of {x} × {y} pixels cannot be: expected at most {MOST_PIXELS} in all")));
+        return Err(ApiError(format!(
+            "a picture of {x} × {y} pixels cannot be: expected at most {MOST_PIXELS} in all"
+        )));
     }
     Ok([columns, rows])
 }
 
 /// The bytes of argument 0, `width` for each pixel.
-fn pixels<'a>(a: Arguments<'a>, [columns, rows]: [usize; 2], width: usize) -> Result<&'a [u8], Refusal> {
+fn pixels<'a>(a: Arguments<'a>, [columns, rows]: [usize; 2], width: usize) -> Result<&'a [u8], ApiError> {
     let (bytes, n) = (a.bytes(0)?, columns * rows * width);
     if bytes.len() != n {
-        return Err(Refusal(format!("the picture has {} bytes, expected {columns}·{rows}·{width} = {n}", bytes.len())));
+        return Err(ApiError(format!(
+            "the picture has {} bytes, expected {columns}·{rows}·{width} = {n}",
+            bytes.len()
+        )));
     }
     Ok(bytes)
 }
 
 /// Left and right, or top and bottom, change places.
-fn transform(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn transform(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (size, options) = (resolution(a, 1)?, a.int_or(2, 0)?);
     let width = if options & 1 != 0 { 4 } else { 3 };
     let bytes = pixels(a, size, width)?;
@@ -67,7 +72,7 @@ fn transform(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// Another size: the nearest pixel, or the mean of the four about a place.
-fn scale(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn scale(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (from, wanted, options) = (resolution(a, 1)?, resolution(a, 2)?, a.int_or(3, 0)?);
     let (width, out_width) = (if options & 1 != 0 { 4 } else { 3 }, if options & 2 != 0 { 4 } else { 3 });
     let bytes = pixels(a, from, width)?;
@@ -94,12 +99,12 @@ fn scale(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// The size with the ratio of `from` that fits into `wanted`, or that covers it.
-fn kept_ratio(from: [usize; 2], wanted: [usize; 2], covers: bool) -> Result<[usize; 2], Refusal> {
+fn kept_ratio(from: [usize; 2], wanted: [usize; 2], covers: bool) -> Result<[usize; 2], ApiError> {
     let [x, y] = [0, 1].map(|k| wanted[k] as f64 / from[k] as f64);
     let factor = if covers { x.max(y) } else { x.min(y) };
     let size = from.map(|n| ((n as f64 * factor).round() as usize).max(1));
     if size[0].saturating_mul(size[1]) > MOST_PIXELS {
-        return Err(Refusal(format!("the picture would have more than {MOST_PIXELS} pixels")));
+        return Err(ApiError(format!("the picture would have more than {MOST_PIXELS} pixels")));
     }
     Ok(size)
 }
@@ -126,17 +131,17 @@ fn sample(
 }
 
 /// A picture as PNG, given back as bytes; files are written by whoever may.
-fn save(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn save(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (size, options, name) = (resolution(a, 1)?, a.int_or(2, 0)?, a.text(3)?);
     let channels = match options & 3 {
         0 => png::Channels::Rgb,
         1 => png::Channels::Rgba,
         2 => png::Channels::Grey,
-        _ => return Err(Refusal::new("the format of the picture is none of rgb 0, rgba 1, grey 2")),
+        _ => return Err(ApiError::new("the format of the picture is none of rgb 0, rgba 1, grey 2")),
     };
     if name != ".png" {
         let name: String = name.chars().take(100).collect();
-        return Err(Refusal(format!(
+        return Err(ApiError(format!(
             "`{name}` is not written: no files are written here; `.png` gives the picture back as bytes"
         )));
     }
@@ -147,7 +152,7 @@ fn save(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     Ok(vec![Value::Bytes(png::encode(&turned, size, channels))])
 }
 
-/// What a number is in a buffer: V-REP's number for it, its bytes.
+/// Type of a number in a buffer: V-REP's number for it, its size in bytes.
 #[derive(Clone, Copy, PartialEq)]
 enum Sort {
     U8,
@@ -197,7 +202,7 @@ impl Sort {
         }
     }
 
-    /// What does not fit becomes the nearest that does.
+    /// Writes a number; one out of range is clamped.
     fn write(self, x: f64, out: &mut Vec<u8>) {
         match self {
             Self::U8 => out.push(x as u8),
@@ -213,16 +218,17 @@ impl Sort {
 }
 
 /// Numbers as others: offset + multiplier · number.
-fn transform_buffer(_: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn transform_buffer(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let sort = |k: usize| {
         let number = a.int(k)?;
         let known = "sim.buffer_uint8, int8, uint16, int16, uint32, int32, float and double";
-        Sort::of(number).ok_or_else(|| Refusal(format!("{number} is no format of numbers that is known here: {known}")))
+        Sort::of(number)
+            .ok_or_else(|| ApiError(format!("{number} is no format of numbers that is known here: {known}")))
     };
     let (from, to) = (sort(1)?, sort(4)?);
     let (multiplier, offset, bytes) = (a.real(2)?, a.real(3)?, a.bytes(0)?);
     if !bytes.len().is_multiple_of(from.width()) {
-        return Err(Refusal(format!("{} bytes are no whole number of numbers of {}", bytes.len(), from.width())));
+        return Err(ApiError(format!("{} bytes are no whole number of numbers of {}", bytes.len(), from.width())));
     }
     let mut out = Vec::with_capacity(bytes.len() / from.width() * to.width());
     for number in bytes.chunks_exact(from.width()) {

@@ -1,9 +1,9 @@
-//! Shelf: joints and their motors.
+//! Functions: joints and their motors.
 
 use sincro_dynamics::actuation::MotorMode;
 
 use super::{Function, Outcome, done, handle, one};
-use crate::session::{Arguments, Desk, Refusal, Value};
+use crate::session::{ApiError, Arguments, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "getJointPosition", tip: "float position=sim.getJointPosition(int objectHandle)", run: position },
@@ -72,127 +72,127 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.joint_position(own)?)
+fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.joint_position(own)?)
 }
 
-fn set_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.set_joint_position(own, a.real(1)?)?;
+fn set_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.set_joint_position(own, a.real(1)?)?;
     done()
 }
 
 /// Limits within which a target is to go there, if they are given.
-fn limits<const N: usize>(a: Arguments<'_>, what: &str) -> Result<Option<[f64; N]>, Refusal> {
+fn limits<const N: usize>(a: Arguments<'_>, what: &str) -> Result<Option<[f64; N]>, ApiError> {
     match a.get(2) {
         Value::Nil => Ok(None),
         Value::List(list) if list.is_empty() => Ok(None),
-        _ => a.reals(2).map(Some).map_err(|Refusal(why)| Refusal(format!("{why}: {what}"))),
+        _ => a.reals(2).map(Some).map_err(|ApiError(why)| ApiError(format!("{why}: {what}"))),
     }
 }
 
-fn velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.joint_velocity(own)?)
+fn velocity(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.joint_velocity(own)?)
 }
 
-fn target_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.target_velocity(own)?)
+fn target_velocity(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.target_velocity(own)?)
 }
 
-fn set_target_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_target_velocity(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     match limits(a, "largest acceleration and jerk")? {
-        Some(limits) => desk.go_to_velocity(own, a.real(1)?, limits)?,
-        None => desk.set_target_velocity(own, a.real(1)?)?,
+        Some(limits) => sim.go_to_velocity(own, a.real(1)?, limits)?,
+        None => sim.set_target_velocity(own, a.real(1)?)?,
     }
     done()
 }
 
-fn target_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.target_position(own)?)
+fn target_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.target_position(own)?)
 }
 
-fn set_target_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_target_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     match limits(a, "largest velocity, acceleration and jerk")? {
-        Some(limits) => desk.go_to_position(own, a.real(1)?, limits)?,
-        None => desk.set_target_position(own, a.real(1)?)?,
+        Some(limits) => sim.go_to_position(own, a.real(1)?, limits)?,
+        None => sim.set_target_position(own, a.real(1)?)?,
     }
     done()
 }
 
-fn target_force(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.target_force(own)?)
+fn target_force(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.target_force(own)?)
 }
 
-fn set_target_force(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.set_target_force(own, a.real(1)?, a.bool_or(2, true)?)?;
+fn set_target_force(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.set_target_force(own, a.real(1)?, a.bool_or(2, true)?)?;
     done()
 }
 
-fn force(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    Ok(vec![desk.joint_force(own)?.map_or(Value::Nil, Value::Real)])
+fn force(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    Ok(vec![sim.joint_force(own)?.map_or(Value::Nil, Value::Real)])
 }
 
-fn mode(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.joint_mode(own)?;
+fn mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.joint_mode(own)?;
     Ok(vec![Value::Int(5), Value::Int(0)])
 }
 
 /// Every joint is dynamic here: the dynamic mode is accepted, the others are not.
-fn set_mode(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     match a.int(1)? {
-        5 if desk.joint_mode(own)? == MotorMode::Free => done(),
+        5 if sim.joint_mode(own)? == MotorMode::Free => done(),
         5 => done(),
-        other => Err(Refusal(format!("joint mode {other}: joints are always dynamic here (5)"))),
+        other => Err(ApiError(format!("joint mode {other}: joints are always dynamic here (5)"))),
     }
 }
 
-fn interval(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (is_cyclic, range) = desk.joint_interval(own)?;
+fn interval(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (is_cyclic, range) = sim.joint_interval(own)?;
     Ok(vec![Value::Bool(is_cyclic), Value::reals(range)])
 }
 
 /// A lower limit and a range, as V-REP has it.
-fn set_interval(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_interval(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     if a.bool_or(1, false)? {
-        return match desk.joint_interval(own)? {
+        return match sim.joint_interval(own)? {
             (true, _) => done(),
-            _ => Err(Refusal::new("stops are moved, not taken away: leave `limits` out in the scene")),
+            _ => Err(ApiError::new("stops are moved, not taken away: leave `limits` out in the scene")),
         };
     }
     let [lower, range]: [f64; 2] = a.reals(2)?;
-    desk.set_joint_interval(own, lower, lower + range)?;
+    sim.set_joint_interval(own, lower, lower + range)?;
     done()
 }
 
-fn set_dependency(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_dependency(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     if a.handle(1)? == -1 {
-        return match desk.joint_dependency(own)? {
+        return match sim.joint_dependency(own)? {
             None => done(),
-            Some(_) => Err(Refusal::new("a coupling of the scene is changed, not taken away")),
+            Some(_) => Err(ApiError::new("a coupling of the scene is changed, not taken away")),
         };
     }
-    let master = handle(desk, a, 1)?;
-    desk.set_joint_dependency(own, master, (a.real(2)?, a.real(3)?))?;
+    let master = handle(sim, a, 1)?;
+    sim.set_joint_dependency(own, master, (a.real(2)?, a.real(3)?))?;
     done()
 }
 
 /// A joint that follows none has no master, offset 0 and factor 1.
-fn dependency(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (master, offset, factor) = desk.joint_dependency(own)?.unwrap_or((crate::session::Handle(-1), 0.0, 1.0));
+fn dependency(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (master, offset, factor) = sim.joint_dependency(own)?.unwrap_or((crate::session::Handle(-1), 0.0, 1.0));
     Ok(vec![master.into(), Value::Real(offset), Value::Real(factor)])
 }

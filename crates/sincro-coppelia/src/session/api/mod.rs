@@ -1,8 +1,8 @@
 //! The functions of the regular API by name: what `sim.getJointPosition` does, whoever calls it.
 //!
-//! Each file has a shelf of functions; [`call`] finds them by their present names, the names of V-REP (`simGetJointPosition`) and those in
-//! between. Units and conventions are the API's own: SI, radians, quaternions x y z w. What a door must do itself (stepping, waiting,
-//! scripts) is not here.
+//! Each file holds a category of functions; [`call`] finds them by their present names, the names of V-REP
+//! (`simGetJointPosition`) and those in between. Units and conventions are the API's own: SI, radians, quaternions x y
+//! z w. The functions of an adapter itself (stepping, waiting, scripts) are not here.
 
 mod absent;
 mod bodies;
@@ -36,29 +36,29 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
-use super::{Arguments, Desk, Handle, Reference, Refusal, Value};
+use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
 pub use waiting::{MOVES, Move};
 pub use windows::is_for_show;
 
-/// What a function gives.
-pub type Outcome = Result<Vec<Value>, Refusal>;
+/// Result of a function.
+pub type Outcome = Result<Vec<Value>, ApiError>;
 
 /// A function that can be called by name.
 pub struct Function {
     /// Name without `sim.`.
     pub name: &'static str,
-    /// What it gives and takes, as call tips show it: `float position=sim.getJointPosition(int jointHandle)`.
+    /// Signature, as call tips show it: `float position=sim.getJointPosition(int jointHandle)`.
     pub tip: &'static str,
-    /// What it does.
-    pub run: fn(&mut Desk<'_>, Arguments<'_>) -> Outcome,
+    /// Implementation.
+    pub run: fn(&mut SimApi<'_>, Arguments<'_>) -> Outcome,
 }
 
-/// Every function, shelf by shelf.
+/// Every function, by category.
 pub fn functions() -> impl Iterator<Item = &'static Function> {
-    let shelves = [
+    let categories = [
         control::FUNCTIONS,
         objects::FUNCTIONS,
         poses::FUNCTIONS,
@@ -82,7 +82,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         collections::FUNCTIONS,
         shapes::FUNCTIONS,
     ];
-    shelves.into_iter().flatten()
+    categories.into_iter().flatten()
 }
 
 /// Every function of `simIK`, without it.
@@ -118,17 +118,18 @@ pub fn function(name: &str) -> Option<&'static Function> {
 /// # Errors
 ///
 /// There is none of that name, or it refused: the message then names it.
-pub fn call(desk: &mut Desk<'_>, name: &str, arguments: &[Value]) -> Outcome {
+pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
     let function = function(name).ok_or_else(|| {
         let present = present_name(name);
         if let Some(why) = why_absent(&present) {
-            return Refusal(format!("sim.{present} is not offered: {why}"));
+            return ApiError(format!("sim.{present} is not offered: {why}"));
         }
         let short: String = name.chars().take(100).collect();
-        Refusal(format!("No such function: {short}"))
+        ApiError(format!("No such function: {short}"))
     })?;
-    (function.run)(desk, Arguments(arguments))
-        .map_err(|Refusal(message)| Refusal(format!("{message} (in function '{}.{}')", module_of(name), function.name)))
+    (function.run)(sim, Arguments(arguments)).map_err(|ApiError(message)| {
+        ApiError(format!("{message} (in function '{}.{}')", module_of(name), function.name))
+    })
 }
 
 /// The module that a name belongs to.
@@ -150,20 +151,20 @@ fn list(numbers: impl IntoIterator<Item = f64>) -> Outcome {
 }
 
 /// The handle of an object, flags taken off; `sim.handle_self` is the object of the script that calls.
-fn handle(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, Refusal> {
-    plain(desk, a.handle(k)?)
+fn handle(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, ApiError> {
+    plain(sim, a.handle(k)?)
 }
 
-fn plain(desk: &Desk<'_>, raw: i32) -> Result<Handle, Refusal> {
+fn plain(sim: &SimApi<'_>, raw: i32) -> Result<Handle, ApiError> {
     let bare = if raw >= HANDLE_FLAGS { raw & (HANDLE_FLAGS - 1) } else { raw };
     if bare == -4 {
-        return desk.own.ok_or_else(|| Refusal::new("sim.handle_self means the object of a script, and none calls"));
+        return sim.own.ok_or_else(|| ApiError::new("sim.handle_self means the object of a script, and none calls"));
     }
-    Ok(desk.table.entry(Handle(bare))?.handle)
+    Ok(sim.registry.entry(Handle(bare))?.handle)
 }
 
-/// What a pose is given against: argument `k`, the world if it is not given. Flags are those of the first handle.
-fn reference(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<Reference, Refusal> {
+/// Reference frame of a pose: argument `k`, the world if it is not given. Flags are those of the first handle.
+fn reference(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Reference, ApiError> {
     if !a.has(k) {
         return Ok(Reference::World);
     }
@@ -172,13 +173,13 @@ fn reference(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<Reference, R
     Ok(match a.handle(k)? {
         -1 => Reference::World,
         -11 => Reference::Parent,
-        other if base => Reference::JointBase(plain(desk, other)?),
-        other => Reference::Object(plain(desk, other)?),
+        other if base => Reference::JointBase(plain(sim, other)?),
+        other => Reference::Object(plain(sim, other)?),
     })
 }
 
-/// Places of the value and of what it is given against in the arguments of a setter: (handle, value, against) since 4.6, (handle, against,
-/// value) before.
+/// Places of the value and of what it is given against in the arguments of a setter: (handle, value, against) since
+/// 4.6, (handle, against, value) before.
 fn setter(a: Arguments<'_>) -> (usize, usize) {
     if matches!(a.get(1), Value::List(_)) { (1, 2) } else { (2, 1) }
 }

@@ -1,8 +1,9 @@
-//! Shelf: motions of numbers within limits, step by step (`sim.ruckigPos` …; the names of the Reflexxes library, `sim.rmlPos` …, are the same functions).
+//! Functions: motions of numbers within limits, step by step (`sim.ruckigPos` …; the names of the Reflexxes library,
+//! `sim.rmlPos` …, are the same functions).
 
 use super::{Function, Outcome, done, one};
 use crate::motion::{Axis, Goal, Limits, Point, Synchronization};
-use crate::session::{Arguments, Desk, Motion, Refusal, Value};
+use crate::session::{ApiError, Arguments, Motion, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -31,7 +32,7 @@ pub(super) const MIN_VELOCITY: i64 = 0x100;
 /// Lowest accelerations are given.
 pub(super) const MIN_ACCELERATION: i64 = 0x200;
 
-/// How axes belong together; −1 means that all arrive at one time.
+/// Synchronization of axes; −1 means that all arrive at one time.
 pub(super) fn synchronization(flags: i64) -> Synchronization {
     match flags & 3 {
         _ if flags < 0 => Synchronization::Time,
@@ -41,22 +42,22 @@ pub(super) fn synchronization(flags: i64) -> Synchronization {
     }
 }
 
-fn counted(a: Arguments<'_>, k: usize, n: usize, what: &str) -> Result<Vec<f64>, Refusal> {
+fn counted(a: Arguments<'_>, k: usize, n: usize, what: &str) -> Result<Vec<f64>, ApiError> {
     let list = a.get(k).as_reals();
-    let list = list.ok_or_else(|| Refusal(format!("argument {} is {}, expected {what}", k + 1, a.get(k).word())))?;
+    let list = list.ok_or_else(|| ApiError(format!("argument {} is {}, expected {what}", k + 1, a.get(k).word())))?;
     if list.len() != n {
         let found = list.len();
-        return Err(Refusal(format!("argument {} has {found} numbers, expected {n}: {what}", k + 1)));
+        return Err(ApiError(format!("argument {} has {found} numbers, expected {n}: {what}", k + 1)));
     }
     Ok(list)
 }
 
-fn make(desk: &mut Desk<'_>, a: Arguments<'_>, is_position: bool) -> Outcome {
+fn make(sim: &mut SimApi<'_>, a: Arguments<'_>, is_position: bool) -> Outcome {
     let (n, base, flags) = (a.int(0)?, a.real(1)?, a.int(2)?);
     let n = usize::try_from(n).ok().filter(|n| (1..=100).contains(n));
-    let n = n.ok_or_else(|| Refusal::new("argument 1 is no number of degrees of freedom, expected 1 to 100"))?;
+    let n = n.ok_or_else(|| ApiError::new("argument 1 is no number of degrees of freedom, expected 1 to 100"))?;
     if !(base.is_finite() && base >= 0.0) {
-        return Err(Refusal(format!("argument 2, the base cycle time, is {base} s, expected 0.0001")));
+        return Err(ApiError(format!("argument 2, the base cycle time, is {base} s, expected 0.0001")));
     }
     let bit = |bit: i64| flags >= 0 && flags & bit != 0;
     let (has_low_v, has_low_a) = (is_position && bit(MIN_VELOCITY), bit(MIN_ACCELERATION));
@@ -95,7 +96,7 @@ fn make(desk: &mut Desk<'_>, a: Arguments<'_>, is_position: bool) -> Outcome {
             Axis { start: Point { p: state[k], v: state[n + k], a: state[2 * n + k] }, limits, goal }
         })
         .collect();
-    one(desk.add_motion(Motion::new(&axes, synchronization(flags))?)?)
+    one(sim.add_motion(Motion::new(&axes, synchronization(flags))?)?)
 }
 
 /// Positions, then velocities, then accelerations.
@@ -104,12 +105,12 @@ fn flat(points: &[Point]) -> Value {
     Value::reals(all.into_iter().flat_map(|of| points.iter().map(of)))
 }
 
-fn step(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let stepped = desk.step_motion(a.int(0)?, a.real(1)?)?;
+fn step(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let stepped = sim.step_motion(a.int(0)?, a.real(1)?)?;
     Ok(vec![Value::Int(stepped.is_done.into()), flat(&stepped.points), Value::Real(stepped.left)])
 }
 
-fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.remove_motion(a.int(0)?)?;
+fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.remove_motion(a.int(0)?)?;
     done()
 }

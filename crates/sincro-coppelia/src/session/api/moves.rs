@@ -1,7 +1,8 @@
-//! Shelf: motions of joints and objects within limits, step by step: `sim.moveToConfig_init`, `_step`, `_cleanup`, the same of poses.
+//! Functions: motions of joints and objects within limits, step by step: `sim.moveToConfig_init`, `_step`, `_cleanup`,
+//! the same of poses.
 //!
-//! `sim.moveToConfig` and `sim.moveToPose` themselves wait for the simulation between steps: doors make them of these ([`Move`]). A motion is a map: what was
-//! given, where it is, and the handle of what moves (`ruckigObj`).
+//! `sim.moveToConfig` and `sim.moveToPose` themselves wait for the simulation between steps: adapters make them of
+//! these ([`Move`]). A motion is a map: what was given, where it is, and the handle of what moves (`ruckigObj`).
 
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 
@@ -12,7 +13,7 @@ use super::{Function, Outcome, done, plain};
 use crate::motion::{Axis, Goal, Limits, Point};
 use crate::session::convention::{matrix_of, pose_of_matrix, pose_of_seven, seven_of};
 use crate::session::ik::Element;
-use crate::session::{Arguments, Desk, Handle, Motion, Reference, Refusal, Value};
+use crate::session::{ApiError, Arguments, Handle, Motion, Reference, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -47,7 +48,7 @@ const SAME: f64 = 1e-5 * std::f64::consts::PI;
 const NEAR: f64 = 1e-6;
 
 /// Axes of a motion from its fields, with their defaults; these are set.
-fn axes(fields: &mut Fields, from: &[f64], to: &[f64]) -> Result<Motion, Refusal> {
+fn axes(fields: &mut Fields, from: &[f64], to: &[f64]) -> Result<Motion, ApiError> {
     let n = from.len();
     let most: Vec<Vec<f64>> = ["maxVel", "maxAccel", "maxJerk"]
         .into_iter()
@@ -64,7 +65,7 @@ fn axes(fields: &mut Fields, from: &[f64], to: &[f64]) -> Result<Motion, Refusal
     let flags = if flags < 0 { 0 } else { flags };
     let step = fields.real_or("timeStep", 0.0)?;
     if !(step.is_finite() && step >= 0.0) {
-        return Err(Refusal(format!("`timeStep` is {step} s, expected 0 (a step of the simulation) or more")));
+        return Err(ApiError(format!("`timeStep` is {step} s, expected 0 (a step of the simulation) or more")));
     }
     let all: Vec<Axis> = (0..n)
         .map(|k| Axis {
@@ -100,31 +101,31 @@ fn axes(fields: &mut Fields, from: &[f64], to: &[f64]) -> Result<Motion, Refusal
 }
 
 /// Handles of a field that is a list of them, each of a joint with one coordinate.
-fn joints(desk: &Desk<'_>, fields: &Fields) -> Result<Vec<Handle>, Refusal> {
+fn joints(sim: &SimApi<'_>, fields: &Fields) -> Result<Vec<Handle>, ApiError> {
     let Value::List(list) = fields.get("joints") else {
-        return Err(Refusal(format!("`joints` is {}, expected a list of handles", fields.get("joints").word())));
+        return Err(ApiError(format!("`joints` is {}, expected a list of handles", fields.get("joints").word())));
     };
     let handle = |value: &Value| {
         let raw = value.as_int().and_then(|n| i32::try_from(n).ok());
-        let raw = raw.ok_or_else(|| Refusal(format!("`joints` has {}, expected handles", value.word())))?;
-        Ok(desk.table.joint(plain(desk, raw)?)?.handle)
+        let raw = raw.ok_or_else(|| ApiError(format!("`joints` has {}, expected handles", value.word())))?;
+        Ok(sim.registry.joint(plain(sim, raw)?)?.handle)
     };
     list.iter().map(handle).collect()
 }
 
-fn begin_config(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
-    let own = if fields.has("joints") { Some(joints(desk, &fields)?) } else { None };
+fn begin_config(sim: &mut SimApi<'_>, mut fields: Fields) -> Outcome {
+    let own = if fields.has("joints") { Some(joints(sim, &fields)?) } else { None };
     let n = match (&own, fields.get("pos")) {
         (Some(joints), _) => joints.len(),
         (None, Value::List(list)) => list.len(),
-        (None, Value::Nil) => return Err(Refusal::new("either `joints` or `pos` is needed")),
-        (None, other) => return Err(Refusal(format!("`pos` is {}, expected a list of numbers", other.word()))),
+        (None, Value::Nil) => return Err(ApiError::new("either `joints` or `pos` is needed")),
+        (None, other) => return Err(ApiError(format!("`pos` is {}, expected a list of numbers", other.word()))),
     };
     if n == 0 {
-        return Err(Refusal::new("nothing is to be moved: `joints` or `pos` is an empty list"));
+        return Err(ApiError::new("nothing is to be moved: `joints` or `pos` is an empty list"));
     }
     let pos = match (&own, fields.has("pos")) {
-        (Some(joints), false) => joints.iter().map(|h| desk.joint_position(*h)).collect::<Result<Vec<f64>, _>>()?,
+        (Some(joints), false) => joints.iter().map(|h| sim.joint_position(*h)).collect::<Result<Vec<f64>, _>>()?,
         _ => fields.numbers("pos", n)?,
     };
     let mut target = fields.numbers("targetPos", n)?;
@@ -138,11 +139,12 @@ fn begin_config(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
     let motion = axes(&mut fields, &pos, &target)?;
     fields.set_list("pos", pos);
     fields.set_list("targetPos", target);
-    fields.set("ruckigObj", desk.add_motion(motion)?);
+    fields.set("ruckigObj", sim.add_motion(motion)?);
     Ok(vec![fields.into_value()])
 }
 
-/// The angle, or one that is whole turns from it, that is nearest to another; half a turn forwards rather than backwards.
+/// The angle, or one that is whole turns from it, that is nearest to another; half a turn forwards rather than
+/// backwards.
 fn nearest_turn(angle: f64, to: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     if !(angle.is_finite() && to.is_finite()) {
@@ -152,10 +154,10 @@ fn nearest_turn(angle: f64, to: f64) -> f64 {
 }
 
 /// Lets the motion of a map go on; whether it has ended, and the axes.
-fn go_on(desk: &mut Desk<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>), Refusal> {
+fn go_on(sim: &mut SimApi<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>), ApiError> {
     let step = fields.real_or("timeStep", 0.0)?;
-    let step = if step == 0.0 { desk.table.sample_time() } else { step };
-    let stepped = desk.step_motion(fields.int("ruckigObj")?, step)?;
+    let step = if step == 0.0 { sim.registry.sample_time() } else { step };
+    let stepped = sim.step_motion(fields.int("ruckigObj")?, step)?;
     if !stepped.is_done {
         fields.set("timeLeft", step - stepped.left);
     }
@@ -165,42 +167,42 @@ fn go_on(desk: &mut Desk<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>),
 }
 
 /// The next step; joints are told of it unless a callback is.
-fn step_config(desk: &mut Desk<'_>, mut fields: Fields, is_told: bool) -> Outcome {
-    let own = if fields.has("joints") { joints(desk, &fields)? } else { Vec::new() };
-    let (is_done, points) = go_on(desk, &mut fields)?;
+fn step_config(sim: &mut SimApi<'_>, mut fields: Fields, is_told: bool) -> Outcome {
+    let own = if fields.has("joints") { joints(sim, &fields)? } else { Vec::new() };
+    let (is_done, points) = go_on(sim, &mut fields)?;
     fields.set_list("pos", points.iter().map(|x| x.p));
     if !is_told {
-        own.iter().zip(&points).try_for_each(|(joint, x)| put(desk, *joint, x.p))?;
+        own.iter().zip(&points).try_for_each(|(joint, x)| put(sim, *joint, x.p))?;
     }
     Ok(vec![Value::Int(is_done.into()), fields.into_value()])
 }
 
-/// Of a joint that turns without end, at the turn where it is.
-fn put(desk: &mut Desk<'_>, joint: Handle, position: f64) -> Result<(), Refusal> {
-    let is_cyclic = desk.joint_interval(joint)?.0;
-    let now = desk.world.state.q[desk.table.joint(joint)?.q_idx];
-    desk.apply(joint, if is_cyclic { nearest_turn(position, now) } else { position })
+/// Sets the position of a joint; a cyclic one stays within its present turn.
+fn put(sim: &mut SimApi<'_>, joint: Handle, position: f64) -> Result<(), ApiError> {
+    let is_cyclic = sim.joint_interval(joint)?.0;
+    let now = sim.world.state.q[sim.registry.joint(joint)?.q_idx];
+    sim.apply(joint, if is_cyclic { nearest_turn(position, now) } else { position })
 }
 
 /// Seven numbers of a field.
-fn pose(fields: &Fields, name: &str) -> Result<Pose<f64>, Refusal> {
+fn pose(fields: &Fields, name: &str) -> Result<Pose<f64>, ApiError> {
     let numbers = <[f64; 7]>::try_from(fields.numbers(name, 7)?).expect("seven were asked for");
     if let Some(x) = numbers.iter().find(|x| !x.is_finite()) {
-        return Err(Refusal(format!("`{name}` has {x}, expected finite numbers")));
+        return Err(ApiError(format!("`{name}` has {x}, expected finite numbers")));
     }
-    pose_of_seven(numbers).ok_or_else(|| Refusal(format!("`{name}` has a quaternion without direction")))
+    pose_of_seven(numbers).ok_or_else(|| ApiError(format!("`{name}` has a quaternion without direction")))
 }
 
-/// What the pose of an object is given against.
-fn against(desk: &Desk<'_>, fields: &Fields) -> Result<Reference, Refusal> {
+/// Reference frame of the pose of an object.
+fn against(sim: &SimApi<'_>, fields: &Fields) -> Result<Reference, ApiError> {
     Ok(match fields.int_or("relObject", -1)? {
         -1 => Reference::World,
         -11 => Reference::Parent,
-        _ => Reference::Object(plain(desk, fields.handle("relObject")?)?),
+        _ => Reference::Object(plain(sim, fields.handle("relObject")?)?),
     })
 }
 
-fn begin_pose(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
+fn begin_pose(sim: &mut SimApi<'_>, mut fields: Fields) -> Outcome {
     let mut chain = None;
     let from = if fields.has("pose") {
         fields.set("object", Value::Nil);
@@ -208,15 +210,15 @@ fn begin_pose(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
         pose(&fields, "pose")?
     } else if fields.has("object") {
         fields.set("ik", Value::Nil);
-        let object = plain(desk, fields.handle("object")?)?;
-        desk.pose(object, against(desk, &fields)?)?
+        let object = plain(sim, fields.handle("object")?)?;
+        sim.pose(object, against(sim, &fields)?)?
     } else if fields.has("ik") {
-        let ik = Chain::of(desk, &Fields::of(fields.get("ik"))?)?;
-        let at = desk.pose(ik.element.tip, Reference::World)?;
+        let ik = Chain::of(sim, &Fields::of(fields.get("ik"))?)?;
+        let at = sim.pose(ik.element.tip, Reference::World)?;
         chain = Some(ik);
         at
     } else {
-        return Err(Refusal::new("one of `object`, `pose` and `ik` is needed"));
+        return Err(ApiError::new("one of `object`, `pose` and `ik` is needed"));
     };
     let to = pose(&fields, "targetPose")?;
     let turn = rotation_vector(&from.rot.transpose().mul(&to.rot));
@@ -224,7 +226,7 @@ fn begin_pose(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
     let motion = if fields.has("metric") {
         let metric = fields.numbers("metric", 4)?;
         if let Some(x) = metric.iter().find(|x| !(x.is_finite() && **x >= 0.0)) {
-            return Err(Refusal(format!("`metric` has {x}, expected numbers that are not negative")));
+            return Err(ApiError(format!("`metric` has {x}, expected numbers that are not negative")));
         }
         let parts = [way[0], way[1], way[2], angle];
         let distance = parts.iter().zip(&metric).map(|(x, m)| (x * m) * (x * m)).sum::<f64>().sqrt();
@@ -235,10 +237,10 @@ fn begin_pose(desk: &mut Desk<'_>, mut fields: Fields) -> Outcome {
         fields.set("dist", 1.0);
         Some(axes(&mut fields, &[0.0; 4], &[way[0], way[1], way[2], angle])?)
     };
-    let motion = motion.map(|motion| desk.add_motion(motion)).transpose()?;
+    let motion = motion.map(|motion| sim.add_motion(motion)).transpose()?;
     if let Some(chain) = chain {
-        let entered = chain.enter(desk).inspect_err(|_| {
-            let _ = motion.map(|motion| desk.remove_motion(motion));
+        let entered = chain.enter(sim).inspect_err(|_| {
+            let _ = motion.map(|motion| sim.remove_motion(motion));
         });
         fields.set("ik", entered?);
         fields.set("object", chain.element.target);
@@ -257,18 +259,18 @@ fn place(fields: &mut Fields, pose: &Pose<f64>) {
     fields.set_list("pose", seven_of(pose));
 }
 
-fn matrix(fields: &Fields, name: &str) -> Result<Pose<f64>, Refusal> {
+fn matrix(fields: &Fields, name: &str) -> Result<Pose<f64>, ApiError> {
     Ok(pose_of_matrix(&<[f64; 12]>::try_from(fields.numbers(name, 12)?).expect("twelve were asked for")))
 }
 
 /// The next step; the object is put there unless a callback is told.
-fn step_pose(desk: &mut Desk<'_>, mut fields: Fields, is_told: bool) -> Outcome {
+fn step_pose(sim: &mut SimApi<'_>, mut fields: Fields, is_told: bool) -> Outcome {
     if !fields.has("ruckigObj") {
         return Ok(vec![Value::Int(1), fields.into_value()]);
     }
     let (from, to) = (matrix(&fields, "startMatrix")?, matrix(&fields, "targetMatrix")?);
     let turn = rotation_vector(&from.rot.transpose().mul(&to.rot));
-    let (is_done, points) = go_on(desk, &mut fields)?;
+    let (is_done, points) = go_on(sim, &mut fields)?;
     let between = |share: f64| from.rot.mul(&Quat::exp(turn.scale(share)).matrix());
     let at = match points[..] {
         // there, exactly
@@ -281,16 +283,16 @@ fn step_pose(desk: &mut Desk<'_>, mut fields: Fields, is_told: bool) -> Outcome 
             let share = if turn.norm() > SAME { angle.p / turn.norm() } else { 0.0 };
             Pose { rot: between(share), pos: from.pos + Vec3([x.p, y.p, z.p]) }
         }
-        _ => return Err(Refusal::new("`ruckigObj` is the motion of something else")),
+        _ => return Err(ApiError::new("`ruckigObj` is the motion of something else")),
     };
     place(&mut fields, &at);
     if !is_told {
         if fields.has("object") {
-            let object = plain(desk, fields.handle("object")?)?;
-            desk.set_pose(object, &at, against(desk, &fields)?)?;
+            let object = plain(sim, fields.handle("object")?)?;
+            sim.set_pose(object, &at, against(sim, &fields)?)?;
         }
         if fields.has("ik") {
-            follow(desk, &Fields::of(fields.get("ik"))?)?;
+            follow(sim, &Fields::of(fields.get("ik"))?)?;
         }
     }
     Ok(vec![Value::Int(is_done.into()), fields.into_value()])
@@ -306,13 +308,13 @@ struct Chain {
 }
 
 impl Chain {
-    fn of(desk: &Desk<'_>, fields: &Fields) -> Result<Self, Refusal> {
+    fn of(sim: &SimApi<'_>, fields: &Fields) -> Result<Self, ApiError> {
         if fields.has("joints") {
-            return Err(Refusal::new("`ik.joints` is not offered: all joints between base and tip move"));
+            return Err(ApiError::new("`ik.joints` is not offered: all joints between base and tip move"));
         }
         let base = match fields.int_or("base", -1)? {
             -1 => None,
-            _ => Some(plain(desk, fields.handle("base")?)?),
+            _ => Some(plain(sim, fields.handle("base")?)?),
         };
         let precision = match fields.has("precision") {
             true => <[f64; 2]>::try_from(fields.numbers("precision", 2)?).expect("two were asked for"),
@@ -320,8 +322,8 @@ impl Chain {
         };
         let element = Element {
             base,
-            tip: plain(desk, fields.handle("tip")?)?,
-            target: plain(desk, fields.handle("target")?)?,
+            tip: plain(sim, fields.handle("tip")?)?,
+            target: plain(sim, fields.handle("target")?)?,
             constraints: fields.int_or("constraints", 31)?,
             precision,
             weights: [1.0; 2],
@@ -331,20 +333,20 @@ impl Chain {
     }
 
     /// Makes what solves it; the target begins at the tip.
-    fn enter(&self, desk: &mut Desk<'_>) -> Result<Value, Refusal> {
-        let environment = desk.create_environment()? as i64;
-        self.fill(desk, environment).inspect_err(|_| {
-            let _ = desk.erase_environment(environment);
+    fn enter(&self, sim: &mut SimApi<'_>) -> Result<Value, ApiError> {
+        let environment = sim.create_environment()? as i64;
+        self.fill(sim, environment).inspect_err(|_| {
+            let _ = sim.erase_environment(environment);
         })
     }
 
-    fn fill(&self, desk: &mut Desk<'_>, environment: i64) -> Result<Value, Refusal> {
-        let group = desk.create_group(environment, "")? as i64;
+    fn fill(&self, sim: &mut SimApi<'_>, environment: i64) -> Result<Value, ApiError> {
+        let group = sim.create_group(environment, "")? as i64;
         let damping = if self.method == 1 { self.damping } else { 0.0 };
-        desk.set_calculation(environment, group, damping, self.iterations)?;
-        desk.add_element(environment, group, self.element.clone())?;
-        let tip = desk.pose(self.element.tip, Reference::World)?;
-        desk.set_pose(self.element.target, &tip, Reference::World)?;
+        sim.set_calculation(environment, group, damping, self.iterations)?;
+        sim.add_element(environment, group, self.element.clone())?;
+        let tip = sim.pose(self.element.tip, Reference::World)?;
+        sim.set_pose(self.element.target, &tip, Reference::World)?;
         let mut fields = self.fields.clone();
         fields.set("ikEnv", environment);
         fields.set("ikGroup", group);
@@ -352,26 +354,26 @@ impl Chain {
     }
 }
 
-fn follow(desk: &mut Desk<'_>, ik: &Fields) -> Result<(), Refusal> {
+fn follow(sim: &mut SimApi<'_>, ik: &Fields) -> Result<(), ApiError> {
     let allowed = ik.bool_or("allowError", false)?;
-    let outcome = desk.handle_group(ik.int("ikEnv")?, ik.int("ikGroup")?, (true, allowed))?;
+    let outcome = sim.handle_group(ik.int("ikEnv")?, ik.int("ikGroup")?, (true, allowed))?;
     let tolerance = if outcome.is_reached { 0 } else { super::ik::NOT_WITHIN_TOLERANCE };
     let flags = tolerance | if outcome.hit_limit { super::ik::LIMIT_HIT } else { 0 };
     let breaking = flags & ik.int_or("breakFlags", 0)?;
-    if breaking == 0 { Ok(()) } else { Err(Refusal(format!("simIK.handleGroup returned flags {flags}"))) }
+    if breaking == 0 { Ok(()) } else { Err(ApiError(format!("simIK.handleGroup returned flags {flags}"))) }
 }
 
 /// Forgets what moves.
-fn end(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn end(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let fields = Fields::of(a.get(0))?;
     if fields.has("ik") {
         let ik = Fields::of(fields.get("ik"))?;
         if ik.has("ikEnv") {
-            desk.erase_environment(ik.int("ikEnv")?)?;
+            sim.erase_environment(ik.int("ikEnv")?)?;
         }
     }
     if fields.has("ruckigObj") {
-        desk.remove_motion(fields.int("ruckigObj")?)?;
+        sim.remove_motion(fields.int("ruckigObj")?)?;
     }
     done()
 }

@@ -59,7 +59,8 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("rMLRemove", "ruckigRemove"),
 ];
 
-/// Every old name, without `sim` and its first letter small, with the present one; what follows the rule is not among them.
+/// Every old name, without `sim` and its first letter small, with the present one; what follows the rule is not among
+/// them.
 pub fn old_names() -> impl Iterator<Item = (&'static str, &'static str)> {
     IRREGULAR.iter().copied()
 }

@@ -1,9 +1,9 @@
-//! Shelf: objects, their names and their tree.
+//! Functions: objects, their names and their tree.
 
 use sincro_dynamics::joint::JointKind;
 
 use super::{Function, Outcome, done, handle, one, plain};
-use crate::session::{Arguments, Desk, Entry, Handle, Kind, Refusal, Search, Value};
+use crate::session::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "getObject", tip: "int objectHandle=sim.getObject(string path,map options={})", run: get_object },
@@ -130,7 +130,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-impl Desk<'_> {
+impl SimApi<'_> {
     /// The number of an object's type: 0 shapes, 1 joints, 4 points, 9 vision sensors, 12 force sensors.
     #[must_use]
     pub fn type_of(&self, entry: &Entry) -> i64 {
@@ -153,35 +153,35 @@ impl Desk<'_> {
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_type(&self, handle: Handle) -> Result<i64, Refusal> {
-        let entry = self.table.entry(handle)?;
+    pub fn joint_type(&self, handle: Handle) -> Result<i64, ApiError> {
+        let entry = self.registry.entry(handle)?;
         if is_ball(self, entry) {
             return Ok(12);
         }
         if let Kind::Rotor(_) = entry.kind {
             return Ok(10);
         }
-        Ok(if matches!(self.table.joint(handle)?.kind, JointKind::Prismatic { .. }) { 11 } else { 10 })
+        Ok(if matches!(self.registry.joint(handle)?.kind, JointKind::Prismatic { .. }) { 11 } else { 10 })
     }
 
     /// Objects of a type by its number, all of them for −2 and 109; parents before children.
     #[must_use]
     pub fn objects_of_type(&self, wanted: i64) -> Vec<Handle> {
         let fits = |e: &&Entry| matches!(wanted, -2 | 109) || self.type_of(e) == wanted;
-        self.table.entries().filter(fits).map(|e| e.handle).collect()
+        self.registry.entries().filter(fits).map(|e| e.handle).collect()
     }
 }
 
-fn is_ball(desk: &Desk<'_>, entry: &Entry) -> bool {
-    desk.world.model().names().joint(&entry.path).is_some_and(|j| j.kind == JointKind::Ball)
+fn is_ball(sim: &SimApi<'_>, entry: &Entry) -> bool {
+    sim.world.model().names().joint(&entry.path).is_some_and(|j| j.kind == JointKind::Ball)
 }
 
-fn named<'a>(desk: &'a Desk<'_>, a: Arguments<'_>) -> Result<&'a Entry, Refusal> {
-    desk.table.entry(handle(desk, a, 0)?)
+fn named<'a>(sim: &'a SimApi<'_>, a: Arguments<'_>) -> Result<&'a Entry, ApiError> {
+    sim.registry.entry(handle(sim, a, 0)?)
 }
 
-fn get_object(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let mut search = Search { from: desk.own, ..Search::default() };
+fn get_object(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let mut search = Search { from: sim.own, ..Search::default() };
     let mut no_error = false;
     if let Value::Map(options) = a.get(1) {
         for (key, value) in options {
@@ -189,184 +189,184 @@ fn get_object(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
                 "index" => search.index = value.as_int().and_then(|k| usize::try_from(k).ok()).unwrap_or(0),
                 "proxy" => {
                     let proxy = value.as_int().and_then(|h| i32::try_from(h).ok()).filter(|h| *h >= 0);
-                    search.from = proxy.map(|h| plain(desk, h)).transpose()?;
+                    search.from = proxy.map(|h| plain(sim, h)).transpose()?;
                     search.below = search.from;
                 }
                 "noError" => no_error = value.as_bool().unwrap_or(false),
-                _ => return Err(Refusal(format!("there is no option `{key}`: index, proxy, noError"))),
+                _ => return Err(ApiError(format!("there is no option `{key}`: index, proxy, noError"))),
             }
         }
     }
-    match desk.table.find(a.text(0)?, search) {
+    match sim.registry.find(a.text(0)?, search) {
         Ok(handle) => one(handle),
         Err(_) if no_error => one(-1_i64),
-        Err(refusal) => Err(refusal),
+        Err(error) => Err(error),
     }
 }
 
-fn is_handle(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(a.handle(0).is_ok_and(|h| plain(desk, h).is_ok()))
+fn is_handle(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(a.handle(0).is_ok_and(|h| plain(sim, h).is_ok()))
 }
 
-fn alias(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let entry = named(desk, a)?;
+fn alias(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(sim, a)?;
     one(match a.int_or(1, -1)? {
         1 | 2 => entry.path.clone(),
         4 => format!("{}__{}__", entry.name, entry.handle.0),
-        5 | 6 => format!("/{}{{{}}}", entry.name, order(desk, entry)),
-        0 => format!("{}[{}]", entry.name, order(desk, entry)),
+        5 | 6 => format!("/{}{{{}}}", entry.name, order(sim, entry)),
+        0 => format!("{}[{}]", entry.name, order(sim, entry)),
         _ => entry.name.clone(),
     })
 }
 
-/// How many of the same name come before an object.
-fn order(desk: &Desk<'_>, entry: &Entry) -> usize {
-    desk.table.entries().filter(|e| e.name == entry.name && e.handle < entry.handle).count()
+/// Number of objects of the same name before an object.
+fn order(sim: &SimApi<'_>, entry: &Entry) -> usize {
+    sim.registry.entries().filter(|e| e.name == entry.name && e.handle < entry.handle).count()
 }
 
-fn object_type(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let entry = named(desk, a)?;
-    one(desk.type_of(entry))
+fn object_type(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(sim, a)?;
+    one(sim.type_of(entry))
 }
 
-fn joint_type(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.joint_type(own)?)
+fn joint_type(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.joint_type(own)?)
 }
 
-fn parent(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(named(desk, a)?.parent.unwrap_or(Handle(-1)))
+fn parent(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(named(sim, a)?.parent.unwrap_or(Handle(-1)))
 }
 
-fn child(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let entry = named(desk, a)?;
-    let nth = usize::try_from(a.int(1)?).map_err(|_| Refusal::new("the index is negative"))?;
-    one(desk.table.children(Some(entry.handle)).nth(nth).map_or(Handle(-1), |e| e.handle))
+fn child(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let entry = named(sim, a)?;
+    let nth = usize::try_from(a.int(1)?).map_err(|_| ApiError::new("the index is negative"))?;
+    one(sim.registry.children(Some(entry.handle)).nth(nth).map_or(Handle(-1), |e| e.handle))
 }
 
-fn set_parent(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_parent(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     let parent = match a.handle(1)? {
         -1 => None,
-        other => Some(plain(desk, other)?),
+        other => Some(plain(sim, other)?),
     };
-    desk.set_parent(own, parent, a.bool_or(2, true)?)?;
+    sim.set_parent(own, parent, a.bool_or(2, true)?)?;
     done()
 }
 
-fn nth(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let nth = usize::try_from(a.int(0)?).map_err(|_| Refusal::new("the index is negative"))?;
-    one(desk.objects_of_type(a.int(1)?).get(nth).copied().unwrap_or(Handle(-1)))
+fn nth(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let nth = usize::try_from(a.int(0)?).map_err(|_| ApiError::new("the index is negative"))?;
+    one(sim.objects_of_type(a.int(1)?).get(nth).copied().unwrap_or(Handle(-1)))
 }
 
-fn in_tree(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn in_tree(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (wanted, options) = (a.int_or(1, -2)?, a.int_or(2, 0)?);
-    let all = desk.objects_of_type(wanted);
+    let all = sim.objects_of_type(wanted);
     let base = match a.handle(0)? {
         -12 => return Ok(vec![Value::handles(all)]),
-        other => plain(desk, other)?,
+        other => plain(sim, other)?,
     };
-    let children: Vec<Handle> = desk.table.children(Some(base)).map(|e| e.handle).collect();
-    let tree = if options & 2 != 0 { [vec![base], children].concat() } else { desk.table.tree(base) };
+    let children: Vec<Handle> = sim.registry.children(Some(base)).map(|e| e.handle).collect();
+    let tree = if options & 2 != 0 { [vec![base], children].concat() } else { sim.registry.tree(base) };
     let tree = tree.into_iter().filter(|h| all.contains(h) && (options & 1 == 0 || *h != base));
     Ok(vec![Value::handles(tree)])
 }
 
-fn create_dummy(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn create_dummy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     a.real(0)?;
-    one(desk.table.create_dummy("Dummy")?)
+    one(sim.registry.create_dummy("Dummy")?)
 }
 
-fn remove(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.remove(own)?;
+fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.remove(own)?;
     one(1_i64)
 }
 
 /// Copies of what was made by clients or scripts; what belongs to the scene is not copied.
-fn copy(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let copies = handles(a, 0)?.into_iter().map(|handle| desk.copy(handle));
+fn copy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let copies = handles(a, 0)?.into_iter().map(|handle| sim.copy(handle));
     Ok(vec![Value::handles(copies.collect::<Result<Vec<_>, _>>()?)])
 }
 
 /// A list of handles.
-pub(super) fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, Refusal> {
-    let wrong = || Refusal(format!("argument {} is no list of handles", k + 1));
+pub(super) fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, ApiError> {
+    let wrong = || ApiError(format!("argument {} is no list of handles", k + 1));
     let Value::List(list) = a.get(k) else { return Err(wrong()) };
     let handles = list.iter().map(|v| v.as_int().and_then(|h| i32::try_from(h).ok()).map(Handle));
     handles.collect::<Option<Vec<_>>>().ok_or_else(wrong)
 }
 
-fn remove_all(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn remove_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     for handle in handles(a, 0)? {
-        desk.remove(handle)?;
+        sim.remove(handle)?;
     }
     done()
 }
 
-fn int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.object_int(own, a.int(1)?)?)
+fn int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.object_int(own, a.int(1)?)?)
 }
 
-fn set_int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.set_object_int(own, a.int(1)?, a.int(2)?)?;
+fn set_int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.set_object_int(own, a.int(1)?, a.int(2)?)?;
     done()
 }
 
-fn float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(desk.object_float(own, a.int(1)?)?)
+fn float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.object_float(own, a.int(1)?)?)
 }
 
-fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.set_object_float(own, a.int(1)?, a.real(2)?)?;
+fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.set_object_float(own, a.int(1)?, a.real(2)?)?;
     done()
 }
 
-fn property(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    handle(desk, a, 0)?;
+fn property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    handle(sim, a, 0)?;
     one(0_i64)
 }
 
 /// Properties say what a window shows and lets be selected: taken, and of no effect.
-fn set_property(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    handle(desk, a, 0)?;
+fn set_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    handle(sim, a, 0)?;
     a.int(1)?;
     one(1_i64)
 }
 
-fn rename(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    desk.table.rename(own, a.text(1)?)?;
+fn rename(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.registry.rename(own, a.text(1)?)?;
     done()
 }
 
-fn read_data(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let data = desk.table.data.get(&(own, a.text(1)?.to_owned()));
+fn read_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let data = sim.registry.data.get(&(own, a.text(1)?.to_owned()));
     Ok(vec![data.map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
 }
 
-fn write_data(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let key = (handle(desk, a, 0)?, a.text(1)?.to_owned());
+fn write_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let key = (handle(sim, a, 0)?, a.text(1)?.to_owned());
     if !a.has(2) || a.bytes(2)?.is_empty() {
-        desk.table.data.remove(&key);
-    } else if desk.table.data.len() >= 10_000 && !desk.table.data.contains_key(&key) {
-        return Err(Refusal::new("there are 10000 blocks of data already"));
+        sim.registry.data.remove(&key);
+    } else if sim.registry.data.len() >= 10_000 && !sim.registry.data.contains_key(&key) {
+        return Err(ApiError::new("there are 10000 blocks of data already"));
     } else {
-        desk.table.make_room(a.bytes(2)?.len())?;
-        desk.table.data.insert(key, a.bytes(2)?.to_vec());
+        sim.registry.make_room(a.bytes(2)?.len())?;
+        sim.registry.data.insert(key, a.bytes(2)?.to_vec());
     }
     done()
 }
 
 /// Scripts have the handles of their objects here.
-fn parameter(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let Some(text) = desk.table.script_parameters.get(&(own, a.text(1)?.to_owned())) else {
+fn parameter(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let Some(text) = sim.registry.script_parameters.get(&(own, a.text(1)?.to_owned())) else {
         return Ok(vec![Value::Nil]);
     };
     if a.bool_or(2, false)? {
@@ -380,10 +380,10 @@ fn parameter(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     })
 }
 
-fn set_parameter(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let key = (handle(desk, a, 0)?, a.text(1)?.to_owned());
+fn set_parameter(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let key = (handle(sim, a, 0)?, a.text(1)?.to_owned());
     let text = a.text(2)?.to_owned();
-    match desk.table.script_parameters.get_mut(&key) {
+    match sim.registry.script_parameters.get_mut(&key) {
         Some(known) => *known = text,
         None => return one(-1_i64),
     }

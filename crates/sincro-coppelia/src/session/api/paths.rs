@@ -1,7 +1,7 @@
-//! Shelf: paths, as lists of configurations one after the other.
+//! Functions: paths, as lists of configurations one after the other.
 
 use super::{Function, Outcome};
-use crate::session::{Arguments, Refusal, Value};
+use crate::session::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -20,16 +20,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |_, a| {
             let (from, to) = (numbers(a, 0)?, numbers(a, 1)?);
             if from.len() != to.len() {
-                return Err(Refusal::new("the two configurations have not as many numbers"));
+                return Err(ApiError::new("the two configurations have not as many numbers"));
             }
             super::one(distance(&from, &to))
         },
     },
 ];
 
-fn numbers(a: Arguments<'_>, k: usize) -> Result<Vec<f64>, Refusal> {
+fn numbers(a: Arguments<'_>, k: usize) -> Result<Vec<f64>, ApiError> {
     let list = a.get(k).as_reals().filter(|list| list.iter().all(|x| x.is_finite()));
-    list.ok_or_else(|| Refusal(format!("argument {} is no list of finite numbers", k + 1)))
+    list.ok_or_else(|| ApiError(format!("argument {} is no list of finite numbers", k + 1)))
 }
 
 fn distance(from: &[f64], to: &[f64]) -> f64 {
@@ -40,7 +40,7 @@ fn distance(from: &[f64], to: &[f64]) -> f64 {
 fn lengths(a: Arguments<'_>) -> Outcome {
     let (path, dof) = (numbers(a, 0)?, a.int(1)?);
     let dof = usize::try_from(dof).ok().filter(|n| *n > 0 && path.len().is_multiple_of(*n) && !path.is_empty());
-    let dof = dof.ok_or_else(|| Refusal::new("the path is not a whole number of configurations"))?;
+    let dof = dof.ok_or_else(|| ApiError::new("the path is not a whole number of configurations"))?;
     let points: Vec<&[f64]> = path.chunks_exact(dof).collect();
     let mut sum = 0.0;
     let steps = points.windows(2).map(|pair| {
@@ -56,10 +56,10 @@ fn interpolated(a: Arguments<'_>) -> Outcome {
     let (path, lengths, t) = (numbers(a, 0)?, numbers(a, 1)?, a.real(2)?);
     let n = lengths.len();
     if n == 0 || path.is_empty() || !path.len().is_multiple_of(n) || t.is_nan() {
-        return Err(Refusal::new("the path has not a configuration for each of its lengths"));
+        return Err(ApiError::new("the path has not a configuration for each of its lengths"));
     }
     if lengths.windows(2).any(|pair| pair[1] < pair[0]) {
-        return Err(Refusal::new("the lengths of the path do not increase"));
+        return Err(ApiError::new("the lengths of the path do not increase"));
     }
     let dof = path.len() / n;
     let at = |k: usize| &path[k * dof..(k + 1) * dof];

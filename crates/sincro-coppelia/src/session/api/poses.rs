@@ -1,9 +1,9 @@
-//! Shelf: where objects are and how they move.
+//! Functions: poses and velocities of objects.
 
 use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::{Function, Outcome, done, handle, list, reference, setter};
-use crate::session::{Arguments, Desk, Handle, Kind, Reference, Refusal, Value, convention};
+use crate::session::{ApiError, Arguments, Handle, Kind, Reference, SimApi, Value, convention};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -83,101 +83,102 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn read(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Pose<f64>, Refusal> {
-    let (own, against) = (handle(desk, a, 0)?, reference(desk, a, 1)?);
-    desk.pose(own, against)
+fn read(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Pose<f64>, ApiError> {
+    let (own, against) = (handle(sim, a, 0)?, reference(sim, a, 1)?);
+    sim.pose(own, against)
 }
 
 /// Handle, present pose against the reference, the reference, and the place of the new value.
-fn before(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<(Handle, Pose<f64>, Reference, usize), Refusal> {
+fn before(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Pose<f64>, Reference, usize), ApiError> {
     let (value, against) = setter(a);
-    let (own, against) = (handle(desk, a, 0)?, reference(desk, a, against)?);
-    Ok((own, desk.pose(own, against)?, against, value))
+    let (own, against) = (handle(sim, a, 0)?, reference(sim, a, against)?);
+    Ok((own, sim.pose(own, against)?, against, value))
 }
 
-fn position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    list(read(desk, a)?.pos.0)
+fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    list(read(sim, a)?.pos.0)
 }
 
-fn orientation(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    list(convention::euler_of(&read(desk, a)?.rot))
+fn orientation(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::euler_of(&read(sim, a)?.rot))
 }
 
-fn quaternion(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    list(convention::quaternion_of(&read(desk, a)?.rot))
+fn quaternion(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::quaternion_of(&read(sim, a)?.rot))
 }
 
-fn pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    list(convention::seven_of(&read(desk, a)?))
+fn pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::seven_of(&read(sim, a)?))
 }
 
-fn matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    list(convention::matrix_of(&read(desk, a)?))
+fn matrix(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    list(convention::matrix_of(&read(sim, a)?))
 }
 
-fn set_position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, before, against, value) = before(desk, a)?;
-    desk.set_pose(own, &Pose { pos: Vec3(a.reals(value)?), ..before }, against)?;
+fn set_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, before, against, value) = before(sim, a)?;
+    sim.set_pose(own, &Pose { pos: Vec3(a.reals(value)?), ..before }, against)?;
     done()
 }
 
-fn set_orientation(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, before, against, value) = before(desk, a)?;
-    desk.set_pose(own, &Pose { rot: convention::rotation_of_euler(a.reals(value)?), ..before }, against)?;
+fn set_orientation(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, before, against, value) = before(sim, a)?;
+    sim.set_pose(own, &Pose { rot: convention::rotation_of_euler(a.reals(value)?), ..before }, against)?;
     done()
 }
 
-fn set_quaternion(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, before, against, value) = before(desk, a)?;
+fn set_quaternion(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, before, against, value) = before(sim, a)?;
     let rot = convention::rotation_of_quaternion(a.reals(value)?);
-    let rot = rot.ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
-    desk.set_pose(own, &Pose { rot, ..before }, against)?;
+    let rot = rot.ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
+    sim.set_pose(own, &Pose { rot, ..before }, against)?;
     done()
 }
 
-fn set_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, _, against, value) = before(desk, a)?;
+fn set_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, _, against, value) = before(sim, a)?;
     let pose = convention::pose_of_seven(a.reals(value)?);
-    let pose = pose.ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
-    desk.set_pose(own, &pose, against)?;
+    let pose = pose.ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
+    sim.set_pose(own, &pose, against)?;
     done()
 }
 
-fn set_matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, _, against, value) = before(desk, a)?;
-    desk.set_pose(own, &convention::pose_of_matrix(&a.reals(value)?), against)?;
+fn set_matrix(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, _, against, value) = before(sim, a)?;
+    sim.set_pose(own, &convention::pose_of_matrix(&a.reals(value)?), against)?;
     done()
 }
 
-fn joint_matrix(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    list(convention::matrix_of(&desk.joint_pose(own)?))
+fn joint_matrix(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    list(convention::matrix_of(&sim.joint_pose(own)?))
 }
 
 /// Against the parent; the one of a joint is its position, which is set otherwise.
-fn set_child_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    if matches!(desk.table.entry(own)?.kind, Kind::Joint(_) | Kind::ForceSensor(_) | Kind::Rotor(_)) {
-        return Err(Refusal::new("the pose of a joint is its position: use sim.setJointPosition"));
+fn set_child_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    if matches!(sim.registry.entry(own)?.kind, Kind::Joint(_) | Kind::ForceSensor(_) | Kind::Rotor(_)) {
+        return Err(ApiError::new("the pose of a joint is its position: use sim.setJointPosition"));
     }
-    let pose = convention::pose_of_seven(a.reals(1)?).ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
-    desk.set_pose(own, &pose, Reference::Parent)?;
+    let pose =
+        convention::pose_of_seven(a.reals(1)?).ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
+    sim.set_pose(own, &pose, Reference::Parent)?;
     done()
 }
 
-fn child_pose(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    list(convention::seven_of(&desk.joint_pose(own)?))
+fn child_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    list(convention::seven_of(&sim.joint_pose(own)?))
 }
 
-fn velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (linear, angular) = desk.velocity(own)?;
+fn velocity(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (linear, angular) = sim.velocity(own)?;
     Ok(vec![Value::reals(linear), Value::reals(angular)])
 }
 
-fn center_velocity(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (linear, angular) = desk.center_velocity(own)?;
+fn center_velocity(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (linear, angular) = sim.center_velocity(own)?;
     Ok(vec![Value::reals(linear), Value::reals(angular)])
 }

@@ -1,4 +1,4 @@
-//! Shelf: turning about axes, and half-way between two poses.
+//! Functions: turning about axes, and half-way between two poses.
 
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::elementary::atan2;
@@ -6,7 +6,7 @@ use sincro_math::elementary::atan2;
 use super::transforms::any;
 use super::{Function, Outcome, list};
 use crate::session::convention::{matrix_of, seven_of};
-use crate::session::{Arguments, Refusal, Value};
+use crate::session::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -43,7 +43,7 @@ pub(super) fn rotation_vector(rot: &Mat3<f64>) -> Vec3<f64> {
 }
 
 /// Positions on a line, rotations at constant rate about one axis.
-fn between(a: Arguments<'_>) -> Result<Pose<f64>, Refusal> {
+fn between(a: Arguments<'_>) -> Result<Pose<f64>, ApiError> {
     let (from, to, share) = (any(a, 0)?, any(a, 1)?, a.real(2)?);
     let turn = rotation_vector(&from.rot.transpose().mul(&to.rot));
     let rot = from.rot.mul(&Quat::exp(turn.scale(share)).matrix());
@@ -62,7 +62,7 @@ fn rotate(a: Arguments<'_>) -> Outcome {
     let (pose, axis, point) = (any(a, 0)?, Vec3(a.reals(1)?), Vec3(a.reals(2)?));
     let length = axis.norm();
     if !length.is_finite() || length == 0.0 {
-        return Err(Refusal::new("argument 2 is no axis: it has no direction"));
+        return Err(ApiError::new("argument 2 is no axis: it has no direction"));
     }
     let turn = Quat::exp(axis.scale(a.real(3)? / length)).matrix();
     let rotated = Pose { rot: turn.mul(&pose.rot), pos: turn.mul_vec(pose.pos - point) + point };

@@ -1,10 +1,10 @@
-//! Shelf: proximity sensors.
+//! Functions: proximity sensors.
 
 use sincro_dynamics::geometry::{FieldOfView, Volume};
 
 use super::distances::entity;
 use super::{Function, Outcome, done, handle, one};
-use crate::session::{Arguments, Desk, Entity, Handle, Refusal, Value};
+use crate::session::{ApiError, Arguments, Entity, Handle, SimApi, Value};
 use sincro_sim::proximity::Detection;
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -62,57 +62,57 @@ impl From<&Detection> for Handle {
 }
 
 /// One sensor, all, or all but those that wait to be told.
-fn look(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn look(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     Ok(seen(match a.handle(0)? {
-        -2 => desk.handle_proximities(true)?,
-        -3 => desk.handle_proximities(false)?,
+        -2 => sim.handle_proximities(true)?,
+        -3 => sim.handle_proximities(false)?,
         _ => {
-            let own = handle(desk, a, 0)?;
-            desk.handle_proximity(own)?
+            let own = handle(sim, a, 0)?;
+            sim.handle_proximity(own)?
         }
     }))
 }
 
-fn reset(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn reset(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     match a.handle(0)? {
-        all @ (-2 | -3) => desk.reset_proximities(all == -2),
+        all @ (-2 | -3) => sim.reset_proximities(all == -2),
         _ => {
-            let own = handle(desk, a, 0)?;
-            desk.reset_proximity(own)?;
+            let own = handle(sim, a, 0)?;
+            sim.reset_proximity(own)?;
         }
     }
     done()
 }
 
-fn check(desk: &mut Desk<'_>, a: Arguments<'_>, most: f64) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let entity = if a.has(1) { entity(desk, a, 1)? } else { Entity::All };
-    Ok(seen(desk.look_at(own, entity, most)?))
+fn check(sim: &mut SimApi<'_>, a: Arguments<'_>, most: f64) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let entity = if a.has(1) { entity(sim, a, 1)? } else { Entity::All };
+    Ok(seen(sim.look_at(own, entity, most)?))
 }
 
 /// Mode: 1 front faces, 2 back faces, 4 fast, 8 limited angle.
-fn check_more(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn check_more(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (mode, threshold) = (a.int(2)?, if a.has(3) { a.real(3)? } else { 0.0 });
     if mode & 8 != 0 {
-        return Err(Refusal::new(
+        return Err(ApiError::new(
             "sensors see surfaces at any angle here: leave bit 3 of the mode out, and look at the normal",
         ));
     }
     if mode & 3 == 2 {
-        return Err(Refusal::new("sensors see surfaces from outside here: set bit 0 of the mode"));
+        return Err(ApiError::new("sensors see surfaces from outside here: set bit 0 of the mode"));
     }
     if threshold.is_nan() {
-        return Err(Refusal::new("the threshold is not a number"));
+        return Err(ApiError::new("the threshold is not a number"));
     }
-    check(desk, a, if threshold > 0.0 { threshold } else { f64::INFINITY })
+    check(sim, a, if threshold > 0.0 { threshold } else { f64::INFINITY })
 }
 
-/// As V-REP has it: options 1 explicit, 64 limited angle, 256 smallest distance, 512 randomized; offset, range, x and y size, far x and y size, inside gap, radius, far radius, angle,
-/// the limit of the angle, the smallest distance.
-fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+/// As V-REP has it: options 1 explicit, 64 limited angle, 256 smallest distance, 512 randomized; offset, range, x and y
+/// size, far x and y size, inside gap, radius, far radius, angle, the limit of the angle, the smallest distance.
+fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (kind, options) = (a.int(0)?, a.int(2)?);
     let Some(numbers) = a.get(4).as_reals().filter(|n| n.len() >= 10) else {
-        return Err(Refusal::new("argument 5 is no list of 15 numbers"));
+        return Err(ApiError::new("argument 5 is no list of 15 numbers"));
     };
     let n = |k: usize| numbers[k];
     let volume = match kind {
@@ -123,21 +123,21 @@ fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
         34 => Volume::Ray,
         _ => {
             let known = "pyramid 30, cylinder 31, disc 32, cone 33, ray 34";
-            return Err(Refusal(format!("{kind} is no proximity sensor: {known}")));
+            return Err(ApiError(format!("{kind} is no proximity sensor: {known}")));
         }
     };
     let field = FieldOfView::new(volume, n(0), n(1)).ok_or_else(|| {
         let expected = "expected an offset that is not negative, a positive range, widths, and angles of at most π";
-        Refusal(format!("a sensor {volume:?} with offset {} and range {}: {expected}", n(0), n(1)))
+        ApiError(format!("a sensor {volume:?} with offset {} and range {}: {expected}", n(0), n(1)))
     })?;
     if options & (64 | 512) != 0 || n(6) != 0.0 {
-        return Err(Refusal::new(
+        return Err(ApiError::new(
             "sensors see surfaces at any angle, in all of their volume, here: no options 64 and 512, no inside gap",
         ));
     }
     let blind_below = if options & 256 != 0 { numbers.get(11).copied().unwrap_or(0.0) } else { 0.0 };
     if blind_below.is_nan() {
-        return Err(Refusal::new("the smallest distance is not a number"));
+        return Err(ApiError::new("the smallest distance is not a number"));
     }
-    one(desk.create_proximity_sensor(field, options & 1 != 0, blind_below)?)
+    one(sim.create_proximity_sensor(field, options & 1 != 0, blind_below)?)
 }

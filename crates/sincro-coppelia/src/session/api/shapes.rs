@@ -1,4 +1,4 @@
-//! Shelf: shapes that are made at run time.
+//! Functions: shapes that are made at run time.
 
 use sincro_dynamics::spatial::Pose;
 
@@ -6,7 +6,7 @@ use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
 use crate::session::parameters::STATIC;
 use crate::session::shapes::primitive_of;
-use crate::session::{Arguments, Desk, Refusal, Value};
+use crate::session::{ApiError, Arguments, SimApi, Value};
 use sincro_scene::scene::Triangles;
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -89,118 +89,118 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn primitive(desk: &mut Desk<'_>, kind: i64, size: [f64; 3]) -> Outcome {
+fn primitive(sim: &mut SimApi<'_>, kind: i64, size: [f64; 3]) -> Outcome {
     let (name, surface, place) = primitive_of(kind, size)?;
-    one(desk.create_shape(name, vec![(surface, place)])?)
+    one(sim.create_shape(name, vec![(surface, place)])?)
 }
 
 /// Types 0 cuboid, 1 ball, 2 cylinder, 3 cone; option 16 static, 8 respondable.
-fn pure(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn pure(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (kind, options) = (a.int(0)?, a.int(1)?);
     a.real(3)?;
     if options & 16 == 0 || options & 8 != 0 {
-        return Err(Refusal(format!("{STATIC}; with option 16, and without 8, it is made")));
+        return Err(ApiError(format!("{STATIC}; with option 16, and without 8, it is made")));
     }
     let kind = match kind {
         0..=3 => kind + 3,
-        other => return Err(Refusal(format!("{other} is no pure shape: cuboid 0, sphere 1, cylinder 2, cone 3"))),
+        other => return Err(ApiError(format!("{other} is no pure shape: cuboid 0, sphere 1, cylinder 2, cone 3"))),
     };
-    primitive(desk, kind, a.reals(2)?)
+    primitive(sim, kind, a.reals(2)?)
 }
 
 /// Numbers of argument `k` by threes.
-fn threes(a: Arguments<'_>, k: usize) -> Result<Vec<[f64; 3]>, Refusal> {
-    let wrong = || Refusal(format!("argument {} is no list of numbers, three by three", k + 1));
+fn threes(a: Arguments<'_>, k: usize) -> Result<Vec<[f64; 3]>, ApiError> {
+    let wrong = || ApiError(format!("argument {} is no list of numbers, three by three", k + 1));
     let list = a.get(k).as_reals().filter(|list| list.len() % 3 == 0).ok_or_else(wrong)?;
     Ok(list.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect())
 }
 
-fn mesh(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn mesh(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (corners, indices) = (threes(a, 2)?, threes(a, 3)?);
     let index = |x: f64| (x.fract() == 0.0 && (0.0..4e9).contains(&x)).then_some(x as u32);
     let triangle = |t: &[f64; 3]| Some([index(t[0])?, index(t[1])?, index(t[2])?]);
     let triangles = indices.iter().map(triangle).collect::<Option<Vec<_>>>();
     let triangles =
-        triangles.ok_or_else(|| Refusal::new("argument 4 has indices that are no whole numbers from 0 on"))?;
-    one(desk.create_mesh(&corners, &triangles)?)
+        triangles.ok_or_else(|| ApiError::new("argument 4 has indices that are no whole numbers from 0 on"))?;
+    one(sim.create_mesh(&corners, &triangles)?)
 }
 
-fn heights(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let count = |k: usize| usize::try_from(a.int(k)?).map_err(|_| Refusal::new("the number of points is negative"));
+fn heights(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let count = |k: usize| usize::try_from(a.int(k)?).map_err(|_| ApiError::new("the number of points is negative"));
     let (columns, rows, size) = (count(2)?, count(3)?, a.real(4)?);
-    let heights = a.get(5).as_reals().ok_or_else(|| Refusal::new("argument 6 is no list of numbers"))?;
-    one(desk.create_height_field(columns, rows, size, heights)?)
+    let heights = a.get(5).as_reals().ok_or_else(|| ApiError::new("argument 6 is no list of numbers"))?;
+    one(sim.create_height_field(columns, rows, size, heights)?)
 }
 
 /// The factor of argument `k`; 0 and nothing leave the file's own size.
-fn factor(a: Arguments<'_>, k: usize) -> Result<f64, Refusal> {
+fn factor(a: Arguments<'_>, k: usize) -> Result<f64, ApiError> {
     let factor = if a.has(k) { a.real(k)? } else { 1.0 };
     Ok(if factor == 0.0 { 1.0 } else { factor })
 }
 
-fn import(desk: &mut Desk<'_>, name: &str, a: Arguments<'_>, scale: usize) -> Outcome {
-    let Triangles { corners, triangles } = desk.read_mesh(name, factor(a, scale)?)?;
-    one(desk.create_mesh(&corners, &triangles)?)
+fn import(sim: &mut SimApi<'_>, name: &str, a: Arguments<'_>, scale: usize) -> Outcome {
+    let Triangles { corners, triangles } = sim.read_mesh(name, factor(a, scale)?)?;
+    one(sim.create_mesh(&corners, &triangles)?)
 }
 
 /// One mesh, as lists of lists.
-fn read(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let Triangles { corners, triangles } = desk.read_mesh(a.text(1)?, factor(a, 4)?)?;
+fn read(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let Triangles { corners, triangles } = sim.read_mesh(a.text(1)?, factor(a, 4)?)?;
     let indices = triangles.into_iter().flatten().map(|k| Value::Int(k.into())).collect();
     let corners = Value::reals(corners.into_iter().flatten());
     Ok(vec![Value::List(vec![corners]), Value::List(vec![Value::List(indices)])])
 }
 
 /// Meshes only: a scene is compiled as a whole.
-fn model(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn model(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let name = a.text(0)?;
     let lower = name.to_lowercase();
     if lower.ends_with(".stl") || lower.ends_with(".obj") {
-        return import(desk, name, a, usize::MAX);
+        return import(sim, name, a, usize::MAX);
     }
     let short: String = name.chars().take(100).collect();
     let help =
         "put a model of joints and bodies into the scene file; meshes of the scene's folder, STL and OBJ, are loaded";
-    Err(Refusal(format!("`{short}` is no mesh: {help}")))
+    Err(ApiError(format!("`{short}` is no mesh: {help}")))
 }
 
 /// Bit 0: of several parts; bit 1: pure.
-fn info(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let info = desk.shape_info(handle(desk, a, 0)?)?;
+fn info(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let info = sim.shape_info(handle(sim, a, 0)?)?;
     let flags = i64::from(info.is_compound) | i64::from(info.primitive != 0) << 1;
     let [x, y, z] = info.size;
     Ok(vec![Value::Int(flags), Value::Int(info.primitive), Value::reals([x, y, z, 0.0])])
 }
 
-fn scale(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, [x, y, z]) = (handle(desk, a, 0)?, [a.real(1)?, a.real(2)?, a.real(3)?]);
+fn scale(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, [x, y, z]) = (handle(sim, a, 0)?, [a.real(1)?, a.real(2)?, a.real(3)?]);
     if x.to_bits() != y.to_bits() || x.to_bits() != z.to_bits() {
-        return Err(Refusal::new("shapes are scaled the same way in all directions: make a new one"));
+        return Err(ApiError::new("shapes are scaled the same way in all directions: make a new one"));
     }
-    desk.scale_shape(own, x)?;
+    sim.scale_shape(own, x)?;
     done()
 }
 
 /// Positions too: about the world's origin.
-fn scale_all(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn scale_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (factor, too) = (a.real(1)?, a.bool_or(2, false)?);
     for own in handles(a, 0)? {
-        desk.scale_shape(own, factor)?;
+        sim.scale_shape(own, factor)?;
         if too {
-            let pose = desk.pose(own, crate::session::Reference::World)?;
+            let pose = sim.pose(own, crate::session::Reference::World)?;
             let moved = Pose { pos: pose.pos.scale(factor), ..pose };
-            desk.set_pose(own, &moved, crate::session::Reference::World)?;
+            sim.set_pose(own, &moved, crate::session::Reference::World)?;
         }
     }
     done()
 }
 
 /// The ambient or diffuse component is the colour; the others are accepted.
-fn paint(desk: &mut Desk<'_>, a: Arguments<'_>, (component, color): (usize, usize)) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn paint(sim: &mut SimApi<'_>, a: Arguments<'_>, (component, color): (usize, usize)) -> Outcome {
+    let own = handle(sim, a, 0)?;
     let (component, color) = (a.int_or(component, 0)?, a.reals(color)?);
     if component == 0 {
-        desk.paint(own, color)?;
+        sim.paint(own, color)?;
     }
     one(1_i64)
 }

@@ -1,7 +1,7 @@
-//! Shelf: signals.
+//! Functions: signals.
 
 use super::{Function, Outcome, done, one};
-use crate::session::{Arguments, Desk, Value};
+use crate::session::{Arguments, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "setInt32Signal", tip: "sim.setInt32Signal(string signalName,int signalValue)", run: set_int },
@@ -9,14 +9,14 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "clearInt32Signal",
         tip: "sim.clearInt32Signal(string signalName)",
-        run: |d, a| one(d.table.integers.clear(text(a)?) as i64),
+        run: |d, a| one(d.registry.integers.clear(text(a)?) as i64),
     },
     Function { name: "setFloatSignal", tip: "sim.setFloatSignal(string signalName,float signalValue)", run: set_float },
     Function { name: "getFloatSignal", tip: "float signalValue=sim.getFloatSignal(string signalName)", run: float },
     Function {
         name: "clearFloatSignal",
         tip: "sim.clearFloatSignal(string signalName)",
-        run: |d, a| one(d.table.floats.clear(text(a)?) as i64),
+        run: |d, a| one(d.registry.floats.clear(text(a)?) as i64),
     },
     Function {
         name: "setStringSignal",
@@ -27,7 +27,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "clearStringSignal",
         tip: "sim.clearStringSignal(string signalName)",
-        run: |d, a| one(d.table.strings.clear(text(a)?) as i64),
+        run: |d, a| one(d.registry.strings.clear(text(a)?) as i64),
     },
     Function {
         name: "getSignalName",
@@ -37,46 +37,46 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// No name stands for all.
-fn text<'a>(a: Arguments<'a>) -> Result<&'a str, crate::session::Refusal> {
+fn text<'a>(a: Arguments<'a>) -> Result<&'a str, crate::session::ApiError> {
     if a.has(0) { a.text(0) } else { Ok("") }
 }
 
-fn set_int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.integers.set(a.text(0)?, a.int(1)?, desk.table.phase.is_on())?;
+fn set_int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.registry.integers.set(a.text(0)?, a.int(1)?, sim.registry.phase.is_on())?;
     done()
 }
 
-fn int(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(desk.table.integers.get(a.text(0)?).map_or(Value::Nil, |x| Value::Int(*x)))
+fn int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(sim.registry.integers.get(a.text(0)?).map_or(Value::Nil, |x| Value::Int(*x)))
 }
 
-fn set_float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.floats.set(a.text(0)?, a.real(1)?, desk.table.phase.is_on())?;
+fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.registry.floats.set(a.text(0)?, a.real(1)?, sim.registry.phase.is_on())?;
     done()
 }
 
-fn float(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(desk.table.floats.get(a.text(0)?).map_or(Value::Nil, |x| Value::Real(*x)))
+fn float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(sim.registry.floats.get(a.text(0)?).map_or(Value::Nil, |x| Value::Real(*x)))
 }
 
-fn set_string(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    desk.table.make_room(a.bytes(1)?.len())?;
-    desk.table.strings.set(a.text(0)?, a.bytes(1)?.to_vec(), desk.table.phase.is_on())?;
+fn set_string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.registry.make_room(a.bytes(1)?.len())?;
+    sim.registry.strings.set(a.text(0)?, a.bytes(1)?.to_vec(), sim.registry.phase.is_on())?;
     done()
 }
 
-fn string(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    one(desk.table.strings.get(a.text(0)?).map_or(Value::Nil, |x| Value::Bytes(x.clone())))
+fn string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(sim.registry.strings.get(a.text(0)?).map_or(Value::Nil, |x| Value::Bytes(x.clone())))
 }
 
 /// Signals by number: 0 whole numbers, 1 numbers, 2 texts.
-fn name(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (k, table) = (a.int(0)?, &desk.table);
+fn name(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (k, registry) = (a.int(0)?, &sim.registry);
     let Ok(k) = usize::try_from(k) else { return Ok(vec![Value::Nil]) };
     let name = match a.int(1)? {
-        0 => table.integers.names().nth(k),
-        1 => table.floats.names().nth(k),
-        _ => table.strings.names().nth(k),
+        0 => registry.integers.names().nth(k),
+        1 => registry.floats.names().nth(k),
+        _ => registry.strings.names().nth(k),
     };
     one(name.map_or(Value::Nil, Value::from))
 }

@@ -1,8 +1,8 @@
-//! Shelf: contacts, force sensors.
+//! Functions: contacts, force sensors.
 
 use super::{Function, Outcome, handle};
 use crate::session::constants::HANDLE_FLAGS;
-use crate::session::{Arguments, Desk, Refusal, Touch, Value};
+use crate::session::{ApiError, Arguments, ContactPoint, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -20,41 +20,42 @@ pub(super) const FUNCTIONS: &[Function] = &[
 /// All entities.
 const ALL: i32 = -2;
 
-/// Whether a contact is one of an object; `ALL` stands for any.
-fn is_of(touch: &Touch, object: i32) -> bool {
-    object == ALL || touch.bodies.iter().any(|body| body.0 == object)
+/// Returns true if a contact is one of an object; `ALL` stands for any.
+fn is_of(contact: &ContactPoint, object: i32) -> bool {
+    object == ALL || contact.bodies.iter().any(|body| body.0 == object)
 }
 
 /// The object of argument `k`, which can touch something, or `ALL`.
-fn entity(desk: &Desk<'_>, a: Arguments<'_>, k: usize) -> Result<i32, Refusal> {
+fn entity(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<i32, ApiError> {
     if a.handle(k)? == ALL {
         return Ok(ALL);
     }
-    let object = handle(desk, a, k)?;
-    desk.can_touch(object)?;
+    let object = handle(sim, a, k)?;
+    sim.can_touch(object)?;
     Ok(object.0)
 }
 
-/// The contact of a number among those of an object; nothing behind the last one. The pass does not matter: contacts are those of now.
-fn contact(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+/// The contact of a number among those of an object; nothing behind the last one. The pass does not matter: contacts
+/// are those of now.
+fn contact(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     a.int(0)?;
-    let object = entity(desk, a, 1)?;
+    let object = entity(sim, a, 1)?;
     // a flag asks for the normal, which is always given here
     let index = a.int(2)? & i64::from(HANDLE_FLAGS - 1);
-    let touches = desk.touches();
-    let nth = touches.iter().filter(|touch| is_of(touch, object)).nth(index as usize);
+    let contact_points = sim.contact_points();
+    let nth = contact_points.iter().filter(|contact| is_of(contact, object)).nth(index as usize);
     Ok(nth.map_or_else(
         || vec![Value::Nil; 4],
-        |touch| {
-            let vectors = [touch.point, touch.force, touch.normal].map(|v| Value::reals(v.0));
-            [Value::handles(touch.bodies)].into_iter().chain(vectors).collect()
+        |contact| {
+            let vectors = [contact.point, contact.force, contact.normal].map(|v| Value::reals(v.0));
+            [Value::handles(contact.bodies)].into_iter().chain(vectors).collect()
         },
     ))
 }
 
 /// Bit 0 says that there is a value: from the first step on.
-fn force_sensor(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (force, torque) = desk.force_sensor(own)?;
+fn force_sensor(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (force, torque) = sim.force_sensor(own)?;
     Ok(vec![Value::Int(1), Value::reals(force), Value::reals(torque)])
 }

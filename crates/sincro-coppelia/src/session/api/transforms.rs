@@ -1,4 +1,4 @@
-//! Shelf: arithmetic of matrices (12 numbers, the upper 3×4 part row by row) and poses (position, then x y z w).
+//! Functions: arithmetic of matrices (12 numbers, the upper 3×4 part row by row) and poses (position, then x y z w).
 
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
@@ -7,7 +7,7 @@ use crate::session::convention::{
     euler_of, matrix_of, pose_of_matrix, pose_of_seven, quaternion_of, rotation_of_euler, rotation_of_quaternion,
     seven_of,
 };
-use crate::session::{Arguments, Refusal, Value};
+use crate::session::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -88,26 +88,26 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// A matrix or a pose, told by how many numbers there are.
-pub(super) fn any(a: Arguments<'_>, k: usize) -> Result<Pose<f64>, Refusal> {
+pub(super) fn any(a: Arguments<'_>, k: usize) -> Result<Pose<f64>, ApiError> {
     match a.get(k).as_reals().map(|list| list.len()) {
-        Some(7) => pose_of_seven(a.reals(k)?).ok_or_else(|| Refusal::new("the quaternion has no direction")),
+        Some(7) => pose_of_seven(a.reals(k)?).ok_or_else(|| ApiError::new("the quaternion has no direction")),
         _ => Ok(pose_of_matrix(&a.reals(k)?)),
     }
 }
 
-fn of_euler(a: Arguments<'_>) -> Result<Pose<f64>, Refusal> {
+fn of_euler(a: Arguments<'_>) -> Result<Pose<f64>, ApiError> {
     Ok(Pose { pos: Vec3(a.reals(0)?), rot: rotation_of_euler(a.reals(1)?) })
 }
 
 fn build_q(a: Arguments<'_>) -> Outcome {
-    let rot = rotation_of_quaternion(a.reals(1)?).ok_or_else(|| Refusal::new("the quaternion has no direction"))?;
+    let rot = rotation_of_quaternion(a.reals(1)?).ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
     list(matrix_of(&Pose { pos: Vec3(a.reals(0)?), rot }))
 }
 
 fn vectors(a: Arguments<'_>) -> Outcome {
     let pose = any(a, 0)?;
     let numbers = a.get(1).as_reals().filter(|v| v.len().is_multiple_of(3));
-    let numbers = numbers.ok_or_else(|| Refusal::new("argument 2 is no list of vectors of three numbers"))?;
+    let numbers = numbers.ok_or_else(|| ApiError::new("argument 2 is no list of vectors of three numbers"))?;
     list(numbers.chunks_exact(3).flat_map(|v| pose.point(Vec3([v[0], v[1], v[2]])).0))
 }
 

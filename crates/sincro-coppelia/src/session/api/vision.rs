@@ -1,9 +1,9 @@
-//! Shelf: vision sensors.
+//! Functions: vision sensors.
 
 use super::{Function, Outcome, done, handle, one};
 use crate::session::constants::HANDLE_FLAGS;
 use crate::session::vision::{Sensors, with_angle};
-use crate::session::{Arguments, Desk, Handle, Refusal, Value};
+use crate::session::{ApiError, Arguments, Handle, SimApi, Value};
 use sincro_scene::camera::{Layer, Lens, Optics, Part};
 use sincro_scene::scene::VisionSensor;
 
@@ -101,8 +101,8 @@ const GREY: i32 = 0x0040_0000;
 /// Added to a handle by older functions: depths in metres.
 const METRES: i32 = 0x0080_0000;
 
-fn resolution(desk: &Desk<'_>, a: Arguments<'_>) -> Result<[usize; 2], Refusal> {
-    Ok(desk.table.vision_sensor(handle(desk, a, 0)?)?.optics.resolution)
+fn resolution(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<[usize; 2], ApiError> {
+    Ok(sim.registry.vision_sensor(handle(sim, a, 0)?)?.optics.resolution)
 }
 
 fn pixels([columns, rows]: [usize; 2]) -> Value {
@@ -110,18 +110,18 @@ fn pixels([columns, rows]: [usize; 2]) -> Value {
 }
 
 /// A part of a picture: column, row and size; the whole if no size is given.
-fn part(desk: &mut Desk<'_>, own: Handle, position: [i64; 2], size: [i64; 2]) -> Result<Part, Refusal> {
-    let whole = desk.table.vision_sensor(own)?.optics.resolution;
+fn part(sim: &mut SimApi<'_>, own: Handle, position: [i64; 2], size: [i64; 2]) -> Result<Part, ApiError> {
+    let whole = sim.registry.vision_sensor(own)?.optics.resolution;
     let place = |n: i64| usize::try_from(n).unwrap_or(usize::MAX);
     let size = if size == [0, 0] { whole } else { size.map(place) };
     let part = Part { position: position.map(place), size };
-    desk.has_part(own, part)?;
+    sim.has_part(own, part)?;
     Ok(part)
 }
 
 /// A part as present functions have it: two lists from argument `k` on.
-fn part_of_lists(desk: &mut Desk<'_>, a: Arguments<'_>, own: Handle, k: usize) -> Result<Part, Refusal> {
-    let two = |k: usize| -> Result<[i64; 2], Refusal> {
+fn part_of_lists(sim: &mut SimApi<'_>, a: Arguments<'_>, own: Handle, k: usize) -> Result<Part, ApiError> {
+    let two = |k: usize| -> Result<[i64; 2], ApiError> {
         if !a.has(k) {
             return Ok([0, 0]);
         }
@@ -129,37 +129,37 @@ fn part_of_lists(desk: &mut Desk<'_>, a: Arguments<'_>, own: Handle, k: usize) -
         Ok(a.reals::<2>(k)?.map(|x| if x.fract() == 0.0 { x as i64 } else { -1 }))
     };
     let (position, size) = (two(k)?, two(k + 1)?);
-    part(desk, own, position, size)
+    part(sim, own, position, size)
 }
 
 /// A part as older functions have it: four numbers from argument 1 on.
-fn part_of_numbers(desk: &mut Desk<'_>, a: Arguments<'_>, own: Handle) -> Result<Part, Refusal> {
+fn part_of_numbers(sim: &mut SimApi<'_>, a: Arguments<'_>, own: Handle) -> Result<Part, ApiError> {
     let [x, y, w, h] = [a.int_or(1, 0)?, a.int_or(2, 0)?, a.int_or(3, 0)?, a.int_or(4, 0)?];
-    part(desk, own, [x, y], [w, h])
+    part(sim, own, [x, y], [w, h])
 }
 
 fn layer(options: i64, cut_off: f64) -> Layer {
     Layer { is_grey: options & 1 != 0, cut_off: (options & 2 != 0).then_some(cut_off) }
 }
 
-fn real_or(a: Arguments<'_>, k: usize, default: f64) -> Result<f64, Refusal> {
+fn real_or(a: Arguments<'_>, k: usize, default: f64) -> Result<f64, ApiError> {
     if a.has(k) { a.real(k) } else { Ok(default) }
 }
 
-fn image(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn image(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     let layer = layer(a.int_or(1, 0)?, real_or(a, 2, 0.0)?);
-    let part = part_of_lists(desk, a, own, 3)?;
-    let image = desk.vision_image(own)?;
+    let part = part_of_lists(sim, a, own, 3)?;
+    let image = sim.vision_image(own)?;
     Ok(vec![Value::Bytes(image.bytes(part, layer)), pixels(image.resolution())])
 }
 
-fn set_image(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn set_image(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     let bytes = a.bytes(1)?;
     let layer = layer(a.int_or(2, 0)?, 0.0);
-    let part = part_of_lists(desk, a, own, 3)?;
-    desk.write_vision(own, part, layer, bytes)?;
+    let part = part_of_lists(sim, a, own, 3)?;
+    sim.write_vision(own, part, layer, bytes)?;
     done()
 }
 
@@ -168,63 +168,63 @@ fn packed(depths: impl Iterator<Item = f64>) -> Vec<u8> {
     depths.flat_map(|x| (x as f32).to_le_bytes()).collect()
 }
 
-fn depth(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
+fn depth(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
     let in_metres = a.int_or(1, 0)? & 1 != 0;
-    let part = part_of_lists(desk, a, own, 2)?;
-    let image = desk.vision_image(own)?;
+    let part = part_of_lists(sim, a, own, 2)?;
+    let image = sim.vision_image(own)?;
     Ok(vec![Value::Bytes(packed(image.depths(part, in_metres))), pixels(image.resolution())])
 }
 
 /// Nothing triggers a sensor by itself: 0, or −1 if it has not been handled.
-fn read(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    Ok(match desk.read_vision(own)? {
+fn read(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    Ok(match sim.read_vision(own)? {
         Some(packet) => vec![Value::Int(0), Value::reals(packet)],
         None => vec![Value::Int(-1)],
     })
 }
 
-fn sensors(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Sensors, Refusal> {
+fn sensors(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Sensors, ApiError> {
     Ok(match a.handle(0)? {
         -2 => Sensors::All,
         -3 => Sensors::NotExplicit,
-        _ => Sensors::One(handle(desk, a, 0)?),
+        _ => Sensors::One(handle(sim, a, 0)?),
     })
 }
 
-fn handle_sensors(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let which = sensors(desk, a)?;
-    desk.handle_vision(which)?;
+fn handle_sensors(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let which = sensors(sim, a)?;
+    sim.handle_vision(which)?;
     let mut results = vec![Value::Int(0)];
     if let Sensors::One(own) = which {
-        results.extend(desk.read_vision(own)?.map(Value::reals));
+        results.extend(sim.read_vision(own)?.map(Value::reals));
     }
     Ok(results)
 }
 
-fn reset(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let which = sensors(desk, a)?;
-    desk.table.reset_vision(which)?;
+fn reset(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let which = sensors(sim, a)?;
+    sim.registry.reset_vision(which)?;
     one(1_i64)
 }
 
 /// The object that is to be seen alone; none for all.
-fn entity(desk: &Desk<'_>, a: Arguments<'_>) -> Result<Option<Handle>, Refusal> {
-    if a.handle(1)? == -2 { Ok(None) } else { handle(desk, a, 1).map(Some) }
+fn entity(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Option<Handle>, ApiError> {
+    if a.handle(1)? == -2 { Ok(None) } else { handle(sim, a, 1).map(Some) }
 }
 
-fn check(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, object) = (handle(desk, a, 0)?, entity(desk, a)?);
-    let (is_seen, image) = desk.check_vision(own, object)?;
+fn check(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, object) = (handle(sim, a, 0)?, entity(sim, a)?);
+    let (is_seen, image) = sim.check_vision(own, object)?;
     Ok(vec![Value::Int(i64::from(is_seen)), Value::reals(image.statistics())])
 }
 
 /// The picture or the depths: a list of numbers from 0 to 1, bytes if the flag asks for them.
-fn check_ex(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, object) = (handle(desk, a, 0)?, entity(desk, a)?);
+fn check_ex(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, object) = (handle(sim, a, 0)?, entity(sim, a)?);
     let wants_colors = a.bool_or(2, true)?;
-    let (_, image) = desk.check_vision(own, object)?;
+    let (_, image) = sim.check_vision(own, object)?;
     let as_bytes = has_flag(a, GREY)?;
     Ok(vec![match (wants_colors, as_bytes) {
         (true, true) => Value::Bytes(image.rgb().to_vec()),
@@ -234,13 +234,13 @@ fn check_ex(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     }])
 }
 
-/// Whether a flag was added to the first handle.
-fn has_flag(a: Arguments<'_>, flag: i32) -> Result<bool, Refusal> {
+/// Returns true if a flag was added to the first handle.
+fn has_flag(a: Arguments<'_>, flag: i32) -> Result<bool, ApiError> {
     let raw = a.handle(0)?;
     Ok(raw >= HANDLE_FLAGS && raw & flag != 0)
 }
 
-fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let options = a.int(0)?;
     let [columns, rows, ..] = a.reals::<4>(1)?;
     let numbers = a.reals::<11>(2)?;
@@ -249,11 +249,11 @@ fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     let resolution = [side(columns), side(rows)];
     // what cannot be drawn is refused below; a ratio needs sides
     let flat = Optics { resolution, near, far, lens: Lens::Orthographic(1.0) };
-    flat.check().map_err(|wrong| Refusal(format!("{} cannot be: expected {}", wrong.found, wrong.expected)))?;
+    flat.check().map_err(|wrong| ApiError(format!("{} cannot be: expected {}", wrong.found, wrong.expected)))?;
     let optics = if options & 2 != 0 { with_angle(flat, view)? } else { flat.with_view_size(view) };
     let byte = |x: f64| (255.0 * x.clamp(0.0, 1.0) + 0.5) as u8;
     let own = options & 128 != 0;
-    one(desk.table.create_vision_sensor(VisionSensor {
+    one(sim.registry.create_vision_sensor(VisionSensor {
         optics,
         background: if own { [6, 7, 8].map(|k| byte(numbers[k])) } else { sincro_scene::camera::BACKGROUND },
         is_explicit: options & 1 != 0,
@@ -261,23 +261,23 @@ fn create(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     })?)
 }
 
-fn explicit(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    one(i64::from(desk.table.vision_sensor(own)?.is_explicit))
+fn explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(i64::from(sim.registry.vision_sensor(own)?.is_explicit))
 }
 
-fn set_explicit(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, flags) = (handle(desk, a, 0)?, a.int(1)?);
-    desk.table.change_vision(own, |sensor| sensor.is_explicit = flags & 1 != 0)?;
+fn set_explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, flags) = (handle(sim, a, 0)?, a.int(1)?);
+    sim.registry.change_vision(own, |sensor| sensor.is_explicit = flags & 1 != 0)?;
     done()
 }
 
 /// Numbers from 0 to 1, or bytes if the return type is 1.
-fn old_image(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (part, layer) = (part_of_numbers(desk, a, own)?, layer(i64::from(has_flag(a, GREY)?), 0.0));
+fn old_image(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (part, layer) = (part_of_numbers(sim, a, own)?, layer(i64::from(has_flag(a, GREY)?), 0.0));
     let wants_bytes = a.int_or(5, 0)? != 0;
-    let bytes = desk.vision_image(own)?.bytes(part, layer);
+    let bytes = sim.vision_image(own)?.bytes(part, layer);
     Ok(vec![if wants_bytes {
         Value::Bytes(bytes)
     } else {
@@ -285,44 +285,44 @@ fn old_image(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
     }])
 }
 
-fn old_bytes(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let part = part_of_numbers(desk, a, own)?;
+fn old_bytes(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let part = part_of_numbers(sim, a, own)?;
     let cut_off = real_or(a, 5, 0.0)?;
     let layer = layer(i64::from(has_flag(a, GREY)?) | if cut_off > 0.0 { 2 } else { 0 }, cut_off);
-    let image = desk.vision_image(own)?;
+    let image = sim.vision_image(own)?;
     let [columns, rows] = image.resolution().map(|n| Value::Int(n as i64));
     Ok(vec![Value::Bytes(image.bytes(part, layer)), columns, rows])
 }
 
-fn old_depth(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let part = part_of_numbers(desk, a, own)?;
+fn old_depth(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let part = part_of_numbers(sim, a, own)?;
     let (wants_bytes, in_metres) = (has_flag(a, GREY)?, has_flag(a, METRES)?);
-    let image = desk.vision_image(own)?;
+    let image = sim.vision_image(own)?;
     let [columns, rows] = image.resolution().map(|n| Value::Int(n as i64));
     let depths = image.depths(part, in_metres);
     Ok(vec![if wants_bytes { Value::Bytes(packed(depths)) } else { Value::reals(depths) }, columns, rows])
 }
 
-fn set_old_image(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn set_old_image(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     if a.get(1).as_bytes().is_some() {
-        return set_old_bytes(desk, a);
+        return set_old_bytes(sim, a);
     }
     let numbers =
-        a.get(1).as_reals().ok_or_else(|| Refusal::new("argument 2 is neither a list of numbers nor bytes"))?;
+        a.get(1).as_reals().ok_or_else(|| ApiError::new("argument 2 is neither a list of numbers nor bytes"))?;
     let bytes: Vec<u8> = numbers.iter().map(|x| (255.0 * x + 0.5) as u8).collect();
-    write_whole(desk, a, &bytes)
+    write_whole(sim, a, &bytes)
 }
 
-fn set_old_bytes(desk: &mut Desk<'_>, a: Arguments<'_>) -> Outcome {
+fn set_old_bytes(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let bytes = a.bytes(1)?;
-    write_whole(desk, a, bytes)
+    write_whole(sim, a, bytes)
 }
 
-fn write_whole(desk: &mut Desk<'_>, a: Arguments<'_>, bytes: &[u8]) -> Outcome {
-    let own = handle(desk, a, 0)?;
-    let (layer, whole) = (layer(i64::from(has_flag(a, GREY)?), 0.0), part(desk, own, [0, 0], [0, 0])?);
-    desk.write_vision(own, whole, layer, bytes)?;
+fn write_whole(sim: &mut SimApi<'_>, a: Arguments<'_>, bytes: &[u8]) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let (layer, whole) = (layer(i64::from(has_flag(a, GREY)?), 0.0), part(sim, own, [0, 0], [0, 0])?);
+    sim.write_vision(own, whole, layer, bytes)?;
     one(1_i64)
 }

@@ -1,4 +1,4 @@
-//! Functions that move something and wait until it is there: what doors need to make them of single steps.
+//! Functions that move something and wait until it is there: adapters make them of single steps.
 //!
 //! | function | steps of |
 //! |---|---|
@@ -9,7 +9,7 @@
 use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
 use crate::session::convention::{pose_of_matrix, seven_of};
-use crate::session::{Arguments, Desk, Reference, Refusal, Value};
+use crate::session::{ApiError, Arguments, Reference, SimApi, Value};
 
 /// A function that waits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,24 +62,24 @@ impl Move {
         }
     }
 
-    /// What it is given, as the map that `_init` takes. What is called at each step is its field `callback`; where that wants
+    /// Arguments as the map that `_init` takes. The callback of each step is its field `callback`; where that wants
     /// (position, velocity, acceleration, data) as it did before 4.7, there is a field `legacyFunc`.
     ///
     /// # Errors
     ///
     /// Something else is given, or an object of it is not there.
-    pub fn parameters(self, desk: &mut Desk<'_>, arguments: &[Value]) -> Result<Value, Refusal> {
+    pub fn parameters(self, sim: &mut SimApi<'_>, arguments: &[Value]) -> Result<Value, ApiError> {
         let a = Arguments(arguments);
         match self {
             Self::Config | Self::Pose if a.get(0).as_int().is_none() => Ok(Fields::of(a.get(0))?.into_value()),
             Self::Config => config(a),
             Self::Pose => pose(a),
-            Self::JointPositions => joint_positions(desk, a),
-            Self::Position => position(desk, a),
+            Self::JointPositions => joint_positions(sim, a),
+            Self::Position => position(sim, a),
         }
     }
 
-    /// What it gives in the end, from the map of the motion.
+    /// Results of the function, from the map of the motion.
     #[must_use]
     pub fn results(self, data: &Value) -> Vec<Value> {
         let Ok(fields) = Fields::of(data) else { return vec![data.clone()] };
@@ -99,9 +99,9 @@ impl Move {
         }
     }
 
-    /// What its callback is given.
+    /// Arguments of its callback.
     #[must_use]
-    pub fn told(data: &Value) -> Vec<Value> {
+    pub fn callback_arguments(data: &Value) -> Vec<Value> {
         let Ok(fields) = Fields::of(data) else { return vec![data.clone()] };
         if !fields.has("legacyFunc") {
             return vec![data.clone()];
@@ -117,15 +117,16 @@ impl Move {
 }
 
 /// The first numbers of a list, and the rest.
-fn split(a: Arguments<'_>, k: usize, n: usize) -> Result<(Vec<f64>, Vec<f64>), Refusal> {
+fn split(a: Arguments<'_>, k: usize, n: usize) -> Result<(Vec<f64>, Vec<f64>), ApiError> {
     let list = a.get(k).as_reals().filter(|list| list.len() >= n);
-    let mut list = list.ok_or_else(|| Refusal(format!("argument {} is no list of at least {n} numbers", k + 1)))?;
+    let mut list = list.ok_or_else(|| ApiError(format!("argument {} is no list of at least {n} numbers", k + 1)))?;
     let rest = list.split_off(n);
     Ok((list, rest))
 }
 
-/// Flags, largest velocities, accelerations and jerks of the older forms: lowest ones stand behind the largest if the flags say so.
-fn limits(fields: &mut Fields, a: Arguments<'_>, (flags, first): (i64, usize), n: usize) -> Result<(), Refusal> {
+/// Flags, largest velocities, accelerations and jerks of the older forms: lowest ones stand behind the largest if the
+/// flags say so.
+fn limits(fields: &mut Fields, a: Arguments<'_>, (flags, first): (i64, usize), n: usize) -> Result<(), ApiError> {
     let (v, low_v) = split(a, first, n)?;
     let (acceleration, low_a) = split(a, first + 1, n)?;
     let (jerk, _) = split(a, first + 2, n)?;
@@ -153,10 +154,10 @@ fn copy(fields: &mut Fields, a: Arguments<'_>, list: &[(&str, usize)]) {
 }
 
 /// (flags, pos, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, callback, auxData, cyclicJoints, timeStep)
-fn config(a: Arguments<'_>) -> Result<Value, Refusal> {
+fn config(a: Arguments<'_>) -> Result<Value, ApiError> {
     let mut fields = Fields::default();
     let n = a.get(1).as_reals().map(|list| list.len());
-    let n = n.ok_or_else(|| Refusal::new("argument 2 is no list of numbers: the present positions"))?;
+    let n = n.ok_or_else(|| ApiError::new("argument 2 is no list of numbers: the present positions"))?;
     limits(&mut fields, a, (a.int(0)?, 4), n)?;
     let rest = [("pos", 1), ("vel", 2), ("accel", 3), ("targetPos", 7), ("targetVel", 8)];
     copy(&mut fields, a, &rest);
@@ -166,7 +167,7 @@ fn config(a: Arguments<'_>) -> Result<Value, Refusal> {
 }
 
 /// (flags, pose, maxVel, maxAccel, maxJerk, targetPose, callback, auxData, metric, timeStep); poses may be matrices.
-fn pose(a: Arguments<'_>) -> Result<Value, Refusal> {
+fn pose(a: Arguments<'_>) -> Result<Value, ApiError> {
     let mut fields = Fields::default();
     let n = if a.has(8) { 1 } else { 4 };
     limits(&mut fields, a, (a.int(0)?, 2), n)?;
@@ -188,10 +189,10 @@ fn pose(a: Arguments<'_>) -> Result<Value, Refusal> {
 }
 
 /// (joints, flags, vel, accel, maxVel, maxAccel, maxJerk, targetPos, targetVel, direction)
-fn joint_positions(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Value, Refusal> {
+fn joint_positions(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Value, ApiError> {
     let mut fields = Fields::default();
     let Value::List(joints) = a.get(0) else {
-        return Err(Refusal(format!("argument 1 is {}, expected a list of joints", a.get(0).word())));
+        return Err(ApiError(format!("argument 1 is {}, expected a list of joints", a.get(0).word())));
     };
     let n = joints.len();
     limits(&mut fields, a, (a.int(1)?, 4), n)?;
@@ -200,17 +201,18 @@ fn joint_positions(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Value, Refus
     let direction = if a.has(9) { split(a, 9, n)?.0 } else { vec![0.0; n] };
     for (k, joint) in joints.iter().enumerate() {
         let raw = joint.as_int().and_then(|h| i32::try_from(h).ok());
-        let raw = raw.ok_or_else(|| Refusal(format!("argument 1 has {}, expected joints", joint.word())))?;
-        let handle = super::plain(desk, raw)?;
-        if desk.joint_interval(handle)?.0 {
-            target[k] = turned(target[k], desk.joint_position(handle)?, direction[k]);
+        let raw = raw.ok_or_else(|| ApiError(format!("argument 1 has {}, expected joints", joint.word())))?;
+        let handle = super::plain(sim, raw)?;
+        if sim.joint_interval(handle)?.0 {
+            target[k] = turned(target[k], sim.joint_position(handle)?, direction[k]);
         }
     }
     fields.set_list("targetPos", target);
     Ok(fields.into_value())
 }
 
-/// The way that a joint without end takes: 0 the shortest, a positive number forwards, a negative one backwards, with as many more turns as it is beyond one.
+/// The way that a joint without end takes: 0 the shortest, a positive number forwards, a negative one backwards, with
+/// as many more turns as it is beyond one.
 fn turned(target: f64, from: f64, direction: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let turns = (target - from) / TAU;
@@ -228,17 +230,17 @@ fn turned(target: f64, from: f64, direction: f64) -> f64 {
 }
 
 /// (object, relativeTo, flags, vel, accel, maxVel, maxAccel, maxJerk, position, quaternion, targetVel)
-fn position(desk: &mut Desk<'_>, a: Arguments<'_>) -> Result<Value, Refusal> {
+fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Value, ApiError> {
     let mut fields = Fields::default();
     limits(&mut fields, a, (a.int(2)?, 5), 4)?;
     copy(&mut fields, a, &[("object", 0), ("relObject", 1), ("vel", 3), ("accel", 4), ("targetVel", 10)]);
-    let object = super::handle(desk, a, 0)?;
+    let object = super::handle(sim, a, 0)?;
     let against = match a.handle(1)? {
         -1 => Reference::World,
         -11 => Reference::Parent,
-        other => Reference::Object(super::plain(desk, other)?),
+        other => Reference::Object(super::plain(sim, other)?),
     };
-    let mut seven = seven_of(&desk.pose(object, against)?);
+    let mut seven = seven_of(&sim.pose(object, against)?);
     if a.has(8) {
         seven[..3].copy_from_slice(&a.reals::<3>(8)?);
     }

@@ -1,10 +1,11 @@
-//! Shelf: what a window would show. It is taken, and nothing is done: scripts and clients that draw run here as they are.
+//! Functions: what a window would show. It is taken, and nothing is done: scripts and clients that draw run here as
+//! they are.
 
 use super::{Function, Outcome, one};
-use crate::session::{Arguments, Desk};
+use crate::session::{Arguments, SimApi};
 
 /// Gives a handle of something that is not there, or says that it went well.
-fn taken(_: &mut Desk<'_>, _: Arguments<'_>) -> Outcome {
+fn taken(_: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {
     one(1_i64)
 }
 
@@ -58,7 +59,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     shown("setEngineBoolParam", "sim.setEngineBoolParam(int paramId,int objectHandle,bool boolParam)"),
 ];
 
-/// Whether a function is one of these: whatever it is given is as good.
+/// Returns true if a function is one of these: whatever it is given is as good.
 #[must_use]
 pub fn is_for_show(name: &str) -> bool {
     FUNCTIONS.iter().any(|f| f.name == name)

@@ -1,5 +1,5 @@
-//! The table of objects, as clients and scripts know them: handles, names, what they hold. Plain data; what needs the world is in
-//! [`super::Desk`].
+//! The object registry, as clients and scripts know them: handles, names, what they hold. Plain data; what needs the
+//! world is in [`super::SimApi`].
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -11,30 +11,31 @@ use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
 use super::graphs::Graphs;
-use super::motions::{Course, Motions};
+use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
 use super::senses::Senses;
 use super::signals::Signals;
 use super::vision::Vision;
-use super::{Phase, Refusal, convention};
+use super::{ApiError, Phase, convention};
 use sincro_scene::scene::{Object, ObjectKind};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 
-/// Name of an object on every wire: small and positive. Negative numbers have meanings of their own (`sim.handle_world` …).
+/// Name of an object on every wire: small and positive. Negative numbers have meanings of their own (`sim.handle_world`
+/// …).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Handle(pub i32);
 
 /// Bytes that clients and scripts may store: string signals, data with objects, named parameters.
-const MOST_BYTES: usize = 256 << 20;
+const MAX_BYTES: usize = 256 << 20;
 /// Lines of the log that are kept until somebody takes them.
-const MOST_LINES: usize = 1_000;
+const MAX_LINES: usize = 1_000;
 
-/// What an object is.
+/// Type of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
-    /// A joint; its index in [`Table::joints`], none if it does not move or has no coordinate of its own.
+    /// A joint; its index in [`ObjectRegistry::joints`], none if it does not move or has no coordinate of its own.
     Joint(Option<usize>),
     /// A body: a dynamic shape.
     Body(MassProperties),
@@ -46,7 +47,7 @@ pub enum Kind {
     Rotor(usize),
     /// A fixed joint that measures what goes through it: its first degree of freedom, which is held.
     ForceSensor(usize),
-    /// A camera whose pictures are read: its index among the table's.
+    /// A camera whose pictures are read: its index among the registry's.
     Vision(usize),
     /// Made by a client or script: a named point.
     Dummy,
@@ -65,15 +66,15 @@ pub struct Entry {
     pub name: String,
     /// Path in the scene; of what was made later, that of its parent, `/` and its name.
     pub path: String,
-    /// What it is.
+    /// Type.
     pub kind: Kind,
-    /// Whether a client or script has made it.
-    pub is_made: bool,
-    /// What it hangs on; none: the world.
+    /// True if a client or script has made it.
+    pub is_runtime: bool,
+    /// Parent; none: the world.
     pub parent: Option<Handle>,
     /// Its frame; of a joint, the one on its parent's side. z is the axis of a joint.
     pub frame: Attached<f64>,
-    /// Where its children hang: of a joint, the frame that moves; else the same.
+    /// Frame of its children: of a joint, the frame that moves; else the same.
     pub moving: Attached<f64>,
 }
 
@@ -82,7 +83,7 @@ pub struct Entry {
 pub struct JointEntry {
     /// The object.
     pub handle: Handle,
-    /// How it moves.
+    /// Joint type.
     pub kind: JointKind,
     /// Place in q.
     pub q_idx: usize,
@@ -111,7 +112,7 @@ pub struct LogLine {
     pub text: String,
 }
 
-/// What was asked for that can happen only between two steps.
+/// Request that is carried out between two steps.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// Start, or go on after a pause.
@@ -126,14 +127,15 @@ pub enum Request {
     Close,
 }
 
-/// The table.
+/// Objects of a scene and runtime objects by handle, with signals and everything else that clients store.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct ObjectRegistry {
     /// Handle 1 is the first; a hole where an object was removed.
     pub(super) entries: Vec<Option<Entry>>,
     pub(super) n_created: usize,
-    /// How many objects have a name, and the first number that may be free behind a name that is taken.
+    /// Number of objects of each name.
     pub(super) names: BTreeMap<String, usize>,
+    /// First number that may be free behind a name that is taken.
     pub(super) numbers: BTreeMap<String, usize>,
     joints: Vec<JointEntry>,
     /// Joint of each handle, where there is one.
@@ -161,20 +163,20 @@ pub struct Table {
     log: VecDeque<LogLine>,
     notes: Notes,
     requests: Vec<Request>,
-    /// What the simulation is doing.
+    /// State of the simulation.
     pub phase: Phase,
     /// Folder of the scene.
     pub scene_path: String,
-    /// How often a stop was asked for.
+    /// Number of stop requests.
     pub stop_requests: i64,
     /// Vision sensors.
     pub(super) vision: Vision,
     /// Environments of inverse kinematics.
     pub(super) environments: Vec<Option<super::ik::Environment>>,
     pub(super) zero: Vec<f64>,
-    /// What is other than in the scene.
+    /// Differences from the scene.
     pub(super) changes: Vec<Change>,
-    /// Whether the model was changed while stopped, and the next run must be made of it.
+    /// True if the model was changed while stopped, and the next run must be made of it.
     pub(super) is_model_changed: bool,
     /// Pairs of surfaces, in the model's order.
     pub(super) pairs: Vec<Pair>,
@@ -187,12 +189,12 @@ pub struct Table {
     /// Motions of numbers.
     pub(super) motions: Motions,
     /// Targets of motors that are on their way.
-    pub(super) courses: BTreeMap<Handle, Course>,
-    /// What can be seen, and who looks.
+    pub(super) joint_motions: BTreeMap<Handle, JointMotion>,
+    /// Visible pieces and the sensors that detect them.
     pub(super) senses: Senses,
 }
 
-impl Table {
+impl ObjectRegistry {
     /// The objects of a scene; steps of clients and scripts last `sample_ticks` base steps.
     #[must_use]
     pub fn new(loaded: &Loaded, sample_ticks: u64) -> Self {
@@ -232,7 +234,7 @@ impl Table {
             solids: BTreeMap::new(),
             graphs: Graphs::default(),
             motions: Motions::default(),
-            courses: BTreeMap::new(),
+            joint_motions: BTreeMap::new(),
             senses: Senses::new(scene),
         };
         for object in &scene.objects {
@@ -276,8 +278,8 @@ impl Table {
                 }
                 ObjectKind::Frame | ObjectKind::Sensor => {
                     let at = of_frame().unwrap_or(beside);
-                    let looks = new.senses.looks.contains_key(&handle);
-                    (if looks { Kind::Proximity } else { Kind::Frame }, at, at)
+                    let proximity = new.senses.proximity.contains_key(&handle);
+                    (if proximity { Kind::Proximity } else { Kind::Frame }, at, at)
                 }
                 ObjectKind::Camera { sensor, .. } => {
                     let eye = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
@@ -309,9 +311,9 @@ impl Table {
     /// An object of the scene.
     fn add(&mut self, object: &Object, kind: Kind, parent: Option<Handle>, at: (Attached<f64>, Attached<f64>)) {
         let (handle, name, path) = (self.next_handle(), object.name.clone(), object.path.clone());
-        let is_made = false;
+        let is_runtime = false;
         *self.names.entry(name.clone()).or_default() += 1;
-        self.entries.push(Some(Entry { handle, name, path, kind, is_made, parent, frame: at.0, moving: at.1 }));
+        self.entries.push(Some(Entry { handle, name, path, kind, is_runtime, parent, frame: at.0, moving: at.1 }));
     }
 
     pub(super) fn next_handle(&self) -> Handle {
@@ -328,9 +330,9 @@ impl Table {
     /// # Errors
     ///
     /// There is none.
-    pub fn entry(&self, handle: Handle) -> Result<&Entry, Refusal> {
+    pub fn entry(&self, handle: Handle) -> Result<&Entry, ApiError> {
         let found = usize::try_from(handle.0 - 1).ok().and_then(|k| self.entries.get(k)?.as_ref());
-        found.ok_or_else(|| Refusal(format!("there is no object with the handle {}", handle.0)))
+        found.ok_or_else(|| ApiError(format!("there is no object with the handle {}", handle.0)))
     }
 
     /// The entry of a handle that was found.
@@ -338,7 +340,7 @@ impl Table {
         self.entries[handle.0 as usize - 1].as_mut().expect("it was found")
     }
 
-    /// What hangs directly on an object, or on the world; in its order.
+    /// Direct children of an object, or of the world, in their order.
     pub fn children(&self, parent: Option<Handle>) -> impl Iterator<Item = &Entry> {
         self.entries().filter(move |e| e.parent == parent)
     }
@@ -347,7 +349,8 @@ impl Table {
     #[must_use]
     pub fn tree(&self, base: Handle) -> Vec<Handle> {
         let mut found = vec![base];
-        // parents have smaller handles than their children, unless a dummy was hung elsewhere: go on until nothing is added
+        // parents have smaller handles than their children, unless a dummy was hung elsewhere: go on until nothing is
+        // added
         loop {
             let n = found.len();
             let more = self.entries().filter(|e| e.parent.is_some_and(|p| found.contains(&p)));
@@ -370,19 +373,19 @@ impl Table {
     /// # Errors
     ///
     /// There is no such object, or it is no joint with one coordinate.
-    pub fn joint(&self, handle: Handle) -> Result<&JointEntry, Refusal> {
+    pub fn joint(&self, handle: Handle) -> Result<&JointEntry, ApiError> {
         let entry = self.entry(handle)?;
         match entry.kind {
             Kind::Joint(Some(k)) => Ok(&self.joints[k]),
-            Kind::Joint(None) => Err(Refusal(format!("joint `{}` has no single coordinate", entry.path))),
+            Kind::Joint(None) => Err(ApiError(format!("joint `{}` has no single coordinate", entry.path))),
             Kind::Rotor(_) => {
-                Err(Refusal(format!("`{}` is a rotor: it has a speed and a target velocity only", entry.path)))
+                Err(ApiError(format!("`{}` is a rotor: it has a speed and a target velocity only", entry.path)))
             }
-            _ => Err(Refusal(format!("`{}` is no joint", entry.path))),
+            _ => Err(ApiError(format!("`{}` is no joint", entry.path))),
         }
     }
 
-    pub(super) fn joint_mut(&mut self, handle: Handle) -> Result<&mut JointEntry, Refusal> {
+    pub(super) fn joint_mut(&mut self, handle: Handle) -> Result<&mut JointEntry, ApiError> {
         let motor = self.joint(handle)?.handle;
         let k = self.joint_of[&motor];
         Ok(&mut self.joints[k])
@@ -411,15 +414,15 @@ impl Table {
     /// # Errors
     ///
     /// A run is on, or it is no whole multiple of the base step.
-    pub fn set_sample_time(&mut self, dt: f64) -> Result<(), Refusal> {
+    pub fn set_sample_time(&mut self, dt: f64) -> Result<(), ApiError> {
         let ticks = (dt / self.step).round();
         let fits = (ticks * self.step - dt).abs() <= 1e-6 * dt;
         if self.phase != Phase::Stopped {
-            return Err(Refusal::new("the time step can be set while the simulation is stopped"));
+            return Err(ApiError::new("the time step can be set while the simulation is stopped"));
         }
         if !(fits && (1.0..1e9).contains(&ticks)) {
             let step = self.step;
-            return Err(Refusal(format!(
+            return Err(ApiError(format!(
                 "a time step of {dt} s is no whole multiple of the scene's base step, {step} s"
             )));
         }
@@ -427,7 +430,7 @@ impl Table {
         Ok(())
     }
 
-    /// Whether a step of clients and scripts begins at a tick.
+    /// Returns true if a step of clients and scripts begins at a tick.
     #[must_use]
     pub fn is_due(&self, tick: u64) -> bool {
         tick.is_multiple_of(self.sample_ticks)
@@ -438,7 +441,7 @@ impl Table {
         self.held[command] = value;
     }
 
-    /// What is held of a command.
+    /// Held value of a command.
     #[must_use]
     pub fn held(&self, command: usize) -> Option<f64> {
         self.held[command]
@@ -476,18 +479,18 @@ impl Table {
     /// # Errors
     ///
     /// They would.
-    pub fn make_room(&self, n: usize) -> Result<(), Refusal> {
+    pub fn make_room(&self, n: usize) -> Result<(), ApiError> {
         let stored = self.strings.total() + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
-        if stored + n > MOST_BYTES {
-            let mib = MOST_BYTES >> 20;
-            return Err(Refusal(format!("signals and data of clients would take more than {mib} MiB: clear some")));
+        if stored + n > MAX_BYTES {
+            let mib = MAX_BYTES >> 20;
+            return Err(ApiError(format!("signals and data of clients would take more than {mib} MiB: clear some")));
         }
         Ok(())
     }
 
     /// A line for whoever runs the simulator; the oldest are dropped if nobody takes them.
     pub fn log(&mut self, level: i64, text: impl Into<String>) {
-        if self.log.len() == MOST_LINES {
+        if self.log.len() == MAX_LINES {
             self.log.pop_front();
         }
         let mut text = text.into();
@@ -495,7 +498,7 @@ impl Table {
         self.log.push_back(LogLine { level, text });
     }
 
-    /// What is kept of a run's messages with the run.
+    /// Messages that are kept with the run.
     pub(crate) fn notes(&self) -> &Notes {
         &self.notes
     }
@@ -546,7 +549,7 @@ impl Table {
     pub(super) fn end_run(&mut self, before: Self) {
         self.joints = before.joints;
         self.held = before.held;
-        (self.motions, self.courses) = (before.motions, before.courses);
+        (self.motions, self.joint_motions) = (before.motions, before.joint_motions);
         self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
@@ -568,7 +571,8 @@ pub(super) const WORLD: Attached<f64> = Attached {
     pose: Pose { rot: Mat3([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), pos: Vec3([0.0; 3]) },
 };
 
-/// Mass properties of a body's solids at density 1; none if there are none, or something that is no solid of closed form.
+/// Mass properties of a body's solids at density 1; none if there are none, or something that is no solid of closed
+/// form.
 fn unit_mass(object: &Object) -> Option<MassProperties> {
     if object.shapes.is_empty() || !object.surfaces.is_empty() {
         return None;

@@ -1,17 +1,18 @@
-//! A table of objects together with the world that it is about: where things are and how they move.
+//! A object registry together with the world that it is about: where things are and how they move.
 
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::spatial::{Motion, Pose, Quat};
 use sincro_dynamics::world::World;
 
-use super::table::{Entry, Handle, Kind, Table};
-use super::{Phase, Refusal, convention};
+use super::registry::{Entry, Handle, Kind, ObjectRegistry};
+use super::{ApiError, Phase, convention};
 
-/// What clients and scripts act on. Made anew for every call or phase; nothing in it outlives the step.
-pub struct Desk<'a> {
+/// Interface of clients and scripts to the simulation: the object registry with its world. Created for every call or
+/// phase; nothing in it outlives the step.
+pub struct SimApi<'a> {
     /// The objects.
-    pub table: &'a mut Table,
+    pub registry: &'a mut ObjectRegistry,
     /// The world.
     pub world: &'a mut World,
     /// Time `[s]`.
@@ -21,7 +22,7 @@ pub struct Desk<'a> {
     is_located: bool,
 }
 
-/// What a pose is given against.
+/// Reference frame of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
     /// The world.
@@ -34,24 +35,24 @@ pub enum Reference {
     JointBase(Handle),
 }
 
-impl<'a> Desk<'a> {
-    /// A table and its world at time `t` `[s]`.
-    pub fn new(table: &'a mut Table, world: &'a mut World, t: f64) -> Self {
-        Self { table, world, t, own: None, is_located: false }
+impl<'a> SimApi<'a> {
+    /// A registry and its world at time `t` `[s]`.
+    pub fn new(registry: &'a mut ObjectRegistry, world: &'a mut World, t: f64) -> Self {
+        Self { registry, world, t, own: None, is_located: false }
     }
 
-    /// Whether a run is on, paused or not.
+    /// Returns true if a run is on, paused or not.
     #[must_use]
     pub fn is_running(&self) -> bool {
-        self.table.phase != Phase::Stopped
+        self.registry.phase != Phase::Stopped
     }
 
     /// A line for whoever runs the simulator, kept with the run: level as in V-REP.
     pub fn log(&mut self, level: i64, text: &str) {
         let object =
-            self.own.and_then(|own| self.table.entry(own).ok()).map_or("client", |e| e.path.as_str()).to_owned();
-        self.table.note(self.t, &object, text);
-        self.table.log(level, text);
+            self.own.and_then(|own| self.registry.entry(own).ok()).map_or("client", |e| e.path.as_str()).to_owned();
+        self.registry.note(self.t, &object, text);
+        self.registry.log(level, text);
     }
 
     /// Brings the poses and twists of all links to the present state.
@@ -59,9 +60,9 @@ impl<'a> Desk<'a> {
         if self.is_located {
             return;
         }
-        let zero = std::mem::take(&mut self.table.zero);
+        let zero = std::mem::take(&mut self.registry.zero);
         self.world.with_state_view(self.t, |seen| kinematics::motions(seen.model, seen.q, seen.v, &zero, seen.scratch));
-        self.table.zero = zero;
+        self.registry.zero = zero;
         self.is_located = true;
     }
 
@@ -81,26 +82,26 @@ impl<'a> Desk<'a> {
     }
 
     /// Pose of the frame that a pose of `handle` is given against, in the world.
-    fn reference(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, Refusal> {
+    fn reference(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, ApiError> {
         let frame = match reference {
             Reference::World => return Ok(Pose::identity()),
-            Reference::Parent => match self.table.entry(handle)?.parent {
+            Reference::Parent => match self.registry.entry(handle)?.parent {
                 None => return Ok(Pose::identity()),
-                Some(parent) => self.table.entry(parent)?.moving,
+                Some(parent) => self.registry.entry(parent)?.moving,
             },
-            Reference::Object(other) => self.table.entry(other)?.moving,
-            Reference::JointBase(other) => self.table.entry(other)?.frame,
+            Reference::Object(other) => self.registry.entry(other)?.moving,
+            Reference::JointBase(other) => self.registry.entry(other)?.frame,
         };
         Ok(self.place(&frame))
     }
 
-    /// Where an object is. Joints have their axis along z; the frame is that on their parent's side.
+    /// Pose of an object. Joints have their axis along z; the frame is that on their parent's side.
     ///
     /// # Errors
     ///
     /// There is no such object.
-    pub fn pose(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, Refusal> {
-        let frame = self.table.entry(handle)?.frame;
+    pub fn pose(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, ApiError> {
+        let frame = self.registry.entry(handle)?.frame;
         let x_wr = self.reference(handle, reference)?;
         let x_wo = self.place(&frame);
         Ok(if reference == Reference::World { x_wo } else { x_wr.inverse().compose(&x_wo) })
@@ -111,8 +112,8 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// There is no such object.
-    pub fn joint_pose(&mut self, handle: Handle) -> Result<Pose<f64>, Refusal> {
-        let entry = self.table.entry(handle)?;
+    pub fn joint_pose(&mut self, handle: Handle) -> Result<Pose<f64>, ApiError> {
+        let entry = self.registry.entry(handle)?;
         let (frame, moving) = (entry.frame, entry.moving);
         let x_wb = self.place(&frame);
         Ok(x_wb.inverse().compose(&self.place(&moving)))
@@ -123,25 +124,25 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// There is no such object, it hangs on something that does not move freely, or the pose is not finite.
-    pub fn set_pose(&mut self, handle: Handle, pose: &Pose<f64>, reference: Reference) -> Result<(), Refusal> {
+    pub fn set_pose(&mut self, handle: Handle, pose: &Pose<f64>, reference: Reference) -> Result<(), ApiError> {
         let finite = pose.pos.0.iter().chain(pose.rot.0.iter().flatten()).all(|x| x.is_finite());
         if !finite {
-            return Err(Refusal::new("a pose has numbers that are not finite"));
+            return Err(ApiError::new("a pose has numbers that are not finite"));
         }
         let x_wo = self.reference(handle, reference)?.compose(pose);
         self.before_move(handle);
-        let entry = self.table.entry(handle)?;
+        let entry = self.registry.entry(handle)?;
         // a camera of the scene is no part of the model: it can stand anywhere, until the run ends
-        if entry.is_made || matches!(entry.kind, Kind::Vision(_)) {
+        if entry.is_runtime || matches!(entry.kind, Kind::Vision(_)) {
             let before = self.pose(handle, Reference::World)?;
-            self.put_made(handle, &x_wo)?;
+            self.place_runtime_object(handle, &x_wo)?;
             // what was made and hangs on it goes with it
             let moved = x_wo.compose(&before.inverse());
-            let below: Vec<Handle> = self.table.tree(handle).into_iter().skip(1).collect();
+            let below: Vec<Handle> = self.registry.tree(handle).into_iter().skip(1).collect();
             for child in below {
-                if self.table.entry(child)?.is_made {
+                if self.registry.entry(child)?.is_runtime {
                     let x_wc = self.pose(child, Reference::World)?;
-                    self.put_made(child, &moved.compose(&x_wc))?;
+                    self.place_runtime_object(child, &moved.compose(&x_wc))?;
                 }
             }
             return Ok(());
@@ -151,26 +152,26 @@ impl<'a> Desk<'a> {
     }
 
     /// Puts something that was made by a client or script somewhere in the world, fixed to what carries it.
-    fn put_made(&mut self, handle: Handle, x_wo: &Pose<f64>) -> Result<(), Refusal> {
-        let carrier = match self.table.entry(handle)?.parent {
-            Some(parent) => self.table.entry(parent)?.moving,
-            None => super::table::WORLD,
+    fn place_runtime_object(&mut self, handle: Handle, x_wo: &Pose<f64>) -> Result<(), ApiError> {
+        let carrier = match self.registry.entry(handle)?.parent {
+            Some(parent) => self.registry.entry(parent)?.moving,
+            None => super::registry::WORLD,
         };
         let x_wl = self.place(&Attached { pose: Pose::identity(), ..carrier });
         let at = Attached { pose: x_wl.inverse().compose(x_wo), ..carrier };
-        let entry = self.table.entry_mut(handle);
+        let entry = self.registry.entry_mut(handle);
         (entry.frame, entry.moving) = (at, at);
-        self.table.senses.moved(handle, &at);
+        self.registry.senses.moved(handle, &at);
         Ok(())
     }
 
     /// Moves the free joint that carries an object.
-    fn set_free(&mut self, entry: &Entry, x_wo: &Pose<f64>) -> Result<(), Refusal> {
+    fn set_free(&mut self, entry: &Entry, x_wo: &Pose<f64>) -> Result<(), ApiError> {
         let joints = &self.world.model().names().joints;
         let carrier = joints.iter().find(|j| j.kind == JointKind::Free && j.moving.link == entry.frame.link);
         let Some((base, moving, q_idx)) = carrier.map(|j| (j.base, j.moving, j.q_idx)) else {
             let help = "set the positions of the joints that carry it, or hang it on a free joint in the scene";
-            return Err(Refusal(format!("`{}` cannot be put anywhere: {help}", entry.path)));
+            return Err(ApiError(format!("`{}` cannot be put anywhere: {help}", entry.path)));
         };
         let x_mo = moving.pose.inverse().compose(&entry.frame.pose);
         let x_bm = self.place(&base).inverse().compose(&x_wo.compose(&x_mo.inverse()));
@@ -186,18 +187,18 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// It belongs to the scene, there is no such parent, or it would hang on itself.
-    pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), Refusal> {
+    pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), ApiError> {
         let before = self.pose(handle, if keep_in_place { Reference::World } else { Reference::Parent })?;
         let path = match parent {
             None => String::new(),
             Some(parent) => {
-                if self.table.tree(handle).contains(&parent) {
-                    return Err(Refusal::new("an object cannot hang on itself"));
+                if self.registry.tree(handle).contains(&parent) {
+                    return Err(ApiError::new("an object cannot hang on itself"));
                 }
-                self.table.entry(parent)?.path.clone()
+                self.registry.entry(parent)?.path.clone()
             }
         };
-        let entry = self.table.made(handle, "hung elsewhere")?;
+        let entry = self.registry.runtime_object(handle, "hung elsewhere")?;
         entry.parent = parent;
         entry.path = format!("{path}/{}", entry.name);
         self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
@@ -208,9 +209,9 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// There is none, or it belongs to the scene.
-    pub fn remove(&mut self, handle: Handle) -> Result<(), Refusal> {
+    pub fn remove(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.before_move(handle);
-        self.table.remove(handle)
+        self.registry.remove(handle)
     }
 
     /// Another object like one that was made by a client or script, where that one is.
@@ -218,15 +219,15 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// There is no such object, it belongs to the scene, or there are too many.
-    pub fn copy(&mut self, handle: Handle) -> Result<Handle, Refusal> {
-        let entry = self.table.made(handle, "copied")?;
+    pub fn copy(&mut self, handle: Handle) -> Result<Handle, ApiError> {
+        let entry = self.registry.runtime_object(handle, "copied")?;
         if let Kind::Vision(_) = entry.kind {
-            return Err(Refusal(format!("`{}` is not copied: make another one", entry.path)));
+            return Err(ApiError(format!("`{}` is not copied: make another one", entry.path)));
         }
         let (name, parent, kind) = (entry.name.clone(), entry.parent, entry.kind.clone());
         let pose = self.pose(handle, Reference::World)?;
-        let copy = self.table.create(&name, kind, super::table::WORLD)?;
-        self.table.copy_senses(handle, copy);
+        let copy = self.registry.create(&name, kind, super::registry::WORLD)?;
+        self.registry.copy_senses(handle, copy);
         self.set_pose(copy, &pose, Reference::World)?;
         self.set_parent(copy, parent, true)?;
         Ok(copy)
@@ -237,8 +238,8 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// There is no such object.
-    pub fn velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), Refusal> {
-        let frame = self.table.entry(handle)?.frame;
+    pub fn velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), ApiError> {
+        let frame = self.registry.entry(handle)?.frame;
         let twist = self.twist(&frame);
         Ok((twist.lin.0, twist.ang.0))
     }
@@ -248,7 +249,7 @@ impl<'a> Desk<'a> {
     /// # Errors
     ///
     /// There is no such object.
-    pub fn euler(&mut self, handle: Handle, reference: Reference) -> Result<[f64; 3], Refusal> {
+    pub fn euler(&mut self, handle: Handle, reference: Reference) -> Result<[f64; 3], ApiError> {
         Ok(convention::euler_of(&self.pose(handle, reference)?.rot))
     }
 }

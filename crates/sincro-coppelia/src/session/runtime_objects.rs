@@ -1,27 +1,28 @@
-//! What clients and scripts make: points, shapes and sensors that are no part of the scene. Their names, and that they can be taken away again.
+//! Runtime objects: points, shapes and sensors that clients and scripts create and remove; they are no part of the
+//! scene.
 
 use sincro_dynamics::kinematics::Attached;
 
-use super::Refusal;
-use super::table::{Entry, Handle, Kind, Table, WORLD};
+use super::ApiError;
+use super::registry::{Entry, Handle, Kind, ObjectRegistry, WORLD};
 
 /// Objects that may exist at once, beyond those of the scene.
-const MOST_CREATED: usize = 10_000;
+const MAX_CREATED: usize = 10_000;
 
-impl Table {
+impl ObjectRegistry {
     /// Makes a named point on the world.
     ///
     /// # Errors
     ///
     /// There are too many.
-    pub fn create_dummy(&mut self, name: &str) -> Result<Handle, Refusal> {
+    pub fn create_dummy(&mut self, name: &str) -> Result<Handle, ApiError> {
         self.create(name, Kind::Dummy, WORLD)
     }
 
     /// Makes an object on the world.
-    pub(super) fn create(&mut self, name: &str, kind: Kind, at: Attached<f64>) -> Result<Handle, Refusal> {
-        if self.n_created >= MOST_CREATED {
-            return Err(Refusal(format!("{MOST_CREATED} objects were made already: remove some")));
+    pub(super) fn create(&mut self, name: &str, kind: Kind, at: Attached<f64>) -> Result<Handle, ApiError> {
+        if self.n_created >= MAX_CREATED {
+            return Err(ApiError(format!("{MAX_CREATED} objects were made already: remove some")));
         }
         let handle = self.next_handle();
         let mut new_name = name.to_owned();
@@ -34,7 +35,7 @@ impl Table {
         *self.names.entry(new_name.clone()).or_default() += 1;
         let path = format!("/{new_name}");
         self.n_created += 1;
-        let entry = Entry { handle, name: new_name, path, kind, is_made: true, parent: None, frame: at, moving: at };
+        let entry = Entry { handle, name: new_name, path, kind, is_runtime: true, parent: None, frame: at, moving: at };
         self.entries.push(Some(entry));
         Ok(handle)
     }
@@ -44,8 +45,8 @@ impl Table {
     /// # Errors
     ///
     /// There is none, or it belongs to the scene.
-    pub fn remove(&mut self, handle: Handle) -> Result<(), Refusal> {
-        let entry = self.made(handle, "removed")?;
+    pub fn remove(&mut self, handle: Handle) -> Result<(), ApiError> {
+        let entry = self.runtime_object(handle, "removed")?;
         let (parent, name, kind) = (entry.parent, entry.name.clone(), entry.kind.clone());
         if let Kind::Vision(k) = kind {
             self.vision.remove(k);
@@ -67,13 +68,13 @@ impl Table {
     /// # Errors
     ///
     /// There is none, it belongs to the scene, or the name is none.
-    pub fn rename(&mut self, handle: Handle, name: &str) -> Result<(), Refusal> {
+    pub fn rename(&mut self, handle: Handle, name: &str) -> Result<(), ApiError> {
         let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '#');
         if name.is_empty() || name.len() > 100 || !name.chars().all(is_plain) {
             let short: String = name.chars().take(40).collect();
-            return Err(Refusal(format!("`{short}` is no name: up to 100 letters, digits, `_`, `-`")));
+            return Err(ApiError(format!("`{short}` is no name: up to 100 letters, digits, `_`, `-`")));
         }
-        let entry = self.made(handle, "named anew")?;
+        let entry = self.runtime_object(handle, "named anew")?;
         let above = entry.path.rsplit_once('/').map_or("", |(above, _)| above).to_owned();
         entry.path = format!("{above}/{name}");
         let before = std::mem::replace(&mut entry.name, name.to_owned());
@@ -94,10 +95,10 @@ impl Table {
     }
 
     /// The entry of something that was made by a client or script.
-    pub(super) fn made(&mut self, handle: Handle, what: &str) -> Result<&mut Entry, Refusal> {
+    pub(super) fn runtime_object(&mut self, handle: Handle, what: &str) -> Result<&mut Entry, ApiError> {
         let entry = self.entry(handle)?;
-        if !entry.is_made {
-            return Err(Refusal(format!("`{}` belongs to the scene: it cannot be {what}", entry.path)));
+        if !entry.is_runtime {
+            return Err(ApiError(format!("`{}` belongs to the scene: it cannot be {what}", entry.path)));
         }
         Ok(self.entries[handle.0 as usize - 1].as_mut().expect("it was found"))
     }
