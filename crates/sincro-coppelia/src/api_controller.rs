@@ -111,8 +111,7 @@ impl ApiController {
         scripts.evaluate((object, kind), text, world, registry, now)
     }
 
-    /// Scripts, table and world of a lock-step.
-    #[expect(clippy::type_complexity, reason = "three parts of one thing")]
+    /// Scripts, registry and world of a lock-step.
     fn parts(
         lockstep: &mut LockStep,
     ) -> Result<(&mut Scripts, &mut Option<Box<ObjectRegistry>>, &mut World), ApiError> {
