@@ -111,7 +111,7 @@ impl ApiController {
         scripts.evaluate((object, kind), text, world, registry, now)
     }
 
-    /// Scripts, table and world of a lock-step.
+    /// Scripts, registry and world of a lock-step.
     #[allow(clippy::type_complexity, reason = "three parts of one thing")]
     fn parts(
         lockstep: &mut LockStep,
@@ -130,7 +130,7 @@ impl ApiController {
         self.registry.as_ref().is_some_and(|registry| registry.is_due(tick))
     }
 
-    /// Calls the scripts, if there are any; they are told the time of `at`.
+    /// Calls the scripts, if there are any; their time is that of `at`.
     fn call_scripts(&mut self, phase: Phase, at: Instant<'_>) -> Result<(), Fault> {
         let Some(scripts) = &mut self.scripts else { return Ok(()) };
         scripts.call(phase, at.world, &mut self.registry, (at.tick, at.t))
@@ -178,7 +178,7 @@ impl Controller for ApiController {
         let Some(registry) = self.registry.as_mut().filter(|registry| registry.is_due(at.tick)) else { return Ok(()) };
         at.world.release();
         registry.sense(&at.world.state.q);
-        // scripts are told the time at which the step began
+        // the time of scripts is that at which the step began
         let tick = at.tick - registry.sample_ticks().min(at.tick);
         let t = tick as f64 * registry.base_step();
         self.call_scripts(Phase::Sensing, Instant { tick, t, ..at })

@@ -41,7 +41,7 @@ fn look(sim: &mut SimApi<'_>) -> Result<Seen, ApiError> {
     })
 }
 
-/// Calls the function and tells the joint what it gives.
+/// Calls the function and commands the joint with its results.
 pub(crate) fn joint(
     lua: &Lua,
     shared: &Shared,

@@ -6,7 +6,7 @@ use sincro_coppelia::session::{Answer, Handle};
 
 use crate::shared::{Shared, handle_of};
 
-/// The engine that scripts are told: the number that `sim.getInt32Param(8)` gives.
+/// Physics engine that scripts are given: the number that `sim.getInt32Param(8)` gives.
 const ENGINE: i64 = 4;
 
 /// Calls the function and does what it says; whether it said anything: it may leave the pair to others

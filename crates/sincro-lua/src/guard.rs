@@ -6,7 +6,7 @@
 //! the hook and by charges.
 //!
 //! Once a limit is reached the call is stopped: the hook then fires at each instruction, and `pcall`, `xpcall` and
-//! `coroutine.resume` of the sandbox fail when they are entered or left, so that no script can catch it and go on.
+//! `coroutine.resume` of the sandbox fail when they are entered or left, so that no script can catch it and continue.
 
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -72,7 +72,7 @@ pub(crate) struct Guard {
     /// read no clock.
     deadline: AtomicU64,
     stop_reason: AtomicU8,
-    /// True once a call was stopped and the script went on: see [`Guard::was_stopped`].
+    /// True once a call was stopped and the script continued: see [`Guard::was_stopped`].
     was_stopped: AtomicBool,
     is_in_thread: AtomicBool,
     switches_by_itself: AtomicBool,
@@ -265,7 +265,7 @@ impl Guard {
         lua.set_global_hook(HookTriggers::new().every_nth_instruction(every), move |lua, _| guard.count(lua))
     }
 
-    /// After a call from outside that reached the limit: it has failed, the script itself goes on.
+    /// After a call from outside that reached the limit: it has failed, the script itself continues.
     pub fn resume_script(self: &Arc<Self>, lua: &Lua) {
         let stop_reason = self.stop_reason.swap(StopReason::None as u8, Ordering::Relaxed);
         if stop_reason != StopReason::None as u8 {

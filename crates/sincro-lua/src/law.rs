@@ -19,13 +19,13 @@ const MAX_MEMORY: usize = 64 << 20;
 /// Instructions of one call.
 const MAX_INSTRUCTIONS: u64 = 20_000_000;
 
-/// See the head of this file.
+/// Law of a diagram block written in Lua.
 pub(crate) struct LuaLaw {
     spec: LawSpec,
     guard: Arc<Guard>,
     output: Function,
     update: Option<Function>,
-    /// Lists of vector inputs, filled anew at every call.
+    /// Lists of vector inputs, refilled at every call.
     lists: Vec<Option<Table>>,
     u: Table,
     memory: Table,

@@ -2,11 +2,11 @@
 //!
 //! | style | called |
 //! |---|---|
-//! | old (V-REP up to 3.4) | the whole text is run again, `sim_call_type` tells the phase; globals stay |
+//! | old (V-REP up to 3.4) | the whole text is run again, `sim_call_type` is the phase; globals stay |
 //! | new | `sysCall_init`, `sysCall_actuation`, `sysCall_sensing`, `sysCall_cleanup`, those that are there |
 //! | thread | `sysCall_thread` (an old thread: the whole text) is a coroutine, resumed at each step before any actuation |
 //!
-//! Which style, the first run tells: is there a function `sysCall_…` after it, the style is new.
+//! The first run decides the style: it is new if there is a function `sysCall_…` after it.
 
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ const NOT_CALLED: [(&str, &str); 2] = [
     ("sysCall_nonSimulation", "scripts live from the start of a run to its end"),
 ];
 
-/// See the head of this file.
+/// Lua state of one script, with its limits and entry points.
 #[derive(Debug)]
 pub(crate) struct Machine {
     /// Its Lua state.
@@ -118,7 +118,7 @@ impl Machine {
         self.guard.begin(false);
     }
 
-    /// Lets the script go on after a client's call reached a limit: in this script, or in another one that it called.
+    /// Resumes the script after a client's call reached a limit: in this script, or in another one that it called.
     pub fn resume_script(&self) {
         self.guard.resume_script(&self.lua);
     }
@@ -287,7 +287,7 @@ impl Machine {
         self.within(false, |m| m.entry(&[name])?.map_or(Ok(()), |function| function.call(())))
     }
 
-    /// Lets the script's thread go on, if it is one and has not ended.
+    /// Resumes the script's thread, if it is one and has not ended.
     pub fn resume(&mut self) -> Result<(), Fault> {
         let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
         self.within(true, |_| thread.resume(()))
@@ -336,7 +336,7 @@ impl Machine {
     }
 
     /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what
-    /// the joint is told.
+    /// the joint is commanded.
     pub fn call_joint(&mut self, step: f64) -> Result<(), Fault> {
         let Some(function) = self.entries.joint.clone() else { return Ok(()) };
         let is_first = !std::mem::replace(&mut self.is_joint_called, true);

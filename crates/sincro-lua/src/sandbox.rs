@@ -32,7 +32,7 @@ type Named = (&'static str, fn(f64) -> f64);
 
 /// Services that the prelude needs.
 pub(crate) struct Services {
-    /// Time `[s]` as scripts are told it.
+    /// Time `[s]` of the scripts.
     pub time: Box<dyn Fn() -> f64 + Send>,
     /// The value of a signal of any kind.
     pub signal: Box<Signal>,

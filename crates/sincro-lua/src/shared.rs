@@ -10,7 +10,7 @@ use sincro_dynamics::world::World;
 use sincro_scene::script::Script;
 use sincro_sim::controller::Message;
 
-/// Messages of one phase that are kept: one more than a run keeps, so that the run tells of those that are not.
+/// Messages of one phase that are kept: one more than a run keeps, so that the run reports that some were dropped.
 const MAX_MESSAGES: usize = 10_001;
 /// Bytes of a message that are kept.
 const MAX_MESSAGE_LEN: usize = 10_000;
@@ -22,11 +22,11 @@ pub(crate) struct Stage {
     pub world: World,
     /// The objects.
     pub registry: Option<Box<ObjectRegistry>>,
-    /// Time `[s]` as scripts are told it.
+    /// Time `[s]` of the scripts.
     pub t: f64,
 }
 
-/// See the head of this file.
+/// Data shared by all scripts of a run.
 pub(crate) struct Shared {
     stage: Mutex<Stage>,
     messages: Mutex<Vec<Message>>,
@@ -77,7 +77,7 @@ impl Shared {
         act(&mut sim)
     }
 
-    /// Time `[s]` as scripts are told it.
+    /// Time `[s]` of the scripts.
     pub fn t(&self) -> f64 {
         self.stage().t
     }

@@ -45,7 +45,7 @@ pub struct HubOptions {
     pub deadlines: Deadlines,
 }
 
-/// The session and who is attached.
+/// Session with its attached clients; access is through the lock of the [`Hub`].
 pub struct SessionGuard {
     /// The session.
     pub session: Session,
@@ -83,7 +83,7 @@ pub struct Hub {
 }
 
 impl Hub {
-    /// Over a session; events go to `events`.
+    /// Creates a hub over a session; events go to `events`.
     #[must_use]
     pub fn new(session: Session, options: HubOptions, events: SyncSender<Event>) -> Arc<Self> {
         let guard = SessionGuard {
@@ -135,7 +135,7 @@ impl Hub {
         guard
     }
 
-    /// Wakes whoever waits for a step; to be called after anything that may let the simulation go on.
+    /// Wakes the threads that wait for a step; to be called after anything that may allow the simulation to advance.
     pub fn wake(&self) {
         self.moved.notify_all();
     }
@@ -164,7 +164,7 @@ impl Hub {
         &self.options.deadlines
     }
 
-    /// One connection less of a client; with the last one all that it holds is let go.
+    /// Detaches a connection of a client; with the last one everything that it holds is released.
     pub fn detach(&self, id: ClientId) {
         let mut guard = self.enter();
         let Some(client) = guard.clients.get_mut(&id) else { return };
@@ -206,7 +206,7 @@ impl Hub {
     pub fn run(&self) {
         let (mut due, mut watched) = (Instant::now(), Instant::now());
         while !self.is_closing() {
-            // whoever waits comes first
+            // waiting threads come first
             while self.waiting.load(Ordering::SeqCst) > 0 {
                 std::thread::yield_now();
             }
@@ -217,7 +217,7 @@ impl Hub {
             }
             if !guard.runs_free() {
                 if guard.session.phase() == Phase::Paused {
-                    // what stops the run is told by the session's log
+                    // the session's log has the reason if the run stops
                     let _ = guard.act(Session::idle);
                 }
                 drop(self.moved.wait_timeout(guard, POLL_INTERVAL).unwrap_or_else(PoisonError::into_inner));
@@ -231,7 +231,7 @@ impl Hub {
                 continue;
             }
             due = due.max(now - POLL_INTERVAL) + Duration::from_secs_f64(guard.session.registry().sample_time());
-            // what stops the run is told by the session's log
+            // the session's log has the reason if the run stops
             let _ = guard.advance();
             drop(guard);
             self.wake();
@@ -278,7 +278,7 @@ impl SessionGuard {
         id
     }
 
-    /// A client has said something.
+    /// Notes a sign of life of a client.
     pub fn seen(&mut self, id: ClientId) {
         if let Some(client) = self.clients.get_mut(&id) {
             client.last_seen = Instant::now();
@@ -369,7 +369,7 @@ impl SessionGuard {
         if is_stepped && self.is_ready() && self.session.phase() == Phase::Running { self.advance() } else { Ok(()) }
     }
 
-    /// After something that others may have waited for; a failure is kept for those who wait.
+    /// Makes the step if it is due; an error is kept for the clients that wait.
     fn try_advance(&mut self) {
         let _ = self.advance_if_ready();
     }
@@ -441,8 +441,8 @@ impl SessionGuard {
         let _ = self.events.try_send(Event::Log(level, text));
     }
 
-    /// Passes on what the session has to say. Runs wait until they are taken, up to [`MAX_RUNS`]; then the oldest are
-    /// dropped.
+    /// Forwards the log and the finished runs of the session as events. Runs wait until they are taken, up to
+    /// [`MAX_RUNS`]; then the oldest are dropped.
     fn forward_events(&mut self) {
         for line in self.session.registry().take_log() {
             self.log(line.level, line.text);

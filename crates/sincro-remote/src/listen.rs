@@ -124,16 +124,17 @@ impl Connection {
         self.permit.mark_message();
     }
 
-    /// True if the idle time-out has passed before a byte of the present message has come, and the server goes on.
+    /// True if the idle time-out has passed before a byte of the present message has come, and the server is not
+    /// closing.
     pub fn is_timed_out(&self) -> bool {
         matches!(self.stage, Stage::Waiting { until } if Instant::now() >= until) && !self.hub.is_closing()
     }
 
-    /// Reads `n` bytes onto the end of `out`, in pieces, so that a length that was made up takes no memory.
+    /// Reads `n` bytes onto the end of `out`, in pieces, so that a false length takes no memory.
     ///
     /// # Errors
     ///
-    /// The peer has gone, a deadline has passed, or the server is being closed.
+    /// The peer has disconnected, a deadline has passed, or the server is being closed.
     pub fn read_appending(&mut self, n: usize, out: &mut Vec<u8>) -> io::Result<()> {
         let mut left = n;
         while left > 0 {
@@ -146,7 +147,7 @@ impl Connection {
         Ok(())
     }
 
-    /// Reads what is in the buffer, else what comes: at least a byte, unless the peer has gone.
+    /// Reads what is in the buffer, else what comes: at least a byte, unless the peer has disconnected.
     fn receive(&mut self, out: &mut [u8]) -> io::Result<usize> {
         if self.unread.is_empty() {
             if out.len() >= BUFFER {

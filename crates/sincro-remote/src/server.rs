@@ -56,7 +56,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Refuses to open ports to other machines that cannot tell who calls, unless that is what the user asks for.
+    /// Refuses to open ports to other machines that do not authenticate their clients, unless that is what the user
+    /// asks for.
     fn check(&self) -> Result<(), ServeError> {
         let has_open = !self.legacy.is_empty() || self.zmq.is_some();
         if self.bind.is_loopback() || self.unauthenticated || !has_open {

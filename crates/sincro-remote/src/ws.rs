@@ -1,4 +1,4 @@
-//! The WebSocket remote API: for browsers. A text or binary message with JSON or CBOR (told by its first byte)
+//! The WebSocket remote API: for browsers. A text or binary message with JSON or CBOR (distinguished by the first byte)
 //! `{func, args, id?}`, answered in the same form with `{id?, success, ret}` or `{id?, success: false, error}`.
 //!
 //! Handshake and framing (RFC 6455): crate `tungstenite`. Who may connect: [`sincro_access::guard`].
@@ -60,7 +60,8 @@ fn admit(request: &Request, guard: &Guard) -> Result<(), guard::Refused> {
     })
 }
 
-/// The next message with content; none when the client has gone or broken the protocol. Pings are answered on the way.
+/// The next message with content; none when the client has disconnected or broken the protocol. Pings are answered on
+/// the way.
 fn receive(socket: &mut WebSocket<Connection>) -> Option<Message> {
     loop {
         socket.get_mut().next_message();

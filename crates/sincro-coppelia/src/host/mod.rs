@@ -29,7 +29,7 @@ pub enum Phase {
     Suspend,
     /// Now and then while it is paused.
     Suspended,
-    /// When it is about to go on after a pause.
+    /// Before it is resumed after a pause.
     Resume,
     /// Once, when the run is over.
     Cleanup,
@@ -44,7 +44,7 @@ pub struct Call<'a> {
     pub registry: &'a mut Option<Box<ObjectRegistry>>,
     /// The tick, in sensing that at which the step began.
     pub tick: u64,
-    /// Time `[s]` that scripts are told: `tick · step`.
+    /// Time `[s]` of the scripts: `tick · step`.
     pub t: f64,
 }
 

@@ -119,7 +119,7 @@ impl Pieces {
     }
 }
 
-/// A motion along one axis: where it begins, its pieces, and where it ends and goes on with constant velocity.
+/// A motion along one axis: where it begins, its pieces, and where it ends and continues with constant velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
     pub(super) start: Point,
@@ -146,7 +146,7 @@ impl Profile {
         self.end
     }
 
-    /// The state at a time since its beginning `[s]`; behind the end it goes on with the last velocity.
+    /// The state at a time since its beginning `[s]`; behind the end it continues with the last velocity.
     #[must_use]
     pub fn at(&self, t: f64) -> Point {
         if t >= self.duration {

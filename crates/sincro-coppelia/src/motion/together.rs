@@ -22,7 +22,7 @@ pub enum Goal {
     Position(f64, f64),
     /// A velocity [u/s], wherever that is.
     Velocity(f64),
-    /// Nowhere: it goes on with the velocity that it has.
+    /// None: it keeps its velocity.
     Free,
 }
 

@@ -83,7 +83,7 @@ impl SimApi<'_> {
     }
 
     /// Pushes on a body's centre of mass over the coming step: force `[N]` and torque [N·m], world axes. What is added
-    /// before the step adds up; after it, it is gone.
+    /// before the step adds up; it is removed after it.
     ///
     /// # Errors
     ///

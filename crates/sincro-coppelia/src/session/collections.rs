@@ -23,7 +23,7 @@ pub enum Item {
     Chain(Handle, bool),
 }
 
-/// A set of objects: rules that add and take away, one after the other, looked up anew each time.
+/// A set of objects: rules that add and take away, one after the other, resolved at each use.
 #[derive(Clone, Debug, Default)]
 pub struct Collection {
     name: String,
@@ -32,7 +32,7 @@ pub struct Collection {
 }
 
 impl Collection {
-    /// An object is gone.
+    /// Forgets an object that was removed.
     pub(super) fn forget(&mut self, own: Handle) {
         let base = |item: &Item| match item {
             Item::All => None,
@@ -172,7 +172,7 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// It is a collection that is gone.
+    /// It is a collection that was removed.
     pub(super) fn members(&self, entity: Entity) -> Result<Vec<Handle>, ApiError> {
         match entity {
             Entity::All => Ok(self.registry.entries().map(|e| e.handle).collect()),

@@ -60,7 +60,7 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// One of them is gone, or is an object without shape that is no point either.
+    /// One of them was removed, or is an object without shape that is no point either.
     pub fn distance(&mut self, one: Entity, two: Entity, most: f64) -> Result<Option<DistanceResult>, ApiError> {
         let (mut first, mut second) = (self.parts(one)?, self.parts(two)?);
         match (one, two) {
@@ -101,7 +101,7 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// One of them is gone, or is an object without shape.
+    /// One of them was removed, or is an object without shape.
     pub fn collision(&mut self, one: Entity, two: Entity) -> Result<Option<[Handle; 2]>, ApiError> {
         for entity in [one, two] {
             if let Entity::Object(object) = entity

@@ -1,4 +1,4 @@
-//! Files that clients send, if whoever runs the server lets them: in one folder of the session, with plain names, not
+//! Files that clients send, if the server permits it: in one folder of the session, with plain names, not
 //! too many.
 
 use std::fs;

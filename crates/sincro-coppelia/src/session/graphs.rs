@@ -24,7 +24,7 @@ pub struct Stream {
     pub value: f64,
     factor: f64,
     offset: f64,
-    /// Made during a run: it is gone when the next one starts.
+    /// Made during a run: removed when the next one starts.
     of_run: bool,
 }
 

@@ -244,7 +244,7 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// There is no such group, it has no elements, or an object of it is gone.
+    /// There is no such group, it has no elements, or an object of it was removed.
     pub fn handle_group(
         &mut self,
         environment: i64,

@@ -1,4 +1,4 @@
-//! Joints with one coordinate: what they do and what they are told.
+//! Joints with one coordinate: positions, velocities, motors and their commands.
 //!
 //! V-REP's motors in the words of this program: motor off is `free`, velocity control `velocity`, position control
 //! `position`, spring-damper control `spring`, force control `torque`. A target that the present mode does not use is
@@ -15,7 +15,7 @@ use super::{ApiError, SimApi};
 const POSITION_GAIN: f64 = 20.0;
 
 impl SimApi<'_> {
-    /// Position `[rad]` or `[m]`; of a joint that turns without end within (−π, π], as V-REP tells it.
+    /// Position `[rad]` or `[m]`; of a joint that turns without end within (−π, π], as in V-REP.
     ///
     /// # Errors
     ///
@@ -128,7 +128,7 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Velocity that a joint was told [rad/s] or [m/s]: by a client or script, else by the scene; 0 if its motor takes
+    /// Commanded velocity of a joint [rad/s] or [m/s]: by a client or script, else by the scene; 0 if its motor takes
     /// no velocity.
     ///
     /// # Errors
@@ -155,7 +155,7 @@ impl SimApi<'_> {
         self.command(handle)
     }
 
-    /// Position that a joint was told `[rad]` or `[m]`.
+    /// Commanded position of a joint `[rad]` or `[m]`.
     ///
     /// # Errors
     ///
@@ -259,7 +259,7 @@ impl SimApi<'_> {
         self.registry.held(motor).unwrap_or_else(present)
     }
 
-    /// Holds what a motor is told in its present mode, if it was told anything; where its target was on its way to is
+    /// Holds the command of a motor in its present mode, if there is one; where its target was on its way to is
     /// forgotten.
     fn command(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.registry.joint_motions.remove(&handle);

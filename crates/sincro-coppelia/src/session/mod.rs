@@ -82,7 +82,7 @@ use sincro_sim::trace::Trace;
 pub enum Phase {
     /// No run.
     Stopped,
-    /// A run that goes on as soon as its controllers let it.
+    /// A run advances as soon as its controllers allow it.
     Running,
     /// A run that waits to be started again.
     Paused,
@@ -336,7 +336,7 @@ impl Session {
         first
     }
 
-    /// Starts a run, or goes on after a pause. Time stays 0 until the first step.
+    /// Starts a run, or resumes it after a pause. Time stays 0 until the first step.
     ///
     /// # Errors
     ///
@@ -373,7 +373,7 @@ impl Session {
         Ok(())
     }
 
-    /// Drives decide anew whether they hold, if a client has moved joints since the scene was opened.
+    /// Resolves the actuator modes, if a client has moved joints since the scene was opened.
     fn settle(&mut self, start: &State<f64>) {
         let initial = &self.loaded.scene.initial;
         if start.q != initial.q || start.v != initial.v {
@@ -454,7 +454,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// The world or the diagram could not go on: the run has ended, what was recorded is kept.
+    /// The world or the diagram could not advance: the run has ended, what was recorded is kept.
     pub fn step(&mut self) -> Result<(), ApiError> {
         let registry = self.registry();
         if registry.phase != Phase::Running {

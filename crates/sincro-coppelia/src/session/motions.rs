@@ -108,7 +108,7 @@ impl SimApi<'_> {
         Ok(handle)
     }
 
-    /// Lets a motion go on for a time `[s]`.
+    /// Advances a motion by a time `[s]`.
     ///
     /// # Errors
     ///
@@ -203,7 +203,7 @@ impl JointMotion {
 }
 
 impl ObjectRegistry {
-    /// Lets the targets of motors that are on their way go on by a base step: a motor is told where its target is to be
+    /// Advances the moving targets of motors by a base step: a motor is given where its target is to be
     /// at the end of it.
     pub(crate) fn move_targets(&mut self) {
         if self.joint_motions.is_empty() {

@@ -7,7 +7,7 @@ const MAX_MESSAGES: usize = 10_000;
 /// Bytes of a message that are kept.
 const MAX_MESSAGE_LEN: usize = 10_000;
 
-/// See the head of this file.
+/// Bounded list of messages.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Notes {
     messages: Vec<Message>,

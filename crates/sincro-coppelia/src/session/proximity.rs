@@ -29,7 +29,7 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// There is no such object, it is no proximity sensor, or the entity is gone.
+    /// There is no such object, it is no proximity sensor, or the entity was removed.
     pub fn look_at(&mut self, handle: Handle, entity: Entity, most: f64) -> Result<Option<Detection>, ApiError> {
         let entry = self.proximity_entry(handle)?;
         let (eye, blind_below) = (entry.eye.clone(), entry.blind_below);
@@ -48,7 +48,7 @@ impl SimApi<'_> {
         Ok(saw.filter(|saw| saw.distance >= blind_below))
     }
 
-    /// Lets a proximity sensor look: the reading is what is there now. A sensor of the scene has its sample of the
+    /// Evaluates a proximity sensor at the present instant. A sensor of the scene has its sample of the
     /// present tick already while a run is on.
     ///
     /// # Errors
@@ -66,8 +66,8 @@ impl SimApi<'_> {
         Ok(saw)
     }
 
-    /// Lets all proximity sensors look, those that wait to be told only if `explicit`: what the one that is closest to
-    /// something saw.
+    /// Evaluates all proximity sensors, those with explicit handling only if `explicit`: what the one that is closest
+    /// to something saw.
     ///
     /// # Errors
     ///
@@ -91,7 +91,7 @@ impl SimApi<'_> {
         Ok(nearest)
     }
 
-    /// The sensors that were made at run time look, as a main script makes them; not those that wait to be told.
+    /// Evaluates the runtime sensors, as a main script does, except those with explicit handling.
     pub(crate) fn handle_runtime_sensors(&mut self) {
         let proximity = &self.registry.senses.proximity;
         let made: Vec<Handle> =
@@ -116,14 +116,14 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Forgets what all proximity sensors saw, of those that wait to be told only if `explicit`.
+    /// Resets all proximity sensors, those with explicit handling only if `explicit`.
     pub fn reset_proximities(&mut self, explicit: bool) {
         for entry in self.registry.senses.proximity.values_mut().filter(|l| explicit || !l.is_explicit) {
             entry.saw = None;
         }
     }
 
-    /// Makes a proximity sensor in the world's origin: one that looks only when it is told to if it `is_explicit`, and
+    /// Makes a proximity sensor in the world's origin: one with explicit handling if it `is_explicit`, and
     /// sees nothing while something is nearer than `blind_below` `[m]`.
     ///
     /// # Errors

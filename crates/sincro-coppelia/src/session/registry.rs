@@ -43,7 +43,7 @@ pub enum Kind {
     Frame,
     /// An external force.
     Force,
-    /// A rotor: to clients and scripts a joint that turns at the speed it is told. Its index among the model's.
+    /// A rotor: to clients and scripts a joint that turns at its commanded speed. Its index among the model's.
     Rotor(usize),
     /// A fixed joint that measures what goes through it: its first degree of freedom, which is held.
     ForceSensor(usize),
@@ -64,7 +64,7 @@ pub struct Entry {
     pub handle: Handle,
     /// Last part of its path.
     pub name: String,
-    /// Path in the scene; of what was made later, that of its parent, `/` and its name.
+    /// Path in the scene; of a runtime object, that of its parent, `/` and its name.
     pub path: String,
     /// Type.
     pub kind: Kind,
@@ -78,7 +78,7 @@ pub struct Entry {
     pub moving: Attached<f64>,
 }
 
-/// A joint with one coordinate, and what it was told.
+/// A joint with one coordinate, and its commands.
 #[derive(Clone, Debug)]
 pub struct JointEntry {
     /// The object.
@@ -95,15 +95,15 @@ pub struct JointEntry {
     pub drive: Option<Motor<f64>>,
     /// The mode that its motor has in the scene.
     pub scene_mode: Option<MotorMode>,
-    /// Velocity it was told [rad/s] or [m/s].
+    /// Commanded velocity [rad/s] or [m/s].
     pub target_velocity: Option<f64>,
-    /// Position it was told `[rad]` or `[m]`.
+    /// Commanded position `[rad]` or `[m]`.
     pub target_position: Option<f64>,
-    /// Effort it was told, in torque mode [N·m] or `[N]`.
+    /// Commanded effort, in torque mode [N·m] or `[N]`.
     pub target_force: Option<f64>,
 }
 
-/// A line for whoever runs the simulator.
+/// A line for the operator of the simulator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogLine {
     /// Level as in V-REP: 200 errors, 300 warnings, 450 messages of scripts, 500 informations.
@@ -115,7 +115,7 @@ pub struct LogLine {
 /// Request that is carried out between two steps.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
-    /// Start, or go on after a pause.
+    /// Start, or resume after a pause.
     Start,
     /// Pause.
     Pause,
@@ -488,7 +488,7 @@ impl ObjectRegistry {
         Ok(())
     }
 
-    /// A line for whoever runs the simulator; the oldest are dropped if nobody takes them.
+    /// A line for the operator of the simulator; the oldest are dropped if nobody takes them.
     pub fn log(&mut self, level: i64, text: impl Into<String>) {
         if self.log.len() == MAX_LINES {
             self.log.pop_front();
@@ -545,7 +545,7 @@ impl ObjectRegistry {
         self.vision.handle(q);
     }
 
-    /// A run has ended: everything told to joints is as it was `before` it, the rest stays.
+    /// A run has ended: the commands of joints are as they were `before` it, the rest stays.
     pub(super) fn end_run(&mut self, before: Self) {
         self.joints = before.joints;
         self.held = before.held;

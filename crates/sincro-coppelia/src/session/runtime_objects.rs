@@ -40,7 +40,7 @@ impl ObjectRegistry {
         Ok(handle)
     }
 
-    /// Removes what was made by a client or script.
+    /// Removes a runtime object.
     ///
     /// # Errors
     ///
@@ -63,7 +63,7 @@ impl ObjectRegistry {
         Ok(())
     }
 
-    /// Gives a point that was made by a client or script another name. What hangs on it keeps its own.
+    /// Gives a runtime point another name. What hangs on it keeps its own.
     ///
     /// # Errors
     ///
@@ -94,7 +94,7 @@ impl ObjectRegistry {
         self.numbers.clear();
     }
 
-    /// The entry of something that was made by a client or script.
+    /// The entry of a runtime object.
     pub(super) fn runtime_object(&mut self, handle: Handle, what: &str) -> Result<&mut Entry, ApiError> {
         let entry = self.entry(handle)?;
         if !entry.is_runtime {

@@ -19,7 +19,7 @@ const MAX_CORNERS: usize = 2_000_000;
 /// Colour of what is made without one.
 const PLAIN: [u8; 3] = [0xc9, 0xa1, 0x5b];
 
-/// See the head of this file.
+/// Visible pieces, proximity sensors and collections.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Senses {
     /// Pieces of the scene.
@@ -38,7 +38,7 @@ pub(super) struct Senses {
 #[derive(Clone, Debug)]
 pub(super) struct ProximityEntry {
     pub eye: Eye,
-    /// True if it looks only when it is told to.
+    /// True if it is handled explicitly.
     pub is_explicit: bool,
     /// True if it belongs to the scene, which samples it.
     pub is_of_scene: bool,
@@ -74,12 +74,12 @@ impl Senses {
         parts.map(|(piece, place)| (piece.clone(), *place)).collect()
     }
 
-    /// Returns true if an object that was made can be seen.
+    /// Returns true if a runtime object can be seen.
     pub fn has_runtime_pieces(&self, own: Handle) -> bool {
         self.runtime.iter().any(|piece| handle_of(piece) == own)
     }
 
-    /// An object that was made is gone.
+    /// Removes a runtime object.
     pub fn forget(&mut self, own: Handle) {
         self.forget_parts(own);
         self.proximity.remove(&own);
@@ -88,7 +88,7 @@ impl Senses {
         }
     }
 
-    /// Takes away what an object that was made consists of.
+    /// Takes away the pieces of a runtime object.
     pub fn forget_parts(&mut self, own: Handle) {
         let stays: Vec<bool> = self.runtime.iter().map(|piece| handle_of(piece) != own).collect();
         let mut stay = stays.iter();
@@ -104,7 +104,7 @@ impl Senses {
         }
     }
 
-    /// Adds a part to an object that was made.
+    /// Adds a part to a runtime object.
     pub fn add(&mut self, own: Handle, frame: &Attached<f64>, geometry: Arc<Geometry>, place: Pose<f64>) {
         let at = Attached { pose: frame.pose.compose(&place), ..*frame };
         self.runtime.push(Piece { object: own.0 as usize - 1, at, geometry, color: PLAIN });
@@ -179,7 +179,7 @@ impl ObjectRegistry {
         }
     }
 
-    /// Another object gets what one that was made has to be seen by, or to see with.
+    /// Another object gets the pieces and sensors of a runtime object.
     pub(super) fn copy_senses(&mut self, from: Handle, to: Handle) {
         let Ok(frame) = self.entry(to).map(|e| e.frame) else { return };
         for (piece, place) in self.senses.parts_of(from) {

@@ -119,7 +119,7 @@ impl SimApi<'_> {
         Ok(mesh)
     }
 
-    /// The shape of a handle, which was made at run time.
+    /// The shape of a handle, a runtime object.
     fn runtime_shape(&self, handle: Handle) -> Result<Handle, ApiError> {
         let entry = self.registry.entry(handle)?;
         if entry.kind == Kind::Shape {
@@ -128,7 +128,7 @@ impl SimApi<'_> {
         Err(ApiError(format!("`{}` is no shape that was made at run time: change it in the scene", entry.path)))
     }
 
-    /// One shape of several: the first one keeps its frame and name, the others are gone.
+    /// One shape of several: the first one keeps its frame and name, the others are removed.
     ///
     /// # Errors
     ///

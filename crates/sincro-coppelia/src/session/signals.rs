@@ -18,7 +18,7 @@ pub struct Signals<T> {
 #[derive(Clone, Debug)]
 struct Held<T> {
     value: T,
-    /// Made during a run: it is gone when the next one starts.
+    /// Made during a run: removed when the next one starts.
     of_run: bool,
 }
 
@@ -35,7 +35,7 @@ impl<T> Signals<T> {
         self.by_name.get(name).map(|held| &held.value)
     }
 
-    /// Sets a name; `of_run` says that it is gone when the next run starts.
+    /// Sets a name; `of_run` removes it when the next run starts.
     ///
     /// # Errors
     ///

@@ -47,7 +47,7 @@ impl<'a> SimApi<'a> {
         self.registry.phase != Phase::Stopped
     }
 
-    /// A line for whoever runs the simulator, kept with the run: level as in V-REP.
+    /// A line for the operator of the simulator, kept with the run: level as in V-REP.
     pub fn log(&mut self, level: i64, text: &str) {
         let object =
             self.own.and_then(|own| self.registry.entry(own).ok()).map_or("client", |e| e.path.as_str()).to_owned();
@@ -66,7 +66,7 @@ impl<'a> SimApi<'a> {
         self.is_located = true;
     }
 
-    /// The state was changed: poses must be computed anew.
+    /// The state was changed: poses must be computed again.
     pub(super) fn moved(&mut self) {
         self.is_located = false;
     }
@@ -119,7 +119,7 @@ impl<'a> SimApi<'a> {
         Ok(x_wb.inverse().compose(&self.place(&moving)))
     }
 
-    /// Puts an object somewhere: one that was made by a client or script, or one that is carried by a free joint.
+    /// Puts an object somewhere: a runtime object, or one that is carried by a free joint.
     ///
     /// # Errors
     ///
@@ -136,7 +136,7 @@ impl<'a> SimApi<'a> {
         if entry.is_runtime || matches!(entry.kind, Kind::Vision(_)) {
             let before = self.pose(handle, Reference::World)?;
             self.place_runtime_object(handle, &x_wo)?;
-            // what was made and hangs on it goes with it
+            // runtime descendants move with it
             let moved = x_wo.compose(&before.inverse());
             let below: Vec<Handle> = self.registry.tree(handle).into_iter().skip(1).collect();
             for child in below {
@@ -151,7 +151,7 @@ impl<'a> SimApi<'a> {
         self.set_free(&entry, &x_wo)
     }
 
-    /// Puts something that was made by a client or script somewhere in the world, fixed to what carries it.
+    /// Puts a runtime object somewhere in the world, fixed to what carries it.
     fn place_runtime_object(&mut self, handle: Handle, x_wo: &Pose<f64>) -> Result<(), ApiError> {
         let carrier = match self.registry.entry(handle)?.parent {
             Some(parent) => self.registry.entry(parent)?.moving,
@@ -182,7 +182,7 @@ impl<'a> SimApi<'a> {
         Ok(())
     }
 
-    /// Hangs a point that was made by a client or script on another object, or on the world.
+    /// Hangs a runtime point on another object, or on the world.
     ///
     /// # Errors
     ///
@@ -204,7 +204,7 @@ impl<'a> SimApi<'a> {
         self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
     }
 
-    /// Removes what was made by a client or script.
+    /// Removes a runtime object.
     ///
     /// # Errors
     ///
@@ -214,7 +214,7 @@ impl<'a> SimApi<'a> {
         self.registry.remove(handle)
     }
 
-    /// Another object like one that was made by a client or script, where that one is.
+    /// Another object like a runtime object, where that one is.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Threads: a script that waits goes on at the next step.
+//! Threads: a waiting script is resumed at the next step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering};

@@ -1,4 +1,4 @@
-//! Functions of Lua's libraries whose time the count of instructions does not bound, written anew or charged for before
+//! Functions of Lua's libraries whose time the count of instructions does not bound, replaced or charged for before
 //! they run.
 //!
 //! Lua's hook sees instructions of Lua code only: a library function in C runs unseen, however long. Those whose time

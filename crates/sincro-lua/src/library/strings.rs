@@ -102,7 +102,7 @@ fn capture(lua: &Lua, subject: &[u8], matcher: &Matcher<'_>, whole: (usize, usiz
 
 /// `string.gmatch`. A match that is empty where the last one ended is none; `^` is no anchor.
 ///
-/// The pattern is parsed anew for each match: an iterator holds nothing beside the two strings.
+/// The pattern is parsed again for each match: an iterator holds nothing beside the two strings.
 fn iterate(library: &Arc<Library>, arguments: &Arguments<'_>) -> mlua::Result<MultiValue> {
     let (subject, pattern) = (arguments.string(1)?, arguments.string(2)?);
     let len = subject.as_bytes().len();

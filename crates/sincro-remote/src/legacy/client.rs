@@ -78,7 +78,7 @@ impl Client {
         }
     }
 
-    /// Executes a message and writes the reply; says whether the connection goes on.
+    /// Executes a message and writes the reply; returns true if the connection continues.
     ///
     /// # Errors
     ///
@@ -175,7 +175,7 @@ impl Client {
         let (offset, n) = (command.offset as i64, command.data.len() as i64);
         let taken: usize = self.pieces.values().map(Vec::len).sum();
         let whole = self.pieces.entry(key.clone()).or_default();
-        // pieces come in order; one at the start begins anew
+        // pieces come in order; one at the start begins again
         if offset == 0 {
             whole.clear();
         }

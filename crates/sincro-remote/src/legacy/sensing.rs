@@ -77,7 +77,7 @@ pub(super) fn seen(sim: &SimApi<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 
     })
 }
 
-/// Copies of what was made by clients or scripts.
+/// Copies of runtime objects.
 fn copies(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let handles = (0..call.data.len() / 4).map(|k| call.int(4 * k).map(Handle)).collect::<Result<Vec<_>, _>>()?;
     let copies = handles.into_iter().map(|handle| sim.copy(handle)).collect::<Result<Vec<_>, _>>()?;

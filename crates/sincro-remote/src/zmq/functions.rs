@@ -40,7 +40,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("handleExtCalls", "sim.handleExtCalls()"),
 ];
 
-/// Functions that could do harm; a client is told so.
+/// Functions that are refused as unsafe.
 const UNSAFE: &[&str] = &["_evalExec"];
 
 /// Outcome of a call.
@@ -136,7 +136,7 @@ impl Endpoint {
         }
     }
 
-    /// The client runs no callbacks, or is gone: what would come after one is given up.
+    /// The client runs no callbacks, or is gone: the continuation is dropped.
     pub fn decline(&self, after: After, why: &str) -> ApiError {
         let error = ApiError::new(why);
         match after {

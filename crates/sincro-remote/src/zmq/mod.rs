@@ -1,5 +1,5 @@
-//! The ZeroMQ remote API of CoppeliaSim: one CBOR map each way, versions 2 and 1 told apart by whether a request has a
-//! `uuid`.
+//! The ZeroMQ remote API of CoppeliaSim: one CBOR map each way, versions 2 and 1 distinguished by whether a request has
+//! a `uuid`.
 //!
 //! | file | has |
 //! |---|---|

@@ -27,7 +27,7 @@ pub(crate) struct ClientMotion {
 }
 
 impl Endpoint {
-    /// Begins a motion, and goes on with it as far as it goes without the client.
+    /// Begins a motion, and runs it until the client is needed or it ends.
     pub(super) fn begin_move(&self, this: Move, name: &str, arguments: &[Value]) -> Result<CallOutcome, ApiError> {
         // before it waits, so that it begins with the run
         self.hub.enter().set_stepping(self.id, true);
@@ -123,7 +123,7 @@ impl Endpoint {
         Ok(Some(motion.this.results(&without_handles(&motion.data))))
     }
 
-    /// A motion that cannot go on is forgotten.
+    /// Removes a motion that cannot continue.
     pub(super) fn give_up(&self, motion: &ClientMotion, error: ApiError) -> ApiError {
         if !motion.is_single {
             self.hub.enter().set_stepping(self.id, false);

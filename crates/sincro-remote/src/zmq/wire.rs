@@ -32,7 +32,7 @@ impl Socket {
     ///
     /// # Errors
     ///
-    /// The peer does not speak ZMTP 3 with the NULL mechanism, or has gone.
+    /// The peer does not speak ZMTP 3 with the NULL mechanism, or has disconnected.
     pub fn accept(mut connection: Connection, kind: &str) -> io::Result<Self> {
         connection.write_all(&greeting())?;
         let mut theirs = [0; 64];
@@ -86,7 +86,7 @@ impl Socket {
     ///
     /// # Errors
     ///
-    /// The peer has gone or sends something else.
+    /// The peer has disconnected or sends something else.
     pub fn receive_request(&mut self) -> io::Result<(Vec<Vec<u8>>, Vec<u8>)> {
         let (mut envelope, mut body, mut is_body, mut n) = (Vec::new(), None, false, 0);
         loop {
@@ -132,7 +132,7 @@ impl Socket {
     ///
     /// # Errors
     ///
-    /// The peer has gone.
+    /// The peer has disconnected.
     pub fn drop_frame(&mut self) -> io::Result<()> {
         self.frame().map(|_| ())
     }

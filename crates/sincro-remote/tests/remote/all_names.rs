@@ -1,5 +1,5 @@
 //! Every name and number that a client may call, with arguments right and wrong: an answer with a result or a reason,
-//! and the server goes on.
+//! and the server keeps running.
 
 use sincro_coppelia::session::Value;
 

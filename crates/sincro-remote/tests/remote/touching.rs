@@ -82,7 +82,7 @@ const WEIGHT: f64 = 9.81;
 fn what_touches_is_told_to_clients() {
     let server = serve("zmq", Grants::default());
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("touch"));
-    let [guard, box_, scale, arm, load] = ["/floor", "/box", "/scale", "/arm", "/load"].map(|p| client.object(p));
+    let [floor, box_, scale, arm, load] = ["/floor", "/box", "/scale", "/arm", "/load"].map(|p| client.object(p));
     client.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     client.call("sim.step", &[Value::Int(20)]).unwrap();
@@ -101,9 +101,9 @@ fn what_touches_is_told_to_clients() {
     }
     assert!(n >= 3 && (lift - WEIGHT).abs() < 1e-6, "{n} contacts carry {lift} N");
     let touch = |client: &mut Zmq, a: &Value, b: &Value| client.call("sim.checkCollision", &[a.clone(), b.clone()]);
-    assert_eq!(touch(&mut client, &guard, &box_).unwrap()[0], Value::Int(1));
+    assert_eq!(touch(&mut client, &floor, &box_).unwrap()[0], Value::Int(1));
     assert_eq!(touch(&mut client, &box_, &Value::Int(-2)).unwrap()[0], Value::Int(1));
-    assert!(touch(&mut client, &guard, &load).unwrap_err().contains("`/scale/load` has no shape"), "nothing to meet");
+    assert!(touch(&mut client, &floor, &load).unwrap_err().contains("`/scale/load` has no shape"), "nothing to meet");
 
     // what it carries pulls it down, and tips it about y
     let reading = client.call("sim.readForceSensor", std::slice::from_ref(&scale)).unwrap();
@@ -133,13 +133,13 @@ fn what_touches_is_told_to_clients() {
 fn what_touches_is_told_to_legacy_clients() {
     let server = serve("legacy", Grants::default());
     let mut client = Client::connect(server.ports().legacy[0]);
-    let [guard, box_, scale, load] = ["floor", "box", "scale", "load"].map(|name| client.handle(name));
+    let [floor, box_, scale, load] = ["floor", "box", "scale", "load"].map(|name| client.handle(name));
     client.start();
     for _ in 0..20 {
         client.trigger().unwrap();
     }
-    assert_eq!(client.call(0x200f, &ints(&[guard, box_]), &[]).unwrap().int(0), 1);
-    assert!(client.call(0x200f, &ints(&[guard, load]), &[]).is_err());
+    assert_eq!(client.call(0x200f, &ints(&[floor, box_]), &[]).unwrap().int(0), 1);
+    assert!(client.call(0x200f, &ints(&[floor, load]), &[]).is_err());
     let reading = client.call(0x100f, &ints(&[scale]), &[]).unwrap().data;
     let number = |at: usize| f32::from_le_bytes(reading[at..at + 4].try_into().unwrap());
     assert_eq!((reading.len(), reading[0]), (25, 1));

@@ -130,7 +130,7 @@ fn sample(
     (low * (1.0 - t) + high * t + 0.5) as u8
 }
 
-/// A picture as PNG, given back as bytes; files are written by whoever may.
+/// A picture as PNG, given back as bytes; the caller writes files if it has permission.
 fn save(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (size, options, name) = (resolution(a, 1)?, a.int_or(2, 0)?, a.text(3)?);
     let channels = match options & 3 {

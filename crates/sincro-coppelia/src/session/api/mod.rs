@@ -1,4 +1,4 @@
-//! The functions of the regular API by name: what `sim.getJointPosition` does, whoever calls it.
+//! The functions of the regular API by name: `sim.getJointPosition` for every adapter.
 //!
 //! Each file holds a category of functions; [`call`] finds them by their present names, the names of V-REP
 //! (`simGetJointPosition`) and those in between. Units and conventions are the API's own: SI, radians, quaternions x y

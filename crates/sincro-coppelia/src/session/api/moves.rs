@@ -153,7 +153,7 @@ fn nearest_turn(angle: f64, to: f64) -> f64 {
     angle - TAU * ((angle - to - PI) / TAU).ceil()
 }
 
-/// Lets the motion of a map go on; whether it has ended, and the axes.
+/// Advances the motion of a map; gives true if it has ended, and the axes.
 fn go_on(sim: &mut SimApi<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>), ApiError> {
     let step = fields.real_or("timeStep", 0.0)?;
     let step = if step == 0.0 { sim.registry.sample_time() } else { step };
@@ -166,7 +166,7 @@ fn go_on(sim: &mut SimApi<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>)
     Ok((stepped.is_done, stepped.points))
 }
 
-/// The next step; joints are told of it unless a callback is.
+/// The next step; joints are commanded unless there is a callback.
 fn step_config(sim: &mut SimApi<'_>, mut fields: Fields, is_told: bool) -> Outcome {
     let own = if fields.has("joints") { joints(sim, &fields)? } else { Vec::new() };
     let (is_done, points) = go_on(sim, &mut fields)?;
@@ -263,7 +263,7 @@ fn matrix(fields: &Fields, name: &str) -> Result<Pose<f64>, ApiError> {
     Ok(pose_of_matrix(&<[f64; 12]>::try_from(fields.numbers(name, 12)?).expect("twelve were asked for")))
 }
 
-/// The next step; the object is put there unless a callback is told.
+/// The next step; the object is moved unless there is a callback.
 fn step_pose(sim: &mut SimApi<'_>, mut fields: Fields, is_told: bool) -> Outcome {
     if !fields.has("ruckigObj") {
         return Ok(vec![Value::Int(1), fields.into_value()]);

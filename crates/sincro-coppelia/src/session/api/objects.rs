@@ -283,7 +283,7 @@ fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(1_i64)
 }
 
-/// Copies of what was made by clients or scripts; what belongs to the scene is not copied.
+/// Copies of runtime objects; objects of the scene are not copied.
 fn copy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let copies = handles(a, 0)?.into_iter().map(|handle| sim.copy(handle));
     Ok(vec![Value::handles(copies.collect::<Result<Vec<_>, _>>()?)])

@@ -61,7 +61,7 @@ impl From<&Detection> for Handle {
     }
 }
 
-/// One sensor, all, or all but those that wait to be told.
+/// One sensor, all, or all but those with explicit handling.
 fn look(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     Ok(seen(match a.handle(0)? {
         -2 => sim.handle_proximities(true)?,

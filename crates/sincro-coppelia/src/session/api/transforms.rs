@@ -87,7 +87,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-/// A matrix or a pose, told by how many numbers there are.
+/// A matrix or a pose, distinguished by the count of numbers.
 pub(super) fn any(a: Arguments<'_>, k: usize) -> Result<Pose<f64>, ApiError> {
     match a.get(k).as_reals().map(|list| list.len()) {
         Some(7) => pose_of_seven(a.reals(k)?).ok_or_else(|| ApiError::new("the quaternion has no direction")),
