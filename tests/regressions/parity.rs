@@ -106,7 +106,7 @@ fn a_force_from_a_diagram_is_that_of_the_scene() {
              body = [{{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = {{ xx = 0.1, yy = 0.2, zz = 0.25 }} }}]\n\
              force = [{{ name = \"push\", parent = \"/free/brick\", in_frame = \"body\", {force} }}]"
         );
-        sincro_scene::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
+        sincro_scene::scene::from_text(&text).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
     };
     let run = |force: &str, diagram: Option<Diagram>| -> Vec<u64> {
         let mut loaded = self::scene(&[]);

@@ -26,7 +26,7 @@ fn folders() -> Vec<PathBuf> {
 
 fn run(folder: &Path) -> RunReport {
     let loaded = load(folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|problems| panic!("{problems}"));
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     run_campaign(folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap().report
 }
 

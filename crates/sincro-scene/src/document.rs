@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::problem::{Located, Location, Problem, Problems, SourceText};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
 /// A value of TOML that JSON cannot hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,10 +56,10 @@ impl Document {
     /// # Errors
     ///
     /// Everything that is not TOML, with positions.
-    pub fn parse(source: &Arc<SourceText>) -> Result<Self, Problems> {
+    pub fn parse(source: &Arc<SourceText>) -> Result<Self, Diagnostics> {
         let (root, errors) = DeTable::parse_recoverable(&source.text);
         if !errors.is_empty() {
-            return Err(Problems(errors.iter().map(|e| syntax_problem(source, e)).collect()).sorted());
+            return Err(Diagnostics(errors.iter().map(|e| syntax_diagnostic(source, e)).collect()).sorted());
         }
         let mut reader = Reader { source, shift: 0, places: BTreeMap::new(), odd: BTreeMap::new() };
         let content = reader.table(root.get_ref(), "");
@@ -172,9 +172,9 @@ pub fn unescape(step: &str) -> String {
     step.replace("~1", "/").replace("~0", "~")
 }
 
-fn syntax_problem(source: &Arc<SourceText>, error: &toml::de::Error) -> Problem {
+fn syntax_diagnostic(source: &Arc<SourceText>, error: &toml::de::Error) -> Diagnostic {
     let span = error.span().unwrap_or(0..0);
-    Problem::error(&Location { source: source.clone(), span }, error.message())
+    Diagnostic::error(&Location { source: source.clone(), span }, error.message())
         .with_help("the file is TOML: https://toml.io/en/v1.1.0")
 }
 
@@ -274,9 +274,9 @@ mod tests {
 
     #[test]
     fn syntax_errors_are_all_reported() {
-        let problems = Document::parse(&source("a = \nb = 1\nb = 2\n[c\n")).unwrap_err();
-        let places: Vec<_> = problems.0.iter().map(|p| p.line_column().unwrap()).collect();
-        assert!(places.len() >= 3, "{problems}");
+        let diagnostics = Document::parse(&source("a = \nb = 1\nb = 2\n[c\n")).unwrap_err();
+        let places: Vec<_> = diagnostics.0.iter().map(|p| p.line_column().unwrap()).collect();
+        assert!(places.len() >= 3, "{diagnostics}");
         assert_eq!(places[0].0, 1);
     }
 }

@@ -12,7 +12,7 @@
 
 use std::sync::Arc;
 
-use crate::problem::{Located, Location, Problem, SourceText};
+use crate::diagnostic::{Diagnostic, Located, Location, SourceText};
 
 /// One setting.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,17 +48,17 @@ impl Override {
     /// assert_eq!(Override::parse("/arm.spring.stiffness=30").unwrap().value.value, "30");
     /// assert!(Override::parse("/arm.spring.stiffness").is_err());
     /// ```
-    pub fn parse(text: &str) -> Result<Self, Problem> {
+    pub fn parse(text: &str) -> Result<Self, Diagnostic> {
         let source = Arc::new(SourceText { path: "--set".into(), text: text.to_owned() });
         let whole = Location { source, span: 0..text.len() };
         let help = "write PATH=VALUE, such as /shoulder.spring.stiffness=30 or step=0.001";
         let Some((path, value)) = text.split_once('=') else {
-            return Err(Problem::error(&whole, format!("`{text}` has no `=`")).with_help(help));
+            return Err(Diagnostic::error(&whole, format!("`{text}` has no `=`")).with_help(help));
         };
         let (path, value) = (path.trim(), value.trim());
         if path.is_empty() || value.is_empty() {
             let lacking = if path.is_empty() { "path before" } else { "value after" };
-            return Err(Problem::error(&whole, format!("`{text}` has no {lacking} the `=`")).with_help(help));
+            return Err(Diagnostic::error(&whole, format!("`{text}` has no {lacking} the `=`")).with_help(help));
         }
         Ok(Self::new(path, value))
     }

@@ -5,7 +5,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::problem::{Location, Problem, SourceText};
+use crate::diagnostic::{Diagnostic, Location, SourceText};
 
 /// A script as a scene has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +82,7 @@ pub enum Kind {
 
 /// Why a script could not go on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct ScriptError {
     /// Path of its object.
     pub object: String,
     /// The line of its text.
@@ -93,23 +93,23 @@ pub struct Fault {
     pub help: Option<String>,
 }
 
-impl Fault {
+impl ScriptError {
     /// As a finding in the script's text.
     #[must_use]
-    pub fn problem(&self) -> Problem {
+    pub fn diagnostic(&self) -> Diagnostic {
         let message = format!("script of `{}`: {}", self.object, self.message);
-        let problem = match &self.at {
-            Some(at) => Problem::error(at, message),
-            None => Problem::nowhere(message),
+        let diagnostic = match &self.at {
+            Some(at) => Diagnostic::error(at, message),
+            None => Diagnostic::nowhere(message),
         };
         match &self.help {
-            Some(help) => problem.with_help(help.clone()),
-            None => problem,
+            Some(help) => diagnostic.with_help(help.clone()),
+            None => diagnostic,
         }
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for ScriptError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the script of `{}` failed", self.object)?;
         if let Some(at) = &self.at {
@@ -168,7 +168,7 @@ pub trait ScriptParser: Send + Sync + fmt::Debug {
     /// # Errors
     ///
     /// The first fault of the text.
-    fn check(&self, script: &Script) -> Result<(), Fault>;
+    fn check(&self, script: &Script) -> Result<(), ScriptError>;
 
     /// A law for a block.
     ///

@@ -20,7 +20,7 @@
 use sincro_dynamics::geometry::{FieldOfView, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};
 
-use crate::problem::Located;
+use crate::diagnostic::Located;
 
 /// A sensor as the scene has it.
 #[derive(Clone, Debug, PartialEq)]

@@ -13,7 +13,7 @@ use sincro_dynamics::world::World;
 
 use crate::proximity::Detection;
 use sincro_scene::scenery::Piece;
-use sincro_scene::script::Fault;
+use sincro_scene::script::ScriptError;
 
 /// Instant of a step, with the world at that instant.
 #[derive(Debug)]
@@ -149,7 +149,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// # Errors
     ///
     /// It cannot control this run.
-    fn start(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn start(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -158,7 +158,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// # Errors
     ///
     /// It cannot go on.
-    fn actuate(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn actuate(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -182,7 +182,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// # Errors
     ///
     /// It cannot go on.
-    fn sense(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn sense(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -206,7 +206,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// # Errors
     ///
     /// It could not clean up.
-    fn finish(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn finish(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -294,7 +294,7 @@ impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> Controller for 
         &self.name
     }
 
-    fn actuate(&mut self, at: Instant<'_>) -> Result<(), Fault> {
+    fn actuate(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         self.held.resize(at.world.state.commands.len(), None);
         (self.law)(at, &mut self.held);
         Ok(())

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use sincro_dynamics::world::MethodKind;
 
 use crate::controller::Controller;
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::open::{Opened, open};
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::{Problem, Problems, SourceText};
 use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptParser;
 
@@ -24,7 +24,7 @@ pub struct Loaded {
     /// The diagram that controls it, if there is one.
     pub controller: Option<ControlDiagram>,
     /// What the user should know of.
-    pub warnings: Vec<Problem>,
+    pub warnings: Vec<Diagnostic>,
     /// Every file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
     /// Extensions that it was loaded with: variants and sweeps are loaded with the same.
@@ -58,7 +58,7 @@ pub struct Extensions {
 /// # Errors
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
-pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
+pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
     with(folder, overrides, extensions, true)
 }
 
@@ -67,11 +67,16 @@ pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Re
 /// # Errors
 ///
 /// As [`load`].
-pub fn load_alone(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
+pub fn load_alone(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
     with(folder, overrides, extensions, false)
 }
 
-fn with(folder: &Path, overrides: &[Override], extensions: Extensions, with_others: bool) -> Result<Loaded, Problems> {
+fn with(
+    folder: &Path,
+    overrides: &[Override],
+    extensions: Extensions,
+    with_others: bool,
+) -> Result<Loaded, Diagnostics> {
     let parser = extensions.scripts.map(|engine| engine as &dyn ScriptParser);
     let Opened { experiment, scene, controller, warnings, sources } = open(folder, overrides, parser, with_others)?;
     Ok(Loaded { experiment, scene, controller, warnings, sources, extensions })

@@ -21,7 +21,7 @@ fn settings(set: &[(&str, &str)]) -> Vec<Override> {
 /// The main run of a scene.
 fn flown(name: &str, set: &[(&str, &str)]) -> Simulated {
     let loaded =
-        load(&scene(name), &settings(set), Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
+        load(&scene(name), &settings(set), Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
     simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
@@ -112,8 +112,8 @@ fn one_sample_late_the_roll_grows_as_its_linearisation_says() {
 #[test]
 fn a_bound_of_the_experiment_ends_the_run() {
     let set = settings(&[("stop_when", "[{ signal = \"/air/quadrotor.position.z\", above = 0.5 }]")]);
-    let loaded =
-        load(&scene("quadrotor-flight-1"), &set, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(&scene("quadrotor-flight-1"), &set, Extensions::default())
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
     let campaign = run_campaign(&scene("quadrotor-flight-1"), &set, &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
     let report = &campaign.report;
@@ -144,7 +144,7 @@ fn what_the_mixer_cannot_give_is_told() {
 fn gains_of_one_controller_do_not_reach_the_other() {
     let set = settings(&[("attitude_loop.gamma1_xy", "8.0"), ("parameters.y1", "0.2"), ("duration", "0.1")]);
     let folder = scene("quadrotor-flight-1");
-    let loaded = load(&folder, &set, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(&folder, &set, Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let campaign = run_campaign(&folder, &set, &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
     assert!(campaign.report.variants.iter().any(|v| v.name == "pid" && v.status.is_good()));
     let wrong = settings(&[("attitude_loop.gamma9", "8.0")]);

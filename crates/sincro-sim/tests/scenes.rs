@@ -25,7 +25,7 @@ fn every_scene_loads_without_warnings() {
     assert!(scenes.len() >= 10);
     for scene in scenes {
         let loaded = load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-            .unwrap_or_else(|problems| panic!("{problems}"));
+            .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
         // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has three
         let name = scene.file_name().unwrap().to_string_lossy().into_owned();
         let expected = match name.as_str() {
@@ -49,7 +49,7 @@ fn every_scene_loads_without_warnings() {
         for variant in &loaded.experiment.variants {
             let of_variant =
                 load(&scene, &variant.set, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-                    .unwrap_or_else(|problems| panic!("{problems}"));
+                    .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
             assert_eq!(of_variant.experiment.variants.len(), loaded.experiment.variants.len());
         }
     }
@@ -66,7 +66,7 @@ fn continuous_commands_are_seen_as_of_now() {
     ];
     let settings = settings.map(|(path, value)| Override::new(path, value));
     let loaded = load(&folder, &settings, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|problems| panic!("{problems}"));
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
     let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
     let table = simulate(&loaded, Manner::default(), &mut watch).unwrap().table;

@@ -26,7 +26,7 @@ title = "Shoulder"
 inputs = 2
 "#,
     );
-    let loaded = folder.load(&[]).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = folder.load(&[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let recorded: Vec<&str> = loaded.experiment.record.iter().map(|r| r.value.as_str()).collect();
     assert_eq!(recorded, ["energy.total", "/shoulder.position", "k", "/shoulder.acceleration"]);
     let plot = &loaded.experiment.plots[0];

@@ -17,7 +17,7 @@ const MOST_FILES: usize = 500;
 /// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then lack.
 pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Extensions) -> Result<PathBuf, String> {
     let folder = if folder.is_file() { folder.parent().unwrap_or(folder) } else { folder };
-    let loaded = load(folder, &[], extensions).map_err(|problems| problems.to_string())?;
+    let loaded = load(folder, &[], extensions).map_err(|diagnostics| diagnostics.to_string())?;
     let texts = edited(&loaded, settings).map_err(|refused| refused.join("\n"))?;
     let files = files(folder)?;
     let target = free_name(folder);
@@ -32,7 +32,7 @@ pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Exten
         written.map_err(|e| format!("`{}` cannot be written: {e}", to.display()))?;
     }
     load(&target, &[], extensions)
-        .map_err(|problems| format!("saved as `{}`, which does not load: {problems}", target.display()))?;
+        .map_err(|diagnostics| format!("saved as `{}`, which does not load: {diagnostics}", target.display()))?;
     Ok(target)
 }
 

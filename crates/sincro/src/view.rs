@@ -4,8 +4,8 @@ use std::fmt;
 use std::path::Path;
 
 use sincro_figures::campaign;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_viewer::film::FORMAT;
 use sincro_viewer::live::{Engine, Source};
 
@@ -59,7 +59,7 @@ pub fn replay(run: &Path) -> Result<Show, ReplayError> {
 /// # Errors
 ///
 /// All problems of the scene and the overrides.
-pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Problems> {
+pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Diagnostics> {
     let world = scene_name(scene);
     let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
     let engine =

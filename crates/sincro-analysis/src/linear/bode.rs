@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use sincro_math::elementary::{atan, atan2, exp, ln, log10, sin_cos};
 
 use super::modes::eigenvalues;
-use super::{Complex, DMatrix, DVector, Problem, StateSpace, modulus};
+use super::{Complex, DMatrix, DVector, LinearError, StateSpace, modulus};
 
 /// Frequencies a decade.
 const PER_DECADE: usize = 60;
@@ -74,8 +74,8 @@ impl StateSpace {
     ///
     /// # Errors
     ///
-    /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn bode(&self, input: usize, output: usize) -> Result<Bode, Problem> {
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    pub fn bode(&self, input: usize, output: usize) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
         Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))
     }
@@ -84,8 +84,8 @@ impl StateSpace {
     ///
     /// # Errors
     ///
-    /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, Problem> {
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
         Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec()))
     }

@@ -4,10 +4,10 @@
 //! (key `roberts1980`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`). Then a few steps of Newton's method: the next
 //! `P` is what the feedback of the last one costs (key `kleinman1968`, key `hewer1971`). `K = R⁻¹BᵀP` and `K = (R + BᵀPB)⁻¹ BᵀPA`.
 
+use super::error::{expect_finite, expect_size, expect_symmetric};
 use super::lyapunov::{lyapunov, sign, symmetric};
 use super::modes::eigenvalues;
-use super::problem::{expect_finite, expect_size, expect_symmetric};
-use super::{Complex, DMatrix, Problem, modulus};
+use super::{Complex, DMatrix, LinearError, modulus};
 
 /// Share of the weights below which a negative eigenvalue of Q is rounding.
 const NOTHING: f64 = 1e-12;
@@ -46,12 +46,12 @@ pub struct Regulator {
 /// # Errors
 ///
 /// Sizes do not fit, a weight is not symmetric or has the wrong sign, or no feedback stabilises.
-pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, Problem> {
+pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, LinearError> {
     check(a, b, q, r)?;
     check_stabilisable(a, b, |pole| pole.re >= -NOTHING * a.norm())?;
     let r_inverse = inverse_of_weight(r)?;
     let gain = |p: &DMatrix<f64>| &r_inverse * b.transpose() * p;
-    let p = by_sign(a, &symmetric(&(b * &r_inverse * b.transpose())), q).ok_or(Problem::NotDetectable)?;
+    let p = by_sign(a, &symmetric(&(b * &r_inverse * b.transpose())), q).ok_or(LinearError::NotDetectable)?;
     refined(p, |p| {
         let k = gain(p);
         let closed = a - b * &k;
@@ -70,7 +70,7 @@ pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64
 /// # Errors
 ///
 /// As [`lqr`].
-pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, Problem> {
+pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, LinearError> {
     check(a, b, q, r)?;
     check_stabilisable(a, b, |pole| modulus(pole) >= 1.0 - NOTHING)?;
     let g = symmetric(&(b * inverse_of_weight(r)? * b.transpose()));
@@ -78,7 +78,7 @@ pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f6
         let weight = symmetric(&(r + b.transpose() * p * b));
         weight.cholesky().map(|factor| factor.solve(&(b.transpose() * p * a)))
     };
-    let p = by_doubling(a, &g, q).ok_or(Problem::NotDetectable)?;
+    let p = by_doubling(a, &g, q).ok_or(LinearError::NotDetectable)?;
     refined(p, |p| {
         let k = gain(p)?;
         let closed = a - b * &k;
@@ -96,8 +96,8 @@ pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f6
 fn refined(
     p: DMatrix<f64>,
     step: impl Fn(&DMatrix<f64>) -> Option<(Option<DMatrix<f64>>, Regulator)>,
-) -> Result<Regulator, Problem> {
-    let (mut next, mut best) = step(&p).ok_or(Problem::NotDetectable)?;
+) -> Result<Regulator, LinearError> {
+    let (mut next, mut best) = step(&p).ok_or(LinearError::NotDetectable)?;
     for _ in 0..MOST_REFINEMENTS {
         let Some((after, regulator)) = next.and_then(|p| step(&p)) else { break };
         let falls = regulator.residual < 0.5 * best.residual;
@@ -130,7 +130,7 @@ fn cost_to_come_back(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>>
     None
 }
 
-fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<(), Problem> {
+fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<(), LinearError> {
     let (n, m) = (a.nrows(), b.ncols());
     let all = [("A", a, (n, n)), ("B", b, (n, m)), ("Q", q, (n, n)), ("R", r, (m, m))];
     for (what, matrix, size) in all {
@@ -138,24 +138,28 @@ fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>)
         expect_finite(what, matrix)?;
     }
     if n == 0 || m == 0 {
-        return Err(Problem::Empty);
+        return Err(LinearError::Empty);
     }
     expect_symmetric("Q", q)?;
     expect_symmetric("R", r)?;
     let least = symmetric(q).symmetric_eigenvalues().iter().copied().fold(0.0, f64::min);
     if least < -NOTHING * q.norm() {
-        return Err(Problem::NotPositiveSemidefinite { what: "Q", eigenvalue: least });
+        return Err(LinearError::NotPositiveSemidefinite { what: "Q", eigenvalue: least });
     }
     Ok(())
 }
 
-fn inverse_of_weight(r: &DMatrix<f64>) -> Result<DMatrix<f64>, Problem> {
-    let factor = symmetric(r).cholesky().ok_or(Problem::NotPositiveDefinite { what: "R" })?;
+fn inverse_of_weight(r: &DMatrix<f64>) -> Result<DMatrix<f64>, LinearError> {
+    let factor = symmetric(r).cholesky().ok_or(LinearError::NotPositiveDefinite { what: "R" })?;
     Ok(factor.inverse())
 }
 
 /// Hautus: an eigenvalue is reached if `[A − λI, B]` has full rank.
-fn check_stabilisable(a: &DMatrix<f64>, b: &DMatrix<f64>, stays: impl Fn(Complex<f64>) -> bool) -> Result<(), Problem> {
+fn check_stabilisable(
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+    stays: impl Fn(Complex<f64>) -> bool,
+) -> Result<(), LinearError> {
     let n = a.nrows();
     let size = if b.norm() > 0.0 { a.norm() / b.norm() } else { 1.0 };
     let size = if size > 0.0 { size } else { 1.0 };
@@ -167,7 +171,7 @@ fn check_stabilisable(a: &DMatrix<f64>, b: &DMatrix<f64>, stays: impl Fn(Complex
         });
         let sizes = pencil.singular_values();
         if sizes.min() <= UNREACHED * sizes.max() {
-            return Err(Problem::NotStabilisable { mode: (pole.re, pole.im) });
+            return Err(LinearError::NotStabilisable { mode: (pole.re, pole.im) });
         }
     }
     Ok(())

@@ -7,20 +7,20 @@
 //! `+ − × ÷ √` goes through [`sincro_math::elementary`].
 
 pub mod bode;
+mod error;
 pub mod lqr;
 pub mod lyapunov;
 pub mod modes;
 pub mod newton;
-mod problem;
 pub mod step;
 pub mod structure;
 mod zeros;
 
 pub use bode::{Bode, Margin};
+pub use error::LinearError;
 pub use lqr::{Regulator, dlqr, lqr};
 pub use modes::{Mode, Stability};
 pub use nalgebra::{Complex, DMatrix, DVector};
-pub use problem::Problem;
 pub use step::{StepFacts, StepResponse};
 pub use structure::Reach;
 
@@ -82,7 +82,12 @@ impl StateSpace {
     /// # Errors
     ///
     /// The matrices do not fit one another.
-    pub fn from_matrices(a: DMatrix<f64>, b: DMatrix<f64>, c: DMatrix<f64>, d: DMatrix<f64>) -> Result<Self, Problem> {
+    pub fn from_matrices(
+        a: DMatrix<f64>,
+        b: DMatrix<f64>,
+        c: DMatrix<f64>,
+        d: DMatrix<f64>,
+    ) -> Result<Self, LinearError> {
         let names = |letter: char, n: usize| (1..=n).map(|k| Axis::new(format!("{letter}{k}"), "")).collect();
         let (states, inputs, outputs) = (names('x', a.nrows()), names('u', b.ncols()), names('y', c.nrows()));
         let system = Self { a, b, c, d, states, inputs, outputs, t: 0.0, sample_time: None };
@@ -94,14 +99,14 @@ impl StateSpace {
     /// # Errors
     ///
     /// The first thing that does not.
-    pub fn check(&self) -> Result<(), Problem> {
+    pub fn check(&self) -> Result<(), LinearError> {
         let (n, m, p) = (self.n_states(), self.n_inputs(), self.n_outputs());
-        problem::expect_size("A", &self.a, (n, n))?;
-        problem::expect_size("B", &self.b, (n, m))?;
-        problem::expect_size("C", &self.c, (p, n))?;
-        problem::expect_size("D", &self.d, (p, m))?;
+        error::expect_size("A", &self.a, (n, n))?;
+        error::expect_size("B", &self.b, (n, m))?;
+        error::expect_size("C", &self.c, (p, n))?;
+        error::expect_size("D", &self.d, (p, m))?;
         for (what, matrix) in [("A", &self.a), ("B", &self.b), ("C", &self.c), ("D", &self.d)] {
-            problem::expect_finite(what, matrix)?;
+            error::expect_finite(what, matrix)?;
         }
         Ok(())
     }

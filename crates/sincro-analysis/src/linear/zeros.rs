@@ -6,7 +6,7 @@
 //! `A − b c / d` (key `emami1982`; with one input and one output its compressions of rows and columns are single reflections).
 
 use super::modes::eigenvalues;
-use super::{Complex, DMatrix, DVector, Problem, StateSpace};
+use super::{Complex, DMatrix, DVector, LinearError, StateSpace};
 
 /// What is smaller than this beside matrices of norm 1 is rounding: such a `d` would put a zero at 10¹² times the fastest rate.
 const NOTHING: f64 = 1e-12;
@@ -17,10 +17,12 @@ impl StateSpace {
     ///
     /// # Errors
     ///
-    /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn zeros(&self, input: usize, output: usize) -> Result<Vec<Complex<f64>>, Problem> {
-        let no_path =
-            || Problem::NoPath { input: self.inputs[input].name.clone(), output: self.outputs[output].name.clone() };
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    pub fn zeros(&self, input: usize, output: usize) -> Result<Vec<Complex<f64>>, LinearError> {
+        let no_path = || LinearError::NoPath {
+            input: self.inputs[input].name.clone(),
+            output: self.outputs[output].name.clone(),
+        };
         let d = self.d[(output, input)];
         let (b, c) = (self.b.column(input).into_owned(), self.c.row(output).transpose());
         let (size_b, size_c) = (b.norm(), c.norm());

@@ -21,7 +21,7 @@ use sincro_math::Dual;
 
 use crate::linear::{Axis, DMatrix, StateSpace};
 use lens::Lens;
-use sincro_scene::problem::Problems;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
@@ -55,7 +55,7 @@ impl Linearization {
 /// # Errors
 ///
 /// Inputs and outputs that mean nothing or cannot be linearised.
-pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Linearization, Problems> {
+pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Linearization, Diagnostics> {
     let names = names::resolve(loaded, at, request)?;
     let mut lens = Lens::<Dual<1>>::new(loaded, at, &names);
     let (n, m, p) = (lens.n_states(), names.inputs.len(), names.outputs.len());

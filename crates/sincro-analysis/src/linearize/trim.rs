@@ -10,7 +10,7 @@ use super::names::{self, InputKind, Names};
 use super::point::Request;
 use crate::linear::newton::{self, Solution};
 use crate::linear::{Axis, DMatrix};
-use sincro_scene::problem::{Located, Problem, Problems};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
@@ -59,7 +59,7 @@ pub struct Trimmed {
 /// # Errors
 ///
 /// Names that mean nothing, or that there is no equilibrium nearby: what is left over, and of what.
-pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<Trimmed, Problems> {
+pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<Trimmed, Diagnostics> {
     let mut at = from.fork().lockstep;
     at.stop();
     let names = resolve(loaded, &at, request)?;
@@ -85,7 +85,7 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<T
 }
 
 /// The commands that are free and the signals that are wanted; none of either where the request has none.
-fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Names, Problems> {
+fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Names, Diagnostics> {
     let wanted = request.wanted.iter().map(|(name, _)| name.clone()).collect();
     let asked = Request { inputs: request.free.clone(), outputs: wanted, is_closed: request.is_closed };
     let mut names = names::resolve(loaded, at, &asked)?;
@@ -96,13 +96,13 @@ fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Name
         names.outputs.clear();
     }
     let of_diagram = request.free.iter().zip(&names.inputs).filter(|(_, i)| matches!(i.what, InputKind::Signal(_)));
-    let problems: Vec<Problem> = of_diagram
+    let diagnostics: Vec<Diagnostic> = of_diagram
         .map(|(name, _)| {
             let message = format!("`{}` is a signal of the diagram and cannot be set free", name.value);
-            Problem::error(&name.at, message).with_help("free are commands of motors, such as `/joint.command`")
+            Diagnostic::error(&name.at, message).with_help("free are commands of motors, such as `/joint.command`")
         })
         .collect();
-    if problems.is_empty() { Ok(names) } else { Err(Problems(problems)) }
+    if diagnostics.is_empty() { Ok(names) } else { Err(Diagnostics(diagnostics)) }
 }
 
 /// Which of the states and inputs are unknown: all but the velocities.
@@ -134,7 +134,7 @@ fn solve(
     duals: &mut Lens<Dual<1>>,
     unknowns: &Unknowns,
     targets: &[f64],
-) -> Result<Solution, Problems> {
+) -> Result<Solution, Diagnostics> {
     let n_equations = unknowns.equations.len();
     let residual = |x: &[f64], r: &mut [f64]| {
         let (rates, outputs) = values.evaluate_at(&unknowns.spread(x));
@@ -164,6 +164,6 @@ fn solve(
         let message = format!("no equilibrium found: {:.3e} is left over in {what}", failure.residual);
         let help = "commands are held as they are at that time: set them free (--free NAME) or give others (--set); or start nearer \
                     (`initial` of the joints), or ask for less (--want)";
-        Problem::nowhere(message).with_help(help).into()
+        Diagnostic::nowhere(message).with_help(help).into()
     })
 }

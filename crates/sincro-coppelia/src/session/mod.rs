@@ -68,8 +68,8 @@ pub use sincro_dynamics::spatial::{Pose, Vec3};
 
 use crate::api_controller::ApiController;
 use crate::host;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::load::{Extensions, Loaded, load};
 use sincro_sim::results::Status;
@@ -150,7 +150,7 @@ impl Session {
         overrides: &[Override],
         extensions: Extensions,
         sample_time: Option<f64>,
-    ) -> Result<Self, Problems> {
+    ) -> Result<Self, Diagnostics> {
         let loaded = load(folder, overrides, extensions)?;
         Self::new(folder, overrides, loaded, sample_time)
     }
@@ -165,11 +165,11 @@ impl Session {
         overrides: &[Override],
         loaded: Loaded,
         sample_time: Option<f64>,
-    ) -> Result<Self, Problems> {
+    ) -> Result<Self, Diagnostics> {
         let (method, warnings) = method_for(&loaded);
         let mut table = Table::new(&loaded, loaded.experiment.simulation_ticks);
         if let Some(dt) = sample_time {
-            let refused = |Refusal(message)| Problems::from(sincro_scene::problem::Problem::nowhere(message));
+            let refused = |Refusal(message)| Diagnostics::from(sincro_scene::diagnostic::Diagnostic::nowhere(message));
             table.set_sample_time(dt).map_err(refused)?;
         }
         let lockstep = fresh(&loaded, method, table);
@@ -594,7 +594,7 @@ fn fresh(loaded: &Loaded, method: MethodKind, table: Table) -> LockStep {
 
 fn told(error: RunError) -> Refusal {
     match error {
-        RunError::Problems(problems) => {
+        RunError::Diagnostics(problems) => {
             Refusal(problems.0.first().map_or_else(|| "nothing can be recorded".into(), |p| p.message.clone()))
         }
         RunError::File(error) => Refusal(error.to_string()),

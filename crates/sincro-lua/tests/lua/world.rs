@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use sincro_scene::problem::Problems;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_sim::results::Status;
 use sincro_sim::run::{Manner, Simulated, Watch, simulate};
 use sincro_sim::{Extensions, Loaded, load};
@@ -52,7 +52,7 @@ pub fn folder(files: &[(&str, &str)]) -> PathBuf {
 }
 
 /// Loads a folder made of these files.
-pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Problems> {
+pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Diagnostics> {
     let folder = folder(files);
     let loaded = load(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() });
     std::fs::remove_dir_all(&folder).unwrap();
@@ -60,7 +60,7 @@ pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Problems> {
 }
 
 /// The pendulum with a script on its arm; `keys` are more keys of the script.
-pub fn with_script(code: &str, keys: &str) -> Result<Loaded, Problems> {
+pub fn with_script(code: &str, keys: &str) -> Result<Loaded, Diagnostics> {
     let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\n{keys}\n");
     open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)])
 }

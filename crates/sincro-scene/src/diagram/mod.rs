@@ -29,9 +29,9 @@ pub use reference::reference;
 pub use schema::diagram_schema;
 pub use wiring::{Reading, Wiring};
 
+use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Location, Problem, Problems};
 use crate::record::{Entry, Probe, catalogue};
 use crate::script::ScriptParser;
 
@@ -58,14 +58,14 @@ pub(crate) struct Setting<'a> {
 }
 
 /// Reads and compiles a document that fits the schema.
-pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Problems> {
+pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Diagnostics> {
     let file: DiagramFile = serde_json::from_value(document.root.clone())
-        .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
+        .map_err(|e| Diagnostic::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
     let robot = robot::Context { parser: setting.parser, model: setting.model.clone() };
     let mut reader = DiagramReader::new(document, folder, &file, &robot);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
-    if reader.problems.any_error() {
-        return Err(shortened(reader.problems));
+    if reader.diagnostics.any_error() {
+        return Err(shortened(reader.diagnostics));
     }
     if let Some(sample_time) = sample_time {
         for entry in &mut diagram.entries {
@@ -73,28 +73,28 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
         }
     }
     ControlDiagram::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
-        let (mut problems, mut said) = (Problems::new(), BTreeSet::new());
-        for problem in found {
-            let at = locate(document, &origin, &diagram, &problem.place);
+        let (mut diagnostics, mut said) = (Diagnostics::new(), BTreeSet::new());
+        for diagnostic in found {
+            let at = locate(document, &origin, &diagram, &diagnostic.place);
             // what is wrong in a definition is said once, however often it is used
-            if said.insert((at.span.start, problem.message.clone())) {
-                problems.push(Problem::error(&at, problem.message).with_help(problem.help));
+            if said.insert((at.span.start, diagnostic.message.clone())) {
+                diagnostics.push(Diagnostic::error(&at, diagnostic.message).with_help(diagnostic.help));
             }
         }
-        shortened(problems)
+        shortened(diagnostics)
     })
 }
 
 /// Sorted, and of very many the first: who has mended those will see the next.
-fn shortened(problems: Problems) -> Problems {
+fn shortened(diagnostics: Diagnostics) -> Diagnostics {
     const MOST: usize = 200;
-    let mut problems = problems.sorted();
-    let n_more = problems.0.len().saturating_sub(MOST);
+    let mut diagnostics = diagnostics.sorted();
+    let n_more = diagnostics.0.len().saturating_sub(MOST);
     if n_more > 0 {
-        problems.0.truncate(MOST);
-        problems.push(Problem::nowhere(format!("{n_more} more problems of the diagram are not shown")));
+        diagnostics.0.truncate(MOST);
+        diagnostics.push(Diagnostic::nowhere(format!("{n_more} more problems of the diagram are not shown")));
     }
-    problems
+    diagnostics
 }
 
 impl ControlDiagram {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use sincro_math::expression::Expression;
 
-use crate::problem::{Located, Location};
+use crate::diagnostic::{Located, Location};
 
 /// One expectation about a run, or about all runs of a sweep.
 ///

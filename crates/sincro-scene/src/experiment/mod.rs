@@ -20,8 +20,8 @@ pub(crate) use resolve::resolve;
 pub(crate) use sample_times::check_sample_times;
 pub use schema::experiment_schema;
 
+use crate::diagnostic::{Located, Location};
 use crate::overrides::Override;
-use crate::problem::{Located, Location};
 use check::{Check, Reference};
 use stop::StopWhen;
 

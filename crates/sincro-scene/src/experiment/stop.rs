@@ -5,7 +5,7 @@
 
 use super::Experiment;
 use super::check::{Check, Expected, Measure, Subject};
-use crate::problem::{Located, Problem, Problems};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 
 /// A bound of a recorded signal.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +71,8 @@ fn four_digits(x: f64) -> f64 {
 }
 
 /// Refuses bounds of signals that are not recorded: they would never be reached.
-pub(crate) fn check_recorded(experiment: &Experiment) -> Problems {
-    let mut problems = Problems::new();
+pub(crate) fn check_recorded(experiment: &Experiment) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
     let of_variants = experiment.variants.iter().flat_map(|variant| &variant.checks);
     let wanted = experiment.checks.iter().chain(of_variants).filter_map(StopWhen::of);
     for stop in experiment.stops.iter().cloned().chain(wanted) {
@@ -84,16 +84,16 @@ pub(crate) fn check_recorded(experiment: &Experiment) -> Problems {
                 None => "add it to `record`".to_owned(),
             };
             let message = format!("`{name}` is not recorded, so that its bound cannot be seen");
-            problems.push(Problem::error(&stop.signal.at, message).with_help(help));
+            diagnostics.push(Diagnostic::error(&stop.signal.at, message).with_help(help));
         }
     }
-    problems
+    diagnostics
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{Location, SourceText};
+    use crate::diagnostic::{Location, SourceText};
 
     fn stop(side: Side) -> StopWhen {
         let source = std::sync::Arc::new(SourceText { path: "experiment.toml".into(), text: String::new() });

@@ -15,7 +15,7 @@ use sincro_dynamics::energy::Energy;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
 
-use crate::problem::{Located, Problem, Problems};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::suggest;
 use probe::View;
 
@@ -148,9 +148,9 @@ impl Recorder {
     /// # Errors
     ///
     /// All names that mean nothing, each with the nearest ones that do.
-    pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Problems> {
+    pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Diagnostics> {
         let all: Vec<Entry> = catalogue(model).into_iter().chain(diagram.iter().cloned()).collect();
-        let mut problems = Problems::new();
+        let mut diagnostics = Diagnostics::new();
         let (mut entries, mut n_floats) = (Vec::with_capacity(names.len()), 0);
         for name in names {
             let of_scripts = float_signals(std::slice::from_ref(name)).next().is_some();
@@ -161,11 +161,11 @@ impl Recorder {
                     n_floats += 1;
                 }
                 Some(entry) => entries.push(entry.clone()),
-                None => problems.push(unknown(name, &all)),
+                None => diagnostics.push(unknown(name, &all)),
             }
         }
-        if problems.any_error() {
-            return Err(problems);
+        if diagnostics.any_error() {
+            return Err(diagnostics);
         }
         let row = Vec::with_capacity(entries.len() + 1);
         let motor_impulse = vec![0.0; model.motors().len()];
@@ -241,7 +241,7 @@ impl Recorder {
 }
 
 /// The finding about a name that means nothing: what is near, or what the object it names offers.
-fn unknown(name: &Located<String>, all: &[Entry]) -> Problem {
+fn unknown(name: &Located<String>, all: &[Entry]) -> Diagnostic {
     let message = format!("there is no signal `{}`", name.value);
     let of_object: Vec<&str> = match name.value.split_once('.') {
         Some((object, _)) => {
@@ -255,12 +255,12 @@ fn unknown(name: &Located<String>, all: &[Entry]) -> Problem {
     let components: Vec<&str> = all.iter().map(|e| e.name.as_str()).filter(|n| n.starts_with(&component)).collect();
     if let [first, .., last] = components[..] {
         let help = format!("it is a vector: name its components, `{first}` to `{last}`");
-        return Problem::error(&name.at, message).with_help(help);
+        return Diagnostic::error(&name.at, message).with_help(help);
     }
     let help = match (nearest, of_object.is_empty()) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, false) => format!("its object has {}", of_object.join(", ")),
         (None, true) => "`sincro check SCENE` lists every signal".into(),
     };
-    Problem::error(&name.at, message).with_help(help)
+    Diagnostic::error(&name.at, message).with_help(help)
 }

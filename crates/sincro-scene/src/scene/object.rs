@@ -6,7 +6,7 @@ use sincro_dynamics::model::{MassProperties, Shape};
 use sincro_dynamics::spatial::Pose;
 
 use super::camera::VisionSensor;
-use crate::problem::Location;
+use crate::diagnostic::Location;
 
 /// A joint, body, frame or force.
 #[derive(Clone, Debug)]

@@ -272,7 +272,7 @@ fn report(
     sweep: Option<&(Sweep, Vec<Outcome>)>,
 ) -> RunReport {
     let scene = sincro_scene::open::folder_name(folder);
-    let problems = loaded.warnings.iter().map(|w| w.message.clone());
+    let diagnostics = loaded.warnings.iter().map(|w| w.message.clone());
     RunReport {
         sincro_version: env!("CARGO_PKG_VERSION").into(),
         scene,
@@ -289,7 +289,7 @@ fn report(
         sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
         variants: variants.iter().map(variant_report).collect(),
         outside_theory: main.simulated.outside.iter().map(Into::into).collect(),
-        warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
+        warnings: diagnostics.chain(main.simulated.warnings.iter().cloned()).collect(),
         messages: main.simulated.messages.iter().map(message_report).collect(),
         changes: main.simulated.changes.iter().map(change_report).collect(),
         wall_time_s: main.simulated.wall_time,

@@ -11,10 +11,10 @@ use serde_json::Value;
 
 use crate::load::Loaded;
 use sincro_scene::apply_overrides::{Target, apply_all};
+use sincro_scene::diagnostic::Location;
 use sincro_scene::document::{Document, escape};
 use sincro_scene::experiment::experiment_schema;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Location;
 use sincro_scene::scene::scene_schema;
 use sincro_scene::schema::{alternatives, description, property, units};
 use sincro_scene::tree;
@@ -46,8 +46,8 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     let parsed = |name: &str, target: Target| {
         let source = loaded.sources.iter().find(|s| s.path.file_name().is_some_and(|file| file == name))?;
         let mut document = Document::parse(source).ok()?;
-        let problems = apply_all(&mut document, target, settings);
-        (!problems.any_error()).then_some(document)
+        let diagnostics = apply_all(&mut document, target, settings);
+        (!diagnostics.any_error()).then_some(document)
     };
     let Some(experiment) = parsed("experiment.toml", Target::Experiment) else { return found };
     let file_of = |key: &str| experiment.text(&format!("/{key}")).map(|name| base_name(name).to_owned());

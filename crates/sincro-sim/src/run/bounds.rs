@@ -49,8 +49,8 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sincro_scene::diagnostic::{Located, Location, SourceText};
     use sincro_scene::experiment::stop::Side;
-    use sincro_scene::problem::{Located, Location, SourceText};
 
     fn stop(side: Side) -> StopWhen {
         let source = std::sync::Arc::new(SourceText { path: "experiment.toml".into(), text: String::new() });

@@ -14,7 +14,7 @@ use crate::sensors::Sensors;
 use crate::snapshot::Snapshot;
 use crate::trace::Trace;
 use sincro_scene::record::float_signals;
-use sincro_scene::script::Fault;
+use sincro_scene::script::ScriptError;
 
 /// A world with its controller.
 #[derive(Debug)]
@@ -75,7 +75,7 @@ pub enum Halt {
         /// Whether the world has made the step.
         is_after_step: bool,
         /// Which, where and why.
-        fault: Fault,
+        fault: ScriptError,
     },
 }
 
@@ -263,7 +263,7 @@ impl LockStep {
     fn call(
         &mut self,
         is_after_step: bool,
-        mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), Fault>,
+        mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), ScriptError>,
     ) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         for controller in all(&mut self.control, &mut self.controllers) {

@@ -30,8 +30,8 @@ use crate::load::Loaded;
 use crate::replay::Tape;
 use crate::results::{EnergyReport, Status};
 use crate::table::Table;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::experiment::{Experiment, Integrator};
-use sincro_scene::problem::Problems;
 use sincro_scene::scene::Scene;
 
 /// Rate times base step above which `auto` takes the stiff method.
@@ -99,14 +99,14 @@ pub struct Manner<'a> {
 #[derive(Debug)]
 pub enum RunError {
     /// Recorded signals that mean nothing.
-    Problems(Problems),
+    Diagnostics(Diagnostics),
     /// The results cannot be written.
     File(FileError),
 }
 
-impl From<Problems> for RunError {
-    fn from(problems: Problems) -> Self {
-        Self::Problems(problems)
+impl From<Diagnostics> for RunError {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Diagnostics(diagnostics)
     }
 }
 

@@ -121,8 +121,8 @@ impl TestFolder {
 
     pub fn load(&self, settings: &[&str]) -> Result<Loaded, String> {
         let settings: Result<Vec<Override>, _> = settings.iter().map(|text| Override::parse(text)).collect();
-        let settings = settings.map_err(|problem| problem.to_string())?;
-        load(&self.path, &settings, Extensions::default()).map_err(|problems| self.short(&problems.to_string()))
+        let settings = settings.map_err(|diagnostic| diagnostic.to_string())?;
+        load(&self.path, &settings, Extensions::default()).map_err(|diagnostics| self.short(&diagnostics.to_string()))
     }
 
     /// A message without the folder's path.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::check::{Expected, Subject};
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_sim::replay::{SceneView, properties};
 use sincro_sim::{Extensions, load, load_alone};
 
@@ -56,7 +56,7 @@ impl Engine {
     /// # Errors
     ///
     /// Everything that is wrong with the scene.
-    pub fn open(source: Source) -> Result<Self, Problems> {
+    pub fn open(source: Source) -> Result<Self, Diagnostics> {
         let loaded = load(&source.folder, &source.settings, source.extensions)?;
         let film = Film {
             format: FORMAT,
@@ -211,8 +211,8 @@ impl Engine {
     fn restart(&mut self) -> Result<(), String> {
         let settings = self.present().settings.clone();
         let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
-            .map_err(|problems| problems.to_string())?;
-        let track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
+            .map_err(|diagnostics| diagnostics.to_string())?;
+        let track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         self.begin_next(track, "from the start");
         Ok(())
     }
@@ -233,8 +233,8 @@ impl Engine {
         let settings = self.settings(set);
         let snapshot = from.snapshot_at(t).filter(|s| s.state.tick > 0 || !joints.is_empty()).cloned();
         let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
-            .map_err(|problems| problems.to_string())?;
-        let mut track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
+            .map_err(|diagnostics| diagnostics.to_string())?;
+        let mut track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         if let Some(snapshot) = &snapshot {
             track = track.from(snapshot, joints)?;
         }

@@ -2,9 +2,9 @@
 
 use sincro_dynamics::actuation::Push;
 use sincro_dynamics::spatial::Vec3;
+use sincro_scene::diagnostic::{Diagnostics, Located};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::{Located, Problems};
 use sincro_scene::record::{Recorder, catalogue};
 use sincro_sim::Loaded;
 use sincro_sim::replay::{Contacts, Layout, SceneView, Tape};
@@ -51,7 +51,7 @@ pub(super) struct Taken {
 
 impl Track {
     /// From the start.
-    pub fn new(loaded: Loaded, settings: Vec<Override>) -> Result<Self, Problems> {
+    pub fn new(loaded: Loaded, settings: Vec<Override>) -> Result<Self, Diagnostics> {
         let (method, _) = method_for(&loaded);
         let lockstep = LockStep::new(&loaded, method, false);
         let (recorder, columns) = recorder(&loaded)?;
@@ -184,7 +184,7 @@ fn snapshot_bytes(snapshot: &Snapshot) -> usize {
 }
 
 /// Everything that can be looked at, as far as it is not too much.
-fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Problems> {
+fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Diagnostics> {
     let (experiment, model) = (&loaded.experiment, &loaded.scene.model);
     let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
     let all = catalogue(model);
