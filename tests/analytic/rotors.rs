@@ -241,5 +241,5 @@ fn wrong_numbers_are_refused_all_at_once() {
     let row = TableRow { advance: 0.0, thrust: f64::NAN, torque: 0.0 };
     assert_eq!(CoefficientTable::new(-1.0, Spin::Clockwise, vec![row, row]).unwrap_err().len(), 4);
     assert_eq!(CoefficientTable::new(1.0, Spin::Clockwise, vec![]).unwrap_err().len(), 1);
-    assert_eq!(StockPropeller { density: -1.0, ..StockPropeller::default() }.diagnostics().len(), 1);
+    assert_eq!(StockPropeller { density: -1.0, ..StockPropeller::default() }.problems().len(), 1);
 }

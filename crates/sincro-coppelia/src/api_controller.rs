@@ -162,7 +162,7 @@ impl Controller for ApiController {
         }
     }
 
-    fn look(&mut self, at: Instant<'_>) {
+    fn update_proximity_sensors(&mut self, at: Instant<'_>) {
         if !self.is_due(at.tick) {
             return;
         }

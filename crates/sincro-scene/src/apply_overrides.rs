@@ -152,7 +152,7 @@ impl Override {
     }
 }
 
-/// What stands before the name of a block that is also a key of another file.
+/// Prefix of the name of a block that is also a key of another file.
 const OF_DIAGRAM: &str = "diagram.";
 
 fn names_of_blocks(document: &Document) -> Vec<String> {
@@ -227,7 +227,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What the file leaves out: the default of the schema, or an empty table.
+    /// Adds a key that the file leaves out: the default of the schema, or an empty table.
     fn create(&self, document: &mut Document) -> Result<(), Diagnostic> {
         let content = match self.schema.get("default") {
             Some(default) => default.clone(),

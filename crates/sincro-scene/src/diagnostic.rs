@@ -1,4 +1,4 @@
-//! What is wrong with the files of a scene, and where: one type for every reader, from TOML syntax to physics.
+//! Diagnostics of the files of a scene, with their locations: one type for every reader, from TOML syntax to physics.
 //!
 //! A [`Diagnostic`] points at bytes of a [`SourceText`]; [`Diagnostics`] are all that were found, in the order of the files. The
 //! plain rendering is here; the command line draws prettier ones from the same data.
@@ -68,7 +68,7 @@ impl fmt::Display for Location {
 pub struct Located<T> {
     /// The value.
     pub value: T,
-    /// Where it was written.
+    /// Location at which it was written.
     pub at: Location,
 }
 
@@ -81,9 +81,9 @@ pub struct Diagnostic {
     pub source: Option<Arc<SourceText>>,
     /// The bytes it is about, none where the whole text is meant.
     pub span: Option<Range<usize>>,
-    /// What is wrong: lower case, names in backticks, the value as it was found.
+    /// Message: lower case, names in backticks, the value as it was found.
     pub message: String,
-    /// How to mend it, where that is known.
+    /// Advice on a correction, if there is any.
     pub help: Option<String>,
 }
 
@@ -125,7 +125,7 @@ impl Diagnostic {
         Some(source.line_column(self.span.as_ref()?.start))
     }
 
-    /// Whether it is an error.
+    /// Returns true if it is an error.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
@@ -175,7 +175,7 @@ impl Diagnostics {
         }
     }
 
-    /// Whether there is an error among them.
+    /// Returns true if there is an error among them.
     #[must_use]
     pub fn any_error(&self) -> bool {
         self.0.iter().any(Diagnostic::is_error)

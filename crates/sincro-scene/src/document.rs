@@ -30,7 +30,7 @@ pub enum Odd {
     TooLarge,
 }
 
-/// Where an entry was written.
+/// Position of an entry in the text.
 #[derive(Clone, Debug)]
 pub struct Place {
     /// The key, none for elements of lists.
@@ -86,7 +86,7 @@ impl Document {
         Some(Located { value: self.text(pointer)?.to_owned(), at: self.at(pointer) })
     }
 
-    /// Where the value at a pointer was written; where it is absent, the nearest thing around it.
+    /// Location of the value at a pointer; if it is absent, of the nearest value around it.
     #[must_use]
     pub fn at(&self, pointer: &str) -> Location {
         let mut pointer = pointer;
@@ -98,7 +98,7 @@ impl Document {
         }
     }
 
-    /// Where the key at a pointer was written; its value if it has no key.
+    /// Location of the key at a pointer; of its value if it has no key.
     #[must_use]
     pub fn key_at(&self, pointer: &str) -> Location {
         match self.places.get(pointer) {
@@ -107,13 +107,13 @@ impl Document {
         }
     }
 
-    /// Where a table is best pointed at: the value of its `name`, or its first line.
+    /// Location that stands for a table: the value of its `name`, or its first line.
     #[must_use]
     pub fn title_at(&self, pointer: &str) -> Location {
         self.places.get(&format!("{pointer}/name")).map_or_else(|| self.at(pointer), |place| place.value.clone())
     }
 
-    /// What JSON could not hold of the value at a pointer.
+    /// Part of the value at a pointer that JSON cannot hold.
     #[must_use]
     pub fn odd(&self, pointer: &str) -> Option<&Odd> {
         self.odd.get(pointer)
@@ -181,7 +181,7 @@ fn syntax_diagnostic(source: &Arc<SourceText>, error: &toml::de::Error) -> Diagn
 /// Turns TOML values into JSON, noting where they were.
 struct Reader<'a> {
     source: &'a Arc<SourceText>,
-    /// Where the parsed text begins in the source.
+    /// Start of the parsed text in the source.
     shift: usize,
     places: BTreeMap<String, Place>,
     odd: BTreeMap<String, Odd>,

@@ -19,18 +19,18 @@ use crate::script::ScriptParser;
 const EXPERIMENT: &str = "experiment.toml";
 
 /// Numbers that a recording may have: 800 MB.
-const MOST_NUMBERS: u64 = 100_000_000;
+const MAX_NUMBERS: u64 = 100_000_000;
 
 /// A scene folder that was opened: its experiment and its scene, ready to run.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// What is run, recorded and checked.
+    /// The experiment: signals, checks, settings.
     pub experiment: Experiment,
     /// The compiled scene.
     pub scene: Scene,
     /// The diagram that controls it, if there is one.
     pub controller: Option<ControlDiagram>,
-    /// What the user should know of.
+    /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
     /// Every file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
@@ -128,7 +128,7 @@ fn experiments_below(path: &Path) -> Vec<String> {
     found
 }
 
-/// Whether the recorded times are others than those the file was written for. Checks that look between them are then not
+/// Returns true if the recorded times are others than those the file was written for. Checks that look between them are then not
 /// refused, they cannot be made: who shortens a run to have a look at it has not made a mistake in the file.
 fn sets_times(overrides: &[Override]) -> bool {
     overrides.iter().any(|setting| matches!(setting.path.value.as_str(), "duration" | "step" | "record_every"))
@@ -138,13 +138,13 @@ fn sets_times(overrides: &[Override]) -> bool {
 fn too_large(experiment: &Experiment) -> Diagnostics {
     let rows = experiment.n_steps / experiment.record_every + 1;
     let numbers = rows.saturating_mul(experiment.record.len() as u64 + 1);
-    if numbers <= MOST_NUMBERS {
+    if numbers <= MAX_NUMBERS {
         return Diagnostics::new();
     }
     let message = format!("{rows} rows of {} signals are more than memory is asked to hold", experiment.record.len());
     let help = format!(
         "record fewer rows: record_every = {} or more",
-        experiment.record_every * numbers.div_ceil(MOST_NUMBERS)
+        experiment.record_every * numbers.div_ceil(MAX_NUMBERS)
     );
     Diagnostics::from(Diagnostic::error(&experiment.record[0].at, message).with_help(help))
 }
@@ -274,7 +274,7 @@ fn open_diagram(
     diagram::open(&document, folder, setting).map_err(|found| diagnostics.merge(found)).ok()
 }
 
-/// What the diagram's scopes look at is recorded and plotted.
+/// Adds the signals of the diagram's scopes to the recorded and plotted ones.
 fn with_scopes(mut experiment: Experiment, controller: &ControlDiagram, scene: &Scene) -> Experiment {
     let at = experiment.record[0].at.clone();
     for (title, names) in controller.scopes(&scene.model).into_iter().filter(|(_, names)| !names.is_empty()) {

@@ -17,7 +17,7 @@ use crate::diagnostic::{Diagnostic, Located, Location, SourceText};
 /// One setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Override {
-    /// What is set.
+    /// Path of the number that is set.
     pub path: Located<String>,
     /// To what: TOML, or a bare word.
     pub value: Located<String>,

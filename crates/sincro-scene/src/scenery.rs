@@ -1,4 +1,4 @@
-//! What of a scene can be seen: every solid and surface of its bodies, where it hangs and what colour it has. Sensors that look (distances,
+//! Visible geometry of a scene: every solid and surface of its bodies, its frame and its colour. Proximity and vision sensors (distances,
 //! images) and clients ask it; no step does.
 
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use sincro_dynamics::spatial::Pose;
 pub struct Piece {
     /// Index of its body among the objects of the scene.
     pub object: usize,
-    /// Where its frame is fixed.
+    /// Link or world frame to which its frame is fixed.
     pub at: Attached<f64>,
     /// What it is.
     pub geometry: Arc<Geometry>,

@@ -26,9 +26,9 @@ pub struct Script {
     pub files: Vec<(String, Arc<SourceText>)>,
     /// How it is called.
     pub style: Style,
-    /// Where it stands among scripts of the same place.
+    /// Order among the scripts of one object.
     pub kind: Kind,
-    /// Whether an old script is a thread of its own.
+    /// True if an old script is a thread of its own.
     pub is_threaded: bool,
     /// Memory that it may take `[bytes]`.
     pub max_memory: usize,
@@ -38,7 +38,7 @@ pub struct Script {
     pub at: Location,
 }
 
-/// What is stored with a script.
+/// Parameter stored with a script.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Parameter {
     /// A number.
@@ -80,16 +80,16 @@ pub enum Kind {
     Customization,
 }
 
-/// Why a script could not go on.
+/// Error of a script: it cannot go on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptError {
     /// Path of its object.
     pub object: String,
     /// The line of its text.
     pub at: Option<Location>,
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// How to mend it, if that is known.
+    /// Advice on a correction, if there is any.
     pub help: Option<String>,
 }
 
@@ -163,7 +163,7 @@ impl Clone for Box<dyn Law> {
 
 /// Parser of the language of scripts: looks texts over when a scene is loaded.
 pub trait ScriptParser: Send + Sync + fmt::Debug {
-    /// What is wrong with a script before anything runs: its syntax.
+    /// Checks the syntax of a script before anything runs.
     ///
     /// # Errors
     ///

@@ -27,7 +27,7 @@ use crate::diagnostic::Located;
 pub struct SensorSpec {
     /// Its path; a frame of the model has the same.
     pub path: String,
-    /// What it measures.
+    /// Kind of measurement.
     pub kind: SensorKind,
     /// Time between two samples `[s]`; none: every base step.
     pub sample_time: Option<Located<f64>>,
@@ -37,7 +37,7 @@ pub struct SensorSpec {
     pub with: Vec<Located<String>>,
 }
 
-/// What a sensor measures, and how wrong.
+/// Kind of a sensor, with the errors of its measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorKind {
     /// Specific force and angular velocity, own axes.
@@ -77,11 +77,11 @@ pub enum SensorKind {
     },
     /// The closest point of other bodies inside a volume.
     Proximity {
-        /// What it looks into.
+        /// Volume of detection.
         volume: Volume,
-        /// Where that begins before it `[m]`.
+        /// Offset of the volume along z `[m]`.
         offset: f64,
-        /// How far it goes from there `[m]`.
+        /// Length of the volume from there `[m]`.
         range: f64,
         /// Standard deviation of the distance `[m]`.
         noise: f64,
@@ -93,12 +93,12 @@ pub enum SensorKind {
 pub struct Errors {
     /// Added to every sample.
     pub bias: [f64; 3],
-    /// How noisy they are.
+    /// Standard deviation of their noise.
     pub noise: f64,
 }
 
 impl SensorKind {
-    /// What a proximity sensor looks into; none for others.
+    /// Field of view of a proximity sensor; none for others.
     #[must_use]
     pub fn field(self) -> Option<FieldOfView> {
         match self {

@@ -107,7 +107,7 @@ pub struct NotFinite {
     pub outputs: Vec<f64>,
     /// Its inputs.
     pub inputs: Vec<f64>,
-    /// What the block itself says of it.
+    /// Diagnostic of the block itself.
     pub fault: Option<Box<str>>,
 }
 
@@ -131,11 +131,11 @@ pub enum Forked {
 /// | [`latch`](Controller::latch) | t_k, after all have acted | commands, through [`Commands::set`] | cannot fail |
 /// | [`latched`](Controller::latched) | t_k, under the commands of the step | its own memory | cannot fail |
 /// | [`continuous`](Controller::continuous) | between t_k and t_{k+1} | its own states and commands | shows in the motion: the run stops there |
-/// | [`look`](Controller::look) | t_{k+1}, once the scene's proximity sensors have looked | its own memory | cannot fail |
+/// | [`update_proximity_sensors`](Controller::update_proximity_sensors) | t_{k+1}, once the scene's proximity sensors are up to date | its own memory | cannot fail |
 /// | [`sense`](Controller::sense) | t_{k+1} | the world, for the next step | the run stops at t_{k+1}: the step has been made and is recorded |
-/// | [`arrive`](Controller::arrive) | t_{k+1} | its continuous commands | cannot fail |
+/// | [`evaluate_outputs`](Controller::evaluate_outputs) | t_{k+1} | its continuous commands | cannot fail |
 /// | [`measure`](Controller::measure) | t_{k+1}, once all sensors have their samples | its own memory | as `sense` |
-/// | [`show`](Controller::show) | once, after the first `measure` | its continuous commands | cannot fail |
+/// | [`write_outputs`](Controller::write_outputs) | once, after the first `measure` | its continuous commands | cannot fail |
 /// | [`finish`](Controller::finish) | once, after the last tick | its own memory | the end of the run is reported as a stop |
 ///
 /// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`] do nothing unless
@@ -174,8 +174,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         None
     }
 
-    /// The step has been made and the scene's proximity sensors have looked; at the start, too.
-    fn look(&mut self, _: Instant<'_>) {}
+    /// Updates its own proximity sensors after the step, once those of the scene are up to date; at the start, too.
+    fn update_proximity_sensors(&mut self, _: Instant<'_>) {}
 
     /// Measurements of the step that ends, and forces of the next one.
     ///
@@ -186,8 +186,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         Ok(())
     }
 
-    /// Brings its continuous commands to the end of the step, before anybody measures.
-    fn arrive(&mut self, _: Instant<'_>) {}
+    /// Evaluates its continuous outputs at the end of the step, before any measurement.
+    fn evaluate_outputs(&mut self, _: Instant<'_>) {}
 
     /// Measurements at a tick, with the values that all sensors gave last; at the start, too. The next commands follow from them.
     ///
@@ -198,8 +198,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         Ok(())
     }
 
-    /// Writes its continuous commands as they were last evaluated, so that they are seen at the start, before they act; sampled ones are not.
-    fn show(&self, _commands: &mut [f64]) {}
+    /// Writes its continuous outputs as they were last evaluated, so that they are observed at the start, before they act; sampled ones are not written.
+    fn write_outputs(&self, _commands: &mut [f64]) {}
 
     /// After the last tick, if it was started.
     ///
@@ -228,7 +228,7 @@ pub trait Controller: Any + Send + fmt::Debug {
         &[]
     }
 
-    /// The proximity sensor that is object `sensor` of the scene has looked.
+    /// Result of the proximity sensor that is object `sensor` of the scene.
     fn detected(&mut self, _sensor: usize, _found: Option<Detection>) {}
 
     /// Value of a float signal that it has set, to be recorded.

@@ -17,13 +17,13 @@ use sincro_scene::script::ScriptParser;
 /// An experiment and its scene, ready to run.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// What is run, recorded and checked.
+    /// The experiment: signals, checks, settings.
     pub experiment: Experiment,
     /// The compiled scene.
     pub scene: Scene,
     /// The diagram that controls it, if there is one.
     pub controller: Option<ControlDiagram>,
-    /// What the user should know of.
+    /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
     /// Every file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,

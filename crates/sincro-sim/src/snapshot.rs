@@ -25,20 +25,20 @@ pub struct Snapshot {
     pub trace: Trace,
     /// Error control of the integrator, none for fixed steps.
     pub control: Option<Control>,
-    /// What sensors gave last.
+    /// Last samples of the sensors.
     pub sensors: Vec<f64>,
     /// State of the diagram, if there is one.
     pub diagram: Option<sincro_blocks::runner::State<f64>>,
 }
 
-/// Why bytes are not a snapshot of a model.
+/// Error of reading a snapshot of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SnapshotError {
     /// Not a snapshot, or of another version.
     NotASnapshot,
     /// Cut short or altered.
     Damaged,
-    /// Of another model.
+    /// The snapshot is of another model.
     OtherModel,
 }
 

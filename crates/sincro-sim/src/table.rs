@@ -1,4 +1,4 @@
-//! What was recorded: rows of numbers under named columns, in memory and as CSV.
+//! Recorded table: rows of numbers under named columns, in memory and as CSV.
 //!
 //! The file has the columns' names in its first line; units stand in `run.json`. Numbers are written with as many digits as
 //! bring back the same bits, and no more: `0.005`, `1e-12`, `NaN`, `inf`. The same bits in give the same bytes out.

@@ -1,4 +1,4 @@
-//! What becomes of a scene file: masses, poses, order, initial states, signals.
+//! Compilation of a scene file: masses, poses, order, initial states, signals.
 
 mod common;
 

@@ -8,7 +8,7 @@ use sincro_sim::Extensions;
 use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
@@ -23,7 +23,7 @@ fn flown(name: &str, set: &[(&str, &str)]) -> Simulated {
     let loaded =
         load(&scene(name), &settings(set), Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
-    simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn column<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {
@@ -43,7 +43,7 @@ fn a_step_to_the_side_is_a_step_forward() {
     assert!(x[790] > 0.09, "the step is in the window");
 }
 
-/// What the diagram computes with its own reference filter, loops and mixer does not depend on the pace of recording.
+/// The result of the diagram with its own reference filter, loops and mixer does not depend on the sample time of recording.
 #[test]
 fn a_controller_at_its_sample_time_does_not_see_the_base_step() {
     let short = ("duration", "24.0");

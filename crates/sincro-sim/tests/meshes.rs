@@ -9,7 +9,7 @@ use common::TestFolder;
 use sincro_math::elementary::sin_cos;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 const G: f64 = 9.81;
 
@@ -68,7 +68,7 @@ fn folder(scene: &str, record: &str, duration: f64, step: f64) -> TestFolder {
 
 fn ran(loaded: &Loaded) -> Simulated {
     let interrupt = AtomicBool::new(false);
-    simulate(loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn values<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {
@@ -221,7 +221,7 @@ fn a_ball_swings_in_a_valley_with_the_period_of_a_pendulum() {
     assert!((t / quarter - 1.0).abs() < 5e-3, "{t} {quarter}");
 }
 
-/// What is said of a mesh file.
+/// Diagnostics of a mesh file.
 fn refused(name: &str, bytes: &[u8], keys: &str) -> String {
     let shape = format!("mesh = {{ file = \"{name}\"{keys} }}");
     let folder = folder(&body(&shape, "position = [0, 0, 1, 1, 0, 0, 0]", PLANE), "\"energy.total\"", 0.1, 0.1);

@@ -8,7 +8,7 @@ use common::TestFolder;
 use sincro_analysis::linearize::{Request, linearize};
 use sincro_sim::Loaded;
 use sincro_sim::results::Status;
-use sincro_sim::run::{LockStep, Manner, Simulated, Watch, method_for, simulate};
+use sincro_sim::run::{LockStep, RunMonitor, RunOptions, Simulated, method_for, simulate};
 use sincro_sim::snapshot::Snapshot;
 
 const BLADE: &str = "{ radius = 0.2, chord = 0.025, n_blades = 4, lift_slope = 5.7, collective_pitch = 0.14, cd0 = 0.0087, k_cd = 0.4 }";
@@ -51,8 +51,8 @@ fn blade() -> String {
 }
 
 fn run(loaded: &Loaded) -> Simulated {
-    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(loaded, Manner::default(), watch).unwrap()
+    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    simulate(loaded, RunOptions::default(), watch).unwrap()
 }
 
 fn column<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 fn scenes() -> Vec<PathBuf> {
     let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -68,8 +68,8 @@ fn continuous_commands_are_seen_as_of_now() {
     let loaded = load(&folder, &settings, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
         .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
-    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-    let table = simulate(&loaded, Manner::default(), &mut watch).unwrap().table;
+    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+    let table = simulate(&loaded, RunOptions::default(), &mut watch).unwrap().table;
     let column = |name: &str| &table.column(name).unwrap().values;
     let (now, pi) = (column("/motor.motor_torque_now"), column("pi"));
     // the row of the step itself shows the torque before it, and what the controller asks for from then on

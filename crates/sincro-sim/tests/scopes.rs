@@ -1,4 +1,4 @@
-//! What a diagram's scopes look at is recorded and plotted, through bundles and from the world too.
+//! Signals of a diagram's scopes are recorded and plotted, through bundles and from the world too.
 
 mod common;
 

@@ -5,7 +5,7 @@ mod common;
 use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 const G: f64 = 9.81;
 
@@ -104,7 +104,7 @@ fn folder(scene: &str, record: &[String], duration: f64) -> TestFolder {
 fn ran(folder: &TestFolder) -> Simulated {
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
     let interrupt = AtomicBool::new(false);
-    simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn six(stem: &str, force: &str, torque: &str) -> Vec<String> {

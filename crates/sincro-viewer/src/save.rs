@@ -8,7 +8,7 @@ use sincro_sim::replay::edited;
 use sincro_sim::{Extensions, load};
 
 /// Files of a folder that are copied; more are no scene.
-const MOST_FILES: usize = 500;
+const MAX_FILES: usize = 500;
 
 /// Writes the scene with `settings` into a folder beside it; the folder's path.
 ///
@@ -58,8 +58,8 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
                 found.push(entry.path());
             }
         }
-        if found.len() > MOST_FILES {
-            return Err(format!("`{}` has more than {MOST_FILES} files: copy it by hand", folder.display()));
+        if found.len() > MAX_FILES {
+            return Err(format!("`{}` has more than {MAX_FILES} files: copy it by hand", folder.display()));
         }
     }
     found.sort();

@@ -12,7 +12,7 @@ use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::file;
 use sincro_sim::file::FileError;
 use sincro_sim::results::{Override as Setting, VerdictReport};
-use sincro_sim::run::{Manner, RunError, Simulated, Watch};
+use sincro_sim::run::{RunError, RunMonitor, RunOptions, Simulated};
 
 use crate::results::{Link, write};
 
@@ -108,8 +108,8 @@ impl RunRequest<'_> {
 ///
 /// A recorded signal does not exist. A run that stops is not an error: see [`Simulated::status`].
 pub fn simulate(loaded: &Loaded) -> Result<Simulated, RunFailure> {
-    let mut watch = Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    Ok(sincro_sim::run::simulate(loaded, Manner::default(), &mut watch)?)
+    let mut watch = RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    Ok(sincro_sim::run::simulate(loaded, RunOptions::default(), &mut watch)?)
 }
 
 /// Judgement of a run with its variants and its sweep.

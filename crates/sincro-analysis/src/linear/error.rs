@@ -1,10 +1,10 @@
-//! Why something about a linear system could not be computed, in words.
+//! Errors of the analysis of linear systems.
 
 use std::fmt;
 
 use super::DMatrix;
 
-/// What is wrong with matrices, or with what is asked of them.
+/// Error of an analysis of a linear system.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinearError {
     /// A matrix has the wrong size.

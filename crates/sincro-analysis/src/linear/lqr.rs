@@ -14,9 +14,9 @@ const NOTHING: f64 = 1e-12;
 /// A mode whose `[A − λI, B]` has a singular value below this share of its greatest is not reached.
 const UNREACHED: f64 = 1e-11;
 /// Steps of Newton's method at the end; it doubles the digits, so the second already meets rounding.
-const MOST_REFINEMENTS: usize = 4;
+const MAX_REFINEMENTS: usize = 4;
 /// Doublings: 2⁶⁰ ticks are for ever.
-const MOST_DOUBLINGS: usize = 60;
+const MAX_DOUBLINGS: usize = 60;
 
 /// A feedback `u = −K x` and what it does.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +98,7 @@ fn refined(
     step: impl Fn(&DMatrix<f64>) -> Option<(Option<DMatrix<f64>>, Regulator)>,
 ) -> Result<Regulator, LinearError> {
     let (mut next, mut best) = step(&p).ok_or(LinearError::NotDetectable)?;
-    for _ in 0..MOST_REFINEMENTS {
+    for _ in 0..MAX_REFINEMENTS {
         let Some((after, regulator)) = next.and_then(|p| step(&p)) else { break };
         let falls = regulator.residual < 0.5 * best.residual;
         if regulator.residual <= best.residual {
@@ -115,7 +115,7 @@ fn refined(
 /// `Σ (Aᵏ)ᵀ Q Aᵏ` for an A that decays, by doubling.
 fn cost_to_come_back(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut x) = (a.clone(), q.clone());
-    for _ in 0..MOST_DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         let added = a.transpose() * &x * &a;
         let settled = added.norm() <= 1e-17 * x.norm();
         x = symmetric(&(x + added));
@@ -199,7 +199,7 @@ fn by_sign(a: &DMatrix<f64>, g: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatr
 fn by_doubling(a: &DMatrix<f64>, g: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut g, mut h) = (a.clone(), g.clone(), q.clone());
     let identity = DMatrix::<f64>::identity(a.nrows(), a.nrows());
-    for _ in 0..MOST_DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         let w = (&identity + &g * &h).try_inverse()?;
         let wa = &w * &a;
         let added = a.transpose() * &h * &wa;

@@ -9,7 +9,7 @@ use sincro_math::elementary::{exp, ln};
 use super::DMatrix;
 
 /// Steps after which an eigenvalue must lie on the imaginary axis; ten are usual.
-const MOST_STEPS: usize = 100;
+const MAX_STEPS: usize = 100;
 /// Change of Z, beside Z, at which the iteration ends: it converges quadratically, so the next change would be rounding.
 const SETTLED: f64 = 1e-9;
 
@@ -17,7 +17,7 @@ const SETTLED: f64 = 1e-9;
 pub(super) fn sign(z: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let mut z = z.clone();
     let mut last_change = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let (inverse, scale) = inverse_and_scale(&z)?;
         // near the end scaling would only disturb
         let c = if last_change < 1e-2 { 1.0 } else { scale };
@@ -43,7 +43,7 @@ pub(super) fn sign(z: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 pub fn lyapunov(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut q) = (a.clone(), q.clone());
     let identity = DMatrix::identity(a.nrows(), a.nrows());
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let distance = (&a + &identity).norm();
         let (inverse, scale) = inverse_and_scale(&a)?;
         let c = if distance < 1e-2 { 1.0 } else { scale };

@@ -1,4 +1,4 @@
-//! What a linearised system tells: poles, zeros, frequency and step response, controllability, regulators, trim.
+//! Analysis of linear systems: poles, zeros, frequency and step response, controllability, regulators, trim.
 //!
 //! [`StateSpace`] holds the four matrices of `ẋ = A x + B u`, `y = C x + D u` about an operating point, with the names and units
 //! of their rows and columns. Everything else is derived from it and kept nowhere.
@@ -24,7 +24,7 @@ pub use nalgebra::{Complex, DMatrix, DVector};
 pub use step::{StepFacts, StepResponse};
 pub use structure::Reach;
 
-/// What a state, an input or an output is called, and its unit.
+/// Name and unit of a state, an input or an output.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Axis {
     /// Its path: `/cart/rail.position`.
@@ -94,7 +94,7 @@ impl StateSpace {
         system.check().map(|()| system)
     }
 
-    /// Whether the sizes of matrices and names fit, and all entries are finite.
+    /// Checks that the sizes of matrices and names fit, and that all entries are finite.
     ///
     /// # Errors
     ///
@@ -155,7 +155,7 @@ impl StateSpace {
 /// A row or column below this share of the largest entry is the rounding of a reduction, not a slow mode.
 const ROUNDING: f64 = 1e-13;
 
-/// Whether a square matrix is singular to working precision. Its rows are scaled first, so that units do not decide.
+/// Returns true if a square matrix is singular to working precision. Its rows are scaled first, so that units do not decide.
 fn is_singular(matrix: &DMatrix<f64>) -> bool {
     let mut scaled = matrix.clone();
     let largest = matrix.amax();

@@ -13,7 +13,7 @@ const RANK: f64 = 1e-10;
 /// Share of the promised descent that a step must bring.
 const ENOUGH: f64 = 1e-4;
 /// Halvings of a step before it counts as none.
-const MOST_HALVINGS: usize = 40;
+const MAX_HALVINGS: usize = 40;
 /// A gradient `|Jᵀr|` below this share of `|J| |r|` leads nowhere.
 const LEVEL: f64 = 1e-7;
 
@@ -28,10 +28,10 @@ pub struct Solution {
     pub iterations: usize,
 }
 
-/// Why the equations were not solved, and how far it got.
+/// Failure of the iteration, with the best iterate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What happened.
+    /// Reason.
     pub reason: Reason,
     /// The best unknowns.
     pub x: Vec<f64>,
@@ -43,7 +43,7 @@ pub struct Failure {
     pub iterations: usize,
 }
 
-/// What stopped the search.
+/// Reason for the end of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// No step makes the residual smaller: there is no solution nearby.
@@ -166,7 +166,7 @@ fn search(
 ) -> Option<DVector<f64>> {
     let slope = 2.0 * gradient.dot(step);
     let mut share = 1.0;
-    for _ in 0..MOST_HALVINGS {
+    for _ in 0..MAX_HALVINGS {
         let trial = x + step * share;
         residual(trial.as_slice(), r.as_mut_slice());
         // |r(x + a p)|² ≤ |r|² + c a slope; what is not finite is never enough

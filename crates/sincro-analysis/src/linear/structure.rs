@@ -6,10 +6,10 @@
 
 use super::{Axis, DMatrix, DVector, StateSpace};
 
-/// What is left of a vector of norm 1 after taking away its parts along others, if it is nothing but rounding.
+/// Norm below which the remainder of a unit vector, after removal of its components along others, is rounding.
 const NOTHING: f64 = 1e-11;
 
-/// How much of the state space is reached or seen.
+/// Dimension of the controllable or observable subspace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// Dimension of the subspace.
@@ -21,7 +21,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Whether it is the whole space.
+    /// Returns true if it is the whole space.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.rank == self.n_states
@@ -29,13 +29,13 @@ impl Reach {
 }
 
 impl StateSpace {
-    /// What the inputs reach.
+    /// Controllable subspace.
     #[must_use]
     pub fn controllability(&self) -> Reach {
         reach(&self.a, &self.b)
     }
 
-    /// What the outputs see.
+    /// Observable subspace.
     #[must_use]
     pub fn observability(&self) -> Reach {
         reach(&self.a.transpose(), &self.c.transpose())

@@ -8,7 +8,7 @@
 use super::modes::eigenvalues;
 use super::{Complex, DMatrix, DVector, LinearError, StateSpace};
 
-/// What is smaller than this beside matrices of norm 1 is rounding: such a `d` would put a zero at 10¹² times the fastest rate.
+/// Threshold of rounding relative to matrices of norm 1: such a `d` would put a zero at 10¹² times the fastest rate.
 const NOTHING: f64 = 1e-12;
 
 impl StateSpace {

@@ -38,7 +38,7 @@ pub struct Linearization {
     pub output: Vec<f64>,
     /// Rates of the states there: zero at an equilibrium.
     pub rate: Vec<f64>,
-    /// What to know before trusting the numbers.
+    /// Warnings about the accuracy of the numbers.
     pub notes: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What inputs and outputs mean.
+//! Meaning of inputs and outputs.
 
 use super::{axis, point::Request};
 use crate::linear::Axis;
@@ -16,7 +16,7 @@ pub(super) struct Input {
     pub what: InputKind,
 }
 
-/// Where an input acts.
+/// Point at which an input acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum InputKind {
     /// Command of a motor.
@@ -112,7 +112,7 @@ fn default_inputs(loaded: &Loaded, at: &LockStep, all: &[Entry], is_closed: bool
         .collect()
 }
 
-/// Whether the diagram gives the command of a motor.
+/// Returns true if the diagram gives the command of a motor.
 fn drives(at: &LockStep, motor: usize) -> bool {
     at.control().is_some_and(|c| c.wiring().program().commands.iter().any(|c| c.terminal == motor))
 }

@@ -4,7 +4,7 @@ use sincro_scene::diagnostic::{Diagnostic, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::{LockStep, method_for};
 
-/// What is to be linearised.
+/// Request for a linearisation.
 #[derive(Clone, Debug, Default)]
 pub struct Request {
     /// Inputs; empty: all commands of motors that are not ideal.

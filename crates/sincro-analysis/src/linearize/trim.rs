@@ -17,9 +17,9 @@ use sincro_sim::run::LockStep;
 /// Rates below this count as zero [rad/s²], [m/s²] and the like.
 const AT_REST: f64 = 1e-10;
 /// Most steps of Newton's method.
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 
-/// What is asked for.
+/// Request for a trim.
 #[derive(Clone, Debug, Default)]
 pub struct TrimRequest {
     /// Commands that may be changed; the others are as the scene gives them.
@@ -155,7 +155,7 @@ fn solve(
     };
     let x0 = vec![0.0; unknowns.places.len()];
     let n_residuals = n_equations + targets.len();
-    newton::solve(n_residuals, residual, jacobian, &x0, AT_REST, MOST_STEPS).map_err(|failure| {
+    newton::solve(n_residuals, residual, jacobian, &x0, AT_REST, MAX_STEPS).map_err(|failure| {
         let axes = duals.state_axes();
         let what = match unknowns.equations.clone().nth(failure.worst) {
             Some(k) => format!("the rate of `{}`", axes[k].name),

@@ -73,7 +73,7 @@ use sincro_scene::overrides::Override;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::load::{Extensions, Loaded, load};
 use sincro_sim::results::Status;
-use sincro_sim::run::{LockStep, Manner, Recording, RunError, Simulated, method_for};
+use sincro_sim::run::{LockStep, Recording, RunError, RunOptions, Simulated, method_for};
 use sincro_sim::trace::Trace;
 
 /// What a simulation is doing.
@@ -356,7 +356,7 @@ impl Session {
         self.table().begin_run();
         let start = self.lockstep.state().clone();
         self.settle(&start);
-        let recording = Recording::new(&self.loaded, &mut self.lockstep, Manner::default()).map_err(told)?;
+        let recording = Recording::new(&self.loaded, &mut self.lockstep, RunOptions::default()).map_err(told)?;
         self.run = Some(Run { recording, before, start });
         self.table().phase = Phase::Running;
         self.steps = 0;

@@ -5,7 +5,7 @@ use sincro_dynamics::geometry::FieldOfView;
 use super::senses::{Look, handle_of};
 use super::table::{Handle, Kind, WORLD};
 use super::{Desk, Entity, Refusal};
-use sincro_sim::proximity::{Detection, Eye};
+use sincro_sim::proximity::{Detection, ProximitySensor};
 
 impl Desk<'_> {
     fn look_of(&self, handle: Handle) -> Result<&Look, Refusal> {
@@ -42,7 +42,7 @@ impl Desk<'_> {
                 members.binary_search(&handle_of(piece)).is_ok()
             }
         });
-        let saw = self.world.with_state_view(t, |seen| eye.look(&x_we, pieces, seen.scratch, most));
+        let saw = self.world.with_state_view(t, |seen| eye.detect(&x_we, pieces, seen.scratch, most));
         Ok(saw.filter(|saw| saw.distance >= blind_below))
     }
 
@@ -126,7 +126,7 @@ impl Desk<'_> {
         blind_below: f64,
     ) -> Result<Handle, Refusal> {
         let handle = self.table.create("ProximitySensor", Kind::Proximity, WORLD)?;
-        let eye = Eye { field, with: Vec::new(), carrier: None };
+        let eye = ProximitySensor { field, with: Vec::new(), carrier: None };
         self.table.senses.looks.insert(handle, Look { eye, is_explicit, is_of_scene: false, blind_below, saw: None });
         Ok(handle)
     }

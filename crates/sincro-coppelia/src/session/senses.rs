@@ -12,7 +12,7 @@ use super::collections::Collection;
 use super::{Entry, Handle, Kind, Refusal, Table};
 use sincro_scene::scene::Scene;
 use sincro_scene::scenery::{Piece, Scenery};
-use sincro_sim::proximity::{Detection, Eye};
+use sincro_sim::proximity::{Detection, ProximitySensor};
 
 /// Corners and heights of everything that clients and scripts make together.
 const MOST_CORNERS: usize = 2_000_000;
@@ -37,7 +37,7 @@ pub(super) struct Senses {
 /// A proximity sensor and what it saw last.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
-    pub eye: Eye,
+    pub eye: ProximitySensor,
     /// Whether it looks only when it is told to.
     pub is_explicit: bool,
     /// Whether it belongs to the scene, which samples it.
@@ -54,7 +54,7 @@ impl Senses {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
         let mut looks = BTreeMap::new();
         for spec in &scene.sensors {
-            let (Some(eye), Some(own)) = (Eye::of(spec, scene), object_of(&spec.path)) else { continue };
+            let (Some(eye), Some(own)) = (ProximitySensor::of(spec, scene), object_of(&spec.path)) else { continue };
             looks.insert(
                 Handle(own as i32 + 1),
                 Look { eye, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },

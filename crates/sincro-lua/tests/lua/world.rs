@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::{Extensions, Loaded, load};
 
 /// A pendulum on a motor that takes torques, with a tip.
@@ -68,8 +68,8 @@ pub fn with_script(code: &str, keys: &str) -> Result<Loaded, Diagnostics> {
 /// Runs to the end.
 pub fn run(loaded: &Loaded) -> Simulated {
     let interrupt = AtomicBool::new(false);
-    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-    simulate(loaded, Manner::default(), &mut watch).unwrap()
+    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+    simulate(loaded, RunOptions::default(), &mut watch).unwrap()
 }
 
 /// What the pendulum's script said; the run must come to its end.

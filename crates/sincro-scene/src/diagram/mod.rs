@@ -44,7 +44,7 @@ pub struct ControlDiagram {
     pub wiring: Arc<Wiring>,
 }
 
-/// What a diagram is read for.
+/// Context in which a diagram is read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Setting<'a> {
     pub model: &'a Arc<Model<f64>>,
@@ -87,11 +87,11 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
 
 /// Sorted, and of very many the first: who has mended those will see the next.
 fn shortened(diagnostics: Diagnostics) -> Diagnostics {
-    const MOST: usize = 200;
+    const MAX_DIAGNOSTICS: usize = 200;
     let mut diagnostics = diagnostics.sorted();
-    let n_more = diagnostics.0.len().saturating_sub(MOST);
+    let n_more = diagnostics.0.len().saturating_sub(MAX_DIAGNOSTICS);
     if n_more > 0 {
-        diagnostics.0.truncate(MOST);
+        diagnostics.0.truncate(MAX_DIAGNOSTICS);
         diagnostics.push(Diagnostic::nowhere(format!("{n_more} more problems of the diagram are not shown")));
     }
     diagnostics
@@ -149,7 +149,7 @@ impl ControlDiagram {
         (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
     }
 
-    /// What its scopes look at: title, and the names of the recorded signals.
+    /// Signals of its scopes: title, and the names of the recorded signals.
     #[must_use]
     pub fn scopes(&self, model: &Model<f64>) -> Vec<(String, Vec<String>)> {
         let program = self.wiring.program();
@@ -212,7 +212,7 @@ fn entries(wiring: &Wiring) -> Vec<Entry> {
     list
 }
 
-/// Where in the file a problem of the compiler is.
+/// Location in the file of a diagnostic of the compiler.
 fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place) -> Location {
     let (mut origin, mut diagram) = (origin, diagram);
     // where sample times may be given, outermost first

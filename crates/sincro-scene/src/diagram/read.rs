@@ -25,9 +25,9 @@ pub(super) type Scope = BTreeMap<String, f64>;
 const MAX_DEPTH: usize = 256;
 
 /// Most blocks that definitions inside definitions may come to.
-const MOST_BLOCKS: usize = 100_000;
+const MAX_BLOCKS: usize = 100_000;
 
-/// Where a diagram, its blocks and its wires stand in the file.
+/// Locations of a diagram, its blocks and its wires in the file.
 #[derive(Clone, Debug)]
 pub(super) struct Origin {
     /// JSON pointer to the table that has `block` and `wires`.
@@ -176,7 +176,7 @@ impl<'a> DiagramReader<'a> {
         for (k, block) in blocks.iter().enumerate() {
             let at = format!("{pointer}/block/{k}");
             self.n_blocks += 1;
-            if self.n_blocks > MOST_BLOCKS {
+            if self.n_blocks > MAX_BLOCKS {
                 self.too_many_blocks(&at);
                 break;
             }
@@ -200,14 +200,14 @@ impl<'a> DiagramReader<'a> {
     }
 
     fn too_many_blocks(&mut self, at: &str) {
-        let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
+        let message = format!("the diagram has more than {MAX_BLOCKS} blocks");
         if self.diagnostics.0.iter().all(|p| p.message != message) {
             let diagnostic = Diagnostic::error(&self.document.title_at(at), message);
             self.diagnostics.push(diagnostic.with_help("count what the definitions inside definitions come to"));
         }
     }
 
-    /// What a block is: of the library, about the robot, or a diagram of this file.
+    /// Resolves the type of a block: of the library, about the robot, or a diagram of this file.
     #[allow(clippy::type_complexity)]
     fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((Content, Option<f64>), Option<Origin>)> {
         if let Some(k) = self.file.diagram.iter().position(|d| d.name == block.kind) {

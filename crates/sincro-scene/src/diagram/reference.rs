@@ -12,7 +12,7 @@ use sincro_dynamics::model::Model;
 
 use super::robot;
 
-/// All kinds of blocks, shelf by shelf.
+/// All kinds of blocks, category by category.
 #[must_use]
 pub fn kinds() -> Vec<&'static Kind> {
     let of_library = library::all().map(|item| item.kind);
@@ -21,7 +21,7 @@ pub fn kinds() -> Vec<&'static Kind> {
     kinds
 }
 
-/// The reference as Markdown: a section a shelf, in it a section a block.
+/// The reference as Markdown: a section for each category, in it a section for each block.
 #[must_use]
 pub fn reference() -> String {
     let mut text = String::from(
@@ -30,10 +30,10 @@ pub fn reference() -> String {
          stand in quotes. Most blocks work component by component: their inputs and parameters are single numbers, which then stand for all \
          components, or vectors of one length.\n",
     );
-    let mut shelf: Option<Category> = None;
+    let mut category: Option<Category> = None;
     for kind in kinds() {
-        if shelf != Some(kind.category) {
-            shelf = Some(kind.category);
+        if category != Some(kind.category) {
+            category = Some(kind.category);
             let _ = write!(text, "\n## {}\n", kind.category.title());
         }
         text.push_str(&section(kind));

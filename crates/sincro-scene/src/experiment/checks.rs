@@ -13,7 +13,7 @@ use crate::document::{Document, escape};
 use crate::folder::Folder;
 use crate::series::{self, Query};
 
-/// What rows are lined up along.
+/// Key along which rows are aligned.
 pub(super) enum Keys {
     /// Times of a run.
     Run(Grid),
@@ -27,7 +27,7 @@ pub(super) struct CheckReader<'a> {
     pub folder: &'a Folder,
     pub parameters: Arc<[(String, f64)]>,
     pub keys: Keys,
-    /// Whether to refuse what looks where nothing is recorded.
+    /// True if checks of times without recorded rows are refused.
     pub check_times: bool,
     pub diagnostics: &'a mut Diagnostics,
 }
@@ -153,7 +153,7 @@ impl CheckReader<'_> {
         }
     }
 
-    /// How measured and expected are compared, and the tolerance; none, with a problem noted, if it is missing.
+    /// Comparison and tolerance; none, with a diagnostic, if they are missing.
     fn sense(&mut self, file: &CheckFile, pointer: &str) -> (Sense, Option<f64>) {
         let bound = match (&file.at_most, &file.at_least) {
             (Some(_), _) => Some((Sense::AtMost, "at_most")),
@@ -179,7 +179,7 @@ impl CheckReader<'_> {
         (sense, Some(0.0))
     }
 
-    /// Where the step of a measure ends, if that is given; refuses keys that belong to other measures.
+    /// Final value of the step of a measure, if given; refuses keys that belong to other measures.
     fn step_response(&mut self, file: &CheckFile, pointer: &str) -> Option<f64> {
         let measure = Measure::from(file.measure);
         let given = [
@@ -316,7 +316,7 @@ impl CheckReader<'_> {
 }
 
 impl Keys {
-    /// Why nothing is recorded at `at`, and what would be.
+    /// Reason for which nothing is recorded at `at`, with advice.
     fn refuse_at(&self, at: f64) -> Option<(String, String)> {
         match self {
             Self::Run(grid) if !grid.contains(at) => Some((
@@ -336,7 +336,7 @@ impl Keys {
         }
     }
 
-    /// Why a window shows nothing, or reaches too far.
+    /// Reason for which a window is empty, or reaches too far.
     fn refuse_window(&self, from: f64, to: f64) -> Option<(String, String)> {
         if from > to {
             return Some((

@@ -18,19 +18,19 @@ pub struct StopWhen {
     pub bound: f64,
 }
 
-/// Where a run ends.
+/// Side of a bound on which a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Above the bound.
     Above,
     /// Below it.
     Below,
-    /// Where the magnitude is above it.
+    /// The magnitude is above it.
     Beyond,
 }
 
 impl StopWhen {
-    /// Whether a value lies where the run ends.
+    /// Returns true if a value lies where the run ends.
     #[must_use]
     pub fn is_reached(&self, x: f64) -> bool {
         match self.side {

@@ -44,11 +44,11 @@ pub enum Probe {
     AppliedTorque(usize),
     /// Component of a frame's quantity in the world.
     Frame(FrameQuantity, usize, usize),
-    /// Of the whole world.
+    /// Energy of the whole world.
     Energy(EnergyQuantity),
     /// Component 0–2 of the angular, 3–5 of the linear momentum.
     Momentum(usize),
-    /// Of a rotor.
+    /// Quantity of a rotor.
     Rotor(RotorQuantity, usize),
     /// Component of the force of a drag element, world axes.
     Drag(usize, usize),
@@ -58,9 +58,9 @@ pub enum Probe {
     Contact(ContactQuantity, usize, usize),
     /// Torque of the stops of a joint.
     LimitTorque(usize),
-    /// How far a closure is open.
+    /// Constraint residual of a closure.
     Opening(usize),
-    /// What a degree of freedom of a force sensor holds.
+    /// Constraint force of a degree of freedom of a force sensor.
     Reaction(usize),
     /// Value of a sensor, as it was last sampled.
     Sensor(usize),
@@ -70,7 +70,7 @@ pub enum Probe {
     FloatSignal(usize),
 }
 
-/// What stands before the name of a float signal of scripts and clients in `record`.
+/// Prefix of the name of a float signal of scripts and clients in `record`.
 const FLOAT_SIGNAL: &str = "float_signal.";
 
 /// Names of the float signals among recorded names, in their order.
@@ -78,10 +78,10 @@ pub fn float_signals(names: &[Located<String>]) -> impl Iterator<Item = &str> {
     names.iter().filter_map(|name| name.value.strip_prefix(FLOAT_SIGNAL)).filter(|name| !name.is_empty())
 }
 
-/// What can be read of a rotor.
+/// Quantity of a rotor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RotorQuantity {
-    /// What it turns at [rad/s].
+    /// Speed [rad/s].
     Speed,
     /// Force along its axis `[N]`.
     Thrust,
@@ -91,11 +91,11 @@ pub enum RotorQuantity {
     Inflow,
     /// Power of the shaft `[W]`.
     Power,
-    /// Whether its law holds: 1, else 0.
+    /// Validity of its law: 1 if it holds, else 0.
     Valid,
 }
 
-/// What can be read of a frame.
+/// Quantity of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameQuantity {
     /// Origin `[m]`.
@@ -104,19 +104,19 @@ pub enum FrameQuantity {
     Quaternion,
     /// Roll, pitch, yaw `[rad]`.
     Angles,
-    /// Of the origin [m/s].
+    /// Velocity of the origin [m/s].
     Velocity,
     /// [rad/s]
     AngularVelocity,
-    /// Of the origin [m/s²].
+    /// Acceleration of the origin [m/s²].
     Acceleration,
-    /// Of a body `[m]`.
+    /// Centre of mass of a body `[m]`.
     CenterOfMass,
-    /// Of the air at the origin [m/s].
+    /// Velocity of the air at the origin [m/s].
     Wind,
 }
 
-/// What can be read of the energy.
+/// Quantity of the energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum EnergyQuantity {

@@ -19,7 +19,7 @@ use crate::document::Document;
 const UNIT: MassProperties =
     MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 1.0] };
 
-/// Whether a body has shapes that others touch and nothing that says what it weighs: then it must be fixed in the world.
+/// Returns true if a body has contact shapes and no mass properties: it must then be fixed in the world.
 pub(super) fn is_fixture(file: &BodyFile) -> bool {
     let weighs = file.mass.is_some() || file.density.is_some() || file.inertia.is_some();
     let densities = file.shape.iter().any(|s| s.density.is_some());
@@ -104,7 +104,7 @@ pub(super) fn mass(
     judge.mass().unwrap_or(UNIT)
 }
 
-/// What encloses a volume.
+/// Solid that encloses a volume.
 enum Solid<'a> {
     Shape(&'a ShapeInstance),
     Mesh(&'a MeshInstance),

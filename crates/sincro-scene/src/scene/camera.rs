@@ -54,7 +54,7 @@ pub(crate) struct CameraFile {
     pub external_input: Option<bool>,
 }
 
-/// What the pictures of a camera are like that clients and scripts read.
+/// Settings of the images of a camera that clients and scripts read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VisionSensor {
     /// Pixels, lens, where they begin and end.
@@ -75,7 +75,7 @@ fn field_of_view() -> f64 {
     38.0
 }
 
-/// What its pictures are like, if it has any; notes what cannot be.
+/// Settings of its images, if it has any; reports those that are not valid.
 pub(super) fn sensor(
     file: &CameraFile,
     pointer: &str,

@@ -25,7 +25,7 @@ const CLOSED: f64 = 1e-6;
 /// Overlap at the start that is put down to rounding of figures in the file `[m]`.
 const OVERLAP: f64 = 1e-9;
 
-/// What a body touches others with.
+/// Contact geometry and material of a body.
 #[derive(Default)]
 pub(super) struct Skin {
     pub material: Option<Material>,

@@ -1,4 +1,4 @@
-//! Where a scene starts: coordinates and velocities of its joints.
+//! Initial state of a scene: coordinates and velocities of its joints.
 
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
@@ -86,7 +86,7 @@ fn numbers(n: usize) -> String {
     if n == 1 { "1 number".into() } else { format!("{n} numbers") }
 }
 
-/// What the numbers of a joint are, in words.
+/// Description of the coordinates of a joint.
 fn layout(kind: &JointKind, key: &str) -> String {
     let words = match (kind, key) {
         (JointKind::Universal { .. }, "position") => "the two angles [rad]",

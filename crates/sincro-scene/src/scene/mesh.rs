@@ -17,7 +17,7 @@ use crate::document::Document;
 use crate::folder::Folder;
 
 /// Flaws of one mesh that are told one by one.
-const TOLD: usize = 4;
+const MAX_REPORTED: usize = 4;
 
 /// Corners of a hull beyond which contact would take too long: each may touch.
 const MAX_HULL: usize = 512;
@@ -55,7 +55,7 @@ impl MeshInstance {
         own.placed(&self.pose.rot, self.pose.pos)
     }
 
-    /// What it touches others with.
+    /// Contact surface.
     pub fn surface(&self) -> Surface {
         if self.is_convex {
             return Surface::Hull(self.mesh.corners.clone());
@@ -137,7 +137,7 @@ fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Diagnostic> {
 }
 
 /// Largest mesh file that is read for clients and scripts.
-const MOST_BYTES: u64 = 64 << 20;
+const MAX_BYTES: u64 = 64 << 20;
 
 /// The triangles of a mesh file; what is wrong, in a sentence.
 ///
@@ -146,8 +146,8 @@ const MOST_BYTES: u64 = 64 << 20;
 /// The file cannot be read, is too large, or is no mesh.
 pub fn mesh_of_file(path: &Path) -> Result<Triangles, String> {
     let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
-    if size > MOST_BYTES {
-        return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MOST_BYTES >> 20));
+    if size > MAX_BYTES {
+        return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MAX_BYTES >> 20));
     }
     let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
     triangles_of(&bytes, path).map_err(|diagnostic| diagnostic.message)
@@ -173,13 +173,13 @@ fn closed(mesh: Triangles, named: &Located<String>) -> Result<Triangles, Vec<Dia
     if flaws.is_empty() {
         return Ok(mesh);
     }
-    let told = flaws.iter().take(TOLD).map(|flaw| {
+    let told = flaws.iter().take(MAX_REPORTED).map(|flaw| {
         let (message, help) = words(flaw);
         Diagnostic::error(&named.at, format!("the mesh `{}` {message}", named.value)).with_help(help)
     });
     let mut diagnostics: Vec<Diagnostic> = told.collect();
-    if let Some(last) = diagnostics.last_mut().filter(|_| flaws.len() > TOLD) {
-        last.message += &format!(" (and {} flaws more)", flaws.len() - TOLD);
+    if let Some(last) = diagnostics.last_mut().filter(|_| flaws.len() > MAX_REPORTED) {
+        last.message += &format!(" (and {} flaws more)", flaws.len() - MAX_REPORTED);
     }
     Err(diagnostics)
 }

@@ -72,14 +72,14 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
     pub scripts: Vec<Script>,
-    /// What the user should know of.
+    /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
     /// Made when somebody looks first.
     scenery: OnceLock<Scenery>,
 }
 
 impl Scene {
-    /// What of it can be seen.
+    /// Visible geometry.
     #[must_use]
     pub fn scenery(&self) -> &Scenery {
         self.scenery.get_or_init(|| pieces::scenery_of(self))
@@ -98,7 +98,7 @@ impl Scene {
     }
 }
 
-/// What the builder is told of an object.
+/// Specification of an object for the builder.
 enum Spec {
     Joint(JointSpec, Option<Signal>),
     Body(BodySpec, Vec<ShapeInstance>, contact::Skin),
@@ -217,7 +217,7 @@ fn force(file: &ForceFile, pointer: &str, signals: &mut SignalReader<'_>) -> For
     }
 }
 
-/// What of a surface only something fixed in the world can have, and what else to do.
+/// Property of a surface that requires a body fixed in the world, with advice.
 fn only_fixed(surface: &Surface) -> Option<(&'static str, &'static str)> {
     match surface {
         Surface::HalfSpace => Some(("a plane", "planes are fixed in the world; use a cuboid, or hang the body on `/`")),

@@ -1,4 +1,4 @@
-//! Where things stand: position and rotation as written, to a pose.
+//! Placement: position and rotation as written, to a pose.
 
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::elementary::sin_cos;

@@ -77,7 +77,7 @@ pub(crate) struct PyramidFile {
     pub far_size: Option<[f64; 2]>,
 }
 
-/// What it measures; none, with the reason noted, if it has no volume.
+/// Kind of the sensor; none, with a diagnostic, if it has no volume.
 pub(super) fn kind(
     file: &ProximityFile,
     name: &str,
@@ -123,7 +123,7 @@ pub(super) fn kind(
     None
 }
 
-/// Whether anything of an object can be seen.
+/// Returns true if anything of an object can be seen.
 fn is_visible(object: &Object) -> bool {
     !(object.shapes.is_empty() && object.surfaces.is_empty())
 }

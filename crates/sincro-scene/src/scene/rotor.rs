@@ -155,7 +155,7 @@ fn torque_column() -> String {
     "c_Q".into()
 }
 
-/// What is known of a rotor before the tree is built: its joint is a path still.
+/// Rotor before the tree is built: its joint is still a path.
 pub(super) struct RotorMade {
     pub law: RotorLaw,
     pub density: f64,
@@ -237,7 +237,7 @@ impl Judge<'_, '_> {
         }
     }
 
-    /// What was made, or its reasons not to, each at the key that it begins with.
+    /// Returns the value, or reports its errors, each at the key that it begins with.
     fn or_note<T>(&mut self, table: &str, made: Result<T, Vec<String>>) -> Option<T> {
         let document = self.signals.document;
         let reasons = match made {

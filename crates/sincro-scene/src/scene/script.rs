@@ -43,7 +43,7 @@ fn word(kind: Kind) -> &'static str {
     }
 }
 
-/// What the language says of the texts.
+/// Checks the texts with the parser of the language.
 fn check(scripts: &[Script], parser: Option<&dyn ScriptParser>, diagnostics: &mut Diagnostics) {
     let Some(first) = scripts.first() else { return };
     let Some(parser) = parser else {

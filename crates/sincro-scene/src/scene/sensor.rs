@@ -155,7 +155,7 @@ pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], diagnost
     }
 }
 
-/// What it measures; none, with the reason noted, if it cannot be.
+/// Specification of the sensor; none, with a diagnostic, if it is not valid.
 pub(super) fn spec(
     file: &SensorFile,
     path: &str,

@@ -159,7 +159,7 @@ fn one() -> f64 {
     1.0
 }
 
-/// Where a signal stands, for whatever is wrong with it.
+/// Reader of a signal at a location, for its diagnostics.
 pub(crate) struct SignalReader<'a> {
     pub document: &'a Document,
     pub folder: &'a Folder,

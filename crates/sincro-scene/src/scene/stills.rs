@@ -54,13 +54,13 @@ impl Camera {
         Self { model: scene.model.clone(), sensor, frame, scenery, scratch, renderer: Renderer::new(), image }
     }
 
-    /// How it draws.
+    /// Optics of the camera.
     #[must_use]
     pub fn optics(&self) -> &Optics {
         &self.sensor.optics
     }
 
-    /// What it sees at coordinates `q`.
+    /// Renders the image at coordinates `q`.
     pub fn look(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);

@@ -65,7 +65,7 @@ pub(super) struct PlaceInTree {
 }
 
 impl Entry<'_> {
-    /// Where its frame stands in its parent's.
+    /// Placement of its frame in its parent's.
     pub fn placement(&self) -> Placement {
         match self.file {
             AnyFile::Joint(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),

@@ -137,7 +137,7 @@ mod tests {
         assert!(no_null(scene_schema()) && no_null(experiment_schema()) && no_null(diagram_schema()));
     }
 
-    /// Of every number the schema says what it is measured in, or that it has no unit by its description alone.
+    /// The schema states the unit of every number, or that it has none by its description alone.
     #[test]
     fn every_property_is_described() {
         fn visit(value: &Value, path: &str) {

@@ -15,7 +15,7 @@ use crate::results::{
     ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
     SweepReport, VariantReport,
 };
-use crate::run::{Manner, RunError, Simulated, Watch, method_word, simulate};
+use crate::run::{RunError, RunMonitor, RunOptions, Simulated, method_word, simulate};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::trace::model_hash;
@@ -28,13 +28,13 @@ use sincro_scene::scene::{ObjectKind, Scene};
 /// One run of a campaign with its judgement.
 #[derive(Clone, Debug)]
 pub struct Done {
-    /// What came out.
+    /// Result of the run.
     pub simulated: Simulated,
     /// Columns with their error bars.
     pub columns: Vec<ColumnReport>,
     /// Its checks.
     pub outcomes: Vec<Outcome>,
-    /// How it was run.
+    /// Settings of the run.
     pub settings: Settings,
     /// Hash of its model.
     pub model_hash: String,
@@ -142,10 +142,10 @@ fn one_run(
     let (scene, experiment) = (&loaded.scene, &loaded.experiment);
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
-    let mut watch = Watch { interrupt, progress: &mut tell };
-    let simulated = simulate(loaded, Manner { csv, variant, refined: false, films: true }, &mut watch)?;
+    let mut monitor = RunMonitor { interrupt, progress: &mut tell };
+    let simulated = simulate(loaded, RunOptions { csv, variant, refined: false, keyframes: true }, &mut monitor)?;
     let columns = match simulated.status {
-        Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
+        Status::Completed => refine::columns(loaded, &simulated, &mut monitor)?,
         _ => ColumnReport::of_table(&simulated.table),
     };
     let stopped = simulated.status.stopped_at();
@@ -193,7 +193,7 @@ fn run_sweep(
     let point = |value: f64| -> Result<Simulated, RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
         let at = load(folder, &settings, loaded.extensions)?;
-        simulate(&at, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
+        simulate(&at, RunOptions::default(), &mut RunMonitor { interrupt, progress: &mut |_| {} })
     };
     let next = std::sync::atomic::AtomicUsize::new(0);
     let mut points: Vec<Option<Result<Simulated, RunError>>> = (0..n).map(|_| None).collect();

@@ -53,7 +53,7 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// Why a row of a sweep has no values, if it has none.
+    /// Stop of the run of a row of a sweep, if it has no values.
     pub(super) fn stop_of(&self, row_idx: usize) -> Option<&'a SweepStop> {
         match &self.kind {
             Kind::Run { .. } => None,
@@ -99,7 +99,7 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// How the run ended: `the run stopped at t = 0.5 s`.
+    /// End of the run in words: `the run stopped at t = 0.5 s`.
     pub(super) fn ending(&self) -> String {
         match (self.stopped(), self.keys().last()) {
             (Some(time), _) => format!("the run stopped at {}", self.place(time)),

@@ -25,12 +25,12 @@ pub(super) struct Measured {
     pub(super) row: Option<usize>,
 }
 
-/// What a step response is measured against.
+/// Parameters of the measures of a step response.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepShape {
-    /// Where the step ends; the last value if not given.
+    /// Final value of the step; the last value if not given.
     pub(super) target: Option<f64>,
-    /// Of the settling time, as a share of the step's height.
+    /// Band of the settling time, relative to the step's height.
     pub(super) band: f64,
 }
 
@@ -119,13 +119,13 @@ fn settling_time(keys: &[f64], shares: &[f64], band: f64) -> f64 {
     }
 }
 
-/// Where the line from a row to the next passes a level.
+/// Key at which the line from a row to the next passes a level.
 fn crossing(keys: &[f64], values: &[f64], row: usize, level: f64) -> f64 {
     let along = (level - values[row]) / (values[row + 1] - values[row]);
     keys[row] + along * (keys[row + 1] - keys[row])
 }
 
-/// Where the greatest value stands: the first of equals, and the first NaN before any number.
+/// Index of the greatest value: the first of equals, and the first NaN before any number.
 pub(super) fn greatest(values: &[f64]) -> usize {
     first_best(values, |value, best| value > best)
 }

@@ -1,4 +1,4 @@
-//! Whether a run gave what it must: each [`Check`] of an experiment against the recorded rows.
+//! Evaluation of checks: each [`Check`] of an experiment against the recorded rows.
 //!
 //! | which rows | |
 //! |---|---|
@@ -43,26 +43,26 @@ pub struct Outcome {
     pub name: String,
     /// The judgement.
     pub verdict: Verdict,
-    /// What was compared with what, in words: `greatest value of /shoulder.position against 0.2`.
+    /// Description of the comparison: `greatest value of /shoulder.position against 0.2`.
     pub about: String,
     /// The value measured, for `error` that of the worst row; none if the check was not made.
     pub measured: Option<f64>,
     /// The value expected at the same place.
     pub expected: Option<f64>,
-    /// Whether the expected value is a bound.
+    /// True if the expected value is a bound.
     pub sense: Sense,
     /// |measured − expected|, divided by max(|expected|, floor) if `relative`; how far beyond a bound; may be infinite or NaN, which
     /// never holds.
     pub deviation: Option<f64>,
     /// Largest deviation that holds.
     pub limit: f64,
-    /// Whether deviation and limit are relative, hence without unit.
+    /// True if deviation and limit are relative, hence without unit.
     pub relative: bool,
     /// Unit of measured and expected; empty where it is not known (formulas).
     pub unit: String,
-    /// Where the measured value stands, if it is that of a row: time `[s]`; in a sweep, the value of the parameter.
+    /// Key of the measured value, if it is that of a row: time `[s]`; in a sweep, the value of the parameter.
     pub at: Option<f64>,
-    /// How many rows entered.
+    /// Number of rows that entered.
     pub n_rows: usize,
     /// The recorded signal that was measured as it is; none for formulas.
     pub signal: Option<String>,
@@ -86,7 +86,7 @@ pub enum Verdict {
 pub struct Series {
     /// Times `[s]`, or values of the parameter.
     pub times: Vec<f64>,
-    /// What is expected there.
+    /// Expected values.
     pub values: Vec<f64>,
 }
 
@@ -222,7 +222,7 @@ fn compare_numbers(
     })
 }
 
-/// How far a value is from holding: the deviation; for a bound with its sign, negative where it holds.
+/// Deviation of a value; for a bound with its sign, negative where it holds.
 fn excess(check: &Check, measured: f64, expected: f64) -> f64 {
     let difference = match check.sense {
         Sense::Equal => (measured - expected).abs(),
@@ -235,7 +235,7 @@ fn excess(check: &Check, measured: f64, expected: f64) -> f64 {
     difference / expected.abs().max(check.floor)
 }
 
-/// What cannot be reached has no distance: an infinite value is beyond every bound.
+/// Absolute or relative deviation; an infinite value is beyond every bound.
 fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
     let excess = excess(check, measured, expected);
     match measured.is_infinite() {
@@ -245,7 +245,7 @@ fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
     }
 }
 
-/// What is expected, row by row, where a plot can show it.
+/// Expected series, row by row, if a plot can show it.
 fn overlay(check: &Check, along: &Along) -> Option<Series> {
     if check.measure != Measure::Error || check.sense != Sense::Equal {
         return None;

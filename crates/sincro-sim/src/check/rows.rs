@@ -70,7 +70,7 @@ fn no_row_at(along: &Along, at: f64) -> String {
     }
 }
 
-/// Whether the rows a check needs were recorded to the last.
+/// Checks that the rows a check needs were recorded to the last.
 fn covered(check: &Check, along: &Along) -> Result<(), String> {
     if along.is_sweep() || check.at.is_some() {
         return Ok(());
@@ -136,7 +136,7 @@ fn matched(check: &Check, along: &Along, reference: &Reference, span: Range<usiz
     Ok(rows)
 }
 
-/// Whether each point of a sweep that lies between the first and the last row of a reference falls on one of its rows.
+/// Returns true if each point of a sweep that lies between the first and the last row of a reference falls on one of its rows.
 fn every_point_is_a_row(along: &Along, reference: &Reference, mut span: Range<usize>, matched: &[usize]) -> bool {
     let (Some(first), Some(last)) = (reference.keys.first(), reference.keys.last()) else { return false };
     let between = |key: f64| key >= first - along.tolerance && key <= last + along.tolerance;

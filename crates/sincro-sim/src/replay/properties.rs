@@ -26,13 +26,13 @@ pub struct Property {
     pub owner: String,
     /// As `--set` takes it: `/arm/link.mass`.
     pub path: String,
-    /// What is behind the owner: `mass`, `inertia.xx`.
+    /// Key relative to the owner: `mass`, `inertia.xx`.
     pub key: String,
     /// Its value.
     pub value: f64,
     /// Its unit; empty if the format says none.
     pub unit: String,
-    /// What it is; may be empty.
+    /// Description; may be empty.
     pub about: String,
     /// Where it stands.
     #[serde(skip)]
@@ -155,9 +155,9 @@ struct Walk<'a> {
     document: &'a Document,
     root: &'a Value,
     owner: &'a str,
-    /// What stands before the key in a path.
+    /// Prefix of the key in a path.
     prefix: &'a str,
-    /// Whether of two units the second one holds: that of what slides.
+    /// True if the second of two units applies: that of prismatic joints.
     second_unit: bool,
     found: &'a mut Vec<Property>,
 }

@@ -21,7 +21,7 @@ impl Streams {
     }
 
     /// After row `n_rows` was recorded.
-    pub fn look(&mut self, controllers: &mut [Box<dyn Controller>], n_rows: usize) {
+    pub fn update(&mut self, controllers: &mut [Box<dyn Controller>], n_rows: usize) {
         self.values.resize_with(controllers.len(), Vec::new);
         for (controller, streams) in controllers.iter_mut().zip(&mut self.values) {
             for cleared in controller.take_cleared_streams() {

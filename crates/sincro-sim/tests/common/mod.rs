@@ -137,7 +137,7 @@ impl Drop for TestFolder {
     }
 }
 
-/// What is said of a folder in which one file was changed.
+/// Diagnostics of a folder in which one file was changed.
 pub fn refused(file: &str, from: &str, to: &str) -> String {
     let folder = TestFolder::new();
     folder.change(file, from, to);

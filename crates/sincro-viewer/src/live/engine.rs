@@ -15,25 +15,25 @@ use sincro_sim::{Extensions, load, load_alone};
 use super::board::{Board, RunLog};
 use super::command::Command;
 use super::track::{Taken, Track};
-use crate::film::{FORMAT, Film, plots};
+use crate::replay::{FORMAT, Replay, plots};
 use crate::save::save_scene;
 
 /// Commands that may wait.
-const MOST_WAITING: usize = 64;
+const MAX_WAITING: usize = 64;
 /// Memory for the snapshots of all runs: 256 MB. What does not fit is thinned in time.
 const SNAPSHOT_BYTES: usize = 256 << 20;
-/// How long it computes at a stretch before it looks for commands.
+/// Wall time of computation between two reads of commands.
 const STRETCH: Duration = Duration::from_millis(8);
-/// How long it sleeps when it is ahead of the clock.
+/// Time of sleep when it is ahead of the clock.
 const NAP: Duration = Duration::from_millis(4);
 
-/// What is to be run.
+/// Source of a live run.
 pub struct Source {
     /// The scene's folder.
     pub folder: PathBuf,
-    /// What is set against its files.
+    /// Overrides of its files.
     pub settings: Vec<Override>,
-    /// What the scene may need beyond its files: language of scripts.
+    /// Extensions that the scene may need beyond its files: language of scripts.
     pub extensions: Extensions,
     /// Makes the drawing of a diagram.
     pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
@@ -58,7 +58,7 @@ impl Engine {
     /// Everything that is wrong with the scene.
     pub fn open(source: Source) -> Result<Self, Diagnostics> {
         let loaded = load(&source.folder, &source.settings, source.extensions)?;
-        let film = Film {
+        let replay = Replay {
             format: FORMAT,
             title: loaded.experiment.title.clone(),
             description: loaded.experiment.description.clone(),
@@ -71,7 +71,7 @@ impl Engine {
             diagram: loaded.controller.as_ref().map(|c| (source.draw)(c)),
             runs: Vec::new(),
         };
-        let board = Arc::new(Board::new(film.to_json()));
+        let board = Arc::new(Board::new(replay.to_json()));
         let first = Track::new(loaded, source.settings.clone())?;
         let since = (Instant::now(), 0.0);
         let mut engine = Self { source, board, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
@@ -79,7 +79,7 @@ impl Engine {
         Ok(engine)
     }
 
-    /// What viewers read.
+    /// Board that viewers read.
     #[must_use]
     pub fn board(&self) -> Arc<Board> {
         self.board.clone()
@@ -88,7 +88,7 @@ impl Engine {
     /// Starts the engine's thread; it ends when the last sender is gone.
     #[must_use]
     pub fn start(mut self) -> SyncSender<Command> {
-        let (sender, receiver) = sync_channel(MOST_WAITING);
+        let (sender, receiver) = sync_channel(MAX_WAITING);
         std::thread::spawn(move || self.run(&receiver));
         sender
     }

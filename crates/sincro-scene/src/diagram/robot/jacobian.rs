@@ -50,7 +50,7 @@ pub(super) const ITEM: Item = Item {
 };
 
 impl Jacobian {
-    /// Of the frame with this number in the model's names.
+    /// Creates the block for the frame with this number in the model's names.
     #[must_use]
     pub fn new(context: &Context, frame: usize, rows: Rows) -> Self {
         Self { model: context.model.clone(), frame, rows }

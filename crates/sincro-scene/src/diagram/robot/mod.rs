@@ -26,7 +26,7 @@ pub use inverse_dynamics::InverseDynamics;
 pub use jacobian::{Jacobian, Rows as JacobianRows};
 pub use mass_matrix::MassMatrix;
 
-/// What robot blocks are made with.
+/// Context from which robot blocks are created.
 #[derive(Clone, Debug)]
 pub struct Context {
     /// Parser of laws that are written in a script's language, if this program has one.
@@ -46,7 +46,7 @@ pub struct Item {
 
 /// All blocks that are made here and not in the library.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    const SHELF: &[Item] = &[
+    const ROBOT_BLOCKS: &[Item] = &[
         forward_kinematics::ITEM,
         jacobian::ITEM,
         inverse_dynamics::ITEM,
@@ -54,7 +54,7 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
         mass_matrix::ITEM,
         super::lua::ITEM,
     ];
-    SHELF.iter()
+    ROBOT_BLOCKS.iter()
 }
 
 /// The block of a name.
