@@ -71,7 +71,8 @@ fn a_diagram_in_rust_and_in_toml_are_the_same() {
     assert_eq!(hash_of(&loaded, MethodKind::DormandPrince), in_toml);
 }
 
-/// Damping written as a continuous block and as a property of the joint: the same motion, to the tolerance of the integrator.
+/// Damping written as a continuous block and as a property of the joint: the same motion, to the tolerance of the
+/// integrator.
 #[test]
 fn a_continuous_block_is_integrated_with_the_world() {
     let run = |set: &[(&str, &str)], damped: bool| -> Vec<f64> {

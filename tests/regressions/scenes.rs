@@ -1,7 +1,7 @@
 //! Every scene folder: all checks of the run, its variants and its sweep hold, and the trace hash is the committed one.
 //!
-//! The hash is the same in debug and release builds and on every machine; `SINCRO_BLESS=1` writes the file anew after a change that
-//! is meant to move trajectories (which `CHANGELOG.md` then tells under Trajectories).
+//! The hash is the same in debug and release builds and on every machine; `SINCRO_BLESS=1` writes the file anew after a
+//! change that is meant to move trajectories (which `CHANGELOG.md` then tells under Trajectories).
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

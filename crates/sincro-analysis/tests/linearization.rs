@@ -126,8 +126,8 @@ fn a_closed_loop_has_the_states_of_its_controller() {
     let (_, linear) = at_start(&loaded, &request);
     assert_eq!(linear.system.n_states(), 8);
     assert!(linear.notes[0].contains("sampled blocks hold"), "{:?}", linear.notes);
-    // the velocity loop has integral action: a speed asked for is reached, whatever the inertia
-    // (the coordinates integrate, so that A is singular, but neither speed nor torque depends on them: they do not enter the channel)
+    // the velocity loop has integral action: a speed asked for is reached, whatever the inertia (the coordinates
+    // integrate, so that A is singular, but neither speed nor torque depends on them: they do not enter the channel)
     let gain = linear.system.gain(0, 0).unwrap();
     assert!((gain - 1.0).abs() < 1e-12, "{gain}");
     let slowest = linear.system.poles().iter().map(|p| p.pole.re).fold(f64::NEG_INFINITY, f64::max);

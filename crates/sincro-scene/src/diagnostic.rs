@@ -1,7 +1,7 @@
 //! Diagnostics of the files of a scene, with their locations: one type for every reader, from TOML syntax to physics.
 //!
-//! A [`Diagnostic`] points at bytes of a [`SourceText`]; [`Diagnostics`] are all that were found, in the order of the files. The
-//! plain rendering is here; the command line draws prettier ones from the same data.
+//! A [`Diagnostic`] points at bytes of a [`SourceText`]; [`Diagnostics`] are all that were found, in the order of the
+//! files. The plain rendering is here; the command line draws prettier ones from the same data.
 
 use std::fmt;
 use std::ops::Range;

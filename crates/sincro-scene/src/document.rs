@@ -1,8 +1,8 @@
 //! A TOML text as a JSON tree that remembers where everything was written.
 //!
-//! Positions are kept beside the tree, by JSON pointer (`/joint/0/spring/stiffness`), so that findings about structure and
-//! findings about physics are placed alike. What JSON cannot hold (inf, nan, dates) is null in the tree and listed in
-//! [`Document::odd`].
+//! Positions are kept beside the tree, by JSON pointer (`/joint/0/spring/stiffness`), so that findings about structure
+//! and findings about physics are placed alike. What JSON cannot hold (inf, nan, dates) is null in the tree and listed
+//! in [`Document::odd`].
 
 use std::collections::BTreeMap;
 use std::ops::Range;

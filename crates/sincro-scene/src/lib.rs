@@ -1,7 +1,7 @@
 //! Scene, experiment and diagram files: read, checked against their schemas, and compiled.
 //!
-//! [`open::open`] opens a scene folder and reports every problem in it at once; [`scene::from_text`] compiles the text of a scene file alone.
-//! Nothing here advances a world: that is `sincro-sim`.
+//! [`open::open`] opens a scene folder and reports every problem in it at once; [`scene::from_text`] compiles the text
+//! of a scene file alone. Nothing here advances a world: that is `sincro-sim`.
 //!
 //! | modules | hold |
 //! |---|---|

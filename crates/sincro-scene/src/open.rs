@@ -36,8 +36,9 @@ pub struct Opened {
     pub sources: Vec<Arc<SourceText>>,
 }
 
-/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its variants and sweep, too,
-/// so that what is wrong with their settings is known before anything runs. `parser` is that of the language of its scripts.
+/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its
+/// variants and sweep, too, so that what is wrong with their settings is known before anything runs. `parser` is that
+/// of the language of its scripts.
 ///
 /// # Errors
 ///
@@ -77,8 +78,8 @@ pub fn folder_name(path: &Path) -> String {
     whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was said for: a variant
-/// that exchanges the diagram does not take it.
+/// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was
+/// said for: a variant that exchanges the diagram does not take it.
 #[must_use]
 pub fn settings_with(overrides: &[Override], variant: &[Override]) -> Vec<Override> {
     let exchanges = variant.iter().any(|setting| setting.path.value == "diagram");
@@ -128,8 +129,8 @@ fn experiments_below(path: &Path) -> Vec<String> {
     found
 }
 
-/// Returns true if the recorded times are others than those the file was written for. Checks that look between them are then not
-/// refused, they cannot be made: who shortens a run to have a look at it has not made a mistake in the file.
+/// Returns true if the recorded times are others than those the file was written for. Checks that look between them are
+/// then not refused, they cannot be made: who shortens a run to have a look at it has not made a mistake in the file.
 fn sets_times(overrides: &[Override]) -> bool {
     overrides.iter().any(|setting| matches!(setting.path.value.as_str(), "duration" | "step" | "record_every"))
 }
@@ -234,8 +235,8 @@ fn open_scene(
     }
 }
 
-/// The diagram that an experiment names. It is read even if scene or experiment have problems, but connected only to a scene that has
-/// none.
+/// The diagram that an experiment names. It is read even if scene or experiment have problems, but connected only to a
+/// scene that has none.
 fn open_diagram(
     document: &Document,
     folder: &Folder,

@@ -7,8 +7,8 @@
 //! | `step`, `parameters.m`, `sweep.range.to` | a key of the experiment file |
 //! | `pid.kp`, `diagram.step.to` | a parameter of the diagram's block of that name (`diagram.` where the name is also a key above) |
 //!
-//! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out is
-//! filled in.
+//! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out
+//! is filled in.
 
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ impl Override {
     /// If there is no `=`, or nothing before or after it.
     ///
     /// ```
-    /// use crate::overrides::Override;
+    /// use sincro_scene::overrides::Override;
     ///
     /// assert_eq!(Override::parse("/arm.spring.stiffness=30").unwrap().value.value, "30");
     /// assert!(Override::parse("/arm.spring.stiffness").is_err());

@@ -1,5 +1,5 @@
-//! Visible geometry of a scene: every solid and surface of its bodies, its frame and its colour. Proximity and vision sensors (distances,
-//! images) and clients ask it; no step does.
+//! Visible geometry of a scene: every solid and surface of its bodies, its frame and its colour. Proximity and vision
+//! sensors (distances, images) and clients ask it; no step does.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub struct Piece {
     pub object: usize,
     /// Link or world frame to which its frame is fixed.
     pub at: Attached<f64>,
-    /// What it is.
+    /// Its kind.
     pub geometry: Arc<Geometry>,
     /// Red, green, blue.
     pub color: [u8; 3],

@@ -1,6 +1,7 @@
 //! Scripts of a scene: which object each belongs to, its text, its limits; and the parser of their language.
 //!
-//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptParser`], which looks texts over when a scene is loaded.
+//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptParser`], which looks texts over when a scene
+//! is loaded.
 
 use std::fmt;
 use std::sync::Arc;
@@ -24,7 +25,7 @@ pub struct Script {
     pub parameters: Vec<(String, Parameter)>,
     /// Files that it may read, by their names in the scene; their texts as they were when it was loaded.
     pub files: Vec<(String, Arc<SourceText>)>,
-    /// How it is called.
+    /// Calling convention.
     pub style: Style,
     /// Order among the scripts of one object.
     pub kind: Kind,
@@ -60,7 +61,7 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// How a script is called.
+/// Calling convention of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// As its text tells: `New` if it has a function `sysCall_…` after its first run, else `Old`.

@@ -1,8 +1,9 @@
 //! Sensors: places on bodies where something is measured at a rate of its own, with errors.
 //!
-//! A sensor takes a sample at the multiples of its sample time, from the state at the tick and from the accelerations under the commands that
-//! acted up to it: what a controller answers at a tick it cannot have measured at that tick, so that no sensor closes an algebraic loop.
-//! Between samples its values are held. They are recorded and wired under the sensor's path:
+//! A sensor takes a sample at the multiples of its sample time, from the state at the tick and from the accelerations
+//! under the commands that acted up to it: what a controller answers at a tick it cannot have measured at that tick, so
+//! that no sensor closes an algebraic loop. Between samples its values are held. They are recorded and wired under the
+//! sensor's path:
 //!
 //! | sensor | values |
 //! |---|---|
@@ -13,9 +14,9 @@
 //! | `contact` | `.measured_force.x y z` `[N]` of all that touches its body, `.measured_torque.x y z` [N·m] about its origin, own axes; `.touching` 0 or 1; `.points` |
 //! | `proximity` | `.detected` 0 or 1; `.distance` `[m]`, offset and range if nothing is there; `.detected_point.x y z` `[m]`, `.detected_normal.x y z`, own axes |
 //!
-//! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's path, the component and
-//! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
-//! N/√(sample time).
+//! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's
+//! path, the component and k, as in the block `noise`, so that any sample can be computed again on its own. A noise
+//! density N gives samples of standard deviation N/√(sample time).
 
 use sincro_dynamics::geometry::{FieldOfView, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};

@@ -1,7 +1,7 @@
 //! Controllers in lock-step: everything that acts on the world at its own sample time, while the world waits for it.
 //!
-//! [`crate::run::LockStep::advance`] calls them, the diagram first, then those that were attached, in their order. Which of them gives a
-//! command is decided in [`Commands::set`]. A Rust closure is one by [`Law`].
+//! [`crate::run::LockStep::advance`] calls them, the diagram first, then those that were attached, in their order.
+//! Which of them gives a command is decided in [`Commands::set`]. A Rust closure is one by [`Law`].
 
 use std::any::Any;
 use std::fmt;
@@ -44,14 +44,15 @@ pub struct Change {
     pub t: f64,
     /// Path of the object; `/` for the world.
     pub object: String,
-    /// Which number: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling` (ratio, offset), `respondable`, `gravity`.
+    /// Which number: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling`
+    /// (ratio, offset), `respondable`, `gravity`.
     pub quantity: &'static str,
     /// The new numbers, in the units of the scene file.
     pub value: Vec<f64>,
 }
 
-/// Source of a command. A stronger one wins: the scene's signals are the weakest, then the diagram, then controllers in the order in which
-/// they were attached.
+/// Source of a command. A stronger one wins: the scene's signals are the weakest, then the diagram, then controllers in
+/// the order in which they were attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A signal of the scene file.
@@ -138,8 +139,9 @@ pub enum Forked {
 /// | [`write_outputs`](Controller::write_outputs) | once, after the first `measure` | its continuous commands | cannot fail |
 /// | [`finish`](Controller::finish) | once, after the last tick | its own memory | the end of the run is reported as a stop |
 ///
-/// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`] do nothing unless
-/// they are implemented. Nothing in it may depend on a clock or on the order of threads: the same calls give the same bits.
+/// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`]
+/// do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of threads: the same
+/// calls give the same bits.
 pub trait Controller: Any + Send + fmt::Debug {
     /// Name in messages.
     fn name(&self) -> &str;
@@ -168,8 +170,8 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// The commands of the step are latched: its memory becomes that of the next tick.
     fn latched(&mut self, _tick: u64, _t: f64) {}
 
-    /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been made with room
-    /// for its states, as it is for the diagram: a controller that is attached later has none.
+    /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been
+    /// made with room for its states, as it is for the diagram: a controller that is attached later has none.
     fn continuous(&mut self) -> Option<&mut dyn CoupledSystem<f64>> {
         None
     }
@@ -189,7 +191,8 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Evaluates its continuous outputs at the end of the step, before any measurement.
     fn evaluate_outputs(&mut self, _: Instant<'_>) {}
 
-    /// Measurements at a tick, with the values that all sensors gave last; at the start, too. The next commands follow from them.
+    /// Measurements at a tick, with the values that all sensors gave last; at the start, too. The next commands follow
+    /// from them.
     ///
     /// # Errors
     ///
@@ -198,7 +201,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         Ok(())
     }
 
-    /// Writes its continuous outputs as they were last evaluated, so that they are observed at the start, before they act; sampled ones are not written.
+    /// Writes its continuous outputs as they were last evaluated, so that they are observed at the start, before they
+    /// act; sampled ones are not written.
     fn write_outputs(&self, _commands: &mut [f64]) {}
 
     /// After the last tick, if it was started.
@@ -236,7 +240,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         None
     }
 
-    /// Calls `visit` with name, unit and present value of each stream that it records, always in the same order; new ones come last.
+    /// Calls `visit` with name, unit and present value of each stream that it records, always in the same order; new
+    /// ones come last.
     fn streams(&self, _visit: &mut dyn FnMut(&str, &str, f64)) {}
 
     /// Takes the places of streams whose past is to be forgotten.

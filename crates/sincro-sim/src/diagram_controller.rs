@@ -1,8 +1,9 @@
 //! A diagram and a world in one step.
 //!
-//! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
-//! are latched from that instant on ([`Controller::latch`]), and memory is updated ([`Controller::latched`]). Between ticks the diagram is an
-//! [`CoupledSystem`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
+//! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what
+//! depends on accelerations last. The commands are latched from that instant on ([`Controller::latch`]), and memory is
+//! updated ([`Controller::latched`]). Between ticks the diagram is an [`CoupledSystem`] of the world: continuous blocks
+//! see the state the integrator looks at, sampled ones hold.
 
 use std::sync::Arc;
 

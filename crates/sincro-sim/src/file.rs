@@ -35,7 +35,8 @@ impl std::error::Error for FileError {
     }
 }
 
-/// Makes sure that results can be written to a folder: it is created if it is absent, and a file is written into it on trial.
+/// Makes sure that results can be written to a folder: it is created if it is absent, and a file is written into it on
+/// trial.
 ///
 /// To be called before the simulation starts. Files that are there stay until a new one of the same name replaces them.
 ///

@@ -31,8 +31,8 @@ pub struct Loaded {
     pub extensions: Extensions,
 }
 
-/// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and without; none if
-/// there is no operating point.
+/// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and
+/// without; none if there is no operating point.
 pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
 
 /// Language of scripts: parses them when a scene is loaded, and runs them as a controller.
@@ -41,19 +41,21 @@ pub trait ScriptEngine: ScriptParser {
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
 }
 
-/// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to [`load`].
+/// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to
+/// [`load`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extensions {
     /// Language of scripts; without one, a scene that has scripts is refused.
     pub scripts: Option<&'static dyn ScriptEngine>,
-    /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed step.
+    /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed
+    /// step.
     pub fastest_poles: Option<FastestPoles>,
 }
 
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
 ///
-/// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run a
-/// variant, load again with its `set` added to `overrides`.
+/// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run
+/// a variant, load again with its `set` added to `overrides`.
 ///
 /// # Errors
 ///

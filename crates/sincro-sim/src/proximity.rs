@@ -53,8 +53,8 @@ impl Detection {
 }
 
 impl ProximitySensor {
-    /// Returns true if a sensor that is fixed at `at` detects a piece: of those that it names any; if it names none, all but what moves with it, and in the world all
-    /// but what carries it.
+    /// Returns true if a sensor that is fixed at `at` detects a piece: of those that it names any; if it names none,
+    /// all but what moves with it, and in the world all but what carries it.
     #[must_use]
     pub fn admits(&self, at: &Attached<f64>, piece: &Piece) -> bool {
         if !self.with.is_empty() {
@@ -66,7 +66,8 @@ impl ProximitySensor {
         }
     }
 
-    /// The closest point within `most` `[m]` of the pieces that the sensor admits, for a sensor at `x_we` in the world; after the kinematics.
+    /// The closest point within `most` `[m]` of the pieces that the sensor admits, for a sensor at `x_we` in the world;
+    /// after the kinematics.
     pub fn detect<'a>(
         &self,
         x_we: &Pose<f64>,

@@ -83,7 +83,8 @@ impl Sensors {
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
     }
 
-    /// Updates the proximity sensors that are due, before scripts sense, as in V-REP, and passes the detections to the controllers. Geometry that controllers have added to the scene is detected, too.
+    /// Updates the proximity sensors that are due, before scripts sense, as in V-REP, and passes the detections to the
+    /// controllers. Geometry that controllers have added to the scene is detected, too.
     pub fn update_proximity_sensors(
         &mut self,
         world: &mut World,
@@ -200,7 +201,8 @@ impl Sensor {
         y[5..8].copy_from_slice(&found.normal.0);
     }
 
-    /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that press with more than `threshold`.
+    /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that
+    /// press with more than `threshold`.
     fn touch(
         &self,
         seen: &StateView<'_, f64>,

@@ -1,8 +1,8 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
-//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error control of the
-//! integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the three of the diagram's state (if there is one), and a checksum of
-//! all that.
+//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error
+//! control of the integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the three of the
+//! diagram's state (if there is one), and a checksum of all that.
 
 use std::fmt;
 use std::hash::Hasher;

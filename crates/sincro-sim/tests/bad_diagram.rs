@@ -341,13 +341,13 @@ const CASES: &[(&[&str], &str, &str)] = &[
         &["a -> x"],
         "a constant value = 1\nx integrator sample_time = 0.01",
         r##"diagram.toml:11:15: error: `x` is a continuous block (integrator) and cannot have a sample time
-  help: leave `sample_time` out, or use a block of the discrete shelf"##,
+  help: leave `sample_time` out, or use a block of the discrete category"##,
     ),
     (
         &["a -> x"],
         "a constant value = 1\nx transfer-function numerator = [1]; denominator = [1, 1]; sample_time = 0.01",
         r##"diagram.toml:13:15: error: `x` is a continuous block (transfer-function) and cannot have a sample time
-  help: leave `sample_time` out, or use a block of the discrete shelf"##,
+  help: leave `sample_time` out, or use a block of the discrete category"##,
     ),
     (
         &["one -> a.u1", "c -> a.u2", "a -> b -> c"],
@@ -788,7 +788,7 @@ diagram.toml:8:8: error: `u` is a port of the diagram and a block in it
     (
         "sample_time = 0.01\nwires = [\"one -> x\"]\n[[block]]\nname = \"one\"\ntype = \"constant\"\nvalue = 1\n[[block]]\nname = \"x\"\ntype = \"integrator\"\n",
         r##"diagram.toml:1:15: error: `x` is a continuous block (integrator) and cannot have a sample time
-  help: leave `sample_time` out, or use a block of the discrete shelf"##,
+  help: leave `sample_time` out, or use a block of the discrete category"##,
     ),
     (
         "[[block]]\nname = \"x\"\ntype = \"a\"\nsample_time = 0.025\n[[diagram]]\nname = \"a\"\nsample_time = 0.01\n[[diagram.block]]\nname = \"c\"\ntype = \"clock\"\n",
@@ -800,7 +800,7 @@ diagram.toml:8:8: error: `u` is a port of the diagram and a block in it
         r##"diagram.toml:6:15: error: the sample time 0.025 s of `x/c` is no multiple of the base step 0.01 s
   help: use 0.02 s or 0.03 s, or another `step` in the experiment
 diagram.toml:6:15: error: `x/i` is a continuous block (integrator) and cannot have a sample time
-  help: its diagram has one: leave the diagram's sample time out, or use a block of the discrete shelf"##,
+  help: its diagram has one: leave the diagram's sample time out, or use a block of the discrete category"##,
     ),
     (
         "sample_time = \"2*ts\"\n[parameters]\nts = 0.01\nx = \"ts + y\"\npi = 3\n",
@@ -912,7 +912,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "diagram.sample_time=0.003",
         r##"--set:1:21: error: `pid` is a continuous block (pid) and cannot have a sample time
-  help: leave `sample_time` out, or use a block of the discrete shelf"##,
+  help: leave `sample_time` out, or use a block of the discrete category"##,
     ),
     (
         "diagram=nowhere.toml",

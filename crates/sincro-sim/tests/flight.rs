@@ -43,7 +43,8 @@ fn a_step_to_the_side_is_a_step_forward() {
     assert!(x[790] > 0.09, "the step is in the window");
 }
 
-/// The result of the diagram with its own reference filter, loops and mixer does not depend on the sample time of recording.
+/// The result of the diagram with its own reference filter, loops and mixer does not depend on the sample time of
+/// recording.
 #[test]
 fn a_controller_at_its_sample_time_does_not_see_the_base_step() {
     let short = ("duration", "24.0");
@@ -93,7 +94,8 @@ fn without_torque_the_angular_momentum_stays() {
     }
 }
 
-/// After the step that excites it the roll grows by the spectral radius of the sampled loop, 1.057 a sample (its slow integral left out).
+/// After the step that excites it the roll grows by the spectral radius of the sampled loop, 1.057 a sample (its slow
+/// integral left out).
 #[test]
 fn one_sample_late_the_roll_grows_as_its_linearisation_says() {
     let run = flown("quadrotor-latency", &[]);

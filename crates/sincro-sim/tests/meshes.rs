@@ -1,4 +1,5 @@
-//! Meshes and height fields: what they weigh, that they touch as the shapes they stand for, and what of them is refused.
+//! Meshes and height fields: what they weigh, that they touch as the shapes they stand for, and what of them is
+//! refused.
 
 mod common;
 
@@ -13,7 +14,8 @@ use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 const G: f64 = 9.81;
 
-/// Faces of a cuboid, counter-clockwise seen from outside; bit k of a corner's index says on which side of axis k it is.
+/// Faces of a cuboid, counter-clockwise seen from outside; bit k of a corner's index says on which side of axis k it
+/// is.
 const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 fn corner(size: [f64; 3], k: usize) -> [f64; 3] {
@@ -195,8 +197,9 @@ fn a_ball_rolls_down_a_height_field_as_down_a_plane() {
 
 #[test]
 fn a_ball_swings_in_a_valley_with_the_period_of_a_pendulum() {
-    // a trough of radius 1 m along y, compliant so that its edges are no blows; the centre of a ball of 0.1 m that slides swings on 0.9 m:
-    // from 0.1 rad the period is 2π√(l/g)·(1 + a²/16), and a quarter of it later it passes the middle
+    // a trough of radius 1 m along y, compliant so that its edges are no blows; the centre of a ball of 0.1 m that
+    // slides swings on 0.9 m: from 0.1 rad the period is 2π√(l/g)·(1 + a²/16), and a quarter of it later it passes the
+    // middle
     let (radius, r, a) = (1.0, 0.1, 0.1);
     let heights: Vec<String> = (0..401)
         .map(|i| {

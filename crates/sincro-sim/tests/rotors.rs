@@ -260,7 +260,8 @@ gain = 1.0
         let loaded = folder.load(&["accuracy=1e-10"]).unwrap_or_else(|e| panic!("{e}"));
         let out = run(&loaded);
         let (mine, theirs) = (column(&out, "thrust"), column(&out, "/air/craft/rotor.thrust"));
-        // a tick's commands act from the tick on: the diagram sees their effect at once, the row the end of the step before
+        // a tick's commands act from the tick on: the diagram sees their effect at once, the row the end of the step
+        // before
         for k in 1..mine.len() {
             assert!((mine[k] - theirs[k]).abs() < 1e-9 * theirs[k], "{k}: {} {}", mine[k], theirs[k]);
         }

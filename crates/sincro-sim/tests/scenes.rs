@@ -26,7 +26,8 @@ fn every_scene_loads_without_warnings() {
     for scene in scenes {
         let loaded = load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
             .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
-        // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has three
+        // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has
+        // three
         let name = scene.file_name().unwrap().to_string_lossy().into_owned();
         let expected = match name.as_str() {
             "quadrotor-open-loop" => 3,

@@ -211,7 +211,8 @@ fn a_noisy_attitude_is_a_rotation_and_turns_by_its_deviation() {
     }
 }
 
-/// The controller sees what the sensor gave at this tick, and a run goes on from a snapshot with held samples bit for bit.
+/// The controller sees what the sensor gave at this tick, and a run goes on from a snapshot with held samples bit for
+/// bit.
 #[test]
 fn a_diagram_measures_with_sensors_and_a_snapshot_keeps_their_samples() {
     let noisy = "sample_time = 0.05\nimu = { gyro_noise_density = 0.01 }";

@@ -1,8 +1,9 @@
 //! Replay: everything that the page shows of finished runs, as one JSON text.
 //!
-//! `replay.json` of a run's folder, the data in `report.html` and what `sincro view RUN` sends are the same text. Numbers are little-endian bytes
-//! in base 64: frames in single precision ([`Trajectory`]), signals in double precision. A replay that goes into a page is thinned to a size; what was left
-//! out is said (`every`), and `signals.csv` has it.
+//! `replay.json` of a run's folder, the data in `report.html` and what `sincro view RUN` sends are the same text.
+//! Numbers are little-endian bytes in base 64: frames in single precision ([`Trajectory`]), signals in double
+//! precision. A replay that goes into a page is thinned to a size; what was left out is said (`every`), and
+//! `signals.csv` has it.
 
 use serde::Serialize;
 use sincro_sim::Loaded;

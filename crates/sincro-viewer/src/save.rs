@@ -14,7 +14,8 @@ const MAX_FILES: usize = 500;
 ///
 /// # Errors
 ///
-/// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then lack.
+/// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then
+/// lack.
 pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Extensions) -> Result<PathBuf, String> {
     let folder = if folder.is_file() { folder.parent().unwrap_or(folder) } else { folder };
     let loaded = load(folder, &[], extensions).map_err(|diagnostics| diagnostics.to_string())?;

@@ -1,8 +1,8 @@
 //! Frequency response: magnitude, phase that does not jump, margins. Cost: one complex decomposition a frequency.
 //!
-//! `G(jω) = C (jω I − A)⁻¹ B + D`. The phase is known from `G` up to whole turns; the turns come from the poles and zeros, each of
-//! which adds its own angle of at most a quarter turn (key `ogata2010`, 7-2): an undamped pair turns the phase by
-//! −180° and not by +180°, however coarse the grid is.
+//! `G(jω) = C (jω I − A)⁻¹ B + D`. The phase is known from `G` up to whole turns; the turns come from the poles and
+//! zeros, each of which adds its own angle of at most a quarter turn (key `ogata2010`, 7-2): an undamped pair turns the
+//! phase by −180° and not by +180°, however coarse the grid is.
 
 use std::f64::consts::{PI, TAU};
 
@@ -29,7 +29,8 @@ pub struct Bode {
     pub magnitude_db: Vec<f64>,
     /// `arg G` without jumps of whole turns `[°]`.
     pub phase_deg: Vec<f64>,
-    /// Gain margins `[dB]`, at phase −180° (mod 360°): the factor by which `|G|` may grow until the loop closed by −1 oscillates.
+    /// Gain margins `[dB]`, at phase −180° (mod 360°): the factor by which `|G|` may grow until the loop closed by −1
+    /// oscillates.
     pub gain_margins: Vec<Margin>,
     /// Phase margins `[°]`, at `|G| = 1`: the angle by which the phase may fall until the loop closed by −1 oscillates.
     pub phase_margins: Vec<Margin>,
@@ -80,7 +81,8 @@ impl StateSpace {
         Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))
     }
 
-    /// The frequency response of one channel at these frequencies, ascending `[rad/s]`. Crossovers are looked for between neighbours.
+    /// The frequency response of one channel at these frequencies, ascending `[rad/s]`. Crossovers are looked for
+    /// between neighbours.
     ///
     /// # Errors
     ///
@@ -90,7 +92,8 @@ impl StateSpace {
         Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec()))
     }
 
-    /// Frequencies that show every pole and the zeros of every channel `[rad/s]`: even in the logarithm, more about resonances.
+    /// Frequencies that show every pole and the zeros of every channel `[rad/s]`: even in the logarithm, more about
+    /// resonances.
     #[must_use]
     pub fn frequencies(&self) -> Vec<f64> {
         let channels = (0..self.n_inputs()).flat_map(|i| (0..self.n_outputs()).map(move |o| (i, o)));

@@ -47,7 +47,8 @@ pub enum LinearError {
         /// Real and imaginary part of its eigenvalue.
         mode: (f64, f64),
     },
-    /// No stabilising solution of the Riccati equation was found: a mode that does not decay costs nothing, or rounding wins.
+    /// No stabilising solution of the Riccati equation was found: a mode that does not decay costs nothing, or rounding
+    /// wins.
     NotDetectable,
     /// The output does not depend on the input.
     NoPath {

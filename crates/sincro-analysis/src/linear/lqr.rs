@@ -1,8 +1,10 @@
-//! Linear-quadratic regulators: the feedback `u = −K x` of least cost. Cost: some twenty inversions of `2n×2n` and `n×n` matrices.
+//! Linear-quadratic regulators: the feedback `u = −K x` of least cost. Cost: some twenty inversions of `2n×2n` and
+//! `n×n` matrices.
 //!
 //! Continuous, `∫ xᵀQx + uᵀRu dt`: `P` from `AᵀP + PA − P B R⁻¹ Bᵀ P + Q = 0` by the sign of the Hamiltonian matrix
-//! (key `roberts1980`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`). Then a few steps of Newton's method: the next
-//! `P` is what the feedback of the last one costs (key `kleinman1968`, key `hewer1971`). `K = R⁻¹BᵀP` and `K = (R + BᵀPB)⁻¹ BᵀPA`.
+//! (key `roberts1980`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`). Then a few steps of Newton's
+//! method: the next `P` is what the feedback of the last one costs (key `kleinman1968`, key `hewer1971`). `K = R⁻¹BᵀP`
+//! and `K = (R + BᵀPB)⁻¹ BᵀPA`.
 
 use super::error::{expect_finite, expect_size, expect_symmetric};
 use super::lyapunov::{lyapunov, sign, symmetric};
@@ -34,7 +36,7 @@ pub struct Regulator {
 /// The regulator of `ẋ = A x + B u` that makes `∫ xᵀQx + uᵀRu dt` least.
 ///
 /// ```
-/// use crate::linear::{DMatrix, lqr};
+/// use sincro_analysis::linear::{DMatrix, lqr};
 ///
 /// // double integrator with unit weights: K = [1, √3]
 /// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]);
@@ -91,8 +93,8 @@ pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f6
     })
 }
 
-/// Newton's method from a `P` that nearly solves the equation: as long as the residual falls, a few steps at most. `step` gives the
-/// next `P` and what the present one makes; nothing if it does not stabilise.
+/// Newton's method from a `P` that nearly solves the equation: as long as the residual falls, a few steps at most.
+/// `step` gives the next `P` and what the present one makes; nothing if it does not stabilise.
 fn refined(
     p: DMatrix<f64>,
     step: impl Fn(&DMatrix<f64>) -> Option<(Option<DMatrix<f64>>, Regulator)>,
@@ -195,7 +197,8 @@ fn by_sign(a: &DMatrix<f64>, g: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatr
     Some(symmetric(&p))
 }
 
-/// `A ← A W A`, `G ← G + A W G Aᵀ`, `H ← H + Aᵀ H W A` with `W = (I + G H)⁻¹`: each step covers twice as many ticks; H tends to P.
+/// `A ← A W A`, `G ← G + A W G Aᵀ`, `H ← H + Aᵀ H W A` with `W = (I + G H)⁻¹`: each step covers twice as many ticks; H
+/// tends to P.
 fn by_doubling(a: &DMatrix<f64>, g: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut g, mut h) = (a.clone(), g.clone(), q.clone());
     let identity = DMatrix::<f64>::identity(a.nrows(), a.nrows());

@@ -1,10 +1,10 @@
 //! Analysis of linear systems: poles, zeros, frequency and step response, controllability, regulators, trim.
 //!
-//! [`StateSpace`] holds the four matrices of `ẋ = A x + B u`, `y = C x + D u` about an operating point, with the names and units
-//! of their rows and columns. Everything else is derived from it and kept nowhere.
+//! [`StateSpace`] holds the four matrices of `ẋ = A x + B u`, `y = C x + D u` about an operating point, with the names
+//! and units of their rows and columns. Everything else is derived from it and kept nowhere.
 //!
-//! The bits are the same on every machine: the matrix library is built without its vectorised kernels, and whatever is not
-//! `+ − × ÷ √` goes through [`sincro_math::elementary`].
+//! The bits are the same on every machine: the matrix library is built without its vectorised kernels, and whatever is
+//! not `+ − × ÷ √` goes through [`sincro_math::elementary`].
 
 pub mod bode;
 mod error;
@@ -44,7 +44,7 @@ impl Axis {
 /// A linear system: `ẋ = A x + B u`, `y = C x + D u`, all quantities as differences from the operating point.
 ///
 /// ```
-/// use crate::linear::{DMatrix, StateSpace};
+/// use sincro_analysis::linear::{DMatrix, StateSpace};
 ///
 /// // a mass of 1 kg on a spring of 4 N/m: force in, position out
 /// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -4.0, 0.0]);
@@ -129,8 +129,8 @@ impl StateSpace {
         self.outputs.len()
     }
 
-    /// Static gain from an input to an output: `D − C A⁻¹ B`, or `D + C (I − A)⁻¹ B` if it is sampled; modes that the channel does not
-    /// show do not count.
+    /// Static gain from an input to an output: `D − C A⁻¹ B`, or `D + C (I − A)⁻¹ B` if it is sampled; modes that the
+    /// channel does not show do not count.
     ///
     /// `None`: the channel integrates.
     #[must_use]
@@ -155,7 +155,8 @@ impl StateSpace {
 /// A row or column below this share of the largest entry is the rounding of a reduction, not a slow mode.
 const ROUNDING: f64 = 1e-13;
 
-/// Returns true if a square matrix is singular to working precision. Its rows are scaled first, so that units do not decide.
+/// Returns true if a square matrix is singular to working precision. Its rows are scaled first, so that units do not
+/// decide.
 fn is_singular(matrix: &DMatrix<f64>) -> bool {
     let mut scaled = matrix.clone();
     let largest = matrix.amax();

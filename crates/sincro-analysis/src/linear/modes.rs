@@ -1,8 +1,8 @@
 //! Poles: eigenvalues of A and what they mean. Cost: 10 n³ or so.
 //!
-//! A is balanced by powers of two and brought to real Schur form (key `golub2013`, 7.4 and 7.5). The library's iteration has no
-//! exceptional shifts and stalls on some matrices (a cyclic permutation); then the eigenvalues `ν` of `(A − μ I)⁻¹` are taken
-//! instead, `λ = μ + 1/ν`.
+//! A is balanced by powers of two and brought to real Schur form (key `golub2013`, 7.4 and 7.5). The library's
+//! iteration has no exceptional shifts and stalls on some matrices (a cyclic permutation); then the eigenvalues `ν` of
+//! `(A − μ I)⁻¹` are taken instead, `λ = μ + 1/ν`.
 
 use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use sincro_math::elementary::{atan2, ln};
@@ -11,7 +11,8 @@ use super::{Complex, DMatrix, StateSpace, modulus};
 
 /// Sweeps of the eigenvalue iteration; twenty or so are needed per eigenvalue at most.
 const MAX_SWEEPS: usize = 3000;
-/// A multiple eigenvalue is known only to the root of the rounding error; real parts below this share of A are taken as zero.
+/// A multiple eigenvalue is known only to the root of the rounding error; real parts below this share of A are taken as
+/// zero.
 const ZERO: f64 = 3e-8;
 
 /// A pole and what it means for the motion `e^{λ t}`.

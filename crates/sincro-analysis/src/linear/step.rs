@@ -1,7 +1,7 @@
 //! Step response, exact at every point of its grid. Cost: one matrix exponential, then a product a point.
 //!
-//! With a constant input `[x; u]⁺ = exp([A B; 0 0] h) [x; u]`, whatever h is. The exponential is the Padé approximant of degree 13
-//! with scaling and squaring (key `higham2005`).
+//! With a constant input `[x; u]⁺ = exp([A B; 0 0] h) [x; u]`, whatever h is. The exponential is the Padé approximant
+//! of degree 13 with scaling and squaring (key `higham2005`).
 
 use super::{DMatrix, DVector, Mode, StateSpace};
 

@@ -1,8 +1,8 @@
 //! Which states the inputs reach and the outputs see. Cost: n³.
 //!
-//! The reachable subspace is spanned by `B, AB, A²B, …`. The columns are made orthogonal as they come, each new one from the
-//! last orthogonal one (block Arnoldi, key `golub2013`, 10.5): powers of A never appear, so stiff systems
-//! do not drown in rounding as they do in the singular values of the controllability matrix.
+//! The reachable subspace is spanned by `B, AB, A²B, …`. The columns are made orthogonal as they come, each new one
+//! from the last orthogonal one (block Arnoldi, key `golub2013`, 10.5): powers of A never appear, so stiff systems do
+//! not drown in rounding as they do in the singular values of the controllability matrix.
 
 use super::{Axis, DMatrix, DVector, StateSpace};
 
@@ -41,8 +41,8 @@ impl StateSpace {
         reach(&self.a.transpose(), &self.c.transpose())
     }
 
-    /// One channel without the modes that its input does not reach or its output does not see: the same transfer function by the
-    /// fewest states, which have no names.
+    /// One channel without the modes that its input does not reach or its output does not see: the same transfer
+    /// function by the fewest states, which have no names.
     #[must_use]
     pub fn minimal(&self, input: usize, output: usize) -> Self {
         let (b, c) = (self.b.columns(input, 1).into_owned(), self.c.rows(output, 1).into_owned());

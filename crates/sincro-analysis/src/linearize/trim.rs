@@ -1,7 +1,8 @@
 //! Trim: where a scene stays as it is.
 //!
-//! Unknown are the coordinates and the continuous states of the diagram, and those commands that are set free; velocities are zero. All rates
-//! must vanish, and signals that are asked for must have their values. The Jacobian is that of the linearisation, exact.
+//! Unknown are the coordinates and the continuous states of the diagram, and those commands that are set free;
+//! velocities are zero. All rates must vanish, and signals that are asked for must have their values. The Jacobian is
+//! that of the linearisation, exact.
 
 use sincro_math::Dual;
 

@@ -51,7 +51,8 @@ impl Extent {
         Self::Box(bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY))
     }
 
-    /// Rectangle of the image that may show it; none if it is outside. `x_cp` is the pose of the piece against the camera.
+    /// Rectangle of the image that may show it; none if it is outside. `x_cp` is the pose of the piece against the
+    /// camera.
     pub fn rectangle(&self, x_cp: &Pose<f64>, optics: &Optics) -> Option<Rectangle> {
         let [columns, rows] = optics.resolution;
         let (low, high, x_cp) = match self {

@@ -9,8 +9,9 @@
 //! | `light.rs` | colours of lit surfaces |
 //! | `png.rs` | pictures as PNG |
 //!
-//! A camera looks along z of its frame, y is up in the picture, so x points to the left. Pixels are counted as V-REP counts them: row by row
-//! from the bottom, from left to right. A pixel is the ray through its middle. The same scene gives the same bytes on every machine.
+//! A camera looks along z of its frame, y is up in the picture, so x points to the left. Pixels are counted as V-REP
+//! counts them: row by row from the bottom, from left to right. A pixel is the ray through its middle. The same scene
+//! gives the same bytes on every machine.
 
 mod bounds;
 mod image;

@@ -1,9 +1,9 @@
 //! Draws pictures: pieces from near to far, each in its rectangle, one ray a pixel.
 //!
-//! For pixel (i, j) of w × h, s the edge of a pixel one metre ahead: u = (i + ½ − w/2) s to the right, v = (j + ½ − h/2) s up. The ray of a
-//! perspective picture leaves the origin along a + u r + v o (ahead, right, up), that of an orthographic one leaves the near plane along a.
-//! Surfaces are met where their closed forms say; depth is measured along a. What lies before the near plane is cut away: a solid that it cuts
-//! is seen through, as from inside.
+//! For pixel (i, j) of w × h, s the edge of a pixel one metre ahead: u = (i + ½ − w/2) s to the right, v = (j + ½ −
+//! h/2) s up. The ray of a perspective picture leaves the origin along a + u r + v o (ahead, right, up), that of an
+//! orthographic one leaves the near plane along a. Surfaces are met where their closed forms say; depth is measured
+//! along a. What lies before the near plane is cut away: a solid that it cuts is seen through, as from inside.
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Block diagrams of a scene folder: the file, its errors, and the diagram in one step with the world.
 //!
-//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `wiring.rs`
-//! connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
+//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes;
+//! `wiring.rs` connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
 
 mod file;
 mod lua;
@@ -98,18 +98,24 @@ fn shortened(diagnostics: Diagnostics) -> Diagnostics {
 }
 
 impl ControlDiagram {
-    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything random.
+    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything
+    /// random.
     ///
     /// ```
     /// use sincro_blocks::diagram::Diagram;
     /// use sincro_blocks::library::maths::Gain;
-    /// use crate::diagram::ControlDiagram;
+    /// use sincro_scene::diagram::ControlDiagram;
     ///
     /// let scene = r#"
     /// joint = [{ name = "hinge", kind = "revolute", axis = [0, 1, 0], motor = { mode = "torque" } }]
-    /// body = [{ name = "arm", parent = "/hinge", mass = 1, center_of_mass = [0, 0, -0.5], inertia = { xx = 0.1, yy = 0.1, zz = 0.01 } }]
+    /// [[body]]
+    /// name = "arm"
+    /// parent = "/hinge"
+    /// mass = 1
+    /// center_of_mass = [0, 0, -0.5]
+    /// inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
     /// "#;
-    /// let scene = crate::scene::from_text(scene).unwrap();
+    /// let scene = sincro_scene::scene::from_text(scene).unwrap();
     /// let mut diagram = Diagram::new();
     /// diagram.block("spring", Gain::new(-20.0)).wire("/hinge.position", "spring").wire("spring", "/hinge");
     /// let controller = ControlDiagram::new(diagram, &scene.model, 0.001, 0).unwrap();

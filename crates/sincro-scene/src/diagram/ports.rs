@@ -1,8 +1,8 @@
 //! The world as a block: which measurements it gives, which commands it takes.
 //!
-//! Measurements have the names of recorded signals; a vector goes by the name that its components have in common, such as
-//! `/body.position`. `world.q` and `world.v` are all coordinates and all velocities. Commands go by the path of the joint or by
-//! `path.command`.
+//! Measurements have the names of recorded signals; a vector goes by the name that its components have in common, such
+//! as `/body.position`. `world.q` and `world.v` are all coordinates and all velocities. Commands go by the path of the
+//! joint or by `path.command`.
 
 use sincro_blocks::compile::Terminal;
 use sincro_blocks::unit::Unit;
@@ -118,7 +118,8 @@ fn unit_of(text: &str) -> Option<Unit> {
     Unit::parse(text).ok().filter(|_| !text.is_empty())
 }
 
-/// Returns true if it is known before the commands, or follows from them in one step. The rest can be recorded all the same.
+/// Returns true if it is known before the commands, or follows from them in one step. The rest can be recorded all the
+/// same.
 fn can_be_measured(probe: Probe) -> bool {
     !matches!(
         probe,

@@ -80,7 +80,8 @@ impl<'a> DiagramReader<'a> {
         (diagram, origin, sample_time)
     }
 
-    /// Definitions that no block uses are looked over with their defaults: what is wrong in them should not wait for their first use.
+    /// Definitions that no block uses are looked over with their defaults: what is wrong in them should not wait for
+    /// their first use.
     fn check_unused(&mut self) {
         let of_definitions = self.file.diagram.iter().flat_map(|d| &d.block);
         let used: Vec<&str> = self.file.block.iter().chain(of_definitions).map(|b| b.kind.as_str()).collect();

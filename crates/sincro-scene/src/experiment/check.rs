@@ -10,11 +10,11 @@ use crate::diagnostic::{Located, Location};
 
 /// One expectation about a run, or about all runs of a sweep.
 ///
-/// Formulas of a check (its own and that of the expected value) share their names, in this order: the aliases, then `t`,
-/// then the parameters. [`Check::values`] fills the slots.
+/// Formulas of a check (its own and that of the expected value) share their names, in this order: the aliases, then
+/// `t`, then the parameters. [`Check::values`] fills the slots.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// What the report calls it.
+    /// Name in the report.
     pub name: String,
     /// Measured series.
     pub what: Subject,
@@ -26,11 +26,11 @@ pub struct Check {
     pub expected: Expected,
     /// Comparison: equal, at most or at least.
     pub sense: Sense,
-    /// What of the series is compared.
+    /// Measure of the series that is compared.
     pub measure: Measure,
     /// Final value of the step for `overshoot`, `rise-time` and `settling-time`; that of the last row if not given.
     pub target: Option<f64>,
-    /// Of `settling-time`: half the width of the band around the target, as a share of the step's height.
+    /// Half the width of the band of `settling-time` around the target, relative to the step's height.
     pub band: f64,
     /// The one time `[s]` that is looked at, if given; it excludes `window`.
     pub at: Option<f64>,
@@ -39,7 +39,7 @@ pub struct Check {
     /// Largest |measured − expected| that holds, in the unit of what is measured (or 1, if `relative`); not negative,
     /// and 0 if `sense` is not `Equal`.
     pub tolerance: f64,
-    /// Whether the difference is divided by max(|expected|, floor).
+    /// True if the difference is divided by max(|expected|, floor).
     pub relative: bool,
     /// Least divisor of a relative difference; zero unless given.
     pub floor: f64,
@@ -120,15 +120,15 @@ pub enum Measure {
     Rms,
     /// Standard deviation over time.
     Std,
-    /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value stands for
-    /// the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
+    /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value
+    /// stands for the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
     Integral,
     /// Time `[s]` of the least value.
     TimeOfMin,
     /// Time `[s]` of the greatest value.
     TimeOfMax,
-    /// Overshoot of a step response beyond its target, relative to the step's height. The step leads from the first row that is
-    /// looked at to the target.
+    /// Overshoot of a step response beyond its target, relative to the step's height. The step leads from the first row
+    /// that is looked at to the target.
     Overshoot,
     /// Time `[s]` between the first crossings of 10 % and of 90 % of the step's height.
     RiseTime,
@@ -178,7 +178,8 @@ impl Check {
         own.into_iter().chain(self.aliases.iter().map(|(_, signal)| signal))
     }
 
-    /// The slots of the check's formulas for one row: the aliases' values in their order, the time `[s]`, the parameters.
+    /// The slots of the check's formulas for one row: the aliases' values in their order, the time `[s]`, the
+    /// parameters.
     #[must_use]
     pub fn values(&self, aliases: &[f64], t: f64) -> Vec<f64> {
         let parameters = self.parameters.iter().map(|(_, value)| *value);

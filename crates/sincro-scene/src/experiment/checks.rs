@@ -209,7 +209,8 @@ impl CheckReader<'_> {
         }
     }
 
-    /// Refuses what has no meaning for a divergence: it is the first passage of one signal's magnitude through a number.
+    /// Refuses what has no meaning for a divergence: it is the first passage of one signal's magnitude through a
+    /// number.
     fn divergence(&mut self, file: &CheckFile, pointer: &str) {
         let Some(bound) = &file.diverges else { return };
         let mut refuse = |key: &str, message: &str, help: &str| {

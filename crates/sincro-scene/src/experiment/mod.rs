@@ -44,11 +44,11 @@ pub struct Experiment {
     pub simulation_ticks: u64,
     /// Base steps for each recorded row; at least one.
     pub record_every: u64,
-    /// How the equations of motion are integrated.
+    /// Integration method of the equations of motion.
     pub integrator: Integrator,
     /// Local tolerance of the variable-step methods.
     pub accuracy: f64,
-    /// How the error bar of the recorded signals is found.
+    /// Estimate of the error bar of the recorded signals.
     pub error_bar: ErrorBar,
     /// Seed of everything random.
     pub seed: u64,
@@ -68,7 +68,7 @@ pub struct Experiment {
     pub plots: Vec<Plot>,
 }
 
-/// How the equations of motion are integrated.
+/// Integration method of the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Integrator {
     /// Chosen for the scene; second order or better.
@@ -100,7 +100,7 @@ impl Integrator {
     }
 }
 
-/// How the error bar of the recorded signals is found.
+/// Estimate of the error bar of the recorded signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorBar {
     /// By a second, finer run.
@@ -112,13 +112,13 @@ pub enum ErrorBar {
 /// A static characteristic: the run is repeated over a parameter, and final values are recorded.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// What is varied: a path as for `--set`.
+    /// Parameter that is varied: a path as for `--set`.
     pub parameter: Located<String>,
     /// Further numbers that take the same value.
     pub also: Vec<Located<String>>,
     /// Its values, in the order in which they are run.
     pub values: Vec<f64>,
-    /// What must come out over the whole sweep.
+    /// Checks over the whole sweep.
     pub checks: Vec<Check>,
 }
 
@@ -143,9 +143,9 @@ pub struct Variant {
     pub description: String,
     /// The settings, in the order of their paths.
     pub set: Vec<Override>,
-    /// Whether the main run's checks are also made on the variant.
+    /// True if the main run's checks are also made on the variant.
     pub inherit_checks: bool,
-    /// What must come out of the variant.
+    /// Checks of the variant.
     pub checks: Vec<Check>,
     /// Its name in the file.
     pub location: Location,

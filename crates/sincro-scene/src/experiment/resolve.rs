@@ -21,7 +21,8 @@ use crate::overrides::Override;
 /// Most values of a sweep: a slip of the pen in `step` must not fill the memory.
 const MAX_SWEEP: f64 = 1e6;
 
-/// Resolves a document that fits the schema. With `check_times`, checks that look where nothing is recorded are refused.
+/// Resolves a document that fits the schema. With `check_times`, checks that look where nothing is recorded are
+/// refused.
 pub(crate) fn resolve(document: &Document, folder: &Folder, check_times: bool) -> (Option<Experiment>, Diagnostics) {
     let mut diagnostics = Diagnostics::new();
     let file: ExperimentFile = match serde_json::from_value(document.root.clone()) {

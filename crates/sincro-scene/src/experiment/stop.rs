@@ -1,7 +1,8 @@
 //! Bounds at which a run ends before its duration: no failure, but nothing more to be seen.
 //!
-//! There are two kinds: those of `[[stop_when]]`, each of which ends every run of the experiment, and those of `diverges` checks, which end
-//! the run that they are made on when all of them are reached. Recorded rows are looked at, at the instants at which they are recorded.
+//! There are two kinds: those of `[[stop_when]]`, each of which ends every run of the experiment, and those of
+//! `diverges` checks, which end the run that they are made on when all of them are reached. Recorded rows are looked
+//! at, at the instants at which they are recorded.
 
 use super::Experiment;
 use super::check::{Check, Expected, Measure, Subject};

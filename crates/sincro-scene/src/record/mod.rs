@@ -1,7 +1,7 @@
 //! Recorded signals: from names to numbers.
 //!
-//! [`catalogue`] lists everything that a model can be asked for; a [`Recorder`] holds the chosen ones resolved, so that a row costs
-//! no look-up and no allocation.
+//! [`catalogue`] lists everything that a model can be asked for; a [`Recorder`] holds the chosen ones resolved, so that
+//! a row costs no look-up and no allocation.
 
 mod catalogue;
 pub mod contact;
@@ -178,7 +178,9 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), &*e.unit)))
     }
 
-    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, after them the float signals that are recorded and the values of all sensors. To be called at every recorded instant, in order, the start included.
+    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, after them the float signals
+    /// that are recorded and the values of all sensors. To be called at every recorded instant, in order, the start
+    /// included.
     pub fn row(&mut self, seen: &Observation<'_>, signals: &[f64], t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {

@@ -1,4 +1,5 @@
-//! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is linearised.
+//! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is
+//! linearised.
 
 use sincro_dynamics::actuation::{damper, spring};
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
@@ -54,7 +55,8 @@ pub fn needs_kinematics(probe: Probe) -> bool {
     matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
 }
 
-/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks only.
+/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks
+/// only.
 pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     let model = at.model;
     Some(match probe {

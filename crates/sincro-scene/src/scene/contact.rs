@@ -1,4 +1,5 @@
-//! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot start.
+//! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot
+//! start.
 
 use sincro_dynamics::constraint::LoopJointKind;
 use sincro_dynamics::contact::{Material, Surface};

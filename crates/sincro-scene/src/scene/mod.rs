@@ -62,9 +62,10 @@ use tree::Entry;
 pub struct Scene {
     /// The compiled model; its names are the paths of the objects.
     pub model: Arc<Model<f64>>,
-    /// Where it starts.
+    /// Initial state.
     pub initial: State<f64>,
-    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of rotors.
+    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of
+    /// rotors.
     pub commands: Vec<Signal>,
     /// Its sensors, in the order in which their values are kept.
     pub sensors: Vec<SensorSpec>,

@@ -15,7 +15,7 @@ pub struct Object {
     pub path: String,
     /// Last part of the path.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: ObjectKind,
     /// Index of its parent among the objects; none for children of the world.
     pub parent: Option<usize>,
@@ -38,7 +38,7 @@ pub struct Object {
 pub enum ObjectKind {
     /// Joint; fixed ones too.
     Joint {
-        /// How it moves.
+        /// Kind of motion.
         kind: JointKind,
         /// Index of its motor among the model's, if it has one.
         motor: Option<usize>,

@@ -26,7 +26,7 @@ use crate::schema::validate;
 ///     center_of_mass = [0.0, 0.0, -0.5]
 ///     inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
 /// "#;
-/// let scene = crate::scene::from_text(text).unwrap();
+/// let scene = sincro_scene::scene::from_text(text).unwrap();
 /// assert_eq!(scene.model.n_v(), 1);
 /// ```
 ///

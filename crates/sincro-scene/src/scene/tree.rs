@@ -1,7 +1,7 @@
 //! The tree of a scene: who hangs on whom, whatever the order in the file.
 //!
-//! A path is the parent's path, `/` and the name, so a parent's path is always shorter than its child's and no object can
-//! be its own ancestor; what a user means as a circle shows as parents that do not exist, and is told as a circle.
+//! A path is the parent's path, `/` and the name, so a parent's path is always shorter than its child's and no object
+//! can be its own ancestor; what a user means as a circle shows as parents that do not exist, and is told as a circle.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,7 +1,8 @@
-//! The JSON Schemas of the files, generated from the types that read them, and the checker that walks a file against them.
+//! The JSON Schemas of the files, generated from the types that read them, and the checker that walks a file against
+//! them.
 //!
-//! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what `sincro check`
-//! says is one thing. A test keeps the files equal to the types.
+//! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what
+//! `sincro check` says is one thing. A test keeps the files equal to the types.
 
 mod describe;
 mod validate;

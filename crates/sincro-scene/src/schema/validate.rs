@@ -1,7 +1,7 @@
 //! Walks a document against its schema and reports everything at once, each finding where it stands.
 //!
-//! It knows the part of JSON Schema that the generator writes: types, ranges, lengths, enumerations, required and unknown
-//! keys, and tables in which one of several keys is given.
+//! It knows the part of JSON Schema that the generator writes: types, ranges, lengths, enumerations, required and
+//! unknown keys, and tables in which one of several keys is given.
 
 use serde_json::{Map, Value};
 

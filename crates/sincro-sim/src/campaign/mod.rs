@@ -1,4 +1,5 @@
-//! An experiment with everything that belongs to it: the main run, its error bars, its variants, its sweep, their checks.
+//! An experiment with everything that belongs to it: the main run, its error bars, its variants, its sweep, their
+//! checks.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -60,12 +61,13 @@ pub struct Campaign {
 /// Told what is being done and the share of it.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 
-/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a folder a variant.
+/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a
+/// folder a variant.
 ///
 /// # Errors
 ///
-/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that fails is a
-/// result, not an error.
+/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that
+/// fails is a result, not an error.
 pub fn run_campaign(
     folder: &Path,
     overrides: &[Override],
@@ -112,8 +114,8 @@ pub fn run_campaign(
     Ok(Campaign { main, variants, sweep, report })
 }
 
-/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no variants, no sweep, no error
-/// bars, because it cannot be repeated.
+/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no
+/// variants, no sweep, no error bars, because it cannot be repeated.
 #[must_use]
 pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     let columns = ColumnReport::of_table(&simulated.table);
@@ -131,7 +133,8 @@ pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
 
 type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
 
-/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs `before` it.
+/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs
+/// `before` it.
 fn one_run(
     loaded: &Loaded,
     variant: Option<&str>,

@@ -1,7 +1,8 @@
-//! Error bars: the same run once more, finer; the difference of the recorded signals estimates the error of the coarser one.
+//! Error bars: the same run once more, finer; the difference of the recorded signals estimates the error of the coarser
+//! one.
 //!
-//! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a method
-//! estimates of itself.
+//! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a
+//! method estimates of itself.
 
 use sincro_dynamics::world::MethodKind;
 

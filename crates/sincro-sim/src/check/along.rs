@@ -3,7 +3,8 @@
 use crate::sweep::SweepStop;
 use crate::table::{Table, number_text};
 
-/// Times closer than this are the same `[s]`. Rounding of a day's time in a scene file is 1e-11 s, no step is below 1e-7 s.
+/// Times closer than this are the same `[s]`. Rounding of a day's time in a scene file is 1e-11 s, no step is below
+/// 1e-7 s.
 const SAME_TIME: f64 = 1e-9;
 
 /// The same for points of a sweep, as a share of the smallest gap between them.

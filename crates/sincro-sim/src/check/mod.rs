@@ -10,14 +10,16 @@
 //! Times match within 1e-9 s. Nothing is interpolated: a reference that falls between the rows is not compared, and the
 //! outcome says what step to use.
 //!
-//! The measure `error` compares row by row, and the largest deviation counts. Every other measure is one number of the series,
-//! compared with one expected number. What is expected is then a number or a formula of parameters alone; a reference, or a
-//! formula that varies from row to row, is measured in the same way over the same rows: peak against peak, mean against mean.
+//! The measure `error` compares row by row, and the largest deviation counts. Every other measure is one number of the
+//! series, compared with one expected number. What is expected is then a number or a formula of parameters alone; a
+//! reference, or a formula that varies from row to row, is measured in the same way over the same rows: peak against
+//! peak, mean against mean.
 //!
-//! The deviation is |measured − expected|, with `at_most` and `at_least` how far the measured value lies beyond the bound; with `relative`, divided by max(|expected|, floor), where zero of zero is zero.
-//! A check holds if the deviation is finite and at most the tolerance. A NaN among the numbers that enter a comparison is its
-//! result, so a check with a NaN never holds. What cannot be compared is not made, and says why: a run that stopped early has
-//! only its checks of the time before.
+//! The deviation is |measured − expected|, with `at_most` and `at_least` how far the measured value lies beyond the
+//! bound; with `relative`, divided by max(|expected|, floor), where zero of zero is zero. A check holds if the
+//! deviation is finite and at most the tolerance. A NaN among the numbers that enter a comparison is its result, so a
+//! check with a NaN never holds. What cannot be compared is not made, and says why: a run that stopped early has only
+//! its checks of the time before.
 
 mod along;
 mod measure;
@@ -99,8 +101,8 @@ pub fn evaluate(checks: &[Check], table: &Table, stopped: Option<f64>) -> Vec<Ou
     checks.iter().map(|check| judge(check, &along)).collect()
 }
 
-/// Judges the checks of a sweep, in their order. The parameter takes the place of time: in references, in `at` and `window`, and
-/// in measures. Points match within a billionth of the smallest gap between them.
+/// Judges the checks of a sweep, in their order. The parameter takes the place of time: in references, in `at` and
+/// `window`, and in measures. Points match within a billionth of the smallest gap between them.
 ///
 /// A reference may have more rows than the sweep has points, or fewer, but not both.
 #[must_use]
@@ -163,8 +165,8 @@ fn compare(check: &Check, along: &Along) -> Result<Comparison, String> {
     }
 }
 
-/// The first row beyond the bound, from the start of the run on: that the run ended there is what is wanted. It must lie in the
-/// window.
+/// The first row beyond the bound, from the start of the run on: that the run ended there is what is wanted. It must
+/// lie in the window.
 fn divergence(check: &Check, along: &Along, source: &Source) -> Result<Comparison, String> {
     let Expected::Value(bound) = check.expected else { return Err("the bound is not a number".into()) };
     let (from, to) = check.window.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));

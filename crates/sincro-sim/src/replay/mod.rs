@@ -1,7 +1,8 @@
 //! Data of a run for its replay: keyframes of the trajectory, and the scene.
 //!
-//! [`Trajectory`] takes frames from a run, at most sixty a simulated second in a long one; [`SceneView`] describes the objects that the frames move, as plain
-//! data that serialises; [`properties`] lists every number of the files that a user may change. Nothing here changes a run.
+//! [`Trajectory`] takes frames from a run, at most sixty a simulated second in a long one; [`SceneView`] describes the
+//! objects that the frames move, as plain data that serialises; [`properties`] lists every number of the files that a
+//! user may change. Nothing here changes a run.
 
 mod contacts;
 mod properties;

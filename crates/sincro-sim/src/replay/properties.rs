@@ -1,7 +1,7 @@
 //! Every number that stands in the files of a scene, with the path by which a setting reaches it.
 //!
-//! What the viewer offers for editing is what `--set` takes: one list, from the documents themselves, so that a key that is added to the format is
-//! there without a word here.
+//! What the viewer offers for editing is what `--set` takes: one list, from the documents themselves, so that a key
+//! that is added to the format is there without a word here.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -34,12 +34,13 @@ pub struct Property {
     pub unit: String,
     /// Description; may be empty.
     pub about: String,
-    /// Where it stands.
+    /// Its place.
     #[serde(skip)]
     pub at: Location,
 }
 
-/// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment, diagram.
+/// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment,
+/// diagram.
 #[must_use]
 pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     let mut found = Vec::new();
@@ -62,7 +63,8 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     found
 }
 
-/// The texts of the files with settings written into them, by their paths; only the numbers change, comments and order stay.
+/// The texts of the files with settings written into them, by their paths; only the numbers change, comments and order
+/// stay.
 ///
 /// # Errors
 ///

@@ -1,7 +1,8 @@
 //! The objects of a scene as plain data: what stands where, how it moves, what it looks like.
 //!
-//! Poses are seven numbers: position `[m]`, then the quaternion x, y, z, w, as pictures want it. An object is carried by a *mover*: the link of the
-//! joint of that index in the model, whose pose is in the frames; what is fixed in the world has none.
+//! Poses are seven numbers: position `[m]`, then the quaternion x, y, z, w, as pictures want it. An object is carried
+//! by a *mover*: the link of the joint of that index in the model, whose pose is in the frames; what is fixed in the
+//! world has none.
 
 use serde::Serialize;
 use sincro_dynamics::aero::rotor::{RotorLaw, Spin};
@@ -62,7 +63,7 @@ pub struct ObjectView {
     pub shapes: Vec<ShapeView>,
     /// Mass `[kg]`, centre of mass `[m]` and inertia (xx, xy, xz, yy, yz, zz) [kg·m²] of a body.
     pub mass: Option<(f64, [f64; 3], [f64; 6])>,
-    /// How a joint moves.
+    /// Kind of motion of a joint.
     pub joint: Option<JointView>,
     /// Quantity of a rotor.
     pub rotor: Option<RotorView>,
@@ -98,13 +99,13 @@ pub struct ShapeView {
     /// Its triangles, counter-clockwise seen from outside.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub triangles: Vec<[u32; 3]>,
-    /// Where it stands.
+    /// Its place.
     pub pose: [f64; 7],
     /// `#rrggbb`.
     pub color: Option<String>,
 }
 
-/// How a joint moves.
+/// Kind of motion of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointView {
     /// Link that carries it; none for the world.
@@ -121,7 +122,8 @@ pub struct JointView {
     pub v_idx: usize,
     /// Number of degrees of freedom.
     pub n_v: usize,
-    /// Stiffness [N·m/rad] or [N/m] and rest `[rad]` or `[m]` of the springs that are there, with their degrees of freedom.
+    /// Stiffness [N·m/rad] or [N/m] and rest `[rad]` or `[m]` of the springs that are there, with their degrees of
+    /// freedom.
     pub springs: Vec<(usize, f64, f64)>,
     /// True if it has a motor.
     pub motor: bool,

@@ -10,8 +10,8 @@
 //! | coordinates q | `n_q` | rad, m |
 //! | rates v | `n_v` | rad/s, m/s |
 //!
-//! Points of contact are kept beside the frames ([`Contacts`]): their number varies. A frame has single precision, about seven digits;
-//! `signals.csv` has all of them.
+//! Points of contact are kept beside the frames ([`Contacts`]): their number varies. A frame has single precision,
+//! about seven digits; `signals.csv` has all of them.
 
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;

@@ -1,7 +1,7 @@
 //! `run.json`: what a run was, what it gave, and how far to trust it.
 //!
-//! [`RunReport`] is the file: fields stand in it in the order in which they stand here, numbers with all their digits. JSON has
-//! no NaN and no infinity; such a number is null, and `not_finite` at the end of the file says what it was:
+//! [`RunReport`] is the file: fields stand in it in the order in which they stand here, numbers with all their digits.
+//! JSON has no NaN and no infinity; such a number is null, and `not_finite` at the end of the file says what it was:
 //! `"/energy/residual": "NaN"`.
 
 mod number;
@@ -109,8 +109,8 @@ pub struct ChangeReport {
     pub t: f64,
     /// Path of the object; `/` for the world.
     pub object: String,
-    /// Which number, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling` (ratio,
-    /// offset); `gravity`; `respondable` (0: it passes through all others).
+    /// Which number, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits`
+    /// (lower, upper), `coupling` (ratio, offset); `gravity`; `respondable` (0: it passes through all others).
     pub quantity: String,
     /// Present value.
     pub value: Vec<f64>,

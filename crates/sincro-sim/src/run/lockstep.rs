@@ -227,8 +227,8 @@ impl LockStep {
         self.tick as f64 * self.step
     }
 
-    /// Evaluates the diagram for the first time. Its continuous commands are seen from then on: the speed of a rotor that lags, the
-    /// torque of a continuous controller.
+    /// Evaluates the diagram for the first time. Its continuous commands are seen from then on: the speed of a rotor
+    /// that lags, the torque of a continuous controller.
     ///
     /// # Errors
     ///
@@ -310,8 +310,9 @@ impl LockStep {
     ///   9 measure   each controller: measurements at t_{k+1}; blocks that are due are evaluated
     /// ```
     ///
-    /// Whoever drives the lock-step hashes and records the state after it. If 1 fails, the state is that of t_k; if 4 fails, that of the last
-    /// instant reached, and the tick is not counted; if 6 or 9 fails, the step has been made and counted.
+    /// Whoever drives the lock-step hashes and records the state after it. If 1 fails, the state is that of t_k; if 4
+    /// fails, that of the last instant reached, and the tick is not counted; if 6 or 9 fails, the step has been made
+    /// and counted.
     ///
     /// # Errors
     ///
@@ -390,8 +391,9 @@ impl LockStep {
         Ok(())
     }
 
-    /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of scripts and clients and the values of
-    /// all sensors after them. A float signal that nobody has set is not a number.
+    /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of
+    /// scripts and clients and the values of all sensors after them. A float signal that nobody has set is not a
+    /// number.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
         if !(self.sensors.values.is_empty() && self.floats.is_empty()) {

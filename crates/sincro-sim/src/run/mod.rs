@@ -1,9 +1,10 @@
 //! A run, from its start to its end.
 //!
-//! [`LockStep::advance`] is one base step, with its stages in order; [`simulate`] makes them all, hashes and records the state after each.
+//! [`LockStep::advance`] is one base step, with its stages in order; [`simulate`] makes them all, hashes and records
+//! the state after each.
 //!
-//! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
-//! why (`stop.rs`).
+//! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says
+//! where, who and why (`stop.rs`).
 
 mod bounds;
 mod lockstep;
@@ -186,8 +187,8 @@ fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Opti
     }
 }
 
-/// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest pole of the loop that
-/// they close, which the linearisation gives exactly.
+/// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest
+/// pole of the loop that they close, which the linearisation gives exactly.
 #[must_use]
 pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     let (kind, mut warnings) = choose_method(&loaded.scene, &loaded.experiment);

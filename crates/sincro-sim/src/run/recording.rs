@@ -94,8 +94,8 @@ impl Recording {
         Ok(end)
     }
 
-    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be. A text says
-    /// why the run ends here.
+    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be. A
+    /// text says why the run ends here.
     ///
     /// # Errors
     ///

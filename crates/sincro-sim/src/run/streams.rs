@@ -41,8 +41,8 @@ impl Streams {
         }
     }
 
-    /// Puts them behind the other columns, in the file too; says how many they are. A stream whose column would have the name of another one is told
-    /// apart by `'`.
+    /// Puts them behind the other columns, in the file too; says how many they are. A stream whose column would have
+    /// the name of another one is told apart by `'`.
     ///
     /// # Errors
     ///

@@ -1,4 +1,5 @@
-//! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start there.
+//! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start
+//! there.
 
 use sincro_dynamics::actuation::Push;
 use sincro_dynamics::spatial::Vec3;

@@ -1,5 +1,5 @@
-//! Forces and wind as arrows in the world: contact, external, drag and thrust forces, wind. An arrow is half as long as the scene is large
-//! where its kind is greatest in the run.
+//! Forces and wind as arrows in the world: contact, external, drag and thrust forces, wind. An arrow is half as long as
+//! the scene is large where its kind is greatest in the run.
 
 use mcap::McapError;
 use serde_json::{Value, json};

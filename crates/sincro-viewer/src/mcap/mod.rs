@@ -1,5 +1,5 @@
-//! A run as an MCAP file for Foxglove, Lichtblick or Rerun: transforms, shapes and arrows as Foxglove's messages, signals as messages of their own, all
-//! as protocol buffers, which all three decode.
+//! A run as an MCAP file for Foxglove, Lichtblick or Rerun: transforms, shapes and arrows as Foxglove's messages,
+//! signals as messages of their own, all as protocol buffers, which all three decode.
 //!
 //! | topic | schema | what |
 //! |---|---|---|
@@ -8,7 +8,8 @@
 //! | `/arrows` | `foxglove.SceneUpdate` | contact, external, drag and thrust forces and the wind, at the replay's rate |
 //! | `/PATH`, `/energy` … | `sincro.Signals_PATH` | recorded signals, every row; units in the channel's metadata |
 //!
-//! Times are simulated ones, in nanoseconds from zero. Names of signals become fields: `/air.position.x` is `position_x` of the topic `/air`.
+//! Times are simulated ones, in nanoseconds from zero. Names of signals become fields: `/air.position.x` is
+//! `position_x` of the topic `/air`.
 
 mod arrows;
 mod entity;

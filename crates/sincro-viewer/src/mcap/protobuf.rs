@@ -1,4 +1,5 @@
-//! Protocol buffers, as far as recordings need them: messages described in text, as a descriptor that readers decode with, and as bytes.
+//! Protocol buffers, as far as recordings need them: messages described in text, as a descriptor that readers decode
+//! with, and as bytes.
 //!
 //! Source of the wire format and of the descriptor's numbers: key `protobuf` (encoding; `descriptor.proto`).
 

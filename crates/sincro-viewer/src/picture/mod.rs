@@ -1,7 +1,9 @@
-//! A still picture of a scene as SVG: what the gallery shows before anybody presses play, drawn without a browser or a graphics card.
+//! A still picture of a scene as SVG: what the gallery shows before anybody presses play, drawn without a browser or a
+//! graphics card.
 //!
-//! Solids become flat faces, seen through the scene's first camera or, without one, from far away where the viewer's own first camera stands; they
-//! are painted from back to front and lit by one light. The same scene and frame give the same bytes.
+//! Solids become flat faces, seen through the scene's first camera or, without one, from far away where the viewer's
+//! own first camera stands; they are painted from back to front and lit by one light. The same scene and frame give the
+//! same bytes.
 
 mod solid;
 mod viewpoint;

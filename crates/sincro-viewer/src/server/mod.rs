@@ -7,9 +7,10 @@
 //! | `/film.json` | the replay of finished runs, if that is what is shown |
 //! | `/live` | the line to a live run (WebSocket), if that is what is shown |
 //!
-//! No path leads to a file. Every request must name this server in `Host`, come from its own page if it names an `Origin`, and carry the token
-//! ([`sincro_access::guard`]): a page of another site, a name that was pointed at this machine and another user of it can neither look nor
-//! command. A head must come within ten seconds, and an address has its share of the connections only.
+//! No path leads to a file. Every request must name this server in `Host`, come from its own page if it names an
+//! `Origin`, and carry the token ([`sincro_access::guard`]): a page of another site, a name that was pointed at this
+//! machine and another user of it can neither look nor command. A head must come within ten seconds, and an address has
+//! its share of the connections only.
 
 mod connection;
 mod socket;

@@ -1,7 +1,8 @@
 //! One viewer's line: everything that is on the board and that it has not seen, at its own pace.
 //!
-//! A frame message is, little endian: `u32` 2, run, number of frames n, number of signals m, number of points of contact c, 0; n times `[s]` as `f64`;
-//! n·m signals as `f64`; n frames as `f32`; n numbers of points as `u32`; c points as `f32`. All else is JSON.
+//! A frame message is, little endian: `u32` 2, run, number of frames n, number of signals m, number of points of
+//! contact c, 0; n times `[s]` as `f64`; n·m signals as `f64`; n frames as `f32`; n numbers of points as `u32`; c
+//! points as `f32`. All else is JSON.
 
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, TrySendError};

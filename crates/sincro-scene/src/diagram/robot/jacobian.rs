@@ -12,7 +12,8 @@ use sincro_math::Real;
 use super::{Context, Item, Robot, check_widths, frame};
 use crate::record::probe::attached;
 
-/// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s], world axes.
+/// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s],
+/// world axes.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
     model: Arc<Model<f64>>,

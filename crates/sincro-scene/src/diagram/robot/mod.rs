@@ -1,7 +1,8 @@
 //! Robot blocks: what the model knows, for use in a controller.
 //!
-//! `q` are all coordinates of the scene's model and `v` all velocities, in the order of `world.q` and `world.v`. Springs, dampers and friction
-//! are no part of inverse dynamics, gravity torque and mass matrix; the armature of motors is part of the mass matrix.
+//! `q` are all coordinates of the scene's model and `v` all velocities, in the order of `world.q` and `world.v`.
+//! Springs, dampers and friction are no part of inverse dynamics, gravity torque and mass matrix; the armature of
+//! motors is part of the mass matrix.
 
 mod forward_kinematics;
 mod gravity_torque;
