@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let loaded = sincro::load(&scene, &[])?;
 
     // about the state at t = 0: the arm hangs at rest, which is an equilibrium
-    let point = operating_point(&loaded, 0.0).map_err(|problem| problem.to_string())?;
+    let point = operating_point(&loaded, 0.0).map_err(|diagnostic| diagnostic.to_string())?;
     let found = linearize(&loaded, &point, &Request::default())?;
     let system = &found.system;
     println!("A ={}B ={}", system.a, system.b);

@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let inertia = [1.0 / 12.0, 0.0, 0.0, 1.0 / 12.0, 0.0, 1e-4];
     let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -0.5], inertia };
     builder.body("rod", hinge, Pose::identity(), BodySpec { mass });
-    let (model, _warnings) = builder.build().map_err(|problems| format!("{problems:?}"))?;
+    let (model, _warnings) = builder.build().map_err(|diagnostics| format!("{diagnostics:?}"))?;
 
     let mut state = State::new(&model);
     state.q[0] = 1.0;

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     diagram.wire("error", "pid").wire("pid", "/hinge");
     let (step, seed) = (loaded.experiment.step, loaded.experiment.seed);
     let controller = ControlDiagram::new(diagram, &loaded.scene.model, step, seed);
-    loaded.controller = Some(controller.map_err(|problems| format!("{problems:?}"))?);
+    loaded.controller = Some(controller.map_err(|diagnostics| format!("{diagnostics:?}"))?);
 
     let simulated = sincro::simulate(&loaded)?;
     let angle = simulated.table.column("/hinge.position").ok_or("the experiment records the angle")?;

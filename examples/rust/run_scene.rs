@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let (scene, out) = (PathBuf::from(scene), PathBuf::from(out));
     let overrides: Result<Vec<Override>, _> = settings.iter().map(|text| Override::parse(text)).collect();
-    let overrides = overrides.map_err(|problem| problem.to_string())?;
+    let overrides = overrides.map_err(|diagnostic| diagnostic.to_string())?;
     let loaded = sincro::load(&scene, &overrides)?;
 
     let request = RunRequest { scene: &scene, overrides: &overrides, loaded: &loaded, out: &out, index: None };

@@ -322,7 +322,7 @@ fn a_rotor_must_turn_with_its_joint() {
             Pose { rot, pos: Vec3([0.0; 3]) },
             rotor(blades(Spin::Clockwise), RotorDrive::Joint(shaft)),
         );
-        b.build().map(|_| ()).map_err(|problems| problems[0].message.clone())
+        b.build().map(|_| ()).map_err(|diagnostics| diagnostics[0].message.clone())
     };
     assert_eq!(build(false, false), Ok(()));
     assert!(build(true, false).unwrap_err().contains("does not turn with it"));

@@ -235,9 +235,9 @@ fn wrong_numbers_are_refused_all_at_once() {
         drag,
         ..spec()
     };
-    let problems = Rotor::new(bad).unwrap_err();
-    assert_eq!(problems.len(), 7, "{problems:?}");
-    assert_eq!(problems[0], "`radius` is 0 m: expected a number from 0.000001 to 1000000 m");
+    let diagnostics = Rotor::new(bad).unwrap_err();
+    assert_eq!(diagnostics.len(), 7, "{diagnostics:?}");
+    assert_eq!(diagnostics[0], "`radius` is 0 m: expected a number from 0.000001 to 1000000 m");
     let row = TableRow { advance: 0.0, thrust: f64::NAN, torque: 0.0 };
     assert_eq!(CoefficientTable::new(-1.0, Spin::Clockwise, vec![row, row]).unwrap_err().len(), 4);
     assert_eq!(CoefficientTable::new(1.0, Spin::Clockwise, vec![]).unwrap_err().len(), 1);

@@ -102,6 +102,6 @@ fn wrong_winds_are_refused_all_at_once() {
     let gust = Gust { start: f64::NAN, rise: 0.0, peak: [0.0; 3], holds: true };
     let spec =
         TurbulenceSpec { seed: 0, scales: Scales::LowAltitude { wind_at_20_feet: -1.0, height: 1.0 }, airspeed: 0.0 };
-    let problems = Wind::new([f64::NAN, 0.0, 0.0], log, vec![gust], Some(spec)).unwrap_err();
-    assert_eq!(problems.len(), 7, "{problems:?}");
+    let diagnostics = Wind::new([f64::NAN, 0.0, 0.0], log, vec![gust], Some(spec)).unwrap_err();
+    assert_eq!(diagnostics.len(), 7, "{diagnostics:?}");
 }

@@ -1,4 +1,4 @@
-//! What holds for every rotor in every state.
+//! Identities of every rotor in every state.
 
 use sincro_dynamics::aero::rotor::{Drag, Load, Rotor, RotorSpec, Spin, Validity};
 use sincro_dynamics::spatial::Vec3;

@@ -71,7 +71,8 @@ fn a_diagram_in_rust_and_in_toml_are_the_same() {
     assert_eq!(hash_of(&loaded, MethodKind::DormandPrince), in_toml);
 }
 
-/// Damping written as a continuous block and as a property of the joint: the same motion, to the tolerance of the integrator.
+/// Damping written as a continuous block and as a property of the joint: the same motion, to the tolerance of the
+/// integrator.
 #[test]
 fn a_continuous_block_is_integrated_with_the_world() {
     let run = |set: &[(&str, &str)], damped: bool| -> Vec<f64> {
@@ -106,7 +107,7 @@ fn a_force_from_a_diagram_is_that_of_the_scene() {
              body = [{{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = {{ xx = 0.1, yy = 0.2, zz = 0.25 }} }}]\n\
              force = [{{ name = \"push\", parent = \"/free/brick\", in_frame = \"body\", {force} }}]"
         );
-        sincro_scene::scene::from_text(&text).unwrap_or_else(|problems| panic!("{problems}"))
+        sincro_scene::scene::from_text(&text).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
     };
     let run = |force: &str, diagram: Option<Diagram>| -> Vec<u64> {
         let mut loaded = self::scene(&[]);

@@ -1,7 +1,7 @@
 //! Every scene folder: all checks of the run, its variants and its sweep hold, and the trace hash is the committed one.
 //!
-//! The hash is the same in debug and release builds and on every machine; `SINCRO_BLESS=1` writes the file anew after a change that
-//! is meant to move trajectories (which `CHANGELOG.md` then tells under Trajectories).
+//! The hash is the same in debug and release builds and on every machine; `SINCRO_BLESS=1` writes the file anew after a
+//! change that is meant to move trajectories (which `CHANGELOG.md` then tells under Trajectories).
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ fn folders() -> Vec<PathBuf> {
 
 fn run(folder: &Path) -> RunReport {
     let loaded = load(folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|problems| panic!("{problems}"));
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     run_campaign(folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap().report
 }
 

@@ -5,15 +5,15 @@ use std::path::Path;
 use sincro_analysis::linear::{DMatrix, lqr};
 use sincro_analysis::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
 use sincro_math::elementary::sin_cos;
+use sincro_scene::diagnostic::{Located, Location, SourceText};
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::{Located, Location, SourceText};
 use sincro_sim::run::LockStep;
 use sincro_sim::{Extensions, Loaded, load};
 
 fn scene(name: &str, set: &[(&str, &str)]) -> Loaded {
     let overrides: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
-    load(&folder, &overrides, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"))
+    load(&folder, &overrides, Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
 }
 
 fn name(text: &str) -> Located<String> {
@@ -39,7 +39,7 @@ fn moving_arm() -> Loaded {
 
 fn at_start(loaded: &Loaded, request: &Request) -> (LockStep, Linearization) {
     let at = operating_point(loaded, 0.0).unwrap();
-    let linear = linearize(loaded, &at, request).unwrap_or_else(|problems| panic!("{problems}"));
+    let linear = linearize(loaded, &at, request).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     (at, linear)
 }
 
@@ -126,8 +126,8 @@ fn a_closed_loop_has_the_states_of_its_controller() {
     let (_, linear) = at_start(&loaded, &request);
     assert_eq!(linear.system.n_states(), 8);
     assert!(linear.notes[0].contains("sampled blocks hold"), "{:?}", linear.notes);
-    // the velocity loop has integral action: a speed asked for is reached, whatever the inertia
-    // (the coordinates integrate, so that A is singular, but neither speed nor torque depends on them: they do not enter the channel)
+    // the velocity loop has integral action: a speed asked for is reached, whatever the inertia (the coordinates
+    // integrate, so that A is singular, but neither speed nor torque depends on them: they do not enter the channel)
     let gain = linear.system.gain(0, 0).unwrap();
     assert!((gain - 1.0).abs() < 1e-12, "{gain}");
     let slowest = linear.system.poles().iter().map(|p| p.pole.re).fold(f64::NEG_INFINITY, f64::max);
@@ -139,15 +139,15 @@ fn an_ideal_motor_is_no_input() {
     let loaded = scene("two-dof-position", &[]);
     let at = operating_point(&loaded, 0.0).unwrap();
     let request = Request { inputs: vec![name("/shoulder")], ..Request::default() };
-    let problems = linearize(&loaded, &at, &request).unwrap_err().to_string();
-    assert!(problems.contains("is the command of an ideal motor"), "{problems}");
+    let diagnostics = linearize(&loaded, &at, &request).unwrap_err().to_string();
+    assert!(diagnostics.contains("is the command of an ideal motor"), "{diagnostics}");
 }
 
 #[test]
 fn a_pendulum_is_trimmed_by_its_torque_and_by_its_angle() {
     let loaded = scene("spring-static", &[]);
     let at = operating_point(&loaded, 0.0).unwrap();
-    let found = trim(&loaded, &at, &TrimRequest::default()).unwrap_or_else(|problems| panic!("{problems}"));
+    let found = trim(&loaded, &at, &TrimRequest::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     assert!(found.trim.residual < 1e-9, "{:?}", found.trim);
     // what is trimmed stays where it is
     let mut run = found.at.fork().lockstep;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use crate::extensions;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::{Loaded, load};
 
 use super::clock::Subject;
@@ -51,8 +51,8 @@ pub(super) fn flight() -> Result<Subject, String> {
     let loaded = loaded()?;
     let interrupt = AtomicBool::new(false);
     let once = move || {
-        let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-        let run = simulate(&loaded, Manner::default(), &mut watch).expect("every recorded signal is there");
+        let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+        let run = simulate(&loaded, RunOptions::default(), &mut watch).expect("every recorded signal is there");
         assert!(run.status.is_good(), "the flight comes to its end");
     };
     Ok(Subject::new(once))

@@ -8,7 +8,7 @@ use sincro_dynamics::world::World;
 use crate::host::{Host, Phase, Scripts, Setting};
 use crate::session::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value};
 use sincro_scene::scenery::Piece;
-use sincro_scene::script::{Fault, Kind, Script};
+use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
@@ -131,7 +131,7 @@ impl ApiController {
     }
 
     /// Calls the scripts, if there are any; their time is that of `at`.
-    fn call_scripts(&mut self, phase: Phase, at: Instant<'_>) -> Result<(), Fault> {
+    fn call_scripts(&mut self, phase: Phase, at: Instant<'_>) -> Result<(), ScriptError> {
         let Some(scripts) = &mut self.scripts else { return Ok(()) };
         scripts.call(phase, at.world, &mut self.registry, (at.tick, at.t))
     }
@@ -142,11 +142,11 @@ impl Controller for ApiController {
         if self.scripts.is_some() { "scripts" } else { "clients" }
     }
 
-    fn start(&mut self, at: Instant<'_>) -> Result<(), Fault> {
+    fn start(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         self.call_scripts(Phase::Initialization, Instant { tick: 0, t: 0.0, ..at })
     }
 
-    fn actuate(&mut self, at: Instant<'_>) -> Result<(), Fault> {
+    fn actuate(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         if let Some(registry) = &mut self.registry {
             registry.begin_tick(at.tick, &at.world.state.totals);
         }
@@ -165,7 +165,7 @@ impl Controller for ApiController {
         }
     }
 
-    fn look(&mut self, at: Instant<'_>) {
+    fn update_proximity_sensors(&mut self, at: Instant<'_>) {
         if !self.is_due(at.tick) {
             return;
         }
@@ -174,7 +174,7 @@ impl Controller for ApiController {
         }
     }
 
-    fn sense(&mut self, at: Instant<'_>) -> Result<(), Fault> {
+    fn sense(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         let Some(registry) = self.registry.as_mut().filter(|registry| registry.is_due(at.tick)) else { return Ok(()) };
         at.world.release();
         registry.sense(&at.world.state.q);
@@ -184,7 +184,7 @@ impl Controller for ApiController {
         self.call_scripts(Phase::Sensing, Instant { tick, t, ..at })
     }
 
-    fn finish(&mut self, at: Instant<'_>) -> Result<(), Fault> {
+    fn finish(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         if self.is_started() { self.call_scripts(Phase::Cleanup, at) } else { Ok(()) }
     }
 

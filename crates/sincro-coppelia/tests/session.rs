@@ -7,7 +7,7 @@ use sincro_coppelia::session::{Handle, Phase, Reference, Search, Session, Value}
 use sincro_dynamics::actuation::MotorMode;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 const ARM: &str = r#"
 gravity = [0.0, 0.0, -9.81]
@@ -79,8 +79,8 @@ fn a_session_without_clients_is_the_run_of_its_scene() {
     for (scene, sample) in [("two-dof-open-loop", 0.01), ("pid-tuning", 0.01)] {
         let folder = scenes().join(scene);
         let loaded = load(&folder, &[], Extensions::default()).unwrap();
-        let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-        let run = simulate(&loaded, Manner::default(), watch).unwrap();
+        let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+        let run = simulate(&loaded, RunOptions::default(), watch).unwrap();
         let mut session = Session::open(&folder, &[], Extensions::default(), Some(sample)).unwrap();
         for _ in 0..2 {
             session.start().unwrap();

@@ -1,8 +1,8 @@
 //! Errors of Lua as faults of a script: the line, its text, what is wrong, how to mend it.
 
 use mlua::Error;
-use sincro_scene::problem::Location;
-use sincro_scene::script::{Fault, Script};
+use sincro_scene::diagnostic::Location;
+use sincro_scene::script::{Script, ScriptError};
 
 use crate::guard::Guard;
 use crate::sandbox::CHUNK;
@@ -59,7 +59,7 @@ fn line_in(trace: &str) -> Option<usize> {
 }
 
 /// The fault of a script.
-pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
+pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> ScriptError {
     let (message, line) = words(error);
     let line = if guard.is_stopped() { guard.line().or(line) } else { line };
     let (message, help) = if guard.is_stopped() {
@@ -80,7 +80,7 @@ pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> Fault {
         let help = help(&message);
         (message, help)
     };
-    Fault { object: script.path.clone(), at: line.and_then(|line| location(script, line)), message, help }
+    ScriptError { object: script.path.clone(), at: line.and_then(|line| location(script, line)), message, help }
 }
 
 fn is_of_memory(error: &Error) -> bool {

@@ -8,7 +8,7 @@ use sincro_coppelia::session::{ApiError, Handle, Value};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_scene::script::{Fault, Kind, Law, LawSpec, Script, ScriptParser};
+use sincro_scene::script::{Kind, Law, LawSpec, Script, ScriptError, ScriptParser};
 use sincro_sim::Loaded;
 use sincro_sim::ScriptEngine;
 use sincro_sim::controller::Controller;
@@ -28,7 +28,7 @@ const MAX_HELD: u32 = 1_000;
 pub(crate) struct Lua54;
 
 impl ScriptParser for Lua54 {
-    fn check(&self, script: &Script) -> Result<(), Fault> {
+    fn check(&self, script: &Script) -> Result<(), ScriptError> {
         let guard = Guard::new(script.max_instructions);
         let compiled = sandbox::new(&guard, script.max_memory).and_then(|lua| machine::compile(&lua, script).map(drop));
         compiled.map_err(|error| fault::of(script, &guard, &error))
@@ -64,7 +64,7 @@ struct Scripts {
 }
 
 impl Host for Scripts {
-    fn call(&mut self, mut call: Call<'_>, phase: Phase) -> Result<(), Fault> {
+    fn call(&mut self, mut call: Call<'_>, phase: Phase) -> Result<(), ScriptError> {
         self.lend(&mut call);
         let done = self.run(phase);
         self.lend(&mut call);
@@ -116,7 +116,7 @@ impl Scripts {
         stage.t = call.t;
     }
 
-    fn run(&mut self, phase: Phase) -> Result<(), Fault> {
+    fn run(&mut self, phase: Phase) -> Result<(), ScriptError> {
         let step = self.shared.setting.step;
         if self.machines.is_empty() {
             self.make()?;
@@ -139,7 +139,7 @@ impl Scripts {
     }
 
     /// Calls `sysCall_beforeMainScript` again and again while a script holds the step back.
-    fn wait_for_main(&mut self) -> Result<(), Fault> {
+    fn wait_for_main(&mut self) -> Result<(), ScriptError> {
         for _ in 0..MAX_HELD {
             let mut holder = None;
             for (k, machine) in self.machines.iter_mut().enumerate() {
@@ -156,7 +156,7 @@ impl Scripts {
 
     /// Asks `sysCall_contact` of each script in turn about each pair that may come to touch: the first that does not
     /// leave it to others decides.
-    fn decide_contacts(&mut self) -> Result<(), Fault> {
+    fn decide_contacts(&mut self) -> Result<(), ScriptError> {
         let Some(first) = self.machines.iter().position(Machine::has_contact) else { return Ok(()) };
         let own = crate::shared::handle_of(&self.shared.scripts[first]);
         // a table is there while scripts are called
@@ -171,7 +171,7 @@ impl Scripts {
         Ok(())
     }
 
-    fn make(&mut self) -> Result<(), Fault> {
+    fn make(&mut self) -> Result<(), ScriptError> {
         for index in 0..self.shared.scripts.len() {
             self.machines.push(Machine::new(&self.shared, index)?);
         }

@@ -14,7 +14,7 @@ use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
 use sincro_coppelia::host::Phase;
 use sincro_coppelia::session::{self, ApiError, Handle};
-use sincro_scene::script::{Fault, Kind, Script, Style};
+use sincro_scene::script::{Kind, Script, ScriptError, Style};
 
 use crate::guard::{Guard, THREAD};
 use crate::sandbox::{self, CHUNK};
@@ -73,7 +73,7 @@ pub(crate) fn compile(lua: &Lua, script: &Script) -> mlua::Result<Function> {
 
 impl Machine {
     /// The script `index` of a run, not called yet.
-    pub fn new(shared: &Arc<Shared>, index: usize) -> Result<Self, Fault> {
+    pub fn new(shared: &Arc<Shared>, index: usize) -> Result<Self, ScriptError> {
         let script = &shared.scripts[index];
         let guard = Guard::new(script.max_instructions);
         Self::furnished(shared, index, guard.clone()).map_err(|error| fault::of(script, &guard, &error))
@@ -148,14 +148,14 @@ impl Machine {
     }
 
     /// Runs something of the script within its limits.
-    fn within<T>(&mut self, is_thread: bool, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, Fault> {
+    fn within<T>(&mut self, is_thread: bool, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, ScriptError> {
         self.guard.begin(is_thread);
         let done = run(self).and_then(|value| self.guard.check().map(|()| value));
         done.map_err(|error| fault::of(self.script(), &self.guard, &error))
     }
 
     /// A phase of the step; threads are resumed by [`Machine::resume`].
-    pub fn call(&mut self, phase: Phase) -> Result<(), Fault> {
+    pub fn call(&mut self, phase: Phase) -> Result<(), ScriptError> {
         match phase {
             Phase::Initialization => self.within(false, Self::initialize),
             // V-REP's old scripts know of no pauses
@@ -277,24 +277,24 @@ impl Machine {
         self.chunk.call(())
     }
 
-    fn call_entry(&mut self, which: fn(&Entries) -> &Option<Function>) -> Result<(), Fault> {
+    fn call_entry(&mut self, which: fn(&Entries) -> &Option<Function>) -> Result<(), ScriptError> {
         let Some(function) = which(&self.entries).clone() else { return Ok(()) };
         self.within(false, |_| function.call(()))
     }
 
     /// Calls a function if the script has it.
-    fn call_named(&mut self, name: &str) -> Result<(), Fault> {
+    fn call_named(&mut self, name: &str) -> Result<(), ScriptError> {
         self.within(false, |m| m.entry(&[name])?.map_or(Ok(()), |function| function.call(())))
     }
 
     /// Resumes the script's thread, if it is one and has not ended.
-    pub fn resume(&mut self) -> Result<(), Fault> {
+    pub fn resume(&mut self) -> Result<(), ScriptError> {
         let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
         self.within(true, |_| thread.resume(()))
     }
 
     /// Calls `sysCall_dyn` before or after the world's step.
-    pub fn call_dynamics(&mut self, step: f64, is_after: bool) -> Result<(), Fault> {
+    pub fn call_dynamics(&mut self, step: f64, is_after: bool) -> Result<(), ScriptError> {
         let Some(function) = self.entries.dynamics.clone() else { return Ok(()) };
         self.within(false, |m| {
             let info = m.lua.create_table()?;
@@ -308,7 +308,7 @@ impl Machine {
 
     /// Calls `sysCall_beforeMainScript` of a customization script, before anything else of the step; says whether it
     /// holds the step back.
-    pub fn call_before_main(&mut self) -> Result<bool, Fault> {
+    pub fn call_before_main(&mut self) -> Result<bool, ScriptError> {
         let Some(function) = self.entries.before_main.clone() else { return Ok(false) };
         let answer: Value = self.within(false, |_| function.call(()))?;
         let Value::Table(answer) = answer else { return Ok(false) };
@@ -316,12 +316,12 @@ impl Machine {
     }
 
     /// The script has held a step back too often.
-    pub fn holds_back(&self, times: u32) -> Fault {
+    pub fn holds_back(&self, times: u32) -> ScriptError {
         let message = format!(
             "sysCall_beforeMainScript has held back one step {times} times: nothing can let it go, for time stands still meanwhile"
         );
         let (object, help) = (self.script().path.clone(), "hold back for a number of calls, or pause the simulation");
-        Fault { object, at: None, message, help: Some(help.to_owned()) }
+        ScriptError { object, at: None, message, help: Some(help.to_owned()) }
     }
 
     /// Returns true if the script decides what touches.
@@ -330,14 +330,14 @@ impl Machine {
     }
 
     /// Asks the script what a pair of bodies does in the coming step; says whether it decided.
-    pub fn call_contact(&mut self, bodies: [Handle; 2]) -> Result<bool, Fault> {
+    pub fn call_contact(&mut self, bodies: [Handle; 2]) -> Result<bool, ScriptError> {
         let Some(function) = self.entries.contact.clone() else { return Ok(false) };
         self.within(false, |m| contact::ask(&m.lua, &m.shared, m.index, &function, bodies))
     }
 
     /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what
     /// the joint is commanded.
-    pub fn call_joint(&mut self, step: f64) -> Result<(), Fault> {
+    pub fn call_joint(&mut self, step: f64) -> Result<(), ScriptError> {
         let Some(function) = self.entries.joint.clone() else { return Ok(()) };
         let is_first = !std::mem::replace(&mut self.is_joint_called, true);
         self.within(false, |m| callback::joint(&m.lua, &m.shared, m.index, &function, (step, is_first)))

@@ -3,10 +3,10 @@
 use serde_json::{Map, Value};
 use toml::de::DeValue;
 
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, escape};
 use crate::experiment::experiment_schema;
 use crate::overrides::Override;
-use crate::problem::{Problem, Problems};
 use crate::scene::scene_schema;
 use crate::schema::{alternatives, property, property_names};
 use crate::suggest;
@@ -39,18 +39,18 @@ impl Override {
     }
 
     /// The finding about a setting for a diagram that is not there.
-    pub fn without_diagram(&self) -> Problem {
+    pub fn without_diagram(&self) -> Diagnostic {
         let first = self.path.value.split(['.', '[']).next().unwrap_or("");
         let known: Vec<&str> = [scene_schema(), experiment_schema()]
             .into_iter()
             .flat_map(|schema| property_names(schema.as_object().expect("a schema is a table")))
             .collect();
-        let problem = self.error(format!("`{}`: a scene or experiment has no `{first}`", self.path.value));
-        problem.with_help(suggest::help(first, &known, "keys"))
+        let diagnostic = self.error(format!("`{}`: a scene or experiment has no `{first}`", self.path.value));
+        diagnostic.with_help(suggest::help(first, &known, "keys"))
     }
 
     /// A parameter of a block, or a key of the diagram file.
-    fn apply_to_diagram(&self, document: &mut Document) -> Result<(), Problem> {
+    fn apply_to_diagram(&self, document: &mut Document) -> Result<(), Diagnostic> {
         let path = self.path.value.strip_prefix(OF_DIAGRAM).unwrap_or(&self.path.value);
         let keys = steps(path);
         let names: Vec<String> = names_of_blocks(document);
@@ -63,14 +63,14 @@ impl Override {
             None if matches!(keys[0].as_str(), "parameters" | "sample_time") => String::new(),
             None => {
                 let known: Vec<&str> = names.iter().map(String::as_str).collect();
-                let problem = self.error(format!("`{}`: the diagram has no block `{}`", self.path.value, keys[0]));
-                return Err(problem.with_help(suggest::help(&keys[0], &known, "blocks")));
+                let diagnostic = self.error(format!("`{}`: the diagram has no block `{}`", self.path.value, keys[0]));
+                return Err(diagnostic.with_help(suggest::help(&keys[0], &known, "blocks")));
             }
         };
         let rest = if pointer.is_empty() { &keys[..] } else { &keys[1..] };
         if rest.is_empty() {
-            let problem = self.error(format!("`{}` names a block, none of its parameters", self.path.value));
-            return Err(problem.with_help(format!("write {}.PARAMETER=VALUE", self.path.value)));
+            let diagnostic = self.error(format!("`{}` names a block, none of its parameters", self.path.value));
+            return Err(diagnostic.with_help(format!("write {}.PARAMETER=VALUE", self.path.value)));
         }
         let (last, inner) = rest.split_last().expect("not empty");
         let mut at = pointer;
@@ -97,7 +97,7 @@ impl Override {
     /// # Errors
     ///
     /// The path reaches nothing in the document, or the value is no TOML.
-    pub fn apply(&self, document: &mut Document, target: Target) -> Result<(), Problem> {
+    pub fn apply(&self, document: &mut Document, target: Target) -> Result<(), Diagnostic> {
         let (mut walk, keys) = match target {
             Target::Diagram => return self.apply_to_diagram(document),
             Target::Experiment => (Walk::from_root(self, experiment_schema()), self.path.value.as_str()),
@@ -118,41 +118,41 @@ impl Override {
         self.put(document, &walk.pointer)
     }
 
-    fn put(&self, document: &mut Document, pointer: &str) -> Result<(), Problem> {
+    fn put(&self, document: &mut Document, pointer: &str) -> Result<(), Diagnostic> {
         let text = &self.value.value;
         if let Ok(value) = DeValue::parse(text) {
             document.put(pointer, &self.path.at, &value, &self.value.at);
             return Ok(());
         }
         if text.starts_with(['[', '{', '"', '\'']) {
-            let problem = Problem::error(&self.value.at, format!("`{text}` is not a TOML value"));
-            return Err(problem.with_help("numbers, [lists], { tables = 1 }, \"strings\" or bare words"));
+            let diagnostic = Diagnostic::error(&self.value.at, format!("`{text}` is not a TOML value"));
+            return Err(diagnostic.with_help("numbers, [lists], { tables = 1 }, \"strings\" or bare words"));
         }
         document.put_silently(pointer, Value::String(text.clone()), &self.value.at);
         Ok(())
     }
 
     /// The object at the head of the path, and the keys behind it.
-    fn find_object(&self, document: &Document) -> Result<(Walk<'_>, &str), Problem> {
+    fn find_object(&self, document: &Document) -> Result<(Walk<'_>, &str), Diagnostic> {
         let path = self.path.value.as_str();
         let (object, keys) = path.split_once('.').unwrap_or((path, ""));
         let objects = tree::raw_objects(document);
         let Some(found) = objects.iter().find(|o| o.path == object) else {
             let known: Vec<&str> = objects.iter().map(|o| o.path.as_str()).collect();
-            let problem = self.error(format!("there is no object `{object}`"));
-            return Err(problem.with_help(suggest::help(object, &known, "objects")));
+            let diagnostic = self.error(format!("there is no object `{object}`"));
+            return Err(diagnostic.with_help(suggest::help(object, &known, "objects")));
         };
         let list = found.pointer.split('/').nth(1).unwrap_or("");
         let schema = &scene_schema()["properties"][list]["items"];
         Ok((Walk { setting: self, root: scene_schema(), schema, pointer: found.pointer.clone() }, keys))
     }
 
-    fn error(&self, message: impl Into<String>) -> Problem {
-        Problem::error(&self.path.at, message)
+    fn error(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(&self.path.at, message)
     }
 }
 
-/// What stands before the name of a block that is also a key of another file.
+/// Prefix of the name of a block that is also a key of another file.
 const OF_DIAGRAM: &str = "diagram.";
 
 fn names_of_blocks(document: &Document) -> Vec<String> {
@@ -180,7 +180,7 @@ impl<'a> Walk<'a> {
     }
 
     /// One step down; whatever must be there for the next step is made.
-    fn enter(&mut self, document: &mut Document, key: &str, is_last: bool) -> Result<(), Problem> {
+    fn enter(&mut self, document: &mut Document, key: &str, is_last: bool) -> Result<(), Diagnostic> {
         let known_to_table = self.tables().find_map(|table| property(table, key));
         let index = key.parse::<usize>().ok();
         let item = index.and(self.lists().find_map(|list| list.get("items")));
@@ -201,7 +201,7 @@ impl<'a> Walk<'a> {
         key: &str,
         as_key: bool,
         index: Option<usize>,
-    ) -> Result<(), Problem> {
+    ) -> Result<(), Diagnostic> {
         let here = document.get(&self.pointer);
         match (here, index) {
             (Some(Value::Array(list)), Some(k)) if k >= list.len() => {
@@ -215,45 +215,45 @@ impl<'a> Walk<'a> {
                     return Ok(());
                 }
                 let known: Vec<&str> = table.keys().map(String::as_str).collect();
-                let problem = self.setting.error(format!("there is no `{key}` in `{}`", last_key(&self.pointer)));
-                Err(problem.with_help(suggest::help(key, &known, "known")))
+                let diagnostic = self.setting.error(format!("there is no `{key}` in `{}`", last_key(&self.pointer)));
+                Err(diagnostic.with_help(suggest::help(key, &known, "known")))
             }
             (Some(Value::Array(_)), Some(_)) => Ok(()),
             _ => {
                 let what = last_key(&self.pointer);
-                let problem = self.setting.error(format!("`{what}` has no `{key}` in the file as it is"));
-                Err(problem.with_help(format!("set `{what}` as a whole")))
+                let diagnostic = self.setting.error(format!("`{what}` has no `{key}` in the file as it is"));
+                Err(diagnostic.with_help(format!("set `{what}` as a whole")))
             }
         }
     }
 
-    /// What the file leaves out: the default of the schema, or an empty table.
-    fn create(&self, document: &mut Document) -> Result<(), Problem> {
+    /// Adds a key that the file leaves out: the default of the schema, or an empty table.
+    fn create(&self, document: &mut Document) -> Result<(), Diagnostic> {
         let content = match self.schema.get("default") {
             Some(default) => default.clone(),
             None if self.tables().next().is_some() => Value::Object(Map::new()),
             None => {
                 let what = last_key(&self.pointer);
-                let problem = self.setting.error(format!("`{what}` is not in the file"));
-                return Err(problem.with_help(format!("set `{what}` as a whole")));
+                let diagnostic = self.setting.error(format!("`{what}` is not in the file"));
+                return Err(diagnostic.with_help(format!("set `{what}` as a whole")));
             }
         };
         document.put_silently(&self.pointer, content, &self.setting.path.at);
         Ok(())
     }
 
-    fn unknown(&self, document: &Document, key: &str) -> Problem {
+    fn unknown(&self, document: &Document, key: &str) -> Diagnostic {
         let known = self.known();
         let known: Vec<&str> = known.iter().copied().filter(|k| !matches!(*k, "name" | "parent")).collect();
         let what = if self.pointer.is_empty() { "a scene or experiment".into() } else { format!("`{}`", self.title()) };
-        let problem = self.setting.error(format!("`{}`: {what} has no `{key}`", self.setting.path.value));
+        let diagnostic = self.setting.error(format!("`{}`: {what} has no `{key}`", self.setting.path.value));
         if self.pointer.is_empty() && document.get(&format!("/parameters/{}", escape(key))).is_some() {
-            return problem.with_help(format!("did you mean `parameters.{key}`?"));
+            return diagnostic.with_help(format!("did you mean `parameters.{key}`?"));
         }
         if known.is_empty() && self.lists().next().is_some() {
-            return problem.with_help("it is a list; its entries are counted from 0");
+            return diagnostic.with_help("it is a list; its entries are counted from 0");
         }
-        problem.with_help(suggest::help(key, &known, "keys"))
+        diagnostic.with_help(suggest::help(key, &known, "keys"))
     }
 
     fn title(&self) -> String {
@@ -292,12 +292,12 @@ fn last_key(pointer: &str) -> &str {
 }
 
 /// Applies those settings that are for `target`, in order; later ones win.
-pub fn apply_all(document: &mut Document, target: Target, settings: &[Override]) -> Problems {
-    let mut problems = Problems::new();
+pub fn apply_all(document: &mut Document, target: Target, settings: &[Override]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
     for setting in settings.iter().filter(|s| s.target() == target) {
-        if let Err(problem) = setting.apply(document, target) {
-            problems.push(problem);
+        if let Err(diagnostic) = setting.apply(document, target) {
+            diagnostics.push(diagnostic);
         }
     }
-    problems
+    diagnostics
 }

@@ -1,8 +1,8 @@
 //! A TOML text as a JSON tree that remembers where everything was written.
 //!
-//! Positions are kept beside the tree, by JSON pointer (`/joint/0/spring/stiffness`), so that findings about structure and
-//! findings about physics are placed alike. What JSON cannot hold (inf, nan, dates) is null in the tree and listed in
-//! [`Document::odd`].
+//! Positions are kept beside the tree, by JSON pointer (`/joint/0/spring/stiffness`), so that findings about structure
+//! and findings about physics are placed alike. What JSON cannot hold (inf, nan, dates) is null in the tree and listed
+//! in [`Document::odd`].
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::problem::{Located, Location, Problem, Problems, SourceText};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
 /// A value of TOML that JSON cannot hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub enum Odd {
     TooLarge,
 }
 
-/// Where an entry was written.
+/// Position of an entry in the text.
 #[derive(Clone, Debug)]
 pub struct Place {
     /// The key, none for elements of lists.
@@ -56,10 +56,10 @@ impl Document {
     /// # Errors
     ///
     /// Everything that is not TOML, with positions.
-    pub fn parse(source: &Arc<SourceText>) -> Result<Self, Problems> {
+    pub fn parse(source: &Arc<SourceText>) -> Result<Self, Diagnostics> {
         let (root, errors) = DeTable::parse_recoverable(&source.text);
         if !errors.is_empty() {
-            return Err(Problems(errors.iter().map(|e| syntax_problem(source, e)).collect()).sorted());
+            return Err(Diagnostics(errors.iter().map(|e| syntax_diagnostic(source, e)).collect()).sorted());
         }
         let mut reader = Reader { source, shift: 0, places: BTreeMap::new(), odd: BTreeMap::new() };
         let content = reader.table(root.get_ref(), "");
@@ -86,7 +86,7 @@ impl Document {
         Some(Located { value: self.text(pointer)?.to_owned(), at: self.at(pointer) })
     }
 
-    /// Where the value at a pointer was written; where it is absent, the nearest thing around it.
+    /// Location of the value at a pointer; if it is absent, of the nearest value around it.
     #[must_use]
     pub fn at(&self, pointer: &str) -> Location {
         let mut pointer = pointer;
@@ -98,7 +98,7 @@ impl Document {
         }
     }
 
-    /// Where the key at a pointer was written; its value if it has no key.
+    /// Location of the key at a pointer; of its value if it has no key.
     #[must_use]
     pub fn key_at(&self, pointer: &str) -> Location {
         match self.places.get(pointer) {
@@ -107,13 +107,13 @@ impl Document {
         }
     }
 
-    /// Where a table is best pointed at: the value of its `name`, or its first line.
+    /// Location that stands for a table: the value of its `name`, or its first line.
     #[must_use]
     pub fn title_at(&self, pointer: &str) -> Location {
         self.places.get(&format!("{pointer}/name")).map_or_else(|| self.at(pointer), |place| place.value.clone())
     }
 
-    /// What JSON could not hold of the value at a pointer.
+    /// Part of the value at a pointer that JSON cannot hold.
     #[must_use]
     pub fn odd(&self, pointer: &str) -> Option<&Odd> {
         self.odd.get(pointer)
@@ -172,16 +172,16 @@ pub fn unescape(step: &str) -> String {
     step.replace("~1", "/").replace("~0", "~")
 }
 
-fn syntax_problem(source: &Arc<SourceText>, error: &toml::de::Error) -> Problem {
+fn syntax_diagnostic(source: &Arc<SourceText>, error: &toml::de::Error) -> Diagnostic {
     let span = error.span().unwrap_or(0..0);
-    Problem::error(&Location { source: source.clone(), span }, error.message())
+    Diagnostic::error(&Location { source: source.clone(), span }, error.message())
         .with_help("the file is TOML: https://toml.io/en/v1.1.0")
 }
 
 /// Turns TOML values into JSON, noting where they were.
 struct Reader<'a> {
     source: &'a Arc<SourceText>,
-    /// Where the parsed text begins in the source.
+    /// Start of the parsed text in the source.
     shift: usize,
     places: BTreeMap<String, Place>,
     odd: BTreeMap<String, Odd>,
@@ -274,9 +274,9 @@ mod tests {
 
     #[test]
     fn syntax_errors_are_all_reported() {
-        let problems = Document::parse(&source("a = \nb = 1\nb = 2\n[c\n")).unwrap_err();
-        let places: Vec<_> = problems.0.iter().map(|p| p.line_column().unwrap()).collect();
-        assert!(places.len() >= 3, "{problems}");
+        let diagnostics = Document::parse(&source("a = \nb = 1\nb = 2\n[c\n")).unwrap_err();
+        let places: Vec<_> = diagnostics.0.iter().map(|p| p.line_column().unwrap()).collect();
+        assert!(places.len() >= 3, "{diagnostics}");
         assert_eq!(places[0].0, 1);
     }
 }

@@ -6,7 +6,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::problem::{Located, Problem, SourceText};
+use crate::diagnostic::{Diagnostic, Located, SourceText};
 use crate::suggest;
 
 /// Largest file that is read [bytes]: whatever is larger is not a scene, and would be read into memory whole.
@@ -31,32 +31,32 @@ impl Folder {
     }
 
     /// Text of a file of the folder that is named nowhere in a file.
-    pub fn read(&self, name: &str) -> Result<Arc<SourceText>, Problem> {
-        self.text(name).map_err(Problem::nowhere)
+    pub fn read(&self, name: &str) -> Result<Arc<SourceText>, Diagnostic> {
+        self.text(name).map_err(Diagnostic::nowhere)
     }
 
     /// Text of a file that is named in a file, there where it is named.
-    pub fn read_named(&self, name: &Located<String>) -> Result<Arc<SourceText>, Problem> {
+    pub fn read_named(&self, name: &Located<String>) -> Result<Arc<SourceText>, Diagnostic> {
         self.named(name, |path| self.text(path))
     }
 
-    fn named<T>(&self, name: &Located<String>, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Problem> {
+    fn named<T>(&self, name: &Located<String>, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Diagnostic> {
         let path = Path::new(&name.value);
         if path.components().any(|c| matches!(c, Component::RootDir | Component::Prefix(_))) {
-            let problem = Problem::error(&name.at, format!("the path `{}` is absolute", name.value));
-            return Err(problem.with_help("give it relative to the folder, so that the folder can be moved"));
+            let diagnostic = Diagnostic::error(&name.at, format!("the path `{}` is absolute", name.value));
+            return Err(diagnostic.with_help("give it relative to the folder, so that the folder can be moved"));
         }
         read(&name.value).map_err(|message| {
-            let problem = Problem::error(&name.at, message);
+            let diagnostic = Diagnostic::error(&name.at, message);
             match self.neighbours(path) {
-                Some(help) => problem.with_help(help),
-                None => problem,
+                Some(help) => diagnostic.with_help(help),
+                None => diagnostic,
             }
         })
     }
 
     /// Bytes of a file that is named in a file, whatever is in it; not kept.
-    pub fn bytes_named(&self, name: &Located<String>) -> Result<Vec<u8>, Problem> {
+    pub fn bytes_named(&self, name: &Located<String>) -> Result<Vec<u8>, Diagnostic> {
         self.named(name, |path| read_bytes(&self.path_of(path)))
     }
 

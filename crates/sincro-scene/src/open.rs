@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::apply_overrides::{Target, apply_all};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, SourceText};
 use crate::diagram::{self, ControlDiagram, diagram_schema};
 use crate::document::Document;
 use crate::experiment::{self, Experiment, Plot, experiment_schema};
 use crate::folder::Folder;
 use crate::overrides::Override;
-use crate::problem::{Located, Problem, Problems, SourceText};
 use crate::record::Recorder;
 use crate::scene::{self, Scene, scene_schema};
 use crate::schema::validate;
@@ -19,25 +19,26 @@ use crate::script::ScriptParser;
 const EXPERIMENT: &str = "experiment.toml";
 
 /// Numbers that a recording may have: 800 MB.
-const MOST_NUMBERS: u64 = 100_000_000;
+const MAX_NUMBERS: u64 = 100_000_000;
 
 /// A scene folder that was opened: its experiment and its scene, ready to run.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// What is run, recorded and checked.
+    /// The experiment: signals, checks, settings.
     pub experiment: Experiment,
     /// The compiled scene.
     pub scene: Scene,
     /// The diagram that controls it, if there is one.
     pub controller: Option<ControlDiagram>,
-    /// What the user should know of.
-    pub warnings: Vec<Problem>,
+    /// Warnings for the user.
+    pub warnings: Vec<Diagnostic>,
     /// Every file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
 }
 
-/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its variants and sweep, too,
-/// so that what is wrong with their settings is known before anything runs. `parser` is that of the language of its scripts.
+/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its
+/// variants and sweep, too, so that what is wrong with their settings is known before anything runs. `parser` is that
+/// of the language of its scripts.
 ///
 /// # Errors
 ///
@@ -47,10 +48,10 @@ pub fn open(
     overrides: &[Override],
     parser: Option<&'static dyn ScriptParser>,
     with_others: bool,
-) -> Result<Opened, Problems> {
+) -> Result<Opened, Diagnostics> {
     let folder = Folder::new(&find_folder(folder)?);
     let mut loaded = open_one(&folder, overrides, parser)?;
-    let mut problems = Problems(std::mem::take(&mut loaded.warnings));
+    let mut diagnostics = Diagnostics(std::mem::take(&mut loaded.warnings));
     // a variant was opened with the main run: its own settings must not meet those of the others
     let file = folder.path_of(EXPERIMENT);
     let is_variant = overrides.iter().any(|setting| setting.path.at.source.path == file);
@@ -58,14 +59,14 @@ pub fn open(
     for setting in further {
         let settings = settings_with(overrides, &setting);
         match open_one(&folder, &settings, parser) {
-            Ok(variant) => problems.merge(Problems(variant.warnings)),
-            Err(found) => problems.merge(found),
+            Ok(variant) => diagnostics.merge(Diagnostics(variant.warnings)),
+            Err(found) => diagnostics.merge(found),
         }
     }
-    if problems.any_error() {
-        return Err(problems.sorted());
+    if diagnostics.any_error() {
+        return Err(diagnostics.sorted());
     }
-    Ok(Opened { warnings: problems.sorted().0, sources: folder.sources(), ..loaded })
+    Ok(Opened { warnings: diagnostics.sorted().0, sources: folder.sources(), ..loaded })
 }
 
 /// Name of a scene: that of its folder.
@@ -77,8 +78,8 @@ pub fn folder_name(path: &Path) -> String {
     whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was said for: a variant
-/// that exchanges the diagram does not take it.
+/// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was
+/// said for: a variant that exchanges the diagram does not take it.
 #[must_use]
 pub fn settings_with(overrides: &[Override], variant: &[Override]) -> Vec<Override> {
     let exchanges = variant.iter().any(|setting| setting.path.value == "diagram");
@@ -97,11 +98,11 @@ fn further_settings(experiment: &Experiment) -> Vec<Vec<Override>> {
 }
 
 /// The folder that is meant by a folder or by the experiment file in it.
-fn find_folder(path: &Path) -> Result<PathBuf, Problems> {
+fn find_folder(path: &Path) -> Result<PathBuf, Diagnostics> {
     let shown = path.display();
     let help = "name a folder with an `experiment.toml`";
     let Ok(metadata) = std::fs::metadata(path) else {
-        return Err(Problem::nowhere(format!("there is no folder `{shown}`")).with_help(help).into());
+        return Err(Diagnostic::nowhere(format!("there is no folder `{shown}`")).with_help(help).into());
     };
     if metadata.is_dir() {
         if path.join(EXPERIMENT).exists() {
@@ -109,13 +110,13 @@ fn find_folder(path: &Path) -> Result<PathBuf, Problems> {
         }
         let found = experiments_below(path);
         let help = if found.is_empty() { help.to_owned() } else { format!("there is one in {}", found.join(", ")) };
-        return Err(Problem::nowhere(format!("the folder `{shown}` has no `{EXPERIMENT}`")).with_help(help).into());
+        return Err(Diagnostic::nowhere(format!("the folder `{shown}` has no `{EXPERIMENT}`")).with_help(help).into());
     }
     if path.file_name().is_some_and(|name| name == EXPERIMENT) {
         let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
         return Ok(parent.unwrap_or(Path::new(".")).to_owned());
     }
-    Err(Problem::nowhere(format!("`{shown}` is not a folder and not an `{EXPERIMENT}`")).with_help(help).into())
+    Err(Diagnostic::nowhere(format!("`{shown}` is not a folder and not an `{EXPERIMENT}`")).with_help(help).into())
 }
 
 /// Up to five folders in a folder that are experiments.
@@ -128,25 +129,25 @@ fn experiments_below(path: &Path) -> Vec<String> {
     found
 }
 
-/// Whether the recorded times are others than those the file was written for. Checks that look between them are then not
-/// refused, they cannot be made: who shortens a run to have a look at it has not made a mistake in the file.
+/// Returns true if the recorded times are others than those the file was written for. Checks that look between them are
+/// then not refused, they cannot be made: who shortens a run to have a look at it has not made a mistake in the file.
 fn sets_times(overrides: &[Override]) -> bool {
     overrides.iter().any(|setting| matches!(setting.path.value.as_str(), "duration" | "step" | "record_every"))
 }
 
 /// Refuses a recording that no memory would hold.
-fn too_large(experiment: &Experiment) -> Problems {
+fn too_large(experiment: &Experiment) -> Diagnostics {
     let rows = experiment.n_steps / experiment.record_every + 1;
     let numbers = rows.saturating_mul(experiment.record.len() as u64 + 1);
-    if numbers <= MOST_NUMBERS {
-        return Problems::new();
+    if numbers <= MAX_NUMBERS {
+        return Diagnostics::new();
     }
     let message = format!("{rows} rows of {} signals are more than memory is asked to hold", experiment.record.len());
     let help = format!(
         "record fewer rows: record_every = {} or more",
-        experiment.record_every * numbers.div_ceil(MOST_NUMBERS)
+        experiment.record_every * numbers.div_ceil(MAX_NUMBERS)
     );
-    Problems::from(Problem::error(&experiment.record[0].at, message).with_help(help))
+    Diagnostics::from(Diagnostic::error(&experiment.record[0].at, message).with_help(help))
 }
 
 /// One experiment without its variants.
@@ -154,23 +155,23 @@ fn open_one(
     folder: &Folder,
     overrides: &[Override],
     parser: Option<&'static dyn ScriptParser>,
-) -> Result<Opened, Problems> {
-    let mut problems = Problems::new();
+) -> Result<Opened, Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
     let document = Document::parse(&folder.read(EXPERIMENT)?)?;
-    let document = prepared(document, Target::Experiment, overrides, &mut problems);
+    let document = prepared(document, Target::Experiment, overrides, &mut diagnostics);
     let found = validate(&document, experiment_schema());
     let fits = !found.any_error();
-    problems.merge(found);
+    diagnostics.merge(found);
     let experiment = fits.then(|| {
         let (experiment, found) = experiment::resolve(&document, folder, !sets_times(overrides));
-        problems.merge(found);
+        diagnostics.merge(found);
         experiment
     });
     let experiment = experiment.flatten();
     let seed = experiment.as_ref().map_or(0, |e| e.seed);
-    let scene = open_scene(&document, folder, overrides, (seed, parser), &mut problems);
+    let scene = open_scene(&document, folder, overrides, (seed, parser), &mut diagnostics);
     let against = (experiment.as_ref(), scene.as_ref());
-    let controller = open_diagram(&document, folder, overrides, against, parser, &mut problems);
+    let controller = open_diagram(&document, folder, overrides, against, parser, &mut diagnostics);
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
         (experiment, ..) => experiment,
@@ -179,22 +180,22 @@ fn open_one(
     if let (Some(experiment), Some(scene), true) = (&experiment, &scene, is_whole) {
         let signals = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         if let Err(found) = Recorder::new(&experiment.record, &scene.model, &signals) {
-            problems.merge(found);
+            diagnostics.merge(found);
         }
     }
     if let Some(experiment) = &experiment {
         if let Some(scene) = &scene {
-            problems.merge(experiment::check_sample_times(&scene.sensors, experiment));
+            diagnostics.merge(experiment::check_sample_times(&scene.sensors, experiment));
         }
-        problems.merge(experiment::stop::check_recorded(experiment));
-        problems.merge(too_large(experiment));
+        diagnostics.merge(experiment::stop::check_recorded(experiment));
+        diagnostics.merge(too_large(experiment));
     }
     match (experiment, scene) {
-        (Some(experiment), Some(scene)) if !problems.any_error() => {
-            problems.merge(Problems(scene.warnings.clone()));
-            Ok(Opened { experiment, scene, controller, warnings: problems.0, sources: Vec::new() })
+        (Some(experiment), Some(scene)) if !diagnostics.any_error() => {
+            diagnostics.merge(Diagnostics(scene.warnings.clone()));
+            Ok(Opened { experiment, scene, controller, warnings: diagnostics.0, sources: Vec::new() })
         }
-        _ => Err(problems.sorted()),
+        _ => Err(diagnostics.sorted()),
     }
 }
 
@@ -204,7 +205,7 @@ fn open_scene(
     folder: &Folder,
     overrides: &[Override],
     (seed, parser): (u64, Option<&dyn ScriptParser>),
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Scene> {
     let read = match (experiment.located("/scene"), experiment.get("/scene")) {
         (Some(name), _) => folder.read_named(&name),
@@ -213,54 +214,54 @@ fn open_scene(
             .map_err(|p| p.with_help("name the scene file in `experiment.toml`: scene = \"scene.toml\"")),
         (None, Some(_)) => return None,
     };
-    let document = match read.map_err(Problems::from).and_then(|source| Document::parse(&source)) {
-        Ok(document) => prepared(document, Target::Scene, overrides, problems),
+    let document = match read.map_err(Diagnostics::from).and_then(|source| Document::parse(&source)) {
+        Ok(document) => prepared(document, Target::Scene, overrides, diagnostics),
         Err(found) => {
-            problems.merge(found);
+            diagnostics.merge(found);
             return None;
         }
     };
     let found = validate(&document, scene_schema());
     if found.any_error() {
-        problems.merge(found);
+        diagnostics.merge(found);
         return None;
     }
     match scene::compile(&document, folder, seed, parser) {
         Ok(scene) => Some(scene),
         Err(found) => {
-            problems.merge(found);
+            diagnostics.merge(found);
             None
         }
     }
 }
 
-/// The diagram that an experiment names. It is read even if scene or experiment have problems, but connected only to a scene that has
-/// none.
+/// The diagram that an experiment names. It is read even if scene or experiment have problems, but connected only to a
+/// scene that has none.
 fn open_diagram(
     document: &Document,
     folder: &Folder,
     overrides: &[Override],
     (experiment, scene): (Option<&Experiment>, Option<&Scene>),
     parser: Option<&'static dyn ScriptParser>,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<ControlDiagram> {
     let Some(name) = document.located("/diagram") else {
         for setting in overrides.iter().filter(|s| s.target() == Target::Diagram) {
-            problems.push(setting.without_diagram());
+            diagnostics.push(setting.without_diagram());
         }
         return None;
     };
-    let read = folder.read_named(&name).map_err(Problems::from);
+    let read = folder.read_named(&name).map_err(Diagnostics::from);
     let document = match read.and_then(|source| Document::parse(&source)) {
-        Ok(document) => prepared(document, Target::Diagram, overrides, problems),
+        Ok(document) => prepared(document, Target::Diagram, overrides, diagnostics),
         Err(found) => {
-            problems.merge(found);
+            diagnostics.merge(found);
             return None;
         }
     };
     let found = validate(&document, diagram_schema());
     if found.any_error() {
-        problems.merge(found);
+        diagnostics.merge(found);
         return None;
     }
     let (experiment, scene) = (experiment?, scene?);
@@ -271,10 +272,10 @@ fn open_diagram(
         parameters: &experiment.parameters,
         parser,
     };
-    diagram::open(&document, folder, setting).map_err(|found| problems.merge(found)).ok()
+    diagram::open(&document, folder, setting).map_err(|found| diagnostics.merge(found)).ok()
 }
 
-/// What the diagram's scopes look at is recorded and plotted.
+/// Adds the signals of the diagram's scopes to the recorded and plotted ones.
 fn with_scopes(mut experiment: Experiment, controller: &ControlDiagram, scene: &Scene) -> Experiment {
     let at = experiment.record[0].at.clone();
     for (title, names) in controller.scopes(&scene.model).into_iter().filter(|(_, names)| !names.is_empty()) {
@@ -297,7 +298,7 @@ fn with_scopes(mut experiment: Experiment, controller: &ControlDiagram, scene: &
 }
 
 /// The document with the settings that are for it.
-fn prepared(mut document: Document, target: Target, overrides: &[Override], problems: &mut Problems) -> Document {
-    problems.merge(apply_all(&mut document, target, overrides));
+fn prepared(mut document: Document, target: Target, overrides: &[Override], diagnostics: &mut Diagnostics) -> Document {
+    diagnostics.merge(apply_all(&mut document, target, overrides));
     document
 }

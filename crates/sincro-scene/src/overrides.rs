@@ -7,17 +7,17 @@
 //! | `step`, `parameters.m`, `sweep.range.to` | a key of the experiment file |
 //! | `pid.kp`, `diagram.step.to` | a parameter of the diagram's block of that name (`diagram.` where the name is also a key above) |
 //!
-//! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out is
-//! filled in.
+//! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out
+//! is filled in.
 
 use std::sync::Arc;
 
-use crate::problem::{Located, Location, Problem, SourceText};
+use crate::diagnostic::{Diagnostic, Located, Location, SourceText};
 
 /// One setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Override {
-    /// What is set.
+    /// Path of the number that is set.
     pub path: Located<String>,
     /// To what: TOML, or a bare word.
     pub value: Located<String>,
@@ -43,22 +43,22 @@ impl Override {
     /// If there is no `=`, or nothing before or after it.
     ///
     /// ```
-    /// use crate::overrides::Override;
+    /// use sincro_scene::overrides::Override;
     ///
     /// assert_eq!(Override::parse("/arm.spring.stiffness=30").unwrap().value.value, "30");
     /// assert!(Override::parse("/arm.spring.stiffness").is_err());
     /// ```
-    pub fn parse(text: &str) -> Result<Self, Problem> {
+    pub fn parse(text: &str) -> Result<Self, Diagnostic> {
         let source = Arc::new(SourceText { path: "--set".into(), text: text.to_owned() });
         let whole = Location { source, span: 0..text.len() };
         let help = "write PATH=VALUE, such as /shoulder.spring.stiffness=30 or step=0.001";
         let Some((path, value)) = text.split_once('=') else {
-            return Err(Problem::error(&whole, format!("`{text}` has no `=`")).with_help(help));
+            return Err(Diagnostic::error(&whole, format!("`{text}` has no `=`")).with_help(help));
         };
         let (path, value) = (path.trim(), value.trim());
         if path.is_empty() || value.is_empty() {
             let lacking = if path.is_empty() { "path before" } else { "value after" };
-            return Err(Problem::error(&whole, format!("`{text}` has no {lacking} the `=`")).with_help(help));
+            return Err(Diagnostic::error(&whole, format!("`{text}` has no {lacking} the `=`")).with_help(help));
         }
         Ok(Self::new(path, value))
     }

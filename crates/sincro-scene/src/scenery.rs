@@ -1,5 +1,5 @@
-//! What of a scene can be seen: every solid and surface of its bodies, where it hangs and what colour it has. Sensors that look (distances,
-//! images) and clients ask it; no step does.
+//! Visible geometry of a scene: every solid and surface of its bodies, its frame and its colour. Proximity and vision
+//! sensors (distances, images) and clients ask it; no step does.
 
 use std::sync::Arc;
 
@@ -13,9 +13,9 @@ use sincro_dynamics::spatial::Pose;
 pub struct Piece {
     /// Index of its body among the objects of the scene.
     pub object: usize,
-    /// Where its frame is fixed.
+    /// Link or world frame to which its frame is fixed.
     pub at: Attached<f64>,
-    /// What it is.
+    /// Its kind.
     pub geometry: Arc<Geometry>,
     /// Red, green, blue.
     pub color: [u8; 3],

@@ -1,11 +1,12 @@
 //! Scripts of a scene: which object each belongs to, its text, its limits; and the parser of their language.
 //!
-//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptParser`], which looks texts over when a scene is loaded.
+//! This crate knows no language. An adapter (`sincro-lua`) is a [`ScriptParser`], which looks texts over when a scene
+//! is loaded.
 
 use std::fmt;
 use std::sync::Arc;
 
-use crate::problem::{Location, Problem, SourceText};
+use crate::diagnostic::{Diagnostic, Location, SourceText};
 
 /// A script as a scene has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,11 +25,11 @@ pub struct Script {
     pub parameters: Vec<(String, Parameter)>,
     /// Files that it may read, by their names in the scene; their texts as they were when it was loaded.
     pub files: Vec<(String, Arc<SourceText>)>,
-    /// How it is called.
+    /// Calling convention.
     pub style: Style,
-    /// Where it stands among scripts of the same place.
+    /// Order among the scripts of one object.
     pub kind: Kind,
-    /// Whether an old script is a thread of its own.
+    /// True if an old script is a thread of its own.
     pub is_threaded: bool,
     /// Memory that it may take `[bytes]`.
     pub max_memory: usize,
@@ -38,7 +39,7 @@ pub struct Script {
     pub at: Location,
 }
 
-/// What is stored with a script.
+/// Parameter stored with a script.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Parameter {
     /// A number.
@@ -60,7 +61,7 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// How a script is called.
+/// Calling convention of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// As its text tells: `New` if it has a function `sysCall_…` after its first run, else `Old`.
@@ -80,36 +81,36 @@ pub enum Kind {
     Customization,
 }
 
-/// Why a script could not go on.
+/// Error of a script: it cannot go on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct ScriptError {
     /// Path of its object.
     pub object: String,
     /// The line of its text.
     pub at: Option<Location>,
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// How to mend it, if that is known.
+    /// Advice on a correction, if there is any.
     pub help: Option<String>,
 }
 
-impl Fault {
+impl ScriptError {
     /// As a finding in the script's text.
     #[must_use]
-    pub fn problem(&self) -> Problem {
+    pub fn diagnostic(&self) -> Diagnostic {
         let message = format!("script of `{}`: {}", self.object, self.message);
-        let problem = match &self.at {
-            Some(at) => Problem::error(at, message),
-            None => Problem::nowhere(message),
+        let diagnostic = match &self.at {
+            Some(at) => Diagnostic::error(at, message),
+            None => Diagnostic::nowhere(message),
         };
         match &self.help {
-            Some(help) => problem.with_help(help.clone()),
-            None => problem,
+            Some(help) => diagnostic.with_help(help.clone()),
+            None => diagnostic,
         }
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for ScriptError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the script of `{}` failed", self.object)?;
         if let Some(at) = &self.at {
@@ -163,12 +164,12 @@ impl Clone for Box<dyn Law> {
 
 /// Parser of the language of scripts: looks texts over when a scene is loaded.
 pub trait ScriptParser: Send + Sync + fmt::Debug {
-    /// What is wrong with a script before anything runs: its syntax.
+    /// Checks the syntax of a script before anything runs.
     ///
     /// # Errors
     ///
     /// The first fault of the text.
-    fn check(&self, script: &Script) -> Result<(), Fault>;
+    fn check(&self, script: &Script) -> Result<(), ScriptError>;
 
     /// A law for a block.
     ///

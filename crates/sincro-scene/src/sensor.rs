@@ -1,8 +1,9 @@
 //! Sensors: places on bodies where something is measured at a rate of its own, with errors.
 //!
-//! A sensor takes a sample at the multiples of its sample time, from the state at the tick and from the accelerations under the commands that
-//! acted up to it: what a controller answers at a tick it cannot have measured at that tick, so that no sensor closes an algebraic loop.
-//! Between samples its values are held. They are recorded and wired under the sensor's path:
+//! A sensor takes a sample at the multiples of its sample time, from the state at the tick and from the accelerations
+//! under the commands that acted up to it: what a controller answers at a tick it cannot have measured at that tick, so
+//! that no sensor closes an algebraic loop. Between samples its values are held. They are recorded and wired under the
+//! sensor's path:
 //!
 //! | sensor | values |
 //! |---|---|
@@ -13,21 +14,21 @@
 //! | `contact` | `.measured_force.x y z` `[N]` of all that touches its body, `.measured_torque.x y z` [N·m] about its origin, own axes; `.touching` 0 or 1; `.points` |
 //! | `proximity` | `.detected` 0 or 1; `.distance` `[m]`, offset and range if nothing is there; `.detected_point.x y z` `[m]`, `.detected_normal.x y z`, own axes |
 //!
-//! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's path, the component and
-//! k, as in the block `noise`, so that any sample can be computed again on its own. A noise density N gives samples of standard deviation
-//! N/√(sample time).
+//! Noise is white and of the normal distribution: number k of a component is a hash of the run's seed, the sensor's
+//! path, the component and k, as in the block `noise`, so that any sample can be computed again on its own. A noise
+//! density N gives samples of standard deviation N/√(sample time).
 
 use sincro_dynamics::geometry::{FieldOfView, Volume};
 use sincro_dynamics::model::{Model, SensorInfo};
 
-use crate::problem::Located;
+use crate::diagnostic::Located;
 
 /// A sensor as the scene has it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorSpec {
     /// Its path; a frame of the model has the same.
     pub path: String,
-    /// What it measures.
+    /// Kind of measurement.
     pub kind: SensorKind,
     /// Time between two samples `[s]`; none: every base step.
     pub sample_time: Option<Located<f64>>,
@@ -37,7 +38,7 @@ pub struct SensorSpec {
     pub with: Vec<Located<String>>,
 }
 
-/// What a sensor measures, and how wrong.
+/// Kind of a sensor, with the errors of its measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorKind {
     /// Specific force and angular velocity, own axes.
@@ -77,11 +78,11 @@ pub enum SensorKind {
     },
     /// The closest point of other bodies inside a volume.
     Proximity {
-        /// What it looks into.
+        /// Volume of detection.
         volume: Volume,
-        /// Where that begins before it `[m]`.
+        /// Offset of the volume along z `[m]`.
         offset: f64,
-        /// How far it goes from there `[m]`.
+        /// Length of the volume from there `[m]`.
         range: f64,
         /// Standard deviation of the distance `[m]`.
         noise: f64,
@@ -93,12 +94,12 @@ pub enum SensorKind {
 pub struct Errors {
     /// Added to every sample.
     pub bias: [f64; 3],
-    /// How noisy they are.
+    /// Standard deviation of their noise.
     pub noise: f64,
 }
 
 impl SensorKind {
-    /// What a proximity sensor looks into; none for others.
+    /// Field of view of a proximity sensor; none for others.
     #[must_use]
     pub fn field(self) -> Option<FieldOfView> {
         match self {

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 use crate::folder::Folder;
-use crate::problem::{Located, Location, Problem, Problems, SourceText};
 use crate::suggest;
 
 /// Which columns of which file, and where that was written.
@@ -18,18 +18,18 @@ pub struct Query<'a> {
 }
 
 /// Reads two columns; none, with problems noted, if they are not there or are not numbers.
-pub fn read(folder: &Folder, query: &Query<'_>, problems: &mut Problems) -> Option<(Vec<f64>, Vec<f64>)> {
+pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -> Option<(Vec<f64>, Vec<f64>)> {
     let source = match folder.read_named(query.file) {
         Ok(source) => source,
-        Err(problem) => {
-            problems.push(problem);
+        Err(diagnostic) => {
+            diagnostics.push(diagnostic);
             return None;
         }
     };
     match columns(&source, query) {
         Ok(columns) => Some(columns),
         Err(found) => {
-            problems.merge(found);
+            diagnostics.merge(found);
             None
         }
     }
@@ -45,9 +45,9 @@ pub fn column(folder: &Folder, file: &str, column: &str) -> Result<Vec<f64>, Str
         let source = Arc::new(SourceText { path: "diagram".into(), text: text.to_owned() });
         Located { value: text.to_owned(), at: Location { source, span: 0..text.len() } }
     };
-    let words = |problem: Problem| match problem.help {
-        Some(help) => format!("{} ({help})", problem.message),
-        None => problem.message,
+    let words = |diagnostic: Diagnostic| match diagnostic.help {
+        Some(help) => format!("{} ({help})", diagnostic.message),
+        None => diagnostic.message,
     };
     let source = folder.read_named(&located(file)).map_err(words)?;
     let mut reader =
@@ -64,42 +64,42 @@ pub fn column(folder: &Folder, file: &str, column: &str) -> Result<Vec<f64>, Str
     Ok(numbers)
 }
 
-fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<(Vec<f64>, Vec<f64>), Problems> {
+fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<(Vec<f64>, Vec<f64>), Diagnostics> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source.text.as_bytes());
-    let header = reader.headers().map_err(|e| csv_problem(source, &e))?.clone();
+    let header = reader.headers().map_err(|e| csv_diagnostic(source, &e))?.clone();
     let names: Vec<&str> = header.iter().collect();
     let key_idx = column_index(&names, query.key, source);
     let value_idx = column_index(&names, query.column, source);
     let (key_idx, value_idx) = match (key_idx, value_idx) {
         (Ok(key), Ok(value)) => (key, value),
-        (key, value) => return Err(Problems(key.err().into_iter().chain(value.err()).collect())),
+        (key, value) => return Err(Diagnostics(key.err().into_iter().chain(value.err()).collect())),
     };
     let (mut keys, mut values) = (Vec::new(), Vec::new());
     let mut row = csv::StringRecord::new();
-    while reader.read_record(&mut row).map_err(|e| csv_problem(source, &e))? {
+    while reader.read_record(&mut row).map_err(|e| csv_diagnostic(source, &e))? {
         let cell = Cells { source, row: &row, names: &names };
         let key = cell.number(key_idx)?;
         if keys.last().is_some_and(|last| key <= *last) {
             let last = keys[keys.len() - 1];
             let message = format!("`{}` {key} does not come after {last}", query.key.value);
-            let problem = Problem::error(&cell.at(key_idx), message);
-            return Err(problem.with_help("rows are ordered, each later than the one before").into());
+            let diagnostic = Diagnostic::error(&cell.at(key_idx), message);
+            return Err(diagnostic.with_help("rows are ordered, each later than the one before").into());
         }
         keys.push(key);
         values.push(cell.number(value_idx)?);
     }
     if keys.is_empty() {
         let at = Location { source: source.clone(), span: 0..0 };
-        return Err(Problem::error(&at, "the file has no rows below its header").into());
+        return Err(Diagnostic::error(&at, "the file has no rows below its header").into());
     }
     Ok((keys, values))
 }
 
-fn column_index(names: &[&str], wanted: &Located<String>, source: &SourceText) -> Result<usize, Problem> {
+fn column_index(names: &[&str], wanted: &Located<String>, source: &SourceText) -> Result<usize, Diagnostic> {
     names.iter().position(|name| *name == wanted.value).ok_or_else(|| {
         let message = format!("`{}` has no column `{}`", source.path.display(), wanted.value);
-        Problem::error(&wanted.at, message).with_help(suggest::help(&wanted.value, names, "columns"))
+        Diagnostic::error(&wanted.at, message).with_help(suggest::help(&wanted.value, names, "columns"))
     })
 }
 
@@ -111,13 +111,13 @@ struct Cells<'a> {
 }
 
 impl Cells<'_> {
-    fn number(&self, index: usize) -> Result<f64, Problem> {
+    fn number(&self, index: usize) -> Result<f64, Diagnostic> {
         let text = &self.row[index];
         match text.parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
             _ => {
                 let message = format!("`{text}` in column `{}` is not a finite number", self.names[index]);
-                Err(Problem::error(&self.at(index), message)
+                Err(Diagnostic::error(&self.at(index), message)
                     .with_help("numbers have a decimal point, columns are separated by commas"))
             }
         }
@@ -150,17 +150,17 @@ fn cell_span(text: &str, start: usize, index: usize) -> Range<usize> {
     shift..shift + cell.trim().len()
 }
 
-fn csv_problem(source: &Arc<SourceText>, error: &csv::Error) -> Problems {
+fn csv_diagnostic(source: &Arc<SourceText>, error: &csv::Error) -> Diagnostics {
     let start = error.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
     let at = Location { source: source.clone(), span: cell_span(&source.text, start, 0) };
-    let problem = match error.kind() {
+    let diagnostic = match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            Problem::error(&at, format!("the row has {len} cells, the header {expected_len}"))
+            Diagnostic::error(&at, format!("the row has {len} cells, the header {expected_len}"))
                 .with_help("every row has one cell a column")
         }
-        _ => Problem::error(&at, format!("not a CSV file: {error}")),
+        _ => Diagnostic::error(&at, format!("not a CSV file: {error}")),
     };
-    problem.into()
+    diagnostic.into()
 }
 
 #[cfg(test)]
@@ -175,7 +175,7 @@ mod tests {
     fn of(csv: &str, column: &str) -> Result<(Vec<f64>, Vec<f64>), String> {
         let source = Arc::new(SourceText { path: "r.csv".into(), text: csv.into() });
         let query = Query { file: &located("r.csv"), key: &located("t"), column: &located(column) };
-        columns(&source, &query).map_err(|problems| problems.to_string())
+        columns(&source, &query).map_err(|diagnostics| diagnostics.to_string())
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 pub use sincro_blocks::suggest::nearest;
 
-/// How many known names are listed.
+/// Number of known names that are listed.
 const LISTED: usize = 8;
 
 /// A help line: the nearest name if there is one, and a few known ones, nearest first.

@@ -1,7 +1,7 @@
 //! Controllers in lock-step: everything that acts on the world at its own sample time, while the world waits for it.
 //!
-//! [`crate::run::LockStep::advance`] calls them, the diagram first, then those that were attached, in their order. Which of them gives a
-//! command is decided in [`Commands::set`]. A Rust closure is one by [`Law`].
+//! [`crate::run::LockStep::advance`] calls them, the diagram first, then those that were attached, in their order.
+//! Which of them gives a command is decided in [`Commands::set`]. A Rust closure is one by [`Law`].
 
 use std::any::Any;
 use std::fmt;
@@ -13,7 +13,7 @@ use sincro_dynamics::world::World;
 
 use crate::proximity::Detection;
 use sincro_scene::scenery::Piece;
-use sincro_scene::script::Fault;
+use sincro_scene::script::ScriptError;
 
 /// Instant of a step, with the world at that instant.
 #[derive(Debug)]
@@ -44,14 +44,15 @@ pub struct Change {
     pub t: f64,
     /// Path of the object; `/` for the world.
     pub object: String,
-    /// Which number: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling` (ratio, offset), `respondable`, `gravity`.
+    /// Which number: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling`
+    /// (ratio, offset), `respondable`, `gravity`.
     pub quantity: &'static str,
     /// The new numbers, in the units of the scene file.
     pub value: Vec<f64>,
 }
 
-/// Source of a command. A stronger one wins: the scene's signals are the weakest, then the diagram, then controllers in the order in which
-/// they were attached.
+/// Source of a command. A stronger one wins: the scene's signals are the weakest, then the diagram, then controllers in
+/// the order in which they were attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A signal of the scene file.
@@ -107,7 +108,7 @@ pub struct NotFinite {
     pub outputs: Vec<f64>,
     /// Its inputs.
     pub inputs: Vec<f64>,
-    /// What the block itself says of it.
+    /// Diagnostic of the block itself.
     pub fault: Option<Box<str>>,
 }
 
@@ -131,15 +132,16 @@ pub enum Forked {
 /// | [`latch`](Controller::latch) | t_k, after all have acted | commands, through [`Commands::set`] | cannot fail |
 /// | [`latched`](Controller::latched) | t_k, under the commands of the step | its own memory | cannot fail |
 /// | [`continuous`](Controller::continuous) | between t_k and t_{k+1} | its own states and commands | shows in the motion: the run stops there |
-/// | [`look`](Controller::look) | t_{k+1}, once the scene's proximity sensors have looked | its own memory | cannot fail |
+/// | [`update_proximity_sensors`](Controller::update_proximity_sensors) | t_{k+1}, once the scene's proximity sensors are up to date | its own memory | cannot fail |
 /// | [`sense`](Controller::sense) | t_{k+1} | the world, for the next step | the run stops at t_{k+1}: the step has been made and is recorded |
-/// | [`arrive`](Controller::arrive) | t_{k+1} | its continuous commands | cannot fail |
+/// | [`evaluate_outputs`](Controller::evaluate_outputs) | t_{k+1} | its continuous commands | cannot fail |
 /// | [`measure`](Controller::measure) | t_{k+1}, once all sensors have their samples | its own memory | as `sense` |
-/// | [`show`](Controller::show) | once, after the first `measure` | its continuous commands | cannot fail |
+/// | [`write_outputs`](Controller::write_outputs) | once, after the first `measure` | its continuous commands | cannot fail |
 /// | [`finish`](Controller::finish) | once, after the last tick | its own memory | the end of the run is reported as a stop |
 ///
-/// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`] do nothing unless
-/// they are implemented. Nothing in it may depend on a clock or on the order of threads: the same calls give the same bits.
+/// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`]
+/// do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of threads: the same
+/// calls give the same bits.
 pub trait Controller: Any + Send + fmt::Debug {
     /// Name in messages.
     fn name(&self) -> &str;
@@ -149,7 +151,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// # Errors
     ///
     /// It cannot control this run.
-    fn start(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn start(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -158,7 +160,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// # Errors
     ///
     /// It cannot go on.
-    fn actuate(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn actuate(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -168,28 +170,29 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// The commands of the step are latched: its memory becomes that of the next tick.
     fn latched(&mut self, _tick: u64, _t: f64) {}
 
-    /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been made with room
-    /// for its states, as it is for the diagram: a controller that is attached later has none.
+    /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been
+    /// made with room for its states, as it is for the diagram: a controller that is attached later has none.
     fn continuous(&mut self) -> Option<&mut dyn CoupledSystem<f64>> {
         None
     }
 
-    /// The step has been made and the scene's proximity sensors have looked; at the start, too.
-    fn look(&mut self, _: Instant<'_>) {}
+    /// Updates its own proximity sensors after the step, once those of the scene are up to date; at the start, too.
+    fn update_proximity_sensors(&mut self, _: Instant<'_>) {}
 
     /// Measurements of the step that ends, and forces of the next one.
     ///
     /// # Errors
     ///
     /// It cannot go on.
-    fn sense(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn sense(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
-    /// Brings its continuous commands to the end of the step, before anybody measures.
-    fn arrive(&mut self, _: Instant<'_>) {}
+    /// Evaluates its continuous outputs at the end of the step, before any measurement.
+    fn evaluate_outputs(&mut self, _: Instant<'_>) {}
 
-    /// Measurements at a tick, with the values that all sensors gave last; at the start, too. The next commands follow from them.
+    /// Measurements at a tick, with the values that all sensors gave last; at the start, too. The next commands follow
+    /// from them.
     ///
     /// # Errors
     ///
@@ -198,15 +201,16 @@ pub trait Controller: Any + Send + fmt::Debug {
         Ok(())
     }
 
-    /// Writes its continuous commands as they were last evaluated, so that they are seen at the start, before they act; sampled ones are not.
-    fn show(&self, _commands: &mut [f64]) {}
+    /// Writes its continuous outputs as they were last evaluated, so that they are observed at the start, before they
+    /// act; sampled ones are not written.
+    fn write_outputs(&self, _commands: &mut [f64]) {}
 
     /// After the last tick, if it was started.
     ///
     /// # Errors
     ///
     /// It could not clean up.
-    fn finish(&mut self, _: Instant<'_>) -> Result<(), Fault> {
+    fn finish(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
@@ -228,7 +232,7 @@ pub trait Controller: Any + Send + fmt::Debug {
         &[]
     }
 
-    /// The proximity sensor that is object `sensor` of the scene has looked.
+    /// Result of the proximity sensor that is object `sensor` of the scene.
     fn detected(&mut self, _sensor: usize, _found: Option<Detection>) {}
 
     /// Value of a float signal that it has set, to be recorded.
@@ -236,7 +240,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         None
     }
 
-    /// Calls `visit` with name, unit and present value of each stream that it records, always in the same order; new ones come last.
+    /// Calls `visit` with name, unit and present value of each stream that it records, always in the same order; new
+    /// ones come last.
     fn streams(&self, _visit: &mut dyn FnMut(&str, &str, f64)) {}
 
     /// Takes the places of streams whose past is to be forgotten.
@@ -294,7 +299,7 @@ impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> Controller for 
         &self.name
     }
 
-    fn actuate(&mut self, at: Instant<'_>) -> Result<(), Fault> {
+    fn actuate(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         self.held.resize(at.world.state.commands.len(), None);
         (self.law)(at, &mut self.held);
         Ok(())

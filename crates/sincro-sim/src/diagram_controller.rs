@@ -1,8 +1,9 @@
 //! A diagram and a world in one step.
 //!
-//! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what depends on accelerations last. The commands
-//! are latched from that instant on ([`Controller::latch`]), and memory is updated ([`Controller::latched`]). Between ticks the diagram is an
-//! [`CoupledSystem`] of the world: continuous blocks see the state the integrator looks at, sampled ones hold.
+//! At a tick ([`DiagramController::evaluate`]): measurements are read, every block that is due is evaluated, what
+//! depends on accelerations last. The commands are latched from that instant on ([`Controller::latch`]), and memory is
+//! updated ([`Controller::latched`]). Between ticks the diagram is an [`CoupledSystem`] of the world: continuous blocks
+//! see the state the integrator looks at, sampled ones hold.
 
 use std::sync::Arc;
 
@@ -27,12 +28,12 @@ pub struct DiagramController<R: Number> {
     /// The diagram with its state.
     pub runner: Runner<R>,
     tick: u64,
-    corner: f64,
+    time_event: f64,
     zero: Vec<R>,
     late_torque: Vec<R>,
     late_accelerations: Vec<R>,
     impulse: Vec<f64>,
-    /// What sensors gave last.
+    /// Last samples of the sensors.
     sensed: Vec<f64>,
     held: Vec<f64>,
 }
@@ -46,7 +47,7 @@ impl<R: Number> DiagramController<R> {
             runner: Runner::new(wiring.program().clone()),
             wiring: wiring.clone(),
             tick: 0,
-            corner: f64::INFINITY,
+            time_event: f64::INFINITY,
             zero: zeros(model.n_v()),
             late_torque: zeros(model.motors().len()),
             late_accelerations: zeros(model.n_v()),
@@ -56,13 +57,13 @@ impl<R: Number> DiagramController<R> {
         }
     }
 
-    /// What it is connected to.
+    /// Wiring to the world.
     #[must_use]
     pub fn wiring(&self) -> &Arc<Wiring> {
         &self.wiring
     }
 
-    /// Whether anything happens between ticks, so that the world must take it along.
+    /// Returns true if anything happens between ticks, so that the world must take it along.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
         self.wiring.program().is_continuous()
@@ -106,7 +107,7 @@ impl<R: Number> DiagramController<R> {
     }
 }
 
-/// What linearisation needs: everything continuous is evaluated, whether or not the integrator needs it.
+/// Access for linearisation: everything continuous is evaluated, whether or not the integrator needs it.
 impl<R: Number> DiagramController<R> {
     /// The same diagram in the same state on other numbers, without derivatives.
     pub fn like(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
@@ -166,7 +167,7 @@ impl DiagramController<f64> {
         world.with_state_view(t, |mut seen| self.read_state(&mut seen, false));
         self.runner.evaluate(tick, t);
         if !self.wiring.late.is_empty() {
-            self.look_late(world, tick, t);
+            self.evaluate_late(world, tick, t);
         }
         self.not_finite().map_or(Ok(()), Err)
     }
@@ -186,8 +187,8 @@ impl DiagramController<f64> {
         })
     }
 
-    /// What depends on the accelerations that the new commands cause.
-    fn look_late(&mut self, world: &mut World, tick: u64, t: f64) {
+    /// Evaluates the outputs that depend on the accelerations under the new commands.
+    fn evaluate_late(&mut self, world: &mut World, tick: u64, t: f64) {
         self.held.copy_from_slice(&world.state.commands);
         let mut commands = core::mem::take(&mut world.state.commands);
         self.write_commands(&mut commands, false);
@@ -260,12 +261,12 @@ impl Controller for DiagramController<f64> {
     }
 
     /// Sampled blocks still hold: what the world is seen with before the next tick acts.
-    fn arrive(&mut self, at: Instant<'_>) {
+    fn evaluate_outputs(&mut self, at: Instant<'_>) {
         if !self.is_continuous() {
             return;
         }
         at.world.with_state_view(at.t, |mut seen| self.read_state(&mut seen, true));
-        self.runner.minor(self.tick, at.t, self.corner);
+        self.runner.minor(self.tick, at.t, self.time_event);
         self.write_commands(&mut at.world.state.commands, true);
     }
 
@@ -274,7 +275,7 @@ impl Controller for DiagramController<f64> {
         self.evaluate(at.world, at.tick, at.t)
     }
 
-    fn show(&self, commands: &mut [f64]) {
+    fn write_outputs(&self, commands: &mut [f64]) {
         if self.is_continuous() {
             self.write_commands(commands, true);
         }
@@ -300,8 +301,8 @@ impl<R: Number + Real> CoupledSystem<R> for DiagramController<R> {
         &mut self.runner.state.continuous
     }
 
-    fn set_time_event(&mut self, corner: f64) {
-        self.corner = corner;
+    fn set_time_event(&mut self, time_event: f64) {
+        self.time_event = time_event;
     }
 
     fn next_time_event(&self, t: f64) -> f64 {
@@ -311,7 +312,7 @@ impl<R: Number + Real> CoupledSystem<R> for DiagramController<R> {
     fn find_commands(&mut self, seen: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {
         self.runner.state.continuous.copy_from_slice(z);
         self.read_state(seen, true);
-        self.runner.minor(self.tick, seen.t, self.corner);
+        self.runner.minor(self.tick, seen.t, self.time_event);
         self.write_commands(commands, true);
     }
 
@@ -323,8 +324,8 @@ impl<R: Number + Real> CoupledSystem<R> for DiagramController<R> {
             self.read_response(seen, response, true);
         }
         // also what depends on a held sample of a late measurement and on something that moves
-        self.runner.minor_late(self.tick, seen.t, self.corner);
-        self.runner.derivatives(self.tick, seen.t, self.corner, slope);
+        self.runner.minor_late(self.tick, seen.t, self.time_event);
+        self.runner.derivatives(self.tick, seen.t, self.time_event, slope);
     }
 
     fn negated_jacobian_diagonal(&mut self, decay: &mut [R]) {

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 pub struct FileError {
     /// The file or folder.
     pub path: PathBuf,
-    /// What was to be done with it: `write`, `create the folder`.
+    /// Attempted action: `write`, `create the folder`.
     pub action: &'static str,
-    /// What the system says.
+    /// Error of the operating system.
     pub cause: io::Error,
 }
 
@@ -35,7 +35,8 @@ impl std::error::Error for FileError {
     }
 }
 
-/// Makes sure that results can be written to a folder: it is created if it is absent, and a file is written into it on trial.
+/// Makes sure that results can be written to a folder: it is created if it is absent, and a file is written into it on
+/// trial.
 ///
 /// To be called before the simulation starts. Files that are there stay until a new one of the same name replaces them.
 ///
@@ -49,7 +50,7 @@ pub fn prepare(out_dir: &Path) -> Result<(), FileError> {
     written.map_err(|e| FileError::new("write into the results folder", out_dir, e))
 }
 
-/// Where a file stands until it is whole: `run.json.partial`.
+/// Path of a file until it is complete: `run.json.partial`.
 pub(crate) fn partial(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".partial");

@@ -1,7 +1,8 @@
 //! Lock-step simulation: scenes, their controllers, the step that all of them make together, and its results.
 //!
-//! [`load()`] opens a scene folder and reports every problem in it at once; [`campaign::run_campaign`] runs it with its variants, sweep,
-//! error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one structure on all processors.
+//! [`load()`] opens a scene folder and reports every problem in it at once; [`campaign::run_campaign`] runs it with its
+//! variants, sweep, error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one
+//! structure on all processors.
 //!
 //! | modules | hold |
 //! |---|---|

@@ -6,33 +6,33 @@ use std::sync::Arc;
 use sincro_dynamics::world::MethodKind;
 
 use crate::controller::Controller;
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::open::{Opened, open};
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::{Problem, Problems, SourceText};
 use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptParser;
 
 /// An experiment and its scene, ready to run.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// What is run, recorded and checked.
+    /// The experiment: signals, checks, settings.
     pub experiment: Experiment,
     /// The compiled scene.
     pub scene: Scene,
     /// The diagram that controls it, if there is one.
     pub controller: Option<ControlDiagram>,
-    /// What the user should know of.
-    pub warnings: Vec<Problem>,
+    /// Warnings for the user.
+    pub warnings: Vec<Diagnostic>,
     /// Every file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
     /// Extensions that it was loaded with: variants and sweeps are loaded with the same.
     pub extensions: Extensions,
 }
 
-/// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and without; none if
-/// there is no operating point.
+/// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and
+/// without; none if there is no operating point.
 pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
 
 /// Language of scripts: parses them when a scene is loaded, and runs them as a controller.
@@ -41,24 +41,26 @@ pub trait ScriptEngine: ScriptParser {
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
 }
 
-/// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to [`load`].
+/// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to
+/// [`load`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extensions {
     /// Language of scripts; without one, a scene that has scripts is refused.
     pub scripts: Option<&'static dyn ScriptEngine>,
-    /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed step.
+    /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed
+    /// step.
     pub fastest_poles: Option<FastestPoles>,
 }
 
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
 ///
-/// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run a
-/// variant, load again with its `set` added to `overrides`.
+/// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run
+/// a variant, load again with its `set` added to `overrides`.
 ///
 /// # Errors
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
-pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
+pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
     with(folder, overrides, extensions, true)
 }
 
@@ -67,11 +69,16 @@ pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Re
 /// # Errors
 ///
 /// As [`load`].
-pub fn load_alone(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Problems> {
+pub fn load_alone(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
     with(folder, overrides, extensions, false)
 }
 
-fn with(folder: &Path, overrides: &[Override], extensions: Extensions, with_others: bool) -> Result<Loaded, Problems> {
+fn with(
+    folder: &Path,
+    overrides: &[Override],
+    extensions: Extensions,
+    with_others: bool,
+) -> Result<Loaded, Diagnostics> {
     let parser = extensions.scripts.map(|engine| engine as &dyn ScriptParser);
     let Opened { experiment, scene, controller, warnings, sources } = open(folder, overrides, parser, with_others)?;
     Ok(Loaded { experiment, scene, controller, warnings, sources, extensions })

@@ -9,9 +9,9 @@ use sincro_scene::scene::Scene;
 use sincro_scene::scenery::Piece;
 use sincro_scene::sensor::SensorSpec;
 
-/// What a proximity sensor looks into, and what it sees there.
+/// Proximity sensor: its field of view and the objects that it detects.
 #[derive(Clone, Debug)]
-pub struct Eye {
+pub struct ProximitySensor {
     /// Its volume.
     pub field: FieldOfView,
     /// Objects that it sees, by index; empty: all that it is not fixed to.
@@ -20,8 +20,8 @@ pub struct Eye {
     pub carrier: Option<usize>,
 }
 
-impl Eye {
-    /// That of a sensor of a scene; none if it does not look.
+impl ProximitySensor {
+    /// Proximity sensor of a sensor of a scene; none for other kinds.
     #[must_use]
     pub fn of(spec: &SensorSpec, scene: &Scene) -> Option<Self> {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
@@ -30,7 +30,7 @@ impl Eye {
     }
 }
 
-/// What it saw, in its own axes.
+/// Detection of a proximity sensor, in its own axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detection {
     /// Index of the object, the scene's first, then those that were made later.
@@ -52,9 +52,9 @@ impl Detection {
     }
 }
 
-impl Eye {
-    /// Whether a sensor that is fixed at `at` sees a piece: of those that it names any; if it names none, all but what moves with it, and in the world all
-    /// but what carries it.
+impl ProximitySensor {
+    /// Returns true if a sensor that is fixed at `at` detects a piece: of those that it names any; if it names none,
+    /// all but what moves with it, and in the world all but what carries it.
     #[must_use]
     pub fn admits(&self, at: &Attached<f64>, piece: &Piece) -> bool {
         if !self.with.is_empty() {
@@ -66,8 +66,9 @@ impl Eye {
         }
     }
 
-    /// The closest point within `most` `[m]` of the pieces that `sees` admits, for a sensor at `x_we` in the world; after the kinematics.
-    pub fn look<'a>(
+    /// The closest point within `most` `[m]` of the pieces that the sensor admits, for a sensor at `x_we` in the world;
+    /// after the kinematics.
+    pub fn detect<'a>(
         &self,
         x_we: &Pose<f64>,
         pieces: impl Iterator<Item = &'a Piece>,

@@ -5,7 +5,8 @@
 use sincro_dynamics::batch::{self, BatchSettings, BatchWorld};
 use sincro_dynamics::model::PackError;
 
-/// Advances all worlds on `threads` threads (0: one a processor). Each world's [`BatchWorld::record`] and final state are filled in.
+/// Advances all worlds on `threads` threads (0: one a processor). Each world's [`BatchWorld::record`] and final state
+/// are filled in.
 ///
 /// ```
 /// use sincro_dynamics::batch::{BatchSettings, BatchWorld};

@@ -9,7 +9,7 @@ use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
 
 use crate::controller::Controller;
-use crate::proximity::{Detection, Eye};
+use crate::proximity::{Detection, ProximitySensor};
 use sincro_scene::experiment::Experiment;
 use sincro_scene::record::probe::attached;
 use sincro_scene::scene::Scene;
@@ -23,9 +23,9 @@ pub(crate) struct Sensors {
     /// Values of all sensors, one after the other.
     pub values: Vec<f64>,
     accelerations: Vec<f64>,
-    /// What presses at the tick.
+    /// Contact points at the tick.
     points: Vec<ContactPoint>,
-    /// What can be seen, if there is a sensor that looks.
+    /// Visible geometry, if there is a proximity sensor.
     scenery: Scenery,
     zero: Vec<f64>,
 }
@@ -35,7 +35,7 @@ struct Sensor {
     kind: SensorKind,
     /// Its object in the scene; of one that looks, what it looks into.
     object: usize,
-    eye: Option<Eye>,
+    proximity: Option<ProximitySensor>,
     /// Frame of the body whose contacts it feels, and of those it feels; none: of all.
     of: usize,
     with: Vec<usize>,
@@ -59,11 +59,11 @@ impl Sensors {
             let every = every(spec, experiment.step).expect("sample times have been checked");
             let n = spec.kind.values().len();
             let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
-            let eye = Eye::of(spec, scene);
+            let proximity = ProximitySensor::of(spec, scene);
             list.push(Sensor {
                 kind: spec.kind,
                 object: object_of(&spec.path).expect("a sensor is an object"),
-                eye,
+                proximity,
                 of: frame_of(&spec.of).unwrap_or(usize::MAX),
                 with: spec.with.iter().filter_map(|path| frame_of(&path.value)).collect(),
                 at: attached(&scene.model, frame),
@@ -77,15 +77,22 @@ impl Sensors {
         }
         let accelerations = vec![0.0; scene.model.n_v()];
         let points = Vec::with_capacity(scene.model.constraints().n_contacts());
-        let looks = list.iter().any(|sensor: &Sensor| sensor.eye.is_some());
+        let looks = list.iter().any(|sensor: &Sensor| sensor.proximity.is_some());
         let scenery = if looks { scene.scenery().clone() } else { Scenery::default() };
         let zero = vec![0.0; if looks { scene.model.n_v() } else { 0 }];
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
     }
 
-    /// Sensors that look take their samples before scripts sense, as in V-REP, and the controllers are told. What they have added to the scene is seen, too.
-    pub fn look_around(&mut self, world: &mut World, tick: u64, t: f64, controllers: &mut [Box<dyn Controller>]) {
-        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_some();
+    /// Updates the proximity sensors that are due, before scripts sense, as in V-REP, and passes the detections to the
+    /// controllers. Geometry that controllers have added to the scene is detected, too.
+    pub fn update_proximity_sensors(
+        &mut self,
+        world: &mut World,
+        tick: u64,
+        t: f64,
+        controllers: &mut [Box<dyn Controller>],
+    ) {
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.proximity.is_some();
         if !self.list.iter().any(|s| due(&s)) {
             return;
         }
@@ -94,16 +101,16 @@ impl Sensors {
             kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
             for sensor in list.iter().filter(due) {
                 let made = controllers.iter().flat_map(|controller| controller.pieces());
-                let found = sensor.look(&seen, scenery.pieces.iter().chain(made), tick / sensor.every);
+                let found = sensor.detect(&seen, scenery.pieces.iter().chain(made), tick / sensor.every);
                 sensor.write(found.as_ref(), &mut values[sensor.first..][..sensor.n]);
                 controllers.iter_mut().for_each(|controller| controller.detected(sensor.object, found));
             }
         });
     }
 
-    /// Takes the samples that are due at a tick, but for those of sensors that look.
+    /// Takes the samples that are due at a tick, except those of proximity sensors.
     pub fn sample(&mut self, world: &mut World, tick: u64, t: f64) {
-        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.eye.is_none();
+        let due = |s: &&Sensor| tick.is_multiple_of(s.every) && s.proximity.is_none();
         if !self.list.iter().any(|s| due(&s)) {
             return;
         }
@@ -161,32 +168,32 @@ impl Sensor {
                 y[6] = f64::from(n > 0);
                 y[7] = f64::from(n);
             }
-            SensorKind::Proximity { .. } => unreachable!("sensors that look have their samples taken before"),
+            SensorKind::Proximity { .. } => unreachable!("proximity sensors have their samples taken before"),
         }
     }
 
-    /// Sample `k` of a sensor that looks, after the kinematics.
-    fn look<'a>(
+    /// Sample `k` of a proximity sensor, after the kinematics.
+    fn detect<'a>(
         &self,
         seen: &StateView<'_, f64>,
         pieces: impl Iterator<Item = &'a sincro_scene::scenery::Piece>,
         k: u64,
     ) -> Option<Detection> {
-        let (eye, at) = (self.eye.as_ref()?, &self.at);
+        let (proximity, at) = (self.proximity.as_ref()?, &self.at);
         let SensorKind::Proximity { noise, .. } = self.kind else { return None };
-        let pieces = pieces.filter(|piece| eye.admits(at, piece));
-        let found = eye.look(&frame_pose(seen.scratch, at), pieces, seen.scratch, f64::INFINITY)?;
+        let pieces = pieces.filter(|piece| proximity.admits(at, piece));
+        let found = proximity.detect(&frame_pose(seen.scratch, at), pieces, seen.scratch, f64::INFINITY)?;
         if noise == 0.0 {
             return Some(found);
         }
         Some(found.at_distance(found.distance + noise * gaussian(splitmix(self.seed, 0), k)))
     }
 
-    /// What it saw as values.
+    /// Writes a detection as sensor values.
     fn write(&self, found: Option<&Detection>, y: &mut [f64]) {
         let Some(found) = found else {
             y.fill(0.0);
-            y[1] = self.eye.as_ref().map_or(0.0, |eye| eye.field.offset() + eye.field.range());
+            y[1] = self.proximity.as_ref().map_or(0.0, |proximity| proximity.field.offset() + proximity.field.range());
             return;
         };
         (y[0], y[1]) = (1.0, found.distance);
@@ -194,7 +201,8 @@ impl Sensor {
         y[5..8].copy_from_slice(&found.normal.0);
     }
 
-    /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that press with more than `threshold`.
+    /// Sum of the forces on the body and of their moments about `origin`, world axes, and the number of points that
+    /// press with more than `threshold`.
     fn touch(
         &self,
         seen: &StateView<'_, f64>,

@@ -1,8 +1,8 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
-//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error control of the
-//! integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the three of the diagram's state (if there is one), and a checksum of
-//! all that.
+//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error
+//! control of the integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the three of the
+//! diagram's state (if there is one), and a checksum of all that.
 
 use std::fmt;
 use std::hash::Hasher;
@@ -25,20 +25,20 @@ pub struct Snapshot {
     pub trace: Trace,
     /// Error control of the integrator, none for fixed steps.
     pub control: Option<Control>,
-    /// What sensors gave last.
+    /// Last samples of the sensors.
     pub sensors: Vec<f64>,
     /// State of the diagram, if there is one.
     pub diagram: Option<sincro_blocks::runner::State<f64>>,
 }
 
-/// Why bytes are not a snapshot of a model.
+/// Error of reading a snapshot of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SnapshotError {
     /// Not a snapshot, or of another version.
     NotASnapshot,
     /// Cut short or altered.
     Damaged,
-    /// Of another model.
+    /// The snapshot is of another model.
     OtherModel,
 }
 

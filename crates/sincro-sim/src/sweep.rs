@@ -27,7 +27,7 @@ pub struct SweepStop {
     pub run_idx: usize,
     /// When `[s]`.
     pub time: f64,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 

@@ -1,7 +1,8 @@
-//! What was recorded: rows of numbers under named columns, in memory and as CSV.
+//! Recorded table: rows of numbers under named columns, in memory and as CSV.
 //!
-//! The file has the columns' names in its first line; units stand in `run.json`. Numbers are written with as many digits as
-//! bring back the same bits, and no more: `0.005`, `1e-12`, `NaN`, `inf`. The same bits in give the same bytes out.
+//! The file has the columns' names in its first line; units stand in `run.json`. Numbers are written with as many
+//! digits as bring back the same bits, and no more: `0.005`, `1e-12`, `NaN`, `inf`. The same bits in give the same
+//! bytes out.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -38,7 +39,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table of the given names and units, with room for `row_capacity` rows: filling it up to there allocates nothing.
+    /// An empty table of the given names and units, with room for `row_capacity` rows: filling it up to there allocates
+    /// nothing.
     ///
     /// # Panics
     ///
@@ -161,8 +163,9 @@ fn number(field: &str) -> Result<f64, String> {
 
 /// Writes rows to a CSV file as they come.
 ///
-/// They go to `<path>.partial`, which [`CsvWriter::finish`] renames to `path`; call it after a stopped run too, so that what
-/// was recorded is kept. A file that was never finished keeps its telling name, and one of an earlier run at `path` stays.
+/// They go to `<path>.partial`, which [`CsvWriter::finish`] renames to `path`; call it after a stopped run too, so that
+/// what was recorded is kept. A file that was never finished keeps its telling name, and one of an earlier run at
+/// `path` stays.
 pub struct CsvWriter {
     csv: csv::Writer<File>,
     path: PathBuf,

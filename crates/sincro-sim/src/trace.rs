@@ -9,8 +9,8 @@ use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
 
-/// Hash of all states of a run so far, in their order. Each state is hashed together with the hash before it, so that these
-/// eight bytes are all that a snapshot must hold of the past.
+/// Hash of all states of a run so far, in their order. Each state is hashed together with the hash before it, so that
+/// these eight bytes are all that a snapshot must hold of the past.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trace(pub u64);
 
@@ -34,8 +34,8 @@ impl Trace {
         self.0 = hasher.finish();
     }
 
-    /// Adds states that are integrated together with the world; nothing if there are none. What a controller remembers from tick to
-    /// tick is not hashed: the same motion has the same hash, whoever commands it.
+    /// Adds states that are integrated together with the world; nothing if there are none. What a controller remembers
+    /// from tick to tick is not hashed: the same motion has the same hash, whoever commands it.
     pub fn add_continuous(&mut self, states: &[f64]) {
         if states.is_empty() {
             return;

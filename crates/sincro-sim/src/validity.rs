@@ -1,4 +1,4 @@
-//! Where rotors leave what their theory holds for: counted at the end of every base step, under the commands of that step.
+//! Validity of rotor theory: violations counted at the end of every base step, under the commands of that step.
 
 use sincro_dynamics::aero::rotor::Validity;
 use sincro_dynamics::kinematics;
@@ -10,7 +10,7 @@ use sincro_dynamics::world::World;
 pub struct Outside {
     /// Its path.
     pub rotor: String,
-    /// Why.
+    /// Reason.
     pub reason: Validity,
     /// Base steps that ended so.
     pub steps: u64,
@@ -35,8 +35,8 @@ impl Register {
         Self { counts: vec![none; model.rotors().len()], zero: vec![0.0; model.n_v()] }
     }
 
-    /// Looks at every rotor at the end of a step, at time `t` `[s]`.
-    pub fn look(&mut self, world: &mut World, t: f64) {
+    /// Checks every rotor at the end of a step, at time `t` `[s]`.
+    pub fn update(&mut self, world: &mut World, t: f64) {
         if self.counts.is_empty() {
             return;
         }
@@ -58,7 +58,7 @@ impl Register {
         });
     }
 
-    /// What was found, rotor by rotor.
+    /// Returns the violations, rotor by rotor.
     pub fn close(&self, model: &Model<f64>, step: f64) -> Vec<Outside> {
         let mut found = Vec::new();
         for (rotor, counts) in model.names().rotors.iter().zip(&self.counts) {

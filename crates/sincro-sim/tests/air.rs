@@ -78,9 +78,11 @@ fn the_experiments_seed_chooses_the_turbulence() {
 fn a_kite_is_carried_along_and_the_energy_is_balanced() {
     let folder = folder();
     let loaded = folder.load(&["accuracy=1e-11"]).unwrap();
-    let watch =
-        &mut sincro_sim::run::Watch { interrupt: &std::sync::atomic::AtomicBool::new(false), progress: &mut |_| {} };
-    let run = sincro_sim::run::simulate(&loaded, sincro_sim::run::Manner::default(), watch).unwrap();
+    let watch = &mut sincro_sim::run::RunMonitor {
+        interrupt: &std::sync::atomic::AtomicBool::new(false),
+        progress: &mut |_| {},
+    };
+    let run = sincro_sim::run::simulate(&loaded, sincro_sim::run::RunOptions::default(), watch).unwrap();
     let column = |name: &str| &run.table.columns.iter().find(|c| c.name == name).unwrap().values;
     assert!(column("energy.balance").iter().all(|e| e.abs() < 1e-8));
     assert!(column("/air.velocity.x").last().unwrap() > &0.1);
@@ -131,7 +133,7 @@ gain = 1.0
     assert!(row[2] != 0.0 && row[3] != 0.0);
 }
 
-/// What is replaced, by what, and what is said.
+/// Replaced text, replacement, and expected message.
 const REFUSED: &[(&str, &str, &str)] = &[
     (
         "mean = [4.0, -3.0, 0.0]",

@@ -6,7 +6,7 @@ mod common;
 
 use common::refused;
 
-/// What replaces the last body of the scene, and what is said.
+/// Replacement of the last body of the scene, and expected message.
 const CASES: &[(&str, &str)] = &[
     (
         "contact = { friction = -0.1 }\nshape = [ { sphere = { radius = 0.1 } } ]",

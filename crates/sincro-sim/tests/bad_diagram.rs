@@ -15,7 +15,7 @@ fn folder(diagram: &str) -> TestFolder {
     folder
 }
 
-/// What is said of a diagram.
+/// Diagnostics of a diagram.
 fn said(diagram: &str, settings: &[&str]) -> String {
     match folder(diagram).load(settings) {
         Ok(_) => "loads".into(),

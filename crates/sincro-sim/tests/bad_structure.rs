@@ -1,4 +1,4 @@
-//! What does not fit the schema is told with place, what was found and what was expected.
+//! Violations of the schema are reported with their location, the value found and the value expected.
 //!
 //! Each case changes one thing in the folder of `common` and states the whole message.
 

@@ -131,7 +131,7 @@ fn the_last_of_several_divergences_ends_the_run() {
     assert!(reason.ends_with(" m, below the bound of -0.2 m"), "{reason}");
 }
 
-/// What is replaced, by what, and part of what is said.
+/// Replaced text, replacement, and part of the expected message.
 const REFUSED: &[(&str, &str, &[&str])] = &[
     ("diverges = \"bound\"", "diverges = \"bund\"", &["unknown name `bund`"]),
     (

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
 use sincro_sim::replay::SceneView;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 const SCENE: &str = r#"
 [[joint]]
@@ -62,14 +62,14 @@ fn a_camera_changes_no_run_and_no_model() {
     let hash = |scene: &str| {
         let loaded = folder(scene).load(&[]).unwrap();
         let signals = sincro_scene::record::catalogue(&loaded.scene.model).len();
-        let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-        (simulate(&loaded, Manner::default(), &mut watch).unwrap().trace.to_string(), signals)
+        let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+        (simulate(&loaded, RunOptions::default(), &mut watch).unwrap().trace.to_string(), signals)
     };
     assert_eq!(hash(SCENE), hash(&format!("{SCENE}{CAMERA}")));
     assert_eq!(hash(SCENE), hash(&format!("{SCENE}{CAMERA}resolution = [320, 240]")));
 }
 
-/// What is replaced, by what, and what is said.
+/// Replaced text, replacement, and expected message.
 const REFUSED: &[(&str, &str, &str)] = &[
     ("look_at = [1.0, 0.0, 0.0]", "look_at = [1.0, -2.0, 0.0]", "error: camera `eye` stands where it looks at"),
     ("look_at = [1.0, 0.0, 0.0]", "field_of_view_deg = 190.0", "camera `eye` has a field of view of 190°"),

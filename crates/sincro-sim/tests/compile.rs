@@ -1,4 +1,4 @@
-//! What becomes of a scene file: masses, poses, order, initial states, signals.
+//! Compilation of a scene file: masses, poses, order, initial states, signals.
 
 mod common;
 
@@ -12,7 +12,7 @@ fn with_scene(scene: &str) -> Loaded {
     let folder = TestFolder::new();
     folder.write("scene.toml", scene);
     folder.write("experiment.toml", "title = \"T\"\nduration = 1.0\nstep = 0.01\nrecord = [\"energy.total\"]\n");
-    folder.load(&[]).unwrap_or_else(|problems| panic!("{problems}"))
+    folder.load(&[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Diagrams between ticks: late measurements that are held, jumps at a tick after a restore, what is left when a step fails.
+//! Diagrams between ticks: late measurements that are held, jumps at a tick after a restore, what is left when a step
+//! fails.
 
 mod common;
 

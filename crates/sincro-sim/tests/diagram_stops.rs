@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 /// Runs the folder of `common` with a diagram; how many rows there are, tick, reason, help.
 fn stops(wires: &str, blocks: &str, integrator: &str) -> (usize, u64, String, String) {
@@ -19,8 +19,8 @@ fn stops(wires: &str, blocks: &str, integrator: &str) -> (usize, u64, String, St
     folder.write("experiment.toml", &experiment);
     folder.write("diagram.toml", &format!("wires = [{wires}]\n{blocks}"));
     let loaded = folder.load(&[]).unwrap();
-    let mut watch = Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    let run = simulate(&loaded, Manner::default(), &mut watch).unwrap();
+    let mut watch = RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    let run = simulate(&loaded, RunOptions::default(), &mut watch).unwrap();
     match run.status {
         Status::Stopped { tick, reason, help, .. } => (run.table.n_rows(), tick, reason, help),
         other => panic!("{other:?}"),

@@ -8,7 +8,7 @@ use sincro_sim::Extensions;
 use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
@@ -21,9 +21,9 @@ fn settings(set: &[(&str, &str)]) -> Vec<Override> {
 /// The main run of a scene.
 fn flown(name: &str, set: &[(&str, &str)]) -> Simulated {
     let loaded =
-        load(&scene(name), &settings(set), Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
+        load(&scene(name), &settings(set), Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
-    simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn column<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {
@@ -43,7 +43,8 @@ fn a_step_to_the_side_is_a_step_forward() {
     assert!(x[790] > 0.09, "the step is in the window");
 }
 
-/// What the diagram computes with its own reference filter, loops and mixer does not depend on the pace of recording.
+/// The result of the diagram with its own reference filter, loops and mixer does not depend on the sample time of
+/// recording.
 #[test]
 fn a_controller_at_its_sample_time_does_not_see_the_base_step() {
     let short = ("duration", "24.0");
@@ -93,7 +94,8 @@ fn without_torque_the_angular_momentum_stays() {
     }
 }
 
-/// After the step that excites it the roll grows by the spectral radius of the sampled loop, 1.057 a sample (its slow integral left out).
+/// After the step that excites it the roll grows by the spectral radius of the sampled loop, 1.057 a sample (its slow
+/// integral left out).
 #[test]
 fn one_sample_late_the_roll_grows_as_its_linearisation_says() {
     let run = flown("quadrotor-latency", &[]);
@@ -112,8 +114,8 @@ fn one_sample_late_the_roll_grows_as_its_linearisation_says() {
 #[test]
 fn a_bound_of_the_experiment_ends_the_run() {
     let set = settings(&[("stop_when", "[{ signal = \"/air/quadrotor.position.z\", above = 0.5 }]")]);
-    let loaded =
-        load(&scene("quadrotor-flight-1"), &set, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(&scene("quadrotor-flight-1"), &set, Extensions::default())
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
     let campaign = run_campaign(&scene("quadrotor-flight-1"), &set, &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
     let report = &campaign.report;
@@ -144,7 +146,7 @@ fn what_the_mixer_cannot_give_is_told() {
 fn gains_of_one_controller_do_not_reach_the_other() {
     let set = settings(&[("attitude_loop.gamma1_xy", "8.0"), ("parameters.y1", "0.2"), ("duration", "0.1")]);
     let folder = scene("quadrotor-flight-1");
-    let loaded = load(&folder, &set, Extensions::default()).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = load(&folder, &set, Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let campaign = run_campaign(&folder, &set, &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
     assert!(campaign.report.variants.iter().any(|v| v.name == "pid" && v.status.is_good()));
     let wrong = settings(&[("attitude_loop.gamma9", "8.0")]);

@@ -1,4 +1,5 @@
-//! Meshes and height fields: what they weigh, that they touch as the shapes they stand for, and what of them is refused.
+//! Meshes and height fields: what they weigh, that they touch as the shapes they stand for, and what of them is
+//! refused.
 
 mod common;
 
@@ -9,11 +10,12 @@ use common::TestFolder;
 use sincro_math::elementary::sin_cos;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 const G: f64 = 9.81;
 
-/// Faces of a cuboid, counter-clockwise seen from outside; bit k of a corner's index says on which side of axis k it is.
+/// Faces of a cuboid, counter-clockwise seen from outside; bit k of a corner's index says on which side of axis k it
+/// is.
 const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 fn corner(size: [f64; 3], k: usize) -> [f64; 3] {
@@ -68,7 +70,7 @@ fn folder(scene: &str, record: &str, duration: f64, step: f64) -> TestFolder {
 
 fn ran(loaded: &Loaded) -> Simulated {
     let interrupt = AtomicBool::new(false);
-    simulate(loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn values<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {
@@ -195,8 +197,9 @@ fn a_ball_rolls_down_a_height_field_as_down_a_plane() {
 
 #[test]
 fn a_ball_swings_in_a_valley_with_the_period_of_a_pendulum() {
-    // a trough of radius 1 m along y, compliant so that its edges are no blows; the centre of a ball of 0.1 m that slides swings on 0.9 m:
-    // from 0.1 rad the period is 2π√(l/g)·(1 + a²/16), and a quarter of it later it passes the middle
+    // a trough of radius 1 m along y, compliant so that its edges are no blows; the centre of a ball of 0.1 m that
+    // slides swings on 0.9 m: from 0.1 rad the period is 2π√(l/g)·(1 + a²/16), and a quarter of it later it passes the
+    // middle
     let (radius, r, a) = (1.0, 0.1, 0.1);
     let heights: Vec<String> = (0..401)
         .map(|i| {
@@ -221,7 +224,7 @@ fn a_ball_swings_in_a_valley_with_the_period_of_a_pendulum() {
     assert!((t / quarter - 1.0).abs() < 5e-3, "{t} {quarter}");
 }
 
-/// What is said of a mesh file.
+/// Diagnostics of a mesh file.
 fn refused(name: &str, bytes: &[u8], keys: &str) -> String {
     let shape = format!("mesh = {{ file = \"{name}\"{keys} }}");
     let folder = folder(&body(&shape, "position = [0, 0, 1, 1, 0, 0, 0]", PLANE), "\"energy.total\"", 0.1, 0.1);

@@ -5,7 +5,7 @@ mod common;
 use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 /// A sledge that goes 0.5 m/s along x, with an arm that hangs before its sensor; a wall, and a ball that is nearer.
 const SLEDGE: &str = r#"
@@ -55,8 +55,8 @@ fn folder(scene: &str, record: &str) -> TestFolder {
 
 fn run(scene: &str) -> Simulated {
     let loaded = folder(scene, SIGNALS).load(&[]).unwrap_or_else(|words| panic!("{words}"));
-    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(&loaded, Manner::default(), watch).unwrap()
+    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    simulate(&loaded, RunOptions::default(), watch).unwrap()
 }
 
 fn column(run: &Simulated, k: usize) -> Vec<f64> {
@@ -116,7 +116,7 @@ fn a_sensor_holds_its_sample_and_its_noise_is_that_of_the_seed() {
     }
 }
 
-/// What stands in the scene, what is put there, and what must be said.
+/// Replaced text, replacement, and expected message.
 const REFUSED: [(&str, &str, &str); 12] = [
     ("range = 2.0", "range = 0.0", "`range`"),
     ("range = 2.0", "range = -1.0", "`range`"),

@@ -24,7 +24,7 @@ frame = [{ name = "tool", parent = "/shoulder/upper/elbow/fore", position = [0.0
 "#;
 
 fn arm() -> Scene {
-    from_text(ARM).unwrap_or_else(|problems| panic!("{problems}"))
+    from_text(ARM).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
 }
 
 fn with(scene: Scene, draw: impl FnOnce(&mut Diagram, &Context, usize)) -> LockStep {

@@ -8,7 +8,7 @@ use common::TestFolder;
 use sincro_analysis::linearize::{Request, linearize};
 use sincro_sim::Loaded;
 use sincro_sim::results::Status;
-use sincro_sim::run::{LockStep, Manner, Simulated, Watch, method_for, simulate};
+use sincro_sim::run::{LockStep, RunMonitor, RunOptions, Simulated, method_for, simulate};
 use sincro_sim::snapshot::Snapshot;
 
 const BLADE: &str = "{ radius = 0.2, chord = 0.025, n_blades = 4, lift_slope = 5.7, collective_pitch = 0.14, cd0 = 0.0087, k_cd = 0.4 }";
@@ -51,8 +51,8 @@ fn blade() -> String {
 }
 
 fn run(loaded: &Loaded) -> Simulated {
-    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(loaded, Manner::default(), watch).unwrap()
+    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    simulate(loaded, RunOptions::default(), watch).unwrap()
 }
 
 fn column<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {
@@ -260,7 +260,8 @@ gain = 1.0
         let loaded = folder.load(&["accuracy=1e-10"]).unwrap_or_else(|e| panic!("{e}"));
         let out = run(&loaded);
         let (mine, theirs) = (column(&out, "thrust"), column(&out, "/air/craft/rotor.thrust"));
-        // a tick's commands act from the tick on: the diagram sees their effect at once, the row the end of the step before
+        // a tick's commands act from the tick on: the diagram sees their effect at once, the row the end of the step
+        // before
         for k in 1..mine.len() {
             assert!((mine[k] - theirs[k]).abs() < 1e-9 * theirs[k], "{k}: {} {}", mine[k], theirs[k]);
         }

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 fn scenes() -> Vec<PathBuf> {
     let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -25,8 +25,9 @@ fn every_scene_loads_without_warnings() {
     assert!(scenes.len() >= 10);
     for scene in scenes {
         let loaded = load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-            .unwrap_or_else(|problems| panic!("{problems}"));
-        // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has three
+            .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+        // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has
+        // three
         let name = scene.file_name().unwrap().to_string_lossy().into_owned();
         let expected = match name.as_str() {
             "quadrotor-open-loop" => 3,
@@ -49,7 +50,7 @@ fn every_scene_loads_without_warnings() {
         for variant in &loaded.experiment.variants {
             let of_variant =
                 load(&scene, &variant.set, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-                    .unwrap_or_else(|problems| panic!("{problems}"));
+                    .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
             assert_eq!(of_variant.experiment.variants.len(), loaded.experiment.variants.len());
         }
     }
@@ -66,10 +67,10 @@ fn continuous_commands_are_seen_as_of_now() {
     ];
     let settings = settings.map(|(path, value)| Override::new(path, value));
     let loaded = load(&folder, &settings, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|problems| panic!("{problems}"));
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let interrupt = AtomicBool::new(false);
-    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-    let table = simulate(&loaded, Manner::default(), &mut watch).unwrap().table;
+    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+    let table = simulate(&loaded, RunOptions::default(), &mut watch).unwrap().table;
     let column = |name: &str| &table.column(name).unwrap().values;
     let (now, pi) = (column("/motor.motor_torque_now"), column("pi"));
     // the row of the step itself shows the torque before it, and what the controller asks for from then on

@@ -1,4 +1,4 @@
-//! What a diagram's scopes look at is recorded and plotted, through bundles and from the world too.
+//! Signals of a diagram's scopes are recorded and plotted, through bundles and from the world too.
 
 mod common;
 
@@ -26,7 +26,7 @@ title = "Shoulder"
 inputs = 2
 "#,
     );
-    let loaded = folder.load(&[]).unwrap_or_else(|problems| panic!("{problems}"));
+    let loaded = folder.load(&[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let recorded: Vec<&str> = loaded.experiment.record.iter().map(|r| r.value.as_str()).collect();
     assert_eq!(recorded, ["energy.total", "/shoulder.position", "k", "/shoulder.acceleration"]);
     let plot = &loaded.experiment.plots[0];

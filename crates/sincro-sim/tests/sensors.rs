@@ -5,7 +5,7 @@ mod common;
 use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
-use sincro_sim::run::{LockStep, Manner, Simulated, Watch, method_for, simulate};
+use sincro_sim::run::{LockStep, RunMonitor, RunOptions, Simulated, method_for, simulate};
 
 /// A turntable with an arm: an IMU 0.4 m from the axis, mounted on its side.
 const TURNTABLE: &str = r#"
@@ -80,7 +80,7 @@ fn folder(scene: &str, record: &str, duration: f64) -> TestFolder {
 fn ran(folder: &TestFolder) -> Simulated {
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
     let interrupt = AtomicBool::new(false);
-    simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn quoted(names: &[String]) -> String {
@@ -211,7 +211,8 @@ fn a_noisy_attitude_is_a_rotation_and_turns_by_its_deviation() {
     }
 }
 
-/// The controller sees what the sensor gave at this tick, and a run goes on from a snapshot with held samples bit for bit.
+/// The controller sees what the sensor gave at this tick, and a run goes on from a snapshot with held samples bit for
+/// bit.
 #[test]
 fn a_diagram_measures_with_sensors_and_a_snapshot_keeps_their_samples() {
     let noisy = "sample_time = 0.05\nimu = { gyro_noise_density = 0.01 }";
@@ -262,7 +263,7 @@ gain = 0.5
     }
 }
 
-/// What is replaced, by what, and what is said.
+/// Replaced text, replacement, and expected message.
 const REFUSED: &[(&str, &str, &str)] = &[
     (
         "imu = {}",

@@ -5,11 +5,12 @@ mod common;
 use std::sync::atomic::AtomicBool;
 
 use common::TestFolder;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 
 const G: f64 = 9.81;
 
-/// A block of 0.2 × 0.2 × 0.1 m and 2 kg on a floor that a wall stands on, pushed against the wall; the sensor is on its top, its z to the right.
+/// A block of 0.2 × 0.2 × 0.1 m and 2 kg on a floor that a wall stands on, pushed against the wall; the sensor is on
+/// its top, its z to the right.
 const PUSHED: &str = r#"
 [[joint]]
 name = "air"
@@ -62,7 +63,8 @@ shape = [{ plane = {} }]
 contact = { friction = 0.0 }
 "#;
 
-/// A turntable with a load on an arm: the sensor is 0.3 m from the axis, its x up; the centre of mass of the load 0.2 m further out.
+/// A turntable with a load on an arm: the sensor is 0.3 m from the axis, its x up; the centre of mass of the load 0.2 m
+/// further out.
 const ARM: &str = r#"
 [[joint]]
 name = "table"
@@ -104,7 +106,7 @@ fn folder(scene: &str, record: &[String], duration: f64) -> TestFolder {
 fn ran(folder: &TestFolder) -> Simulated {
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
     let interrupt = AtomicBool::new(false);
-    simulate(&loaded, Manner::default(), &mut Watch { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
 }
 
 fn six(stem: &str, force: &str, torque: &str) -> Vec<String> {
@@ -130,9 +132,9 @@ fn a_contact_sensor_feels_floor_and_wall_in_its_own_axes() {
         [skin, wall, "/air/block/deaf"].into_iter().flat_map(|s| [format!("{s}.touching"), format!("{s}.points")]);
     let names: Vec<String> = all.iter().chain(&one).cloned().chain(counts).collect();
     let run = ran(&folder(PUSHED, &names, 0.1));
-    // world: −7 N of the wall, 2·g of the floor; the sensor's z is the world's x, its x the world's −z. The push passes through the centre of
-    // mass, the floor's load moves so that nothing turns: about the centre the moments of wall and floor cancel, and so, about the top,
-    // (0, 0, −0.05) × (−7, 0, 2·g) is what is felt: 0.35 N·m about y
+    // world: −7 N of the wall, 2·g of the floor; the sensor's z is the world's x, its x the world's −z. The push passes
+    // through the centre of mass, the floor's load moves so that nothing turns: about the centre the moments of wall
+    // and floor cancel, and so, about the top, (0, 0, −0.05) × (−7, 0, 2·g) is what is felt: 0.35 N·m about y
     assert_last(&run, &all, [-2.0 * G, 0.0, -7.0, 0.0, 0.35, 0.0], 1e-9);
     assert!((last(&run, &one[0]) + 7.0).abs() < 1e-9 && last(&run, &one[2]).abs() < 1e-9);
     assert_eq!([last(&run, &format!("{skin}.touching")), last(&run, &format!("{wall}.touching"))], [1.0; 2]);
@@ -191,7 +193,8 @@ fn a_contact_sensor_needs_a_body_that_can_be_touched() {
 fn a_force_sensor_feels_weight_and_acceleration() {
     let names = six("/table/disc/wrist", "force", "torque");
     let names: Vec<String> = names.into_iter().chain(["/table.velocity".to_owned()]).collect();
-    // radius of the centre of mass, its distance from the sensor, moment of inertia about the vertical of load and of all
+    // radius of the centre of mass, its distance from the sensor, moment of inertia about the vertical of load and of
+    // all
     let (m, r, d, own) = (2.0, 0.5, 0.2, 0.02);
     let all = 0.1 + own + m * r * r;
     for (torque, speed) in [(0.0, 0.0), (0.0, 3.0), (1.5, 0.0), (-2.0, 4.0)] {
@@ -199,7 +202,8 @@ fn a_force_sensor_feels_weight_and_acceleration() {
         let run = ran(&folder(&scene.replace("velocity = 0.0", &format!("velocity = {speed:?}")), &names, 0.5));
         let (turn, w) = (torque / all, last(&run, "/table.velocity"));
         assert!((w - speed - 0.5 * turn).abs() < 1e-10, "{w}");
-        // arm axes: outward −m·ω²·r, along the motion m·α·r, up m·g; moments about the sensor d ahead of it. The sensor's x is up, its z inwards.
+        // arm axes: outward −m·ω²·r, along the motion m·α·r, up m·g; moments about the sensor d ahead of it. The
+        // sensor's x is up, its z inwards.
         let [out, along, up] = [-m * w * w * r, m * turn * r, m * G];
         let about_up = own * turn + d * along;
         assert_last(&run, &names[..6], [up, along, -out, about_up, -d * up, 0.0], 1e-9);

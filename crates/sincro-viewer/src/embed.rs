@@ -12,8 +12,8 @@ pub fn replay(film_json: &str) -> String {
     section(film_json, "", &format!("<style>{STYLE}</style>"), &format!("<script>{script}</script>"))
 }
 
-/// HTML of a replay whose program and style stand in files ([`assets`]) in `folder`, relative to the page: for many pages that
-/// stand together.
+/// HTML of a replay whose program and style stand in files ([`assets`]) in `folder`, relative to the page: for many
+/// pages that stand together.
 #[must_use]
 pub fn linked_replay(film_json: &str, folder: &str) -> String {
     let lacks = format!(

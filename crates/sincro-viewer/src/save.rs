@@ -8,16 +8,17 @@ use sincro_sim::replay::edited;
 use sincro_sim::{Extensions, load};
 
 /// Files of a folder that are copied; more are no scene.
-const MOST_FILES: usize = 500;
+const MAX_FILES: usize = 500;
 
 /// Writes the scene with `settings` into a folder beside it; the folder's path.
 ///
 /// # Errors
 ///
-/// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then lack.
+/// A sentence: what does not stand in the files as a number, what cannot be read or written, what the scene would then
+/// lack.
 pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Extensions) -> Result<PathBuf, String> {
     let folder = if folder.is_file() { folder.parent().unwrap_or(folder) } else { folder };
-    let loaded = load(folder, &[], extensions).map_err(|problems| problems.to_string())?;
+    let loaded = load(folder, &[], extensions).map_err(|diagnostics| diagnostics.to_string())?;
     let texts = edited(&loaded, settings).map_err(|refused| refused.join("\n"))?;
     let files = files(folder)?;
     let target = free_name(folder);
@@ -32,7 +33,7 @@ pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Exten
         written.map_err(|e| format!("`{}` cannot be written: {e}", to.display()))?;
     }
     load(&target, &[], extensions)
-        .map_err(|problems| format!("saved as `{}`, which does not load: {problems}", target.display()))?;
+        .map_err(|diagnostics| format!("saved as `{}`, which does not load: {diagnostics}", target.display()))?;
     Ok(target)
 }
 
@@ -58,8 +59,8 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
                 found.push(entry.path());
             }
         }
-        if found.len() > MOST_FILES {
-            return Err(format!("`{}` has more than {MOST_FILES} files: copy it by hand", folder.display()));
+        if found.len() > MAX_FILES {
+            return Err(format!("`{}` has more than {MAX_FILES} files: copy it by hand", folder.display()));
         }
     }
     found.sort();

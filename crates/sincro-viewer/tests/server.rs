@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_viewer::live::{Board, Command, Engine, Source};
 use sincro_viewer::server::{Server, Show};
 use tungstenite::stream::MaybeTlsStream;
@@ -108,13 +108,13 @@ fn send(commands: &SyncSender<Command>, text: &str) {
 fn hash_of(name: &str) -> String {
     let loaded = load(&scene(name), &[], Extensions::default()).unwrap();
     let interrupt = std::sync::atomic::AtomicBool::new(false);
-    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-    simulate(&loaded, Manner::default(), &mut watch).unwrap().trace.to_string()
+    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+    simulate(&loaded, RunOptions::default(), &mut watch).unwrap().trace.to_string()
 }
 
 #[test]
 fn only_this_page_is_let_in() {
-    let served = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
+    let served = serve(Show::Replay("{\"format\":\"sincro-film-2\"}".into()));
     let Served { address, token, .. } = &served;
     assert!(get(&served, "/", "").0.contains("200"));
     assert!(get(&served, "/film.json", "").1.contains("sincro-film-2"));
@@ -132,7 +132,7 @@ fn only_this_page_is_let_in() {
 
 #[test]
 fn another_user_of_the_machine_lacks_the_token() {
-    let served = serve(Show::Film("{\"format\":\"sincro-film-2\"}".into()));
+    let served = serve(Show::Replay("{\"format\":\"sincro-film-2\"}".into()));
     for token in ["", "token=", "token=00000000000000000000000000000000", "ticket=", "ticket=0"] {
         let guessed = Served { token: token.to_owned(), ..served.clone() };
         for path in ["/", "/film.json", "/live"] {
@@ -157,7 +157,7 @@ fn another_user_of_the_machine_lacks_the_token() {
 
 #[test]
 fn heads_that_do_not_come_and_silent_connections_keep_nobody_out() {
-    let served = serve(Show::Film("{}".into()));
+    let served = serve(Show::Replay("{}".into()));
     let silent: Vec<TcpStream> = (0..200).filter_map(|_| TcpStream::connect(served.address).ok()).collect();
     assert!(silent.len() > 100);
     assert!(get(&served, "/", "").0.contains("200"));
@@ -174,7 +174,7 @@ fn heads_that_do_not_come_and_silent_connections_keep_nobody_out() {
 
 #[test]
 fn no_path_leads_to_a_file() {
-    let served = serve(Show::Film("{}".into()));
+    let served = serve(Show::Replay("{}".into()));
     for path in [
         "/Cargo.toml",
         "/../Cargo.toml",

@@ -93,12 +93,12 @@ impl<'a> Comparison<'a> {
         };
         let against = |(name, x, y): &(String, String, String)| (name.clone(), format!("{x} against {y}"));
         let (a, b) = (self.first, self.second);
-        let films = [a, b].map(|run| std::fs::read_to_string(run.folder.join("replay.json")).ok());
+        let replays = [a, b].map(|run| std::fs::read_to_string(run.folder.join("replay.json")).ok());
         comparison_html(&ComparisonPage {
             title: format!("{} against {}", a.report.title, b.report.title),
             verdict: self.verdict(),
-            replay: overlay(&films, [&a.folder, &b.folder])
-                .map(|film| sincro_viewer::embed::replay(&film))
+            replay: overlay(&replays, [&a.folder, &b.folder])
+                .map(|replay| sincro_viewer::embed::replay(&replay))
                 .unwrap_or_default(),
             signals: self.signals.iter().map(row).collect(),
             settings: self.settings.iter().map(against).collect(),
@@ -203,12 +203,12 @@ fn facts(a: &FinishedRun, b: &FinishedRun) -> Vec<(String, String, String)> {
     differing.map(|(name, x, y)| (name.to_owned(), or_none(x), or_none(y))).collect()
 }
 
-/// Both films in one, the main runs over each other; none if one of them is missing.
-fn overlay(films: &[Option<String>; 2], folders: [&PathBuf; 2]) -> Option<String> {
-    let [Some(first), Some(second)] = films else { return None };
-    let (mut film, other): (Value, Value) = (serde_json::from_str(first).ok()?, serde_json::from_str(second).ok()?);
+/// Both replays in one, the main runs over each other; none if one of them is missing.
+fn overlay(replays: &[Option<String>; 2], folders: [&PathBuf; 2]) -> Option<String> {
+    let [Some(first), Some(second)] = replays else { return None };
+    let (mut replay, other): (Value, Value) = (serde_json::from_str(first).ok()?, serde_json::from_str(second).ok()?);
     // a replay of another version is left out, the numbers are compared all the same
-    if [&film, &other].iter().any(|film| film["format"] != sincro_viewer::film::FORMAT) {
+    if [&replay, &other].iter().any(|replay| replay["format"] != sincro_viewer::replay::FORMAT) {
         return None;
     }
     let named = |run: &Value, folder: &Path, view: usize| {
@@ -221,11 +221,11 @@ fn overlay(films: &[Option<String>; 2], folders: [&PathBuf; 2]) -> Option<String
         run["view"] = view.into();
         run
     };
-    let view_of = |film: &Value| film["views"][film["runs"][0]["view"].as_u64().unwrap_or(0) as usize].clone();
-    let views = vec![view_of(&film), view_of(&other)];
-    let runs = vec![named(&film["runs"][0], folders[0], 0), named(&other["runs"][0], folders[1], 1)];
-    (film["views"], film["runs"], film["overlaid"]) = (views.into(), runs.into(), true.into());
-    Some(film.to_string())
+    let view_of = |replay: &Value| replay["views"][replay["runs"][0]["view"].as_u64().unwrap_or(0) as usize].clone();
+    let views = vec![view_of(&replay), view_of(&other)];
+    let runs = vec![named(&replay["runs"][0], folders[0], 0), named(&other["runs"][0], folders[1], 1)];
+    (replay["views"], replay["runs"], replay["overlaid"]) = (views.into(), runs.into(), true.into());
+    Some(replay.to_string())
 }
 
 #[cfg(test)]

@@ -4,22 +4,22 @@ use std::fmt;
 use std::io::IsTerminal;
 use std::sync::Arc;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 use sincro::RunFailure;
-use sincro_scene::problem::{Problem, Problems, SourceText};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_sim::file::FileError;
 
 use crate::Exit;
 
 /// Prints all problems to standard error.
-pub(crate) fn print_problems(problems: &[Problem]) {
+pub(crate) fn print_diagnostics(diagnostics: &[Diagnostic]) {
     let theme = if std::io::stderr().is_terminal() { GraphicalTheme::unicode() } else { plain() };
     let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_context_lines(1);
-    for problem in problems {
+    for diagnostic in diagnostics {
         let mut text = String::new();
-        let shown = Shown::new(problem);
+        let shown = Shown::new(diagnostic);
         if handler.render_report(&mut text, &shown).is_err() {
-            text = problem.to_string();
+            text = diagnostic.to_string();
         }
         eprintln!("{}", text.trim_end());
     }
@@ -33,19 +33,19 @@ fn plain() -> GraphicalTheme {
 }
 
 /// Prints the problems and a summary; the command ends with bad input.
-pub(crate) fn refuse_problems(problems: &Problems) -> Exit {
-    print_problems(&problems.0);
-    let errors = problems.0.iter().filter(|p| p.is_error()).count();
+pub(crate) fn refuse_diagnostics(diagnostics: &Diagnostics) -> Exit {
+    print_diagnostics(&diagnostics.0);
+    let errors = diagnostics.0.iter().filter(|p| p.is_error()).count();
     eprintln!("{}; nothing was run or written", count(errors, "error"));
     Exit::Refused
 }
 
 /// Prints one message without a place in a file.
 pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
-    let problem = Problem::nowhere(message);
-    print_problems(&[match help {
-        Some(help) => problem.with_help(help),
-        None => problem,
+    let diagnostic = Diagnostic::nowhere(message);
+    print_diagnostics(&[match help {
+        Some(help) => diagnostic.with_help(help),
+        None => diagnostic,
     }]);
     Exit::Refused
 }
@@ -53,7 +53,7 @@ pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
 /// Prints why a run was not made, or not written to its end.
 pub(crate) fn refuse_run(failure: &RunFailure) -> Exit {
     match failure {
-        RunFailure::Problems(problems) => refuse_problems(problems),
+        RunFailure::Diagnostics(diagnostics) => refuse_diagnostics(diagnostics),
         RunFailure::Recording(error) => {
             refuse_file(error);
             eprintln!("the run stopped; rows written so far are in files that end in `.partial`");
@@ -85,7 +85,7 @@ pub(crate) fn count(n: usize, what: &str) -> String {
 /// A problem as miette sees it.
 #[derive(Debug)]
 struct Shown<'a> {
-    problem: &'a Problem,
+    diagnostic: &'a Diagnostic,
     source: Option<NamedSource<Text>>,
 }
 
@@ -105,28 +105,29 @@ impl SourceCode for Text {
 }
 
 impl<'a> Shown<'a> {
-    fn new(problem: &'a Problem) -> Self {
-        let source = problem.source.as_ref().map(|s| NamedSource::new(s.path.display().to_string(), Text(s.clone())));
-        Self { problem, source }
+    fn new(diagnostic: &'a Diagnostic) -> Self {
+        let source =
+            diagnostic.source.as_ref().map(|s| NamedSource::new(s.path.display().to_string(), Text(s.clone())));
+        Self { diagnostic, source }
     }
 }
 
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = if self.problem.is_error() { "error" } else { "warning" };
-        write!(f, "{word}: {}", self.problem.message)
+        let word = if self.diagnostic.is_error() { "error" } else { "warning" };
+        write!(f, "{word}: {}", self.diagnostic.message)
     }
 }
 
 impl std::error::Error for Shown<'_> {}
 
-impl Diagnostic for Shown<'_> {
+impl miette::Diagnostic for Shown<'_> {
     fn severity(&self) -> Option<miette::Severity> {
-        Some(if self.problem.is_error() { miette::Severity::Error } else { miette::Severity::Warning })
+        Some(if self.diagnostic.is_error() { miette::Severity::Error } else { miette::Severity::Warning })
     }
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
-        self.problem.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.diagnostic.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -134,7 +135,7 @@ impl Diagnostic for Shown<'_> {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = self.problem.span.clone()?;
+        let span = self.diagnostic.span.clone()?;
         Some(Box::new([LabeledSpan::new(None, span.start, span.end - span.start)].into_iter()))
     }
 }

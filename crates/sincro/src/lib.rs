@@ -44,7 +44,7 @@ pub use load::{camera, extensions, load, scene_name};
 pub use run::{RunFailure, RunRequest, Verdict, simulate};
 
 pub use sincro_lua::abort_running_scripts;
+pub use sincro_scene::diagnostic::Diagnostics;
 pub use sincro_scene::overrides::Override;
-pub use sincro_scene::problem::Problems;
 pub use sincro_sim::Loaded;
 pub use sincro_sim::campaign::Campaign;

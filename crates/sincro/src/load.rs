@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_scene::scene::{ObjectKind, Scene};
 use sincro_sim::{Extensions, Loaded};
 
@@ -22,7 +22,7 @@ use sincro_sim::{Extensions, Loaded};
 /// assert_eq!(loaded.scene.freedom().left(), 6);
 /// # Ok::<(), sincro::Problems>(())
 /// ```
-pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Problems> {
+pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics> {
     sincro_sim::load(scene, overrides, extensions())
 }
 

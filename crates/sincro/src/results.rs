@@ -9,9 +9,9 @@ use sincro_scene::camera::png;
 use sincro_scene::scene::Camera;
 use sincro_sim::campaign::{Campaign, Done};
 use sincro_sim::file::{FileError, prepare};
-use sincro_sim::replay::Tape;
+use sincro_sim::replay::Trajectory;
 use sincro_sim::{Loaded, file};
-use sincro_viewer::film::Film;
+use sincro_viewer::replay::Replay;
 use sincro_viewer::{embed, picture};
 
 /// Size of a picture of a run `[px]`.
@@ -54,7 +54,7 @@ pub fn write_one_of_many(loaded: &Loaded, campaign: &Campaign, out: &Path) -> Re
         }
         write_text(&path, content)?;
     }
-    write_with(loaded, campaign, out, None, |film| embed::linked_replay(film, ".."))
+    write_with(loaded, campaign, out, None, |replay| embed::linked_replay(replay, ".."))
 }
 
 fn write_with(
@@ -71,18 +71,18 @@ fn write_with(
         let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
         write_text(&folder.join(name), &svg(figure, Size::wide(figure)))?;
     }
-    let film = replay(loaded, campaign).to_json();
-    write_text(&out.join("replay.json"), &film)?;
+    let replay = replay(loaded, campaign).to_json();
+    write_text(&out.join("replay.json"), &replay)?;
     let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
-    let page = Page { replay: embed(&film), up, ..page };
+    let page = Page { replay: embed(&replay), up, ..page };
     write_text(&out.join("report.html"), &report::html(&page))
 }
 
 /// Replay of a campaign, with the drawing of its diagram.
 #[must_use]
-pub fn replay(loaded: &Loaded, campaign: &Campaign) -> Film {
+pub fn replay(loaded: &Loaded, campaign: &Campaign) -> Replay {
     let draw = |controller| campaign::diagram(controller, "", &campaign.report.scene, true);
-    Film::of_campaign(loaded, campaign, loaded.controller.as_ref().map(draw))
+    Replay::of_campaign(loaded, campaign, loaded.controller.as_ref().map(draw))
 }
 
 /// Card of a run for an index of many runs; `href` is the address of its report, relative to the index.
@@ -95,8 +95,8 @@ pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
 /// Picture of the scene half way through the run as SVG; empty if no frames were taken.
 fn half_way(campaign: &Campaign) -> String {
     let main = &campaign.main;
-    let still = |tape: &Tape| picture::still(&main.view, tape.frame(tape.n_frames() / 2), CARD);
-    main.simulated.tape.as_ref().filter(|tape| tape.n_frames() > 0).map(still).unwrap_or_default()
+    let still = |trajectory: &Trajectory| picture::still(&main.view, trajectory.frame(trajectory.n_frames() / 2), CARD);
+    main.simulated.trajectory.as_ref().filter(|trajectory| trajectory.n_frames() > 0).map(still).unwrap_or_default()
 }
 
 /// Writes pictures of a run as SVG files `frames/0001.svg` … into a folder of results: 30 per simulated second, 1800 at
@@ -106,10 +106,10 @@ fn half_way(campaign: &Campaign) -> String {
 ///
 /// A file cannot be written.
 pub fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
-    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let Some(trajectory) = &done.simulated.trajectory else { return Ok(()) };
     let folder = out.join("frames");
     prepare(&folder)?;
-    for (k, picture) in picture::strip(&done.view, tape, FRAMES, FRAME).iter().enumerate() {
+    for (k, picture) in picture::strip(&done.view, trajectory, FRAMES, FRAME).iter().enumerate() {
         write_text(&folder.join(format!("{:04}.svg", k + 1)), picture)?;
     }
     Ok(())
@@ -122,13 +122,13 @@ pub fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
 ///
 /// A file cannot be written.
 pub fn write_camera_frames(loaded: &Loaded, done: &Done, camera: usize, out: &Path) -> Result<(), FileError> {
-    let Some(tape) = &done.simulated.tape else { return Ok(()) };
+    let Some(trajectory) = &done.simulated.trajectory else { return Ok(()) };
     let resolution = [FRAME.0 as usize, FRAME.1 as usize];
     let Some(mut camera) = Camera::of_scene(&loaded.scene, camera, resolution) else { return Ok(()) };
     let folder = out.join("frames");
     prepare(&folder)?;
-    for (n, k) in tape.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
-        let q: Vec<f64> = tape.layout.coordinates(tape.frame(k)).iter().copied().map(f64::from).collect();
+    for (n, k) in trajectory.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
+        let q: Vec<f64> = trajectory.layout.coordinates(trajectory.frame(k)).iter().copied().map(f64::from).collect();
         let image = camera.look(&q);
         let bytes = png::encode(image.rgb(), image.resolution(), png::Channels::Rgb);
         file::write_atomically(&folder.join(format!("{:04}.png", n + 1)), &bytes)?;

@@ -4,15 +4,15 @@ use std::fmt;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::Progress;
 use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::file;
 use sincro_sim::file::FileError;
 use sincro_sim::results::{Override as Setting, VerdictReport};
-use sincro_sim::run::{Manner, RunError, Simulated, Watch};
+use sincro_sim::run::{RunError, RunMonitor, RunOptions, Simulated};
 
 use crate::results::{Link, write};
 
@@ -36,7 +36,7 @@ pub struct RunRequest<'a> {
 #[derive(Debug)]
 pub enum RunFailure {
     /// A recorded signal does not exist, or a variant cannot be opened. Nothing was written but an empty folder.
-    Problems(Problems),
+    Diagnostics(Diagnostics),
     /// Rows could not be written while the run was under way; those before are in files that end in `.partial`.
     Recording(FileError),
     /// The folder takes no files, or the report could not be written.
@@ -46,7 +46,7 @@ pub enum RunFailure {
 impl fmt::Display for RunFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Problems(problems) => write!(f, "{problems}"),
+            Self::Diagnostics(diagnostics) => write!(f, "{diagnostics}"),
             Self::Recording(error) => write!(f, "the run stopped: {error}"),
             Self::Results(error) => write!(f, "{error}"),
         }
@@ -58,7 +58,7 @@ impl std::error::Error for RunFailure {}
 impl From<RunError> for RunFailure {
     fn from(error: RunError) -> Self {
         match error {
-            RunError::Problems(problems) => Self::Problems(problems),
+            RunError::Diagnostics(diagnostics) => Self::Diagnostics(diagnostics),
             RunError::File(error) => Self::Recording(error),
         }
     }
@@ -108,8 +108,8 @@ impl RunRequest<'_> {
 ///
 /// A recorded signal does not exist. A run that stops is not an error: see [`Simulated::status`].
 pub fn simulate(loaded: &Loaded) -> Result<Simulated, RunFailure> {
-    let mut watch = Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    Ok(sincro_sim::run::simulate(loaded, Manner::default(), &mut watch)?)
+    let mut watch = RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    Ok(sincro_sim::run::simulate(loaded, RunOptions::default(), &mut watch)?)
 }
 
 /// Judgement of a run with its variants and its sweep.

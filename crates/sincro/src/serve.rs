@@ -7,8 +7,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use sincro_coppelia::session::{Finished, Session};
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_sim::campaign::judge;
 use sincro_sim::file::{FileError, prepare};
 
@@ -25,7 +25,7 @@ use crate::results;
 /// # Errors
 ///
 /// All problems of the scene and the overrides, or a sample time that is no whole multiple of the base step.
-pub fn open(scene: &Path, overrides: &[Override], sample_time: Option<f64>) -> Result<Session, Problems> {
+pub fn open(scene: &Path, overrides: &[Override], sample_time: Option<f64>) -> Result<Session, Diagnostics> {
     Session::open(scene, overrides, extensions(), sample_time)
 }
 

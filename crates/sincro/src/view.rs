@@ -4,10 +4,10 @@ use std::fmt;
 use std::path::Path;
 
 use sincro_figures::campaign;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
-use sincro_viewer::film::FORMAT;
 use sincro_viewer::live::{Engine, Source};
+use sincro_viewer::replay::FORMAT;
 
 pub use sincro_viewer::server::{Server, Show};
 
@@ -51,7 +51,7 @@ pub fn replay(run: &Path) -> Result<Show, ReplayError> {
         let message = format!("`{}` is no replay that this version of sincro shows", file.display());
         return Err(ReplayError { message, help: "run the scene again with this version" });
     }
-    Ok(Show::Film(text.into()))
+    Ok(Show::Replay(text.into()))
 }
 
 /// Starts a live run of a scene, stopped at its start, to be given to [`Server::bind`]. It lives as long as the result.
@@ -59,7 +59,7 @@ pub fn replay(run: &Path) -> Result<Show, ReplayError> {
 /// # Errors
 ///
 /// All problems of the scene and the overrides.
-pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Problems> {
+pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Diagnostics> {
     let world = scene_name(scene);
     let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
     let engine =

@@ -1,20 +1,20 @@
 //! Frequency response: magnitude, phase that does not jump, margins. Cost: one complex decomposition a frequency.
 //!
-//! `G(jω) = C (jω I − A)⁻¹ B + D`. The phase is known from `G` up to whole turns; the turns come from the poles and zeros, each of
-//! which adds its own angle of at most a quarter turn (key `ogata2010`, 7-2): an undamped pair turns the phase by
-//! −180° and not by +180°, however coarse the grid is.
+//! `G(jω) = C (jω I − A)⁻¹ B + D`. The phase is known from `G` up to whole turns; the turns come from the poles and
+//! zeros, each of which adds its own angle of at most a quarter turn (key `ogata2010`, 7-2): an undamped pair turns the
+//! phase by −180° and not by +180°, however coarse the grid is.
 
 use std::f64::consts::{PI, TAU};
 
 use sincro_math::elementary::{atan, atan2, exp, ln, log10, sin_cos};
 
 use super::modes::eigenvalues;
-use super::{Complex, DMatrix, DVector, Problem, StateSpace, modulus};
+use super::{Complex, DMatrix, DVector, LinearError, StateSpace, modulus};
 
 /// Frequencies a decade.
 const PER_DECADE: usize = 60;
 /// More decades than this are not shown; the slow end is cut.
-const MOST_DECADES: f64 = 12.0;
+const MAX_DECADES: f64 = 12.0;
 /// A pole below this share of A is taken as zero: rounding scatters multiple ones that far.
 const NOTHING: f64 = 1e-8;
 /// Halvings of a bracket around a crossover.
@@ -29,18 +29,19 @@ pub struct Bode {
     pub magnitude_db: Vec<f64>,
     /// `arg G` without jumps of whole turns `[°]`.
     pub phase_deg: Vec<f64>,
-    /// Where the phase is −180° (mod 360°): by how much `|G|` may grow there `[dB]` until the loop closed by −1 swings.
+    /// Gain margins `[dB]`, at phase −180° (mod 360°): the factor by which `|G|` may grow until the loop closed by −1
+    /// oscillates.
     pub gain_margins: Vec<Margin>,
-    /// Where `|G| = 1`: by how much the phase may fall there `[°]` until the loop closed by −1 swings.
+    /// Phase margins `[°]`, at `|G| = 1`: the angle by which the phase may fall until the loop closed by −1 oscillates.
     pub phase_margins: Vec<Margin>,
 }
 
 /// A crossover and the distance from instability there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margin {
-    /// Where `[rad/s]`.
+    /// Frequency `[rad/s]`.
     pub omega: f64,
-    /// How much `[dB]` or `[°]`.
+    /// Margin `[dB]` or `[°]`.
     pub value: f64,
 }
 
@@ -74,23 +75,25 @@ impl StateSpace {
     ///
     /// # Errors
     ///
-    /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn bode(&self, input: usize, output: usize) -> Result<Bode, Problem> {
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    pub fn bode(&self, input: usize, output: usize) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
         Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))
     }
 
-    /// The frequency response of one channel at these frequencies, ascending `[rad/s]`. Crossovers are looked for between neighbours.
+    /// The frequency response of one channel at these frequencies, ascending `[rad/s]`. Crossovers are looked for
+    /// between neighbours.
     ///
     /// # Errors
     ///
-    /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, Problem> {
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
         Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec()))
     }
 
-    /// Frequencies that show every pole and the zeros of every channel `[rad/s]`: even in the logarithm, more about resonances.
+    /// Frequencies that show every pole and the zeros of every channel `[rad/s]`: even in the logarithm, more about
+    /// resonances.
     #[must_use]
     pub fn frequencies(&self) -> Vec<f64> {
         let channels = (0..self.n_inputs()).flat_map(|i| (0..self.n_outputs()).map(move |o| (i, o)));
@@ -175,7 +178,7 @@ impl Corners {
         let (slow, fast) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
         let (slow, fast) = if fast > 0.0 { (slow, fast) } else { (1.0, 1.0) };
         let last = (log10(fast).0 - 1e-9).ceil() + 1.0;
-        let first = ((log10(slow).0 + 1e-9).floor() - 1.0).max(last - MOST_DECADES);
+        let first = ((log10(slow).0 + 1e-9).floor() - 1.0).max(last - MAX_DECADES);
         (power_of_ten(first), self.nyquist.unwrap_or_else(|| power_of_ten(last)))
     }
 

@@ -1,22 +1,24 @@
-//! Linear-quadratic regulators: the feedback `u = −K x` of least cost. Cost: some twenty inversions of `2n×2n` and `n×n` matrices.
+//! Linear-quadratic regulators: the feedback `u = −K x` of least cost. Cost: some twenty inversions of `2n×2n` and
+//! `n×n` matrices.
 //!
 //! Continuous, `∫ xᵀQx + uᵀRu dt`: `P` from `AᵀP + PA − P B R⁻¹ Bᵀ P + Q = 0` by the sign of the Hamiltonian matrix
-//! (key `roberts1980`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`). Then a few steps of Newton's method: the next
-//! `P` is what the feedback of the last one costs (key `kleinman1968`, key `hewer1971`). `K = R⁻¹BᵀP` and `K = (R + BᵀPB)⁻¹ BᵀPA`.
+//! (key `roberts1980`). Sampled, `Σ xᵀQx + uᵀRu`: by structured doubling (key `chu2004`). Then a few steps of Newton's
+//! method: the next `P` is what the feedback of the last one costs (key `kleinman1968`, key `hewer1971`). `K = R⁻¹BᵀP`
+//! and `K = (R + BᵀPB)⁻¹ BᵀPA`.
 
+use super::error::{expect_finite, expect_size, expect_symmetric};
 use super::lyapunov::{lyapunov, sign, symmetric};
 use super::modes::eigenvalues;
-use super::problem::{expect_finite, expect_size, expect_symmetric};
-use super::{Complex, DMatrix, Problem, modulus};
+use super::{Complex, DMatrix, LinearError, modulus};
 
 /// Share of the weights below which a negative eigenvalue of Q is rounding.
 const NOTHING: f64 = 1e-12;
 /// A mode whose `[A − λI, B]` has a singular value below this share of its greatest is not reached.
 const UNREACHED: f64 = 1e-11;
 /// Steps of Newton's method at the end; it doubles the digits, so the second already meets rounding.
-const MOST_REFINEMENTS: usize = 4;
+const MAX_REFINEMENTS: usize = 4;
 /// Doublings: 2⁶⁰ ticks are for ever.
-const MOST_DOUBLINGS: usize = 60;
+const MAX_DOUBLINGS: usize = 60;
 
 /// A feedback `u = −K x` and what it does.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +36,7 @@ pub struct Regulator {
 /// The regulator of `ẋ = A x + B u` that makes `∫ xᵀQx + uᵀRu dt` least.
 ///
 /// ```
-/// use crate::linear::{DMatrix, lqr};
+/// use sincro_analysis::linear::{DMatrix, lqr};
 ///
 /// // double integrator with unit weights: K = [1, √3]
 /// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]);
@@ -46,12 +48,12 @@ pub struct Regulator {
 /// # Errors
 ///
 /// Sizes do not fit, a weight is not symmetric or has the wrong sign, or no feedback stabilises.
-pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, Problem> {
+pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, LinearError> {
     check(a, b, q, r)?;
     check_stabilisable(a, b, |pole| pole.re >= -NOTHING * a.norm())?;
     let r_inverse = inverse_of_weight(r)?;
     let gain = |p: &DMatrix<f64>| &r_inverse * b.transpose() * p;
-    let p = by_sign(a, &symmetric(&(b * &r_inverse * b.transpose())), q).ok_or(Problem::NotDetectable)?;
+    let p = by_sign(a, &symmetric(&(b * &r_inverse * b.transpose())), q).ok_or(LinearError::NotDetectable)?;
     refined(p, |p| {
         let k = gain(p);
         let closed = a - b * &k;
@@ -70,7 +72,7 @@ pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64
 /// # Errors
 ///
 /// As [`lqr`].
-pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, Problem> {
+pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, LinearError> {
     check(a, b, q, r)?;
     check_stabilisable(a, b, |pole| modulus(pole) >= 1.0 - NOTHING)?;
     let g = symmetric(&(b * inverse_of_weight(r)? * b.transpose()));
@@ -78,7 +80,7 @@ pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f6
         let weight = symmetric(&(r + b.transpose() * p * b));
         weight.cholesky().map(|factor| factor.solve(&(b.transpose() * p * a)))
     };
-    let p = by_doubling(a, &g, q).ok_or(Problem::NotDetectable)?;
+    let p = by_doubling(a, &g, q).ok_or(LinearError::NotDetectable)?;
     refined(p, |p| {
         let k = gain(p)?;
         let closed = a - b * &k;
@@ -91,14 +93,14 @@ pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f6
     })
 }
 
-/// Newton's method from a `P` that nearly solves the equation: as long as the residual falls, a few steps at most. `step` gives the
-/// next `P` and what the present one makes; nothing if it does not stabilise.
+/// Newton's method from a `P` that nearly solves the equation: as long as the residual falls, a few steps at most.
+/// `step` gives the next `P` and what the present one makes; nothing if it does not stabilise.
 fn refined(
     p: DMatrix<f64>,
     step: impl Fn(&DMatrix<f64>) -> Option<(Option<DMatrix<f64>>, Regulator)>,
-) -> Result<Regulator, Problem> {
-    let (mut next, mut best) = step(&p).ok_or(Problem::NotDetectable)?;
-    for _ in 0..MOST_REFINEMENTS {
+) -> Result<Regulator, LinearError> {
+    let (mut next, mut best) = step(&p).ok_or(LinearError::NotDetectable)?;
+    for _ in 0..MAX_REFINEMENTS {
         let Some((after, regulator)) = next.and_then(|p| step(&p)) else { break };
         let falls = regulator.residual < 0.5 * best.residual;
         if regulator.residual <= best.residual {
@@ -115,7 +117,7 @@ fn refined(
 /// `Σ (Aᵏ)ᵀ Q Aᵏ` for an A that decays, by doubling.
 fn cost_to_come_back(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut x) = (a.clone(), q.clone());
-    for _ in 0..MOST_DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         let added = a.transpose() * &x * &a;
         let settled = added.norm() <= 1e-17 * x.norm();
         x = symmetric(&(x + added));
@@ -130,7 +132,7 @@ fn cost_to_come_back(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>>
     None
 }
 
-fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<(), Problem> {
+fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<(), LinearError> {
     let (n, m) = (a.nrows(), b.ncols());
     let all = [("A", a, (n, n)), ("B", b, (n, m)), ("Q", q, (n, n)), ("R", r, (m, m))];
     for (what, matrix, size) in all {
@@ -138,24 +140,28 @@ fn check(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>)
         expect_finite(what, matrix)?;
     }
     if n == 0 || m == 0 {
-        return Err(Problem::Empty);
+        return Err(LinearError::Empty);
     }
     expect_symmetric("Q", q)?;
     expect_symmetric("R", r)?;
     let least = symmetric(q).symmetric_eigenvalues().iter().copied().fold(0.0, f64::min);
     if least < -NOTHING * q.norm() {
-        return Err(Problem::NotPositiveSemidefinite { what: "Q", eigenvalue: least });
+        return Err(LinearError::NotPositiveSemidefinite { what: "Q", eigenvalue: least });
     }
     Ok(())
 }
 
-fn inverse_of_weight(r: &DMatrix<f64>) -> Result<DMatrix<f64>, Problem> {
-    let factor = symmetric(r).cholesky().ok_or(Problem::NotPositiveDefinite { what: "R" })?;
+fn inverse_of_weight(r: &DMatrix<f64>) -> Result<DMatrix<f64>, LinearError> {
+    let factor = symmetric(r).cholesky().ok_or(LinearError::NotPositiveDefinite { what: "R" })?;
     Ok(factor.inverse())
 }
 
 /// Hautus: an eigenvalue is reached if `[A − λI, B]` has full rank.
-fn check_stabilisable(a: &DMatrix<f64>, b: &DMatrix<f64>, stays: impl Fn(Complex<f64>) -> bool) -> Result<(), Problem> {
+fn check_stabilisable(
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+    stays: impl Fn(Complex<f64>) -> bool,
+) -> Result<(), LinearError> {
     let n = a.nrows();
     let size = if b.norm() > 0.0 { a.norm() / b.norm() } else { 1.0 };
     let size = if size > 0.0 { size } else { 1.0 };
@@ -167,7 +173,7 @@ fn check_stabilisable(a: &DMatrix<f64>, b: &DMatrix<f64>, stays: impl Fn(Complex
         });
         let sizes = pencil.singular_values();
         if sizes.min() <= UNREACHED * sizes.max() {
-            return Err(Problem::NotStabilisable { mode: (pole.re, pole.im) });
+            return Err(LinearError::NotStabilisable { mode: (pole.re, pole.im) });
         }
     }
     Ok(())
@@ -191,11 +197,12 @@ fn by_sign(a: &DMatrix<f64>, g: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatr
     Some(symmetric(&p))
 }
 
-/// `A ← A W A`, `G ← G + A W G Aᵀ`, `H ← H + Aᵀ H W A` with `W = (I + G H)⁻¹`: each step covers twice as many ticks; H tends to P.
+/// `A ← A W A`, `G ← G + A W G Aᵀ`, `H ← H + Aᵀ H W A` with `W = (I + G H)⁻¹`: each step covers twice as many ticks; H
+/// tends to P.
 fn by_doubling(a: &DMatrix<f64>, g: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut g, mut h) = (a.clone(), g.clone(), q.clone());
     let identity = DMatrix::<f64>::identity(a.nrows(), a.nrows());
-    for _ in 0..MOST_DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         let w = (&identity + &g * &h).try_inverse()?;
         let wa = &w * &a;
         let added = a.transpose() * &h * &wa;

@@ -1,23 +1,24 @@
 //! Matrix sign function, and the Lyapunov equation by it. Cost: some ten inversions.
 //!
-//! Newton's iteration `Z ← ½ (Z/c + c Z⁻¹)` tends to sign(Z), which has the eigenspaces of Z and the eigenvalues ±1 of their sides
-//! of the imaginary axis (key `roberts1980`). The scaling `c = |det Z|^(1/n)` brings far eigenvalues in at the start
-//! (key `byers1987`).
+//! Newton's iteration `Z ← ½ (Z/c + c Z⁻¹)` tends to sign(Z), which has the eigenspaces of Z and the eigenvalues ±1 of
+//! their sides of the imaginary axis (key `roberts1980`). The scaling `c = |det Z|^(1/n)` brings far eigenvalues in at
+//! the start (key `byers1987`).
 
 use sincro_math::elementary::{exp, ln};
 
 use super::DMatrix;
 
 /// Steps after which an eigenvalue must lie on the imaginary axis; ten are usual.
-const MOST_STEPS: usize = 100;
-/// Change of Z, beside Z, at which the iteration ends: it converges quadratically, so the next change would be rounding.
+const MAX_STEPS: usize = 100;
+/// Change of Z, beside Z, at which the iteration ends: it converges quadratically, so the next change would be
+/// rounding.
 const SETTLED: f64 = 1e-9;
 
 /// sign(Z), or `None` if an eigenvalue lies on the imaginary axis or too near to it.
 pub(super) fn sign(z: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let mut z = z.clone();
     let mut last_change = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let (inverse, scale) = inverse_and_scale(&z)?;
         // near the end scaling would only disturb
         let c = if last_change < 1e-2 { 1.0 } else { scale };
@@ -37,13 +38,13 @@ pub(super) fn sign(z: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 
 /// The symmetric `X` with `Aᵀ X + X A + Q = 0`, for symmetric `Q` and an `A` whose eigenvalues all decay.
 ///
-/// The sign iteration on `[A 0; Q −Aᵀ]`, block by block: `A ← ½ (A/c + c A⁻¹)`, `Q ← ½ (Q/c + c A⁻ᵀ Q A⁻¹)`; A tends to −I and Q to
-/// 2 X (key `roberts1980`). `None`: A has an eigenvalue on the imaginary axis.
+/// The sign iteration on `[A 0; Q −Aᵀ]`, block by block: `A ← ½ (A/c + c A⁻¹)`, `Q ← ½ (Q/c + c A⁻ᵀ Q A⁻¹)`; A tends to
+/// −I and Q to 2 X (key `roberts1980`). `None`: A has an eigenvalue on the imaginary axis.
 #[must_use]
 pub fn lyapunov(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut q) = (a.clone(), q.clone());
     let identity = DMatrix::identity(a.nrows(), a.nrows());
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let distance = (&a + &identity).norm();
         let (inverse, scale) = inverse_and_scale(&a)?;
         let c = if distance < 1e-2 { 1.0 } else { scale };

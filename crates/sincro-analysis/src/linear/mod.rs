@@ -1,30 +1,30 @@
-//! What a linearised system tells: poles, zeros, frequency and step response, controllability, regulators, trim.
+//! Analysis of linear systems: poles, zeros, frequency and step response, controllability, regulators, trim.
 //!
-//! [`StateSpace`] holds the four matrices of `ẋ = A x + B u`, `y = C x + D u` about an operating point, with the names and units
-//! of their rows and columns. Everything else is derived from it and kept nowhere.
+//! [`StateSpace`] holds the four matrices of `ẋ = A x + B u`, `y = C x + D u` about an operating point, with the names
+//! and units of their rows and columns. Everything else is derived from it and kept nowhere.
 //!
-//! The bits are the same on every machine: the matrix library is built without its vectorised kernels, and whatever is not
-//! `+ − × ÷ √` goes through [`sincro_math::elementary`].
+//! The bits are the same on every machine: the matrix library is built without its vectorised kernels, and whatever is
+//! not `+ − × ÷ √` goes through [`sincro_math::elementary`].
 
 pub mod bode;
+mod error;
 pub mod lqr;
 pub mod lyapunov;
 pub mod modes;
 pub mod newton;
-mod problem;
 pub mod step;
 pub mod structure;
 mod zeros;
 
 pub use bode::{Bode, Margin};
+pub use error::LinearError;
 pub use lqr::{Regulator, dlqr, lqr};
 pub use modes::{Mode, Stability};
 pub use nalgebra::{Complex, DMatrix, DVector};
-pub use problem::Problem;
 pub use step::{StepFacts, StepResponse};
 pub use structure::Reach;
 
-/// What a state, an input or an output is called, and its unit.
+/// Name and unit of a state, an input or an output.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Axis {
     /// Its path: `/cart/rail.position`.
@@ -44,7 +44,7 @@ impl Axis {
 /// A linear system: `ẋ = A x + B u`, `y = C x + D u`, all quantities as differences from the operating point.
 ///
 /// ```
-/// use crate::linear::{DMatrix, StateSpace};
+/// use sincro_analysis::linear::{DMatrix, StateSpace};
 ///
 /// // a mass of 1 kg on a spring of 4 N/m: force in, position out
 /// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -4.0, 0.0]);
@@ -82,26 +82,31 @@ impl StateSpace {
     /// # Errors
     ///
     /// The matrices do not fit one another.
-    pub fn from_matrices(a: DMatrix<f64>, b: DMatrix<f64>, c: DMatrix<f64>, d: DMatrix<f64>) -> Result<Self, Problem> {
+    pub fn from_matrices(
+        a: DMatrix<f64>,
+        b: DMatrix<f64>,
+        c: DMatrix<f64>,
+        d: DMatrix<f64>,
+    ) -> Result<Self, LinearError> {
         let names = |letter: char, n: usize| (1..=n).map(|k| Axis::new(format!("{letter}{k}"), "")).collect();
         let (states, inputs, outputs) = (names('x', a.nrows()), names('u', b.ncols()), names('y', c.nrows()));
         let system = Self { a, b, c, d, states, inputs, outputs, t: 0.0, sample_time: None };
         system.check().map(|()| system)
     }
 
-    /// Whether the sizes of matrices and names fit, and all entries are finite.
+    /// Checks that the sizes of matrices and names fit, and that all entries are finite.
     ///
     /// # Errors
     ///
     /// The first thing that does not.
-    pub fn check(&self) -> Result<(), Problem> {
+    pub fn check(&self) -> Result<(), LinearError> {
         let (n, m, p) = (self.n_states(), self.n_inputs(), self.n_outputs());
-        problem::expect_size("A", &self.a, (n, n))?;
-        problem::expect_size("B", &self.b, (n, m))?;
-        problem::expect_size("C", &self.c, (p, n))?;
-        problem::expect_size("D", &self.d, (p, m))?;
+        error::expect_size("A", &self.a, (n, n))?;
+        error::expect_size("B", &self.b, (n, m))?;
+        error::expect_size("C", &self.c, (p, n))?;
+        error::expect_size("D", &self.d, (p, m))?;
         for (what, matrix) in [("A", &self.a), ("B", &self.b), ("C", &self.c), ("D", &self.d)] {
-            problem::expect_finite(what, matrix)?;
+            error::expect_finite(what, matrix)?;
         }
         Ok(())
     }
@@ -124,8 +129,8 @@ impl StateSpace {
         self.outputs.len()
     }
 
-    /// Static gain from an input to an output: `D − C A⁻¹ B`, or `D + C (I − A)⁻¹ B` if it is sampled; modes that the channel does not
-    /// show do not count.
+    /// Static gain from an input to an output: `D − C A⁻¹ B`, or `D + C (I − A)⁻¹ B` if it is sampled; modes that the
+    /// channel does not show do not count.
     ///
     /// `None`: the channel integrates.
     #[must_use]
@@ -150,7 +155,8 @@ impl StateSpace {
 /// A row or column below this share of the largest entry is the rounding of a reduction, not a slow mode.
 const ROUNDING: f64 = 1e-13;
 
-/// Whether a square matrix is singular to working precision. Its rows are scaled first, so that units do not decide.
+/// Returns true if a square matrix is singular to working precision. Its rows are scaled first, so that units do not
+/// decide.
 fn is_singular(matrix: &DMatrix<f64>) -> bool {
     let mut scaled = matrix.clone();
     let largest = matrix.amax();

@@ -1,8 +1,8 @@
 //! Poles: eigenvalues of A and what they mean. Cost: 10 n³ or so.
 //!
-//! A is balanced by powers of two and brought to real Schur form (key `golub2013`, 7.4 and 7.5). The library's iteration has no
-//! exceptional shifts and stalls on some matrices (a cyclic permutation); then the eigenvalues `ν` of `(A − μ I)⁻¹` are taken
-//! instead, `λ = μ + 1/ν`.
+//! A is balanced by powers of two and brought to real Schur form (key `golub2013`, 7.4 and 7.5). The library's
+//! iteration has no exceptional shifts and stalls on some matrices (a cyclic permutation); then the eigenvalues `ν` of
+//! `(A − μ I)⁻¹` are taken instead, `λ = μ + 1/ν`.
 
 use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use sincro_math::elementary::{atan2, ln};
@@ -10,8 +10,9 @@ use sincro_math::elementary::{atan2, ln};
 use super::{Complex, DMatrix, StateSpace, modulus};
 
 /// Sweeps of the eigenvalue iteration; twenty or so are needed per eigenvalue at most.
-const MOST_SWEEPS: usize = 3000;
-/// A multiple eigenvalue is known only to the root of the rounding error; real parts below this share of A are taken as zero.
+const MAX_SWEEPS: usize = 3000;
+/// A multiple eigenvalue is known only to the root of the rounding error; real parts below this share of A are taken as
+/// zero.
 const ZERO: f64 = 3e-8;
 
 /// A pole and what it means for the motion `e^{λ t}`.
@@ -27,7 +28,7 @@ pub struct Mode {
     pub time_constant: f64,
 }
 
-/// What becomes of a small disturbance.
+/// Stability: behaviour of a small disturbance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
     /// It decays.
@@ -74,7 +75,7 @@ impl StateSpace {
         modes
     }
 
-    /// Whether a small disturbance decays.
+    /// Stability, from the decay of a small disturbance.
     #[must_use]
     pub fn stability(&self) -> Stability {
         let excess = |mode: &Mode| match self.sample_time {
@@ -90,7 +91,7 @@ impl StateSpace {
         }
     }
 
-    /// Whether every small disturbance decays.
+    /// Returns true if every small disturbance decays.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
@@ -130,7 +131,7 @@ fn rough(modulus: f64) -> f32 {
 }
 
 fn by_schur(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
-    let schur = Schur::try_new(matrix.clone(), f64::EPSILON, MOST_SWEEPS)?;
+    let schur = Schur::try_new(matrix.clone(), f64::EPSILON, MAX_SWEEPS)?;
     // `+ 0.0` makes negative zeros positive
     Some(schur.complex_eigenvalues().iter().map(|z| Complex::new(z.re + 0.0, z.im + 0.0)).collect())
 }

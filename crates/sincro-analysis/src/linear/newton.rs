@@ -1,8 +1,10 @@
-//! Equations for trim: finds `x` with `r(x) = 0`, or says why there is none nearby. Cost: one singular value decomposition a step.
+//! Equations for trim: finds `x` with `r(x) = 0`, or says why there is none nearby. Cost: one singular value
+//! decomposition a step.
 //!
 //! Damped Gauss–Newton: the step is `−J⁺ r` with the pseudo-inverse of the Jacobian (key `golub2013`, 5.5), which is
-//! Newton's for square systems, the shortest one where unknowns are left over, and the least-squares one where equations are. It is
-//! halved until it brings a share of the descent that its slope promises (key `nocedal2006`, 3.1 and 10.3).
+//! Newton's for square systems, the shortest one where unknowns are left over, and the least-squares one where
+//! equations are. It is halved until it brings a share of the descent that its slope promises (key `nocedal2006`, 3.1
+//! and 10.3).
 
 use std::fmt;
 
@@ -13,7 +15,7 @@ const RANK: f64 = 1e-10;
 /// Share of the promised descent that a step must bring.
 const ENOUGH: f64 = 1e-4;
 /// Halvings of a step before it counts as none.
-const MOST_HALVINGS: usize = 40;
+const MAX_HALVINGS: usize = 40;
 /// A gradient `|Jᵀr|` below this share of `|J| |r|` leads nowhere.
 const LEVEL: f64 = 1e-7;
 
@@ -28,10 +30,10 @@ pub struct Solution {
     pub iterations: usize,
 }
 
-/// Why the equations were not solved, and how far it got.
+/// Failure of the iteration, with the best iterate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What happened.
+    /// Reason.
     pub reason: Reason,
     /// The best unknowns.
     pub x: Vec<f64>,
@@ -43,7 +45,7 @@ pub struct Failure {
     pub iterations: usize,
 }
 
-/// What stopped the search.
+/// Reason for the end of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// No step makes the residual smaller: there is no solution nearby.
@@ -76,19 +78,20 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Solves `r(x) = 0` from `x0`: `residual(x, r)` fills `n_residuals` values, `jacobian(x, J)` the matrix `∂r/∂x` of that many rows.
+/// Solves `r(x) = 0` from `x0`: `residual(x, r)` fills `n_residuals` values, `jacobian(x, J)` the matrix `∂r/∂x` of
+/// that many rows.
 ///
 /// Solved is what has no residual greater than `tolerance`.
 ///
 /// ```
-/// use crate::linear::newton::solve;
+/// use sincro_analysis::linear::newton::solve;
 ///
 /// // where the unit circle meets the diagonal
 /// let residual = |x: &[f64], r: &mut [f64]| {
 ///     r[0] = x[0] * x[0] + x[1] * x[1] - 1.0;
 ///     r[1] = x[0] - x[1];
 /// };
-/// let jacobian = |x: &[f64], j: &mut crate::linear::DMatrix<f64>| {
+/// let jacobian = |x: &[f64], j: &mut sincro_analysis::linear::DMatrix<f64>| {
 ///     j.copy_from_slice(&[2.0 * x[0], 1.0, 2.0 * x[1], -1.0]); // column by column
 /// };
 /// let solution = solve(2, residual, jacobian, &[1.0, 0.5], 1e-14, 20).unwrap();
@@ -166,7 +169,7 @@ fn search(
 ) -> Option<DVector<f64>> {
     let slope = 2.0 * gradient.dot(step);
     let mut share = 1.0;
-    for _ in 0..MOST_HALVINGS {
+    for _ in 0..MAX_HALVINGS {
         let trial = x + step * share;
         residual(trial.as_slice(), r.as_mut_slice());
         // |r(x + a p)|² ≤ |r|² + c a slope; what is not finite is never enough

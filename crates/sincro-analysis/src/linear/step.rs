@@ -1,7 +1,7 @@
 //! Step response, exact at every point of its grid. Cost: one matrix exponential, then a product a point.
 //!
-//! With a constant input `[x; u]⁺ = exp([A B; 0 0] h) [x; u]`, whatever h is. The exponential is the Padé approximant of degree 13
-//! with scaling and squaring (key `higham2005`).
+//! With a constant input `[x; u]⁺ = exp([A B; 0 0] h) [x; u]`, whatever h is. The exponential is the Padé approximant
+//! of degree 13 with scaling and squaring (key `higham2005`).
 
 use super::{DMatrix, DVector, Mode, StateSpace};
 
@@ -10,7 +10,7 @@ const SETTLED: f64 = 6.0;
 /// Growth is shown up to e³.
 const GROWN: f64 = 3.0;
 /// Periods of the slowest swinging mode that are shown at most.
-const MOST_PERIODS: f64 = 40.0;
+const MAX_PERIODS: f64 = 40.0;
 /// Points of a response.
 const N_POINTS: usize = 1201;
 /// Norm below which the approximant is exact to rounding.
@@ -23,20 +23,20 @@ pub struct StepResponse {
     pub times: Vec<f64>,
     /// The output at each, per unit of the input.
     pub values: Vec<f64>,
-    /// Where it settles; `None` if it does not.
+    /// Final value; `None` if it does not settle.
     pub final_value: Option<f64>,
-    /// What one reads off it; `None` if it does not settle, or settles at zero.
+    /// Characteristics of the response; `None` if it does not settle, or settles at zero.
     pub facts: Option<StepFacts>,
 }
 
-/// What one reads off a step response that settles.
+/// Characteristics of a step response that settles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepFacts {
     /// From 10 % to 90 % of the final value `[s]`.
     pub rise_time: f64,
     /// After this it stays within 2 % of the final value `[s]`.
     pub settling_time: f64,
-    /// How far it goes beyond the final value, as a share of it.
+    /// Overshoot relative to the final value.
     pub overshoot: f64,
     /// When it is farthest beyond `[s]`; the end, if it never is.
     pub peak_time: f64,
@@ -101,11 +101,11 @@ impl StateSpace {
     }
 }
 
-/// How long a mode takes to settle, or is worth looking at.
+/// Settling time of a mode, or the time over which it is drawn.
 fn settled(mode: &Mode) -> f64 {
     let period = std::f64::consts::TAU / mode.natural_frequency;
     let decay = if mode.time_constant.is_finite() { SETTLED * mode.time_constant } else { f64::INFINITY };
-    if mode.pole.im == 0.0 { decay } else { decay.min(MOST_PERIODS * period) }
+    if mode.pole.im == 0.0 { decay } else { decay.min(MAX_PERIODS * period) }
 }
 
 /// The next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten.

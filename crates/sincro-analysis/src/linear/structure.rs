@@ -1,15 +1,15 @@
 //! Which states the inputs reach and the outputs see. Cost: n³.
 //!
-//! The reachable subspace is spanned by `B, AB, A²B, …`. The columns are made orthogonal as they come, each new one from the
-//! last orthogonal one (block Arnoldi, key `golub2013`, 10.5): powers of A never appear, so stiff systems
-//! do not drown in rounding as they do in the singular values of the controllability matrix.
+//! The reachable subspace is spanned by `B, AB, A²B, …`. The columns are made orthogonal as they come, each new one
+//! from the last orthogonal one (block Arnoldi, key `golub2013`, 10.5): powers of A never appear, so stiff systems do
+//! not drown in rounding as they do in the singular values of the controllability matrix.
 
 use super::{Axis, DMatrix, DVector, StateSpace};
 
-/// What is left of a vector of norm 1 after taking away its parts along others, if it is nothing but rounding.
+/// Norm below which the remainder of a unit vector, after removal of its components along others, is rounding.
 const NOTHING: f64 = 1e-11;
 
-/// How much of the state space is reached or seen.
+/// Dimension of the controllable or observable subspace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// Dimension of the subspace.
@@ -21,7 +21,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Whether it is the whole space.
+    /// Returns true if it is the whole space.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.rank == self.n_states
@@ -29,20 +29,20 @@ impl Reach {
 }
 
 impl StateSpace {
-    /// What the inputs reach.
+    /// Controllable subspace.
     #[must_use]
     pub fn controllability(&self) -> Reach {
         reach(&self.a, &self.b)
     }
 
-    /// What the outputs see.
+    /// Observable subspace.
     #[must_use]
     pub fn observability(&self) -> Reach {
         reach(&self.a.transpose(), &self.c.transpose())
     }
 
-    /// One channel without the modes that its input does not reach or its output does not see: the same transfer function by the
-    /// fewest states, which have no names.
+    /// One channel without the modes that its input does not reach or its output does not see: the same transfer
+    /// function by the fewest states, which have no names.
     #[must_use]
     pub fn minimal(&self, input: usize, output: usize) -> Self {
         let (b, c) = (self.b.columns(input, 1).into_owned(), self.c.rows(output, 1).into_owned());

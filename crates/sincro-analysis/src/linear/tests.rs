@@ -314,7 +314,7 @@ fn a_gain_without_states_is_a_system_too() {
     assert!(bode.magnitude_db.iter().all(|db| (db - 20.0).abs() < 1e-13));
     assert!(bode.phase_deg.iter().all(|phase| (phase + 180.0).abs() < 1e-13));
     assert!(empty.step_response(0, 0, None).values.iter().all(|y| *y == -10.0));
-    assert_eq!(lqr(&empty.a, &empty.b, &empty.a, &DMatrix::identity(1, 1)), Err(Problem::Empty));
+    assert_eq!(lqr(&empty.a, &empty.b, &empty.a, &DMatrix::identity(1, 1)), Err(LinearError::Empty));
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn impossible_regulators_are_refused_in_words() {
     assert!(said(&one, &one, &-&one, &one).starts_with("`Q` has the negative eigenvalue -1"));
     assert_eq!(said(&two, &b, &matrix(2, 2, &[1.0, 1.0, 0.0, 1.0]), &one), "`Q` is not symmetric");
     // an integrator that costs nothing
-    assert_eq!(lqr(&matrix(1, 1, &[0.0]), &one, &matrix(1, 1, &[0.0]), &one), Err(Problem::NotDetectable));
+    assert_eq!(lqr(&matrix(1, 1, &[0.0]), &one, &matrix(1, 1, &[0.0]), &one), Err(LinearError::NotDetectable));
     assert!(dlqr(&one, &one, &matrix(1, 1, &[0.0]), &one).is_err());
     let bad = StateSpace::from_matrices(one.clone(), matrix(2, 1, &[0.0, 0.0]), one.clone(), one);
     assert_eq!(bad.unwrap_err().to_string(), "`B` is 2×1, expected 1×1");

@@ -1,26 +1,29 @@
 //! Invariant zeros of one channel: the frequencies that do not get from an input to an output. Cost: 10 n³ or so.
 //!
-//! Zeros are the finite `s` at which the pencil `[A − sI, b; c, d]` loses rank. While `d` is zero, the output equation says that
-//! the state along `c` vanishes: a reflection turns `c` into one component, that component is struck out, and the equation of its
-//! rate becomes the output equation of a system smaller by one. Once `d` is not zero, the zeros are the eigenvalues of
-//! `A − b c / d` (key `emami1982`; with one input and one output its compressions of rows and columns are single reflections).
+//! Zeros are the finite `s` at which the pencil `[A − sI, b; c, d]` loses rank. While `d` is zero, the output equation
+//! says that the state along `c` vanishes: a reflection turns `c` into one component, that component is struck out, and
+//! the equation of its rate becomes the output equation of a system smaller by one. Once `d` is not zero, the zeros are
+//! the eigenvalues of `A − b c / d` (key `emami1982`; with one input and one output its compressions of rows and
+//! columns are single reflections).
 
 use super::modes::eigenvalues;
-use super::{Complex, DMatrix, DVector, Problem, StateSpace};
+use super::{Complex, DMatrix, DVector, LinearError, StateSpace};
 
-/// What is smaller than this beside matrices of norm 1 is rounding: such a `d` would put a zero at 10¹² times the fastest rate.
+/// Threshold of rounding relative to matrices of norm 1: such a `d` would put a zero at 10¹² times the fastest rate.
 const NOTHING: f64 = 1e-12;
 
 impl StateSpace {
-    /// The zeros from an input to an output, ordered by modulus; those at infinity are left out. Of a mode that the input does not
-    /// reach or the output does not see, the pole is a zero as well.
+    /// The zeros from an input to an output, ordered by modulus; those at infinity are left out. Of a mode that the
+    /// input does not reach or the output does not see, the pole is a zero as well.
     ///
     /// # Errors
     ///
-    /// [`Problem::NoPath`]: the output does not depend on the input.
-    pub fn zeros(&self, input: usize, output: usize) -> Result<Vec<Complex<f64>>, Problem> {
-        let no_path =
-            || Problem::NoPath { input: self.inputs[input].name.clone(), output: self.outputs[output].name.clone() };
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    pub fn zeros(&self, input: usize, output: usize) -> Result<Vec<Complex<f64>>, LinearError> {
+        let no_path = || LinearError::NoPath {
+            input: self.inputs[input].name.clone(),
+            output: self.outputs[output].name.clone(),
+        };
         let d = self.d[(output, input)];
         let (b, c) = (self.b.column(input).into_owned(), self.c.row(output).transpose());
         let (size_b, size_c) = (b.norm(), c.norm());

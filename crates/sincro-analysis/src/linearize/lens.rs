@@ -20,7 +20,7 @@ use sincro_sim::run::LockStep;
 /// A scene at an operating point.
 pub(super) struct Lens<R: Number> {
     mechanism: Mechanism<R>,
-    watch: Watch<R>,
+    watch: LoopSystem<R>,
     state: State<f64>,
     inputs: Vec<InputKind>,
     commands: Vec<f64>,
@@ -38,7 +38,7 @@ pub(super) struct Lens<R: Number> {
 }
 
 /// The diagram, if it is in the loop, and the outputs that are read along the way.
-struct Watch<R: Number> {
+struct LoopSystem<R: Number> {
     control: Option<DiagramController<R>>,
     perturbed: Option<(usize, R)>,
     outputs: Vec<Output>,
@@ -69,7 +69,7 @@ impl<R: Number> Lens<R> {
         let pick = |place: usize| if place < 2 * n_v { place } else { place + n_rotors - own + 2 * n_v };
         let signals = at.control().map_or(Vec::new(), |c| c.runner.state.signals.clone());
         Self {
-            watch: Watch {
+            watch: LoopSystem {
                 control,
                 perturbed: None,
                 outputs: names.outputs.clone(),
@@ -97,7 +97,7 @@ impl<R: Number> Lens<R> {
         self.places.len()
     }
 
-    /// How many velocities are among the states.
+    /// Number of velocities among the states.
     pub fn n_velocities(&self) -> usize {
         let n_v = self.watch.zero.len();
         self.places.iter().filter(|&&p| (n_v..2 * n_v).contains(&p)).count()
@@ -210,7 +210,7 @@ impl Lens<f64> {
     }
 }
 
-impl<R: Number> Watch<R> {
+impl<R: Number> LoopSystem<R> {
     /// Something is added to a signal: at once if it is held, as soon as it is known if it is evaluated.
     fn perturb(&mut self, signal: usize, by: R, signals: &[f64]) {
         use sincro_blocks::program::Rate;
@@ -234,7 +234,7 @@ impl<R: Number> Watch<R> {
     }
 }
 
-impl<R: Number> CoupledSystem<R> for Watch<R> {
+impl<R: Number> CoupledSystem<R> for LoopSystem<R> {
     fn states(&mut self) -> &mut [R] {
         self.control.as_mut().map_or(&mut [], |c| c.states())
     }

@@ -1,12 +1,13 @@
 //! Linearisation and trim of a scene: exact, by dual numbers, no step width to choose.
 //!
-//! State x = (δ, v, z): displacements of the coordinates about the operating point (for a quaternion the rotation vector in body axes),
-//! velocities, continuous states of the diagram. Inputs are commands of motors, or signals of the diagram that something is added to;
-//! outputs are any recorded signals. Every column of A and B is one evaluation of the equations of motion with the derivative carried along.
+//! State x = (δ, v, z): displacements of the coordinates about the operating point (for a quaternion the rotation
+//! vector in body axes), velocities, continuous states of the diagram. Inputs are commands of motors, or signals of the
+//! diagram that something is added to; outputs are any recorded signals. Every column of A and B is one evaluation of
+//! the equations of motion with the derivative carried along.
 //!
-//! The open loop is the world alone, its commands held. The closed loop has the diagram's continuous blocks in it; blocks with a sample
-//! time hold what they gave last, as they do between ticks. A degree of freedom that an ideal motor or sticking friction holds
-//! has no velocity among the states.
+//! The open loop is the world alone, its commands held. The closed loop has the diagram's continuous blocks in it;
+//! blocks with a sample time hold what they gave last, as they do between ticks. A degree of freedom that an ideal
+//! motor or sticking friction holds has no velocity among the states.
 
 mod lens;
 mod names;
@@ -21,7 +22,7 @@ use sincro_math::Dual;
 
 use crate::linear::{Axis, DMatrix, StateSpace};
 use lens::Lens;
-use sincro_scene::problem::Problems;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
@@ -38,7 +39,7 @@ pub struct Linearization {
     pub output: Vec<f64>,
     /// Rates of the states there: zero at an equilibrium.
     pub rate: Vec<f64>,
-    /// What to know before trusting the numbers.
+    /// Warnings about the accuracy of the numbers.
     pub notes: Vec<String>,
 }
 
@@ -55,7 +56,7 @@ impl Linearization {
 /// # Errors
 ///
 /// Inputs and outputs that mean nothing or cannot be linearised.
-pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Linearization, Problems> {
+pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Linearization, Diagnostics> {
     let names = names::resolve(loaded, at, request)?;
     let mut lens = Lens::<Dual<1>>::new(loaded, at, &names);
     let (n, m, p) = (lens.n_states(), names.inputs.len(), names.outputs.len());
@@ -100,8 +101,8 @@ fn axis(name: impl Into<String>, unit: impl Into<String>) -> Axis {
     Axis { name: name.into(), unit: unit.into() }
 }
 
-/// Moduli [1/s] of the fastest poles at the start, with the diagram's continuous blocks in the loop and without; none if there is no
-/// operating point. The experiment is loaded with it: [`sincro_sim::Extensions::fastest_poles`].
+/// Moduli [1/s] of the fastest poles at the start, with the diagram's continuous blocks in the loop and without; none
+/// if there is no operating point. The experiment is loaded with it: [`sincro_sim::Extensions::fastest_poles`].
 #[must_use]
 pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> {
     let mut at = LockStep::new(loaded, method, false);
@@ -115,8 +116,8 @@ pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> 
     fastest(true).zip(fastest(false)).filter(|(closed, open)| closed.is_finite() && open.is_finite())
 }
 
-/// Rates with state `k` changed by `by` about where a run is: for whoever wants to check derivatives by differences. The diagram is
-/// not in the loop.
+/// Rates with state `k` changed by `by` about where a run is: for whoever wants to check derivatives by differences.
+/// The diagram is not in the loop.
 #[must_use]
 pub fn rates_near(loaded: &Loaded, at: &LockStep, k: usize, by: f64) -> Vec<f64> {
     let mut lens = Lens::<f64>::new(loaded, at, &names::Names::default());

@@ -1,9 +1,9 @@
-//! What inputs and outputs mean.
+//! Meaning of inputs and outputs.
 
 use super::{axis, point::Request};
 use crate::linear::Axis;
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located};
 use sincro_scene::diagram::ControlDiagram;
-use sincro_scene::problem::{Located, Problem, Problems};
 use sincro_scene::record::{EnergyQuantity, Entry, Probe, catalogue};
 use sincro_scene::suggest;
 use sincro_sim::load::Loaded;
@@ -16,7 +16,7 @@ pub(super) struct Input {
     pub what: InputKind,
 }
 
-/// Where an input acts.
+/// Point at which an input acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum InputKind {
     /// Command of a motor.
@@ -41,18 +41,18 @@ pub(super) struct Names {
 }
 
 /// Resolves what is asked for, or chooses: all commands that are no ideal motor's, all coordinates.
-pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Names, Problems> {
+pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Names, Diagnostics> {
     let of_diagram = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
     let all: Vec<Entry> = catalogue(&loaded.scene.model).into_iter().chain(of_diagram).collect();
     let mut names = Names { is_closed: request.is_closed && loaded.controller.is_some(), ..Names::default() };
-    let mut problems = Problems::new();
+    let mut diagnostics = Diagnostics::new();
     match &request.inputs[..] {
         [] => names.inputs = default_inputs(loaded, at, &all, names.is_closed),
         asked => {
             for name in asked {
                 match input(loaded, at, &all, name, names.is_closed) {
                     Ok(input) => names.inputs.push(input),
-                    Err(problem) => problems.push(problem),
+                    Err(diagnostic) => diagnostics.push(diagnostic),
                 }
             }
         }
@@ -63,7 +63,7 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
             for name in asked {
                 match output(&all, name) {
                     Ok(output) => names.outputs.push(output),
-                    Err(problem) => problems.push(problem),
+                    Err(diagnostic) => diagnostics.push(diagnostic),
                 }
             }
         }
@@ -74,7 +74,7 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
         || names.inputs.iter().any(|i| matches!(i.what, InputKind::Signal(_)))
     {
         let message = "signals of the diagram are in the closed loop only";
-        problems.push(Problem::nowhere(message).with_help("add --closed-loop, or name signals of the world"));
+        diagnostics.push(Diagnostic::nowhere(message).with_help("add --closed-loop, or name signals of the world"));
     }
     note_friction(loaded, at, &mut names.notes);
     let in_diagram = at.control().map_or(0, |c| c.wiring().program().n_states);
@@ -84,7 +84,7 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
     if names.outputs.is_empty() {
         names.notes.push("no outputs: the scene has no coordinates, and none were named".into());
     }
-    if problems.any_error() { Err(problems) } else { Ok(names) }
+    if diagnostics.any_error() { Err(diagnostics) } else { Ok(names) }
 }
 
 /// Joints that friction holds where the scene is: no small force moves them.
@@ -112,7 +112,7 @@ fn default_inputs(loaded: &Loaded, at: &LockStep, all: &[Entry], is_closed: bool
         .collect()
 }
 
-/// Whether the diagram gives the command of a motor.
+/// Returns true if the diagram gives the command of a motor.
 fn drives(at: &LockStep, motor: usize) -> bool {
     at.control().is_some_and(|c| c.wiring().program().commands.iter().any(|c| c.terminal == motor))
 }
@@ -123,11 +123,11 @@ fn input(
     all: &[Entry],
     name: &Located<String>,
     is_closed: bool,
-) -> Result<Input, Problem> {
+) -> Result<Input, Diagnostic> {
     // a joint's path stands for its motor, a rotor's for its speed, as in a diagram
     let path = |e: &Entry| e.name.strip_suffix(".command").or_else(|| e.name.strip_suffix(".speed")).map(str::to_owned);
     let entry = all.iter().find(|e| e.name == name.value || path(e).as_ref() == Some(&name.value));
-    let error = |message: String, help: &str| Err(Problem::error(&name.at, message).with_help(help));
+    let error = |message: String, help: &str| Err(Diagnostic::error(&name.at, message).with_help(help));
     match entry.map(|e| (e, e.probe)) {
         Some((_, Probe::Command(m))) if loaded.scene.model.motors().get(m).is_some_and(|motor| motor.is_drive()) => {
             error(
@@ -157,11 +157,11 @@ fn input(
     }
 }
 
-fn output(all: &[Entry], name: &Located<String>) -> Result<Output, Problem> {
+fn output(all: &[Entry], name: &Located<String>) -> Result<Output, Diagnostic> {
     let Some(entry) = all.iter().find(|e| e.name == name.value) else {
         let known: Vec<&str> = all.iter().map(|e| e.name.as_str()).collect();
         let help = suggest::help(&name.value, &known, "signals");
-        return Err(Problem::error(&name.at, format!("there is no signal `{}`", name.value)).with_help(help));
+        return Err(Diagnostic::error(&name.at, format!("there is no signal `{}`", name.value)).with_help(help));
     };
     let is_sum = matches!(
         entry.probe,
@@ -173,7 +173,7 @@ fn output(all: &[Entry], name: &Located<String>) -> Result<Output, Problem> {
     );
     if is_sum {
         let message = format!("`{}` is no function of the state", name.value);
-        return Err(Problem::error(&name.at, message).with_help("take a position, velocity, acceleration or torque"));
+        return Err(Diagnostic::error(&name.at, message).with_help("take a position, velocity, acceleration or torque"));
     }
     Ok(output_of(entry))
 }

@@ -1,10 +1,10 @@
 //! The operating point: where a run is at some time.
 
-use sincro_scene::problem::{Located, Problem};
+use sincro_scene::diagnostic::{Diagnostic, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::{LockStep, method_for};
 
-/// What is to be linearised.
+/// Request for a linearisation.
 #[derive(Clone, Debug, Default)]
 pub struct Request {
     /// Inputs; empty: all commands of motors that are not ideal.
@@ -20,11 +20,11 @@ pub struct Request {
 /// # Errors
 ///
 /// If the run stops before, or `t` is negative or not finite.
-pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Problem> {
+pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Diagnostic> {
     let n = (t / loaded.experiment.step).round();
     if !(0.0..1e12).contains(&n) {
-        let problem = Problem::nowhere(format!("there is no operating point at {t} s"));
-        return Err(problem.with_help("give a time from 0 on"));
+        let diagnostic = Diagnostic::nowhere(format!("there is no operating point at {t} s"));
+        return Err(diagnostic.with_help("give a time from 0 on"));
     }
     let (method, _) = method_for(loaded);
     let mut run = LockStep::new(loaded, method, false);
@@ -36,8 +36,8 @@ pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Problem> {
         go = run.advance();
     }
     if go.is_err() {
-        let problem = Problem::nowhere(format!("the run stops before {t} s, at {} s", run.t()));
-        return Err(problem.with_help("`sincro run` says why"));
+        let diagnostic = Diagnostic::nowhere(format!("the run stops before {t} s, at {} s", run.t()));
+        return Err(diagnostic.with_help("`sincro run` says why"));
     }
     run.latch();
     Ok(run)

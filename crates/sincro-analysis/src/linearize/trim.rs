@@ -1,7 +1,8 @@
 //! Trim: where a scene stays as it is.
 //!
-//! Unknown are the coordinates and the continuous states of the diagram, and those commands that are set free; velocities are zero. All rates
-//! must vanish, and signals that are asked for must have their values. The Jacobian is that of the linearisation, exact.
+//! Unknown are the coordinates and the continuous states of the diagram, and those commands that are set free;
+//! velocities are zero. All rates must vanish, and signals that are asked for must have their values. The Jacobian is
+//! that of the linearisation, exact.
 
 use sincro_math::Dual;
 
@@ -10,16 +11,16 @@ use super::names::{self, InputKind, Names};
 use super::point::Request;
 use crate::linear::newton::{self, Solution};
 use crate::linear::{Axis, DMatrix};
-use sincro_scene::problem::{Located, Problem, Problems};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
 /// Rates below this count as zero [rad/s²], [m/s²] and the like.
 const AT_REST: f64 = 1e-10;
 /// Most steps of Newton's method.
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 
-/// What is asked for.
+/// Request for a trim.
 #[derive(Clone, Debug, Default)]
 pub struct TrimRequest {
     /// Commands that may be changed; the others are as the scene gives them.
@@ -59,7 +60,7 @@ pub struct Trimmed {
 /// # Errors
 ///
 /// Names that mean nothing, or that there is no equilibrium nearby: what is left over, and of what.
-pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<Trimmed, Problems> {
+pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<Trimmed, Diagnostics> {
     let mut at = from.fork().lockstep;
     at.stop();
     let names = resolve(loaded, &at, request)?;
@@ -85,7 +86,7 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<T
 }
 
 /// The commands that are free and the signals that are wanted; none of either where the request has none.
-fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Names, Problems> {
+fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Names, Diagnostics> {
     let wanted = request.wanted.iter().map(|(name, _)| name.clone()).collect();
     let asked = Request { inputs: request.free.clone(), outputs: wanted, is_closed: request.is_closed };
     let mut names = names::resolve(loaded, at, &asked)?;
@@ -96,13 +97,13 @@ fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Name
         names.outputs.clear();
     }
     let of_diagram = request.free.iter().zip(&names.inputs).filter(|(_, i)| matches!(i.what, InputKind::Signal(_)));
-    let problems: Vec<Problem> = of_diagram
+    let diagnostics: Vec<Diagnostic> = of_diagram
         .map(|(name, _)| {
             let message = format!("`{}` is a signal of the diagram and cannot be set free", name.value);
-            Problem::error(&name.at, message).with_help("free are commands of motors, such as `/joint.command`")
+            Diagnostic::error(&name.at, message).with_help("free are commands of motors, such as `/joint.command`")
         })
         .collect();
-    if problems.is_empty() { Ok(names) } else { Err(Problems(problems)) }
+    if diagnostics.is_empty() { Ok(names) } else { Err(Diagnostics(diagnostics)) }
 }
 
 /// Which of the states and inputs are unknown: all but the velocities.
@@ -134,7 +135,7 @@ fn solve(
     duals: &mut Lens<Dual<1>>,
     unknowns: &Unknowns,
     targets: &[f64],
-) -> Result<Solution, Problems> {
+) -> Result<Solution, Diagnostics> {
     let n_equations = unknowns.equations.len();
     let residual = |x: &[f64], r: &mut [f64]| {
         let (rates, outputs) = values.evaluate_at(&unknowns.spread(x));
@@ -155,7 +156,7 @@ fn solve(
     };
     let x0 = vec![0.0; unknowns.places.len()];
     let n_residuals = n_equations + targets.len();
-    newton::solve(n_residuals, residual, jacobian, &x0, AT_REST, MOST_STEPS).map_err(|failure| {
+    newton::solve(n_residuals, residual, jacobian, &x0, AT_REST, MAX_STEPS).map_err(|failure| {
         let axes = duals.state_axes();
         let what = match unknowns.equations.clone().nth(failure.worst) {
             Some(k) => format!("the rate of `{}`", axes[k].name),
@@ -164,6 +165,6 @@ fn solve(
         let message = format!("no equilibrium found: {:.3e} is left over in {what}", failure.residual);
         let help = "commands are held as they are at that time: set them free (--free NAME) or give others (--set); or start nearer \
                     (`initial` of the joints), or ask for less (--want)";
-        Problem::nowhere(message).with_help(help).into()
+        Diagnostic::nowhere(message).with_help(help).into()
     })
 }

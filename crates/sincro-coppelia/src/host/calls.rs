@@ -7,7 +7,7 @@ use sincro_dynamics::world::World;
 use super::{Call, Host, Phase, Setting};
 use crate::session::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::scene::Scene;
-use sincro_scene::script::{Fault, Kind, Script};
+use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::Message;
 
 /// Messages that are kept of a run: a script that says something at every tick must not fill the memory.
@@ -43,7 +43,7 @@ impl Scripts {
         world: &mut World,
         registry: &mut Option<Box<ObjectRegistry>>,
         (tick, t): (u64, f64),
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ScriptError> {
         self.is_started |= phase == Phase::Initialization;
         let done = self.host.call(Call { world, registry, tick, t }, phase);
         self.keep_messages(registry);

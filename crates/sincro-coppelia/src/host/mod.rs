@@ -13,7 +13,7 @@ pub use calls::Scripts;
 use sincro_dynamics::world::World;
 
 use crate::session::{ApiError, Handle, ObjectRegistry, Value};
-use sincro_scene::script::{Fault, Kind};
+use sincro_scene::script::{Kind, ScriptError};
 use sincro_sim::controller::Message;
 
 /// When a script is called within a run.
@@ -55,7 +55,7 @@ pub trait Host: Send + fmt::Debug {
     /// # Errors
     ///
     /// The first script that fails; those after it are not called.
-    fn call(&mut self, call: Call<'_>, phase: Phase) -> Result<(), Fault>;
+    fn call(&mut self, call: Call<'_>, phase: Phase) -> Result<(), ScriptError>;
 
     /// Calls a function of the script on an object, of any kind unless one is given.
     ///

@@ -69,12 +69,12 @@ pub use sincro_dynamics::spatial::{Pose, Vec3};
 
 use crate::api_controller::ApiController;
 use crate::host;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::load::{Extensions, Loaded, load};
 use sincro_sim::results::Status;
-use sincro_sim::run::{LockStep, Manner, Recording, RunError, Simulated, method_for};
+use sincro_sim::run::{LockStep, Recording, RunError, RunOptions, Simulated, method_for};
 use sincro_sim::trace::Trace;
 
 /// State of a simulation.
@@ -152,7 +152,7 @@ impl Session {
         overrides: &[Override],
         extensions: Extensions,
         sample_time: Option<f64>,
-    ) -> Result<Self, Problems> {
+    ) -> Result<Self, Diagnostics> {
         let loaded = load(folder, overrides, extensions)?;
         Self::new(folder, overrides, loaded, sample_time)
     }
@@ -167,11 +167,11 @@ impl Session {
         overrides: &[Override],
         loaded: Loaded,
         sample_time: Option<f64>,
-    ) -> Result<Self, Problems> {
+    ) -> Result<Self, Diagnostics> {
         let (method, warnings) = method_for(&loaded);
         let mut registry = ObjectRegistry::new(&loaded, loaded.experiment.simulation_ticks);
         if let Some(dt) = sample_time {
-            let refused = |ApiError(message)| Problems::from(sincro_scene::problem::Problem::nowhere(message));
+            let refused = |ApiError(message)| Diagnostics::from(sincro_scene::diagnostic::Diagnostic::nowhere(message));
             registry.set_sample_time(dt).map_err(refused)?;
         }
         let lockstep = fresh(&loaded, method, registry);
@@ -358,7 +358,7 @@ impl Session {
         self.registry().begin_run();
         let start = self.lockstep.state().clone();
         self.settle(&start);
-        let recording = Recording::new(&self.loaded, &mut self.lockstep, Manner::default()).map_err(told)?;
+        let recording = Recording::new(&self.loaded, &mut self.lockstep, RunOptions::default()).map_err(told)?;
         self.run = Some(Run { recording, before, start });
         self.registry().phase = Phase::Running;
         self.steps = 0;
@@ -599,7 +599,7 @@ fn fresh(loaded: &Loaded, method: MethodKind, registry: ObjectRegistry) -> LockS
 
 fn told(error: RunError) -> ApiError {
     match error {
-        RunError::Problems(problems) => {
+        RunError::Diagnostics(problems) => {
             ApiError(problems.0.first().map_or_else(|| "nothing can be recorded".into(), |p| p.message.clone()))
         }
         RunError::File(error) => ApiError(error.to_string()),

@@ -6,7 +6,7 @@ use sincro_dynamics::geometry::FieldOfView;
 use super::registry::{Handle, Kind, WORLD};
 use super::senses::{ProximityEntry, handle_of};
 use super::{ApiError, Entity, SimApi};
-use sincro_sim::proximity::{Detection, Eye};
+use sincro_sim::proximity::{Detection, ProximitySensor};
 
 impl SimApi<'_> {
     fn proximity_entry(&self, handle: Handle) -> Result<&ProximityEntry, ApiError> {
@@ -44,7 +44,7 @@ impl SimApi<'_> {
                 members.binary_search(&handle_of(piece)).is_ok()
             }
         });
-        let saw = self.world.with_state_view(t, |seen| eye.look(&x_we, pieces, seen.scratch, most));
+        let saw = self.world.with_state_view(t, |seen| eye.detect(&x_we, pieces, seen.scratch, most));
         Ok(saw.filter(|saw| saw.distance >= blind_below))
     }
 
@@ -136,7 +136,7 @@ impl SimApi<'_> {
         blind_below: f64,
     ) -> Result<Handle, ApiError> {
         let handle = self.registry.create("ProximitySensor", Kind::Proximity, WORLD)?;
-        let eye = Eye { field, with: Vec::new(), carrier: None };
+        let eye = ProximitySensor { field, with: Vec::new(), carrier: None };
         self.registry
             .senses
             .proximity

@@ -12,7 +12,7 @@ use super::collections::Collection;
 use super::{ApiError, Entry, Handle, Kind, ObjectRegistry};
 use sincro_scene::scene::Scene;
 use sincro_scene::scenery::{Piece, Scenery};
-use sincro_sim::proximity::{Detection, Eye};
+use sincro_sim::proximity::{Detection, ProximitySensor};
 
 /// Corners and heights of everything that clients and scripts make together.
 const MAX_CORNERS: usize = 2_000_000;
@@ -37,7 +37,7 @@ pub(super) struct Senses {
 /// A proximity sensor and what it saw last.
 #[derive(Clone, Debug)]
 pub(super) struct ProximityEntry {
-    pub eye: Eye,
+    pub eye: ProximitySensor,
     /// True if it is handled explicitly.
     pub is_explicit: bool,
     /// True if it belongs to the scene, which samples it.
@@ -54,7 +54,7 @@ impl Senses {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
         let mut proximity = BTreeMap::new();
         for spec in &scene.sensors {
-            let (Some(eye), Some(own)) = (Eye::of(spec, scene), object_of(&spec.path)) else { continue };
+            let (Some(eye), Some(own)) = (ProximitySensor::of(spec, scene), object_of(&spec.path)) else { continue };
             proximity.insert(
                 Handle(own as i32 + 1),
                 ProximityEntry { eye, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },

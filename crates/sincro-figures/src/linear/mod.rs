@@ -7,7 +7,7 @@ mod figures;
 mod page;
 mod text;
 
-use sincro_analysis::linear::{Bode, Complex, Mode, Problem, Reach, StateSpace, StepResponse};
+use sincro_analysis::linear::{Bode, Complex, LinearError, Mode, Reach, StateSpace, StepResponse};
 
 pub use figures::all as figures;
 pub use page::html;
@@ -118,7 +118,7 @@ fn quotient(top: &str, bottom: &str) -> String {
 }
 
 impl Channel {
-    fn of(system: &StateSpace, input: usize, output: usize, omega: &[f64]) -> Result<Self, Problem> {
+    fn of(system: &StateSpace, input: usize, output: usize, omega: &[f64]) -> Result<Self, LinearError> {
         Ok(Self {
             input,
             output,

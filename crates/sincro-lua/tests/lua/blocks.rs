@@ -1,7 +1,7 @@
 //! Laws in Lua as blocks of a diagram.
 
 use sincro_dynamics::world::MethodKind;
-use sincro_scene::problem::Problems;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_sim::Loaded;
 use sincro_sim::results::Status;
 use sincro_sim::run::LockStep;
@@ -9,7 +9,7 @@ use sincro_sim::run::LockStep;
 use super::world::{EXPERIMENT, PENDULUM, open, run};
 
 /// The pendulum with a block of these keys between its angle and its motor.
-fn with_block(keys: &str) -> Result<Loaded, Problems> {
+fn with_block(keys: &str) -> Result<Loaded, Diagnostics> {
     let experiment = format!("diagram = \"law.toml\"\n{EXPERIMENT}");
     let diagram = format!(
         "wires = [\"/hinge.position -> law\", \"law -> /hinge\"]\n[[block]]\nname = \"law\"\ntype = \"lua\"\n{keys}\n"

@@ -2,7 +2,7 @@
 
 use sincro_coppelia::session::{Session, Value};
 use sincro_sim::Extensions;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::table::Table;
 
 use super::world::{EXPERIMENT, PENDULUM, folder, run, said, with_script};
@@ -51,8 +51,8 @@ fn they_are_in_the_file_too_and_a_graph_that_is_reset_forgets() {
     let folder = folder(&[]);
     let path = folder.join("signals.csv");
     let interrupt = std::sync::atomic::AtomicBool::new(false);
-    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-    let run = simulate(&loaded, Manner { csv: Some(&path), ..Manner::default() }, &mut watch).unwrap();
+    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+    let run = simulate(&loaded, RunOptions { csv: Some(&path), ..RunOptions::default() }, &mut watch).unwrap();
     assert_eq!(values(&run, "/hinge/arm/tip.x"), ["NaN", "NaN", "NaN", "NaN", "NaN", "0.04"]);
     let read = Table::read_csv(&path).unwrap();
     assert_eq!(read.columns.last().unwrap().name, "/hinge/arm/tip.x");

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use sincro_scene::problem::Problems;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Manner, Simulated, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::{Extensions, Loaded, load};
 
 /// A pendulum on a motor that takes torques, with a tip.
@@ -52,7 +52,7 @@ pub fn folder(files: &[(&str, &str)]) -> PathBuf {
 }
 
 /// Loads a folder made of these files.
-pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Problems> {
+pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Diagnostics> {
     let folder = folder(files);
     let loaded = load(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() });
     std::fs::remove_dir_all(&folder).unwrap();
@@ -60,7 +60,7 @@ pub fn open(files: &[(&str, &str)]) -> Result<Loaded, Problems> {
 }
 
 /// The pendulum with a script on its arm; `keys` are more keys of the script.
-pub fn with_script(code: &str, keys: &str) -> Result<Loaded, Problems> {
+pub fn with_script(code: &str, keys: &str) -> Result<Loaded, Diagnostics> {
     let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\n{keys}\n");
     open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)])
 }
@@ -68,8 +68,8 @@ pub fn with_script(code: &str, keys: &str) -> Result<Loaded, Problems> {
 /// Runs to the end.
 pub fn run(loaded: &Loaded) -> Simulated {
     let interrupt = AtomicBool::new(false);
-    let mut watch = Watch { interrupt: &interrupt, progress: &mut |_| {} };
-    simulate(loaded, Manner::default(), &mut watch).unwrap()
+    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
+    simulate(loaded, RunOptions::default(), &mut watch).unwrap()
 }
 
 /// Messages of the pendulum's script; the run must complete.

@@ -11,7 +11,7 @@ use sincro_coppelia::session::{Search, Session, Value};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::trace::Trace;
 
 use super::legacy_client::Client as Legacy;
@@ -41,8 +41,8 @@ fn by_diagram() -> Trace {
     let folder = folder("parity-diagram", "diagram = \"diagram.toml\"\n");
     std::fs::write(folder.join("diagram.toml"), DIAGRAM).unwrap();
     let loaded = load(&folder, &[], Extensions::default()).unwrap_or_else(|p| panic!("{:?}", p.0));
-    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(&loaded, Manner::default(), watch).unwrap().trace
+    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    simulate(&loaded, RunOptions::default(), watch).unwrap().trace
 }
 
 fn session(folder: &Path) -> Session {

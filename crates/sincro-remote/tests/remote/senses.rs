@@ -8,7 +8,7 @@ use sincro_coppelia::session::{Session, Value};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 use super::legacy_client::{Client as Legacy, Reply, floats, ints, text};
 use super::scene::{finished, options};
@@ -37,8 +37,8 @@ fn reading(reply: &Reply) -> (u8, [f32; 3], i32, [f32; 3]) {
 #[test]
 fn the_cart_stops_before_the_wall_through_the_legacy_door_with_the_same_bits() {
     let loaded = load(&folder(), &[], Extensions::default()).unwrap_or_else(|p| panic!("{p}"));
-    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    let by_diagram = simulate(&loaded, Manner::default(), watch).unwrap().trace;
+    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    let by_diagram = simulate(&loaded, RunOptions::default(), watch).unwrap().trace;
     let server = serve();
     for _ in 0..2 {
         let mut client = Legacy::connect(server.ports().legacy[0]);

@@ -51,7 +51,8 @@ impl Extent {
         Self::Box(bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY))
     }
 
-    /// Where it can be in a picture; none if nowhere. `x_cp` is the pose of the piece against the camera.
+    /// Rectangle of the image that may show it; none if it is outside. `x_cp` is the pose of the piece against the
+    /// camera.
     pub fn rectangle(&self, x_cp: &Pose<f64>, optics: &Optics) -> Option<Rectangle> {
         let [columns, rows] = optics.resolution;
         let (low, high, x_cp) = match self {
@@ -87,7 +88,7 @@ impl Extent {
     }
 }
 
-/// What points take up in a picture, pixels from the lower left corner.
+/// Extent of points in an image, in pixels from the lower left corner.
 struct Range {
     is_perspective: bool,
     pixel: f64,

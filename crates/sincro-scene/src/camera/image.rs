@@ -26,7 +26,7 @@ pub struct Part {
     pub size: [usize; 2],
 }
 
-/// What the bytes of a picture are: grey (the mean of the three) or colours; with or without a byte of opacity.
+/// Pixel format of an image: grey (the mean of the three) or colours; with or without a byte of opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
     /// One byte instead of three.
@@ -84,7 +84,7 @@ impl Image {
         Part { position: [0; 2], size: self.resolution }
     }
 
-    /// Whether a part lies in it, and is not empty.
+    /// Returns true if a part lies in it, and is not empty.
     #[must_use]
     pub fn has(&self, part: &Part) -> bool {
         let fits = |k: usize| {

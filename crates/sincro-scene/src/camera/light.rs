@@ -1,14 +1,15 @@
 //! Colours of lit surfaces, as the page has them: one sun and a sky, surfaces without gloss, no shadows.
 //!
-//! Light is added up in linear measure: a colour c (sRGB) in the light E gives the linear colour c E/π (Lambert), written as sRGB again.
+//! Light is added up in linear measure: a colour c (sRGB) in the light E gives the linear colour c E/π (Lambert),
+//! written as sRGB again.
 
 use sincro_dynamics::spatial::Vec3;
 use sincro_math::elementary;
 
 /// From where the sun shines, not normalised; and how strong, as the page has it.
 const SUN: ([f64; 3], f64) = ([0.5, -0.7, 1.6], 2.1);
-/// How strong the sky is, which is white on the side of the world's y; the opposite side has a grey of this linear measure (`#8d939c`). The page's
-/// light lies so.
+/// Intensity of the sky, which is white on the side of the world's y; the opposite side has a grey of this linear
+/// measure (`#8d939c`). The page's light lies so.
 const SKY: (f64, [f64; 3]) = (1.5, [0.266_356, 0.291_771, 0.332_452]);
 
 /// Steps of the table from linear measure to bytes.

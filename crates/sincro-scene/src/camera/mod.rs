@@ -9,8 +9,9 @@
 //! | `light.rs` | colours of lit surfaces |
 //! | `png.rs` | pictures as PNG |
 //!
-//! A camera looks along z of its frame, y is up in the picture, so x points to the left. Pixels are counted as V-REP counts them: row by row
-//! from the bottom, from left to right. A pixel is the ray through its middle. The same scene gives the same bytes on every machine.
+//! A camera looks along z of its frame, y is up in the picture, so x points to the left. Pixels are counted as V-REP
+//! counts them: row by row from the bottom, from left to right. A pixel is the ray through its middle. The same scene
+//! gives the same bytes on every machine.
 
 mod bounds;
 mod image;
@@ -26,19 +27,19 @@ pub use render::{NOTHING, Renderer};
 use sincro_math::elementary;
 
 /// Most columns, and most rows, of a picture.
-pub const MOST_SIDE: usize = 4096;
+pub const MAX_SIDE: usize = 4096;
 /// Most pixels of a picture: 4 Mi, which take 60 MB.
-pub const MOST_PIXELS: usize = 1 << 22;
-/// Where a picture begins, if nothing else is said `[m]`.
+pub const MAX_PIXELS: usize = 1 << 22;
+/// Default distance of the near clipping plane `[m]`.
 pub const NEAR: f64 = 0.01;
-/// Where a picture ends, if nothing else is said `[m]`.
+/// Default distance of the far clipping plane `[m]`.
 pub const FAR: f64 = 100.0;
-/// What is seen where nothing is, if nothing else is said: red, green, blue, as behind the page's picture.
+/// Default background colour: red, green, blue, as in the viewer's page.
 pub const BACKGROUND: [u8; 3] = [0xf7, 0xf8, 0xfa];
 /// Farthest end of a picture, and largest height of an orthographic one `[m]`.
-const MOST_LENGTH: f64 = 1e6;
+const MAX_LENGTH: f64 = 1e6;
 
-/// How a camera draws.
+/// Optics of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Optics {
     /// Columns and rows.
@@ -47,11 +48,11 @@ pub struct Optics {
     pub near: f64,
     /// Distance along the camera's z at which it ends `[m]`.
     pub far: f64,
-    /// How lines meet.
+    /// Projection.
     pub lens: Lens,
 }
 
-/// How lines meet in a picture.
+/// Projection of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     /// In the camera's origin; the angle between the upper and the lower edge `[rad]`.
@@ -112,7 +113,7 @@ impl Optics {
         Self { lens: Lens::Orthographic(size / self.longer()), ..self }
     }
 
-    /// Whether a picture can be made.
+    /// Checks that a picture can be rendered.
     ///
     /// # Errors
     ///
@@ -132,26 +133,26 @@ impl Optics {
 
     fn wrong_resolution(&self) -> Option<Wrong> {
         let [columns, rows] = self.resolution;
-        let sides = [columns, rows].iter().all(|n| (1..=MOST_SIDE).contains(n));
-        (!sides || columns * rows > MOST_PIXELS).then(|| Wrong {
+        let sides = [columns, rows].iter().all(|n| (1..=MAX_SIDE).contains(n));
+        (!sides || columns * rows > MAX_PIXELS).then(|| Wrong {
             key: "resolution",
             found: format!("a resolution of {columns} × {rows} pixels"),
-            expected: format!("1 to {MOST_SIDE} columns and rows, and at most {MOST_PIXELS} pixels in all"),
+            expected: format!("1 to {MAX_SIDE} columns and rows, and at most {MAX_PIXELS} pixels in all"),
         })
     }
 
     fn wrong_near(&self) -> Option<Wrong> {
-        let fits = self.near > 0.0 && self.near < MOST_LENGTH;
+        let fits = self.near > 0.0 && self.near < MAX_LENGTH;
         let found = || format!("a picture that begins at {} m", self.near);
         (!fits).then(|| Wrong { key: "near", found: found(), expected: "more than 0 m".into() })
     }
 
     fn wrong_far(&self) -> Option<Wrong> {
-        let fits = self.far > self.near && self.far <= MOST_LENGTH;
+        let fits = self.far > self.near && self.far <= MAX_LENGTH;
         (!fits).then(|| Wrong {
             key: "far",
             found: format!("a picture that ends at {} m", self.far),
-            expected: format!("more than where it begins, {} m, and at most {MOST_LENGTH} m", self.near),
+            expected: format!("more than where it begins, {} m, and at most {MAX_LENGTH} m", self.near),
         })
     }
 
@@ -162,23 +163,23 @@ impl Optics {
                 found: format!("a field of view of {:.4}°", angle.to_degrees()),
                 expected: "more than 0° and less than 170° from the upper to the lower edge".into(),
             }),
-            Lens::Orthographic(height) if !(height > 0.0 && height <= MOST_LENGTH) => Some(Wrong {
+            Lens::Orthographic(height) if !(height > 0.0 && height <= MAX_LENGTH) => Some(Wrong {
                 key: "orthographic_height",
                 found: format!("a picture {height} m high"),
-                expected: format!("more than 0 m and at most {MOST_LENGTH} m"),
+                expected: format!("more than 0 m and at most {MAX_LENGTH} m"),
             }),
             _ => None,
         }
     }
 }
 
-/// Why no picture can be made.
+/// Invalid setting of a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrong {
     /// The key of the scene file that says it.
     pub key: &'static str,
-    /// What was found.
+    /// Value found.
     pub found: String,
-    /// What was expected.
+    /// Value expected.
     pub expected: String,
 }

@@ -1,9 +1,9 @@
 //! Draws pictures: pieces from near to far, each in its rectangle, one ray a pixel.
 //!
-//! For pixel (i, j) of w × h, s the edge of a pixel one metre ahead: u = (i + ½ − w/2) s to the right, v = (j + ½ − h/2) s up. The ray of a
-//! perspective picture leaves the origin along a + u r + v o (ahead, right, up), that of an orthographic one leaves the near plane along a.
-//! Surfaces are met where their closed forms say; depth is measured along a. What lies before the near plane is cut away: a solid that it cuts
-//! is seen through, as from inside.
+//! For pixel (i, j) of w × h, s the edge of a pixel one metre ahead: u = (i + ½ − w/2) s to the right, v = (j + ½ −
+//! h/2) s up. The ray of a perspective picture leaves the origin along a + u r + v o (ahead, right, up), that of an
+//! orthographic one leaves the near plane along a. Surfaces are met where their closed forms say; depth is measured
+//! along a. What lies before the near plane is cut away: a solid that it cuts is seen through, as from inside.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use super::light::Light;
 use super::{Image, Lens, Optics};
 use crate::scenery::Piece;
 
-/// What a pixel shows that shows nothing.
+/// Object index of a pixel that shows the background.
 pub const NOTHING: u32 = u32::MAX;
 
 /// Draws pictures; keeps what it can use again.
@@ -114,7 +114,7 @@ impl Renderer {
     }
 }
 
-/// Where a piece is painted.
+/// Image and depth buffer into which a piece is rendered.
 struct Canvas<'a> {
     light: &'a Light,
     color: [f64; 3],
@@ -213,7 +213,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What a ray meets beyond a distance.
+    /// First intersection of a ray beyond a distance.
     #[inline]
     fn beyond_near(&self, ray: &Ray, most: f64, near: f64) -> Option<Hit> {
         let hit = self.geometry.cast_ray(ray, most)?;

@@ -89,7 +89,8 @@ fn a_ball_is_seen_where_its_cone_of_tangents_is_and_as_far_as_it_is() {
             assert_eq!(image.rgb()[3 * k..3 * k + 3], BACKGROUND);
         }
     }
-    // the ellipse has semi-axes sin φ cos φ/(cos²θ − sin²φ) and sin φ/√(cos²θ − sin²φ), φ half its cone's angle, θ that to its axis
+    // the ellipse has semi-axes sin φ cos φ/(cos²θ − sin²φ) and sin φ/√(cos²θ − sin²φ), φ half its cone's angle, θ that
+    // to its axis
     let (square, gap) = (center.dot(center) - radius * radius, center[2] * center[2] - radius * radius);
     let area = std::f64::consts::PI * radius * radius * square.sqrt() / (gap * gap.sqrt());
     let pixels = area / (SQUARE.pixel() * SQUARE.pixel());

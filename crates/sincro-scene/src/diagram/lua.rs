@@ -1,7 +1,7 @@
 //! A block written in Lua: outputs and memory as functions of time, inputs and memory.
 //!
-//! What it remembers stands in the diagram's memory, not in the script, so that snapshots hold all of it. It is evaluated at ticks only: a
-//! script has no derivatives.
+//! What it remembers stands in the diagram's memory, not in the script, so that snapshots hold all of it. It is
+//! evaluated at ticks only: a script has no derivatives.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -1,7 +1,7 @@
 //! Block diagrams of a scene folder: the file, its errors, and the diagram in one step with the world.
 //!
-//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes; `wiring.rs`
-//! connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
+//! `file.rs` is what is written; `read.rs` turns it into a [`Diagram`]; `ports.rs` says what the world gives and takes;
+//! `wiring.rs` connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
 
 mod file;
 mod lua;
@@ -29,9 +29,9 @@ pub use reference::reference;
 pub use schema::diagram_schema;
 pub use wiring::{Reading, Wiring};
 
+use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Location, Problem, Problems};
 use crate::record::{Entry, Probe, catalogue};
 use crate::script::ScriptParser;
 
@@ -44,7 +44,7 @@ pub struct ControlDiagram {
     pub wiring: Arc<Wiring>,
 }
 
-/// What a diagram is read for.
+/// Context in which a diagram is read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Setting<'a> {
     pub model: &'a Arc<Model<f64>>,
@@ -58,14 +58,14 @@ pub(crate) struct Setting<'a> {
 }
 
 /// Reads and compiles a document that fits the schema.
-pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Problems> {
+pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Diagnostics> {
     let file: DiagramFile = serde_json::from_value(document.root.clone())
-        .map_err(|e| Problem::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
+        .map_err(|e| Diagnostic::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
     let robot = robot::Context { parser: setting.parser, model: setting.model.clone() };
     let mut reader = DiagramReader::new(document, folder, &file, &robot);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
-    if reader.problems.any_error() {
-        return Err(shortened(reader.problems));
+    if reader.diagnostics.any_error() {
+        return Err(shortened(reader.diagnostics));
     }
     if let Some(sample_time) = sample_time {
         for entry in &mut diagram.entries {
@@ -73,43 +73,49 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
         }
     }
     ControlDiagram::new(diagram.clone(), setting.model, setting.step, setting.seed).map_err(|found| {
-        let (mut problems, mut said) = (Problems::new(), BTreeSet::new());
-        for problem in found {
-            let at = locate(document, &origin, &diagram, &problem.place);
+        let (mut diagnostics, mut said) = (Diagnostics::new(), BTreeSet::new());
+        for diagnostic in found {
+            let at = locate(document, &origin, &diagram, &diagnostic.place);
             // what is wrong in a definition is said once, however often it is used
-            if said.insert((at.span.start, problem.message.clone())) {
-                problems.push(Problem::error(&at, problem.message).with_help(problem.help));
+            if said.insert((at.span.start, diagnostic.message.clone())) {
+                diagnostics.push(Diagnostic::error(&at, diagnostic.message).with_help(diagnostic.help));
             }
         }
-        shortened(problems)
+        shortened(diagnostics)
     })
 }
 
 /// Sorted, and of very many the first: who has mended those will see the next.
-fn shortened(problems: Problems) -> Problems {
-    const MOST: usize = 200;
-    let mut problems = problems.sorted();
-    let n_more = problems.0.len().saturating_sub(MOST);
+fn shortened(diagnostics: Diagnostics) -> Diagnostics {
+    const MAX_DIAGNOSTICS: usize = 200;
+    let mut diagnostics = diagnostics.sorted();
+    let n_more = diagnostics.0.len().saturating_sub(MAX_DIAGNOSTICS);
     if n_more > 0 {
-        problems.0.truncate(MOST);
-        problems.push(Problem::nowhere(format!("{n_more} more problems of the diagram are not shown")));
+        diagnostics.0.truncate(MAX_DIAGNOSTICS);
+        diagnostics.push(Diagnostic::nowhere(format!("{n_more} more problems of the diagram are not shown")));
     }
-    problems
+    diagnostics
 }
 
 impl ControlDiagram {
-    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything random.
+    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything
+    /// random.
     ///
     /// ```
     /// use sincro_blocks::diagram::Diagram;
     /// use sincro_blocks::library::maths::Gain;
-    /// use crate::diagram::ControlDiagram;
+    /// use sincro_scene::diagram::ControlDiagram;
     ///
     /// let scene = r#"
     /// joint = [{ name = "hinge", kind = "revolute", axis = [0, 1, 0], motor = { mode = "torque" } }]
-    /// body = [{ name = "arm", parent = "/hinge", mass = 1, center_of_mass = [0, 0, -0.5], inertia = { xx = 0.1, yy = 0.1, zz = 0.01 } }]
+    /// [[body]]
+    /// name = "arm"
+    /// parent = "/hinge"
+    /// mass = 1
+    /// center_of_mass = [0, 0, -0.5]
+    /// inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
     /// "#;
-    /// let scene = crate::scene::from_text(scene).unwrap();
+    /// let scene = sincro_scene::scene::from_text(scene).unwrap();
     /// let mut diagram = Diagram::new();
     /// diagram.block("spring", Gain::new(-20.0)).wire("/hinge.position", "spring").wire("spring", "/hinge");
     /// let controller = ControlDiagram::new(diagram, &scene.model, 0.001, 0).unwrap();
@@ -149,7 +155,7 @@ impl ControlDiagram {
         (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
     }
 
-    /// What its scopes look at: title, and the names of the recorded signals.
+    /// Signals of its scopes: title, and the names of the recorded signals.
     #[must_use]
     pub fn scopes(&self, model: &Model<f64>) -> Vec<(String, Vec<String>)> {
         let program = self.wiring.program();
@@ -212,7 +218,7 @@ fn entries(wiring: &Wiring) -> Vec<Entry> {
     list
 }
 
-/// Where in the file a problem of the compiler is.
+/// Location in the file of a diagnostic of the compiler.
 fn locate(document: &Document, origin: &Origin, diagram: &Diagram, place: &Place) -> Location {
     let (mut origin, mut diagram) = (origin, diagram);
     // where sample times may be given, outermost first

@@ -1,8 +1,8 @@
 //! The world as a block: which measurements it gives, which commands it takes.
 //!
-//! Measurements have the names of recorded signals; a vector goes by the name that its components have in common, such as
-//! `/body.position`. `world.q` and `world.v` are all coordinates and all velocities. Commands go by the path of the joint or by
-//! `path.command`.
+//! Measurements have the names of recorded signals; a vector goes by the name that its components have in common, such
+//! as `/body.position`. `world.q` and `world.v` are all coordinates and all velocities. Commands go by the path of the
+//! joint or by `path.command`.
 
 use sincro_blocks::compile::Terminal;
 use sincro_blocks::unit::Unit;
@@ -58,7 +58,7 @@ fn vectors(model: &Model<f64>, entries: &[Entry]) -> Vec<Measurement> {
     found
 }
 
-/// How many entries from the first on are components of one vector.
+/// Number of entries, from the first on, that are components of one vector.
 fn run_of(entries: &[Entry]) -> usize {
     for components in [&["w", "x", "y", "z"][..], &["x", "y", "z"]] {
         let stem = |e: &Entry, c: &str| e.name.strip_suffix(c).and_then(|s| s.strip_suffix('.')).map(str::to_owned);
@@ -71,7 +71,7 @@ fn run_of(entries: &[Entry]) -> usize {
     0
 }
 
-/// Whether a measurement changes at once when a command does.
+/// Returns true if a measurement changes at once when a command does.
 pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
     match probe {
         Probe::Acceleration(_) | Probe::MotorTorqueNow(_) | Probe::Frame(FrameQuantity::Acceleration, ..) => true,
@@ -80,7 +80,7 @@ pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
     }
 }
 
-/// Whether a measurement is known at ticks only: what is summed up over a step, what sensors sample.
+/// Returns true if a measurement is known at ticks only: what is summed up over a step, what sensors sample.
 #[must_use]
 pub fn is_known_at_ticks_only(probe: Probe) -> bool {
     matches!(
@@ -118,7 +118,8 @@ fn unit_of(text: &str) -> Option<Unit> {
     Unit::parse(text).ok().filter(|_| !text.is_empty())
 }
 
-/// What is known before the commands, or follows from them in one step. The rest can be recorded all the same.
+/// Returns true if it is known before the commands, or follows from them in one step. The rest can be recorded all the
+/// same.
 fn can_be_measured(probe: Probe) -> bool {
     !matches!(
         probe,

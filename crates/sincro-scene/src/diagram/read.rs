@@ -12,9 +12,9 @@ use sincro_blocks::reader::{Files, NoFiles, ParameterError, Reader, Value};
 
 use super::file::{BlockFile, DefinitionFile, DiagramFile};
 use super::robot;
+use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::{Document, Odd, escape};
 use crate::folder::Folder;
-use crate::problem::{Location, Problem, Problems};
 use crate::series;
 use crate::suggest;
 
@@ -25,9 +25,9 @@ pub(super) type Scope = BTreeMap<String, f64>;
 const MAX_DEPTH: usize = 256;
 
 /// Most blocks that definitions inside definitions may come to.
-const MOST_BLOCKS: usize = 100_000;
+const MAX_BLOCKS: usize = 100_000;
 
-/// Where a diagram, its blocks and its wires stand in the file.
+/// Locations of a diagram, its blocks and its wires in the file.
 #[derive(Clone, Debug)]
 pub(super) struct Origin {
     /// JSON pointer to the table that has `block` and `wires`.
@@ -44,7 +44,7 @@ pub(super) struct DiagramReader<'a> {
     pub folder: &'a Folder,
     pub file: &'a DiagramFile,
     pub robot: &'a robot::Context,
-    pub problems: Problems,
+    pub diagnostics: Diagnostics,
     /// Definitions around what is being read, outermost first.
     pub around: Vec<usize>,
     /// Blocks read so far, those of every use of a definition counted.
@@ -61,7 +61,7 @@ impl<'a> DiagramReader<'a> {
             folder,
             file,
             robot,
-            problems: Problems::new(),
+            diagnostics: Diagnostics::new(),
             around: Vec::new(),
             n_blocks: 0,
             said: BTreeSet::new(),
@@ -80,7 +80,8 @@ impl<'a> DiagramReader<'a> {
         (diagram, origin, sample_time)
     }
 
-    /// Definitions that no block uses are looked over with their defaults: what is wrong in them should not wait for their first use.
+    /// Definitions that no block uses are looked over with their defaults: what is wrong in them should not wait for
+    /// their first use.
     fn check_unused(&mut self) {
         let of_definitions = self.file.diagram.iter().flat_map(|d| &d.block);
         let used: Vec<&str> = self.file.block.iter().chain(of_definitions).map(|b| b.kind.as_str()).collect();
@@ -126,15 +127,15 @@ impl<'a> DiagramReader<'a> {
             return;
         };
         let message = format!("`{name}` cannot be the name of a parameter");
-        self.push(Problem::error(&self.document.key_at(pointer), message).with_help(help));
+        self.push(Diagnostic::error(&self.document.key_at(pointer), message).with_help(help));
     }
 
     /// Notes a problem once, however often a definition is used.
-    fn push(&mut self, problem: Problem) {
-        let start = problem.span.as_ref().map_or(0, |span| span.start);
-        let path = problem.source.as_ref().map(|source| source.path.clone());
-        if self.said.insert((path, start, problem.message.clone())) {
-            self.problems.push(problem);
+    fn push(&mut self, diagnostic: Diagnostic) {
+        let start = diagnostic.span.as_ref().map_or(0, |span| span.start);
+        let path = diagnostic.source.as_ref().map(|source| source.path.clone());
+        if self.said.insert((path, start, diagnostic.message.clone())) {
+            self.diagnostics.push(diagnostic);
         }
     }
 
@@ -142,7 +143,7 @@ impl<'a> DiagramReader<'a> {
     fn number(&mut self, pointer: &str, scope: &Scope) -> Option<f64> {
         let json = self.document.get(pointer)?;
         let given = BTreeMap::from([("gain".to_owned(), self.value(json, pointer))]);
-        let n_problems = self.problems.0.len();
+        let n_problems = self.diagnostics.0.len();
         // any block with one number will do: the reader turns formulas into numbers and says what is wrong with them
         let kind = library::find("gain").expect("the library has a gain").kind;
         let mut reader = Reader::new(kind, &given, scope, &NoFiles);
@@ -153,7 +154,7 @@ impl<'a> DiagramReader<'a> {
             self.fault_at(pointer, ParameterError { path: Vec::new(), message, ..fault }, None);
         }
         // what has been noted is not noted again wherever it is used
-        (x.is_finite() || self.problems.0.len() > n_problems).then_some(if x.is_finite() { x } else { 1.0 })
+        (x.is_finite() || self.diagnostics.0.len() > n_problems).then_some(if x.is_finite() { x } else { 1.0 })
     }
 
     fn check_definitions(&mut self) {
@@ -163,8 +164,8 @@ impl<'a> DiagramReader<'a> {
             let is_second = self.file.diagram[..k].iter().any(|d| d.name == definition.name);
             if is_block || is_second {
                 let what = if is_block { "a block of the library" } else { "another diagram of this file" };
-                let problem = Problem::error(&at, format!("`{}` is {what}", definition.name));
-                self.problems.push(problem.with_help("give the diagram another name"));
+                let diagnostic = Diagnostic::error(&at, format!("`{}` is {what}", definition.name));
+                self.diagnostics.push(diagnostic.with_help("give the diagram another name"));
             }
         }
     }
@@ -176,7 +177,7 @@ impl<'a> DiagramReader<'a> {
         for (k, block) in blocks.iter().enumerate() {
             let at = format!("{pointer}/block/{k}");
             self.n_blocks += 1;
-            if self.n_blocks > MOST_BLOCKS {
+            if self.n_blocks > MAX_BLOCKS {
                 self.too_many_blocks(&at);
                 break;
             }
@@ -200,14 +201,14 @@ impl<'a> DiagramReader<'a> {
     }
 
     fn too_many_blocks(&mut self, at: &str) {
-        let message = format!("the diagram has more than {MOST_BLOCKS} blocks");
-        if self.problems.0.iter().all(|p| p.message != message) {
-            let problem = Problem::error(&self.document.title_at(at), message);
-            self.problems.push(problem.with_help("count what the definitions inside definitions come to"));
+        let message = format!("the diagram has more than {MAX_BLOCKS} blocks");
+        if self.diagnostics.0.iter().all(|p| p.message != message) {
+            let diagnostic = Diagnostic::error(&self.document.title_at(at), message);
+            self.diagnostics.push(diagnostic.with_help("count what the definitions inside definitions come to"));
         }
     }
 
-    /// What a block is: of the library, about the robot, or a diagram of this file.
+    /// Resolves the type of a block: of the library, about the robot, or a diagram of this file.
     #[allow(clippy::type_complexity)]
     fn what(&mut self, block: &BlockFile, at: &str, scope: &Scope) -> Option<((Content, Option<f64>), Option<Origin>)> {
         if let Some(k) = self.file.diagram.iter().position(|d| d.name == block.kind) {
@@ -255,7 +256,7 @@ impl<'a> DiagramReader<'a> {
             None => "`sincro blocks` lists every block with its parameters".into(),
         };
         let message = format!("there is no block type `{}` (block `{}`)", block.kind, block.name);
-        self.push(Problem::error(&self.document.at(&format!("{at}/type")), message).with_help(help));
+        self.push(Diagnostic::error(&self.document.at(&format!("{at}/type")), message).with_help(help));
     }
 
     /// A diagram of this file with the parameters of a block.
@@ -286,7 +287,7 @@ impl<'a> DiagramReader<'a> {
             let known: Vec<&str> = definition.parameters.keys().map(String::as_str).collect();
             let message = format!("the diagram `{}` has no parameter `{key}`", definition.name);
             let at = self.document.key_at(&format!("{at}/{}", escape(key)));
-            self.push(Problem::error(&at, message).with_help(suggest::help(key, &known, "parameters")));
+            self.push(Diagnostic::error(&at, message).with_help(suggest::help(key, &known, "parameters")));
         }
         let sample_time = self.number(&format!("{pointer}/sample_time"), &scope);
         self.around.push(k);
@@ -299,19 +300,19 @@ impl<'a> DiagramReader<'a> {
     /// A definition inside itself, or too many inside each other; `at` is the block that would go one deeper.
     fn too_deep(&mut self, k: usize, at: &str) {
         let place = self.document.at(&format!("{at}/type"));
-        let problem = match self.around.iter().position(|&i| i == k) {
+        let diagnostic = match self.around.iter().position(|&i| i == k) {
             Some(first) => {
                 let circle = self.around[first..].iter().chain([&k]).map(|&i| self.file.diagram[i].name.as_str());
                 let circle = circle.collect::<Vec<_>>().join(" -> ");
                 let message = format!("the diagram `{}` contains itself: {circle}", self.file.diagram[k].name);
-                Problem::error(&place, message).with_help("break the circle of definitions")
+                Diagnostic::error(&place, message).with_help("break the circle of definitions")
             }
             None => {
                 let message = format!("more than {MAX_DEPTH} diagrams are nested in each other");
-                Problem::error(&place, message).with_help("put some of them side by side")
+                Diagnostic::error(&place, message).with_help("put some of them side by side")
             }
         };
-        self.push(problem);
+        self.push(diagnostic);
     }
 
     /// A text such as `a -> b.u1 -> c`: a wire for every arrow.
@@ -326,8 +327,8 @@ impl<'a> DiagramReader<'a> {
             split.collect()
         };
         if parts.len() < 2 {
-            let problem = Problem::error(&self.document.at(pointer), format!("`{text}` is no wire"));
-            self.push(problem.with_help("write \"FROM -> TO\", such as \"error -> pid -> /motor1\""));
+            let diagnostic = Diagnostic::error(&self.document.at(pointer), format!("`{text}` is no wire"));
+            self.push(diagnostic.with_help("write \"FROM -> TO\", such as \"error -> pid -> /motor1\""));
             return;
         }
         for pair in parts.windows(2) {
@@ -346,7 +347,7 @@ impl<'a> DiagramReader<'a> {
                     let place = within(&self.document.at(pointer), &span);
                     let help =
                         "ends of wires are `block`, `block.port`, `block.port[0]`, or `/joint.position` of the world";
-                    self.push(Problem::error(&place, error.message.clone()).with_help(help));
+                    self.push(Diagnostic::error(&place, error.message.clone()).with_help(help));
                 }
             }
             if let (Ok(from_ends), Ok(to_end)) = (source, target) {
@@ -408,9 +409,9 @@ impl<'a> DiagramReader<'a> {
             Some(name) => format!("block `{name}`: {}", fault.message),
             None => fault.message,
         };
-        let problem = Problem::error(&at, message);
-        let problem = if fault.help.is_empty() { problem } else { problem.with_help(fault.help) };
-        self.push(problem);
+        let diagnostic = Diagnostic::error(&at, message);
+        let diagnostic = if fault.help.is_empty() { diagnostic } else { diagnostic.with_help(fault.help) };
+        self.push(diagnostic);
     }
 }
 
@@ -441,6 +442,6 @@ impl Files for FolderFiles<'_> {
         if std::path::Path::new(file).is_absolute() {
             return Err(absolute());
         }
-        self.0.read(file).map(|source| source.text.clone()).map_err(|problem| problem.message)
+        self.0.read(file).map(|source| source.text.clone()).map_err(|diagnostic| diagnostic.message)
     }
 }

@@ -21,7 +21,7 @@ pub fn kinds() -> Vec<&'static Kind> {
     kinds
 }
 
-/// The reference as Markdown: a section a category, in it a section a block.
+/// The reference as Markdown: a section for each category, in it a section for each block.
 #[must_use]
 pub fn reference() -> String {
     let mut text = String::from(

@@ -1,4 +1,5 @@
-//! The schema of diagram files: that of the structure from its types, that of every block's parameters from the library.
+//! The schema of diagram files: that of the structure from its types, that of every block's parameters from the
+//! library.
 
 use std::sync::LazyLock;
 

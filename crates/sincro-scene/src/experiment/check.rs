@@ -1,4 +1,4 @@
-//! What must come out of a run: plain data, read and resolved; `sincro-sim` evaluates it.
+//! Checks of a run: plain data, read and resolved; `sincro-sim` evaluates them.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -6,31 +6,31 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use sincro_math::expression::Expression;
 
-use crate::problem::{Located, Location};
+use crate::diagnostic::{Located, Location};
 
 /// One expectation about a run, or about all runs of a sweep.
 ///
-/// Formulas of a check (its own and that of the expected value) share their names, in this order: the aliases, then `t`,
-/// then the parameters. [`Check::values`] fills the slots.
+/// Formulas of a check (its own and that of the expected value) share their names, in this order: the aliases, then
+/// `t`, then the parameters. [`Check::values`] fills the slots.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// What the report calls it.
+    /// Name in the report.
     pub name: String,
-    /// What is measured.
+    /// Measured series.
     pub what: Subject,
     /// Names of recorded signals in formulas, in the order of the first slots; empty if `what` is a signal.
     pub aliases: Vec<(String, Located<String>)>,
     /// Names and values of the experiment's parameters, in the order of the last slots.
     pub parameters: Arc<[(String, f64)]>,
-    /// What it should be.
+    /// Expected value.
     pub expected: Expected,
-    /// Whether it should be that, or at most or at least that.
+    /// Comparison: equal, at most or at least.
     pub sense: Sense,
-    /// What of the series is compared.
+    /// Measure of the series that is compared.
     pub measure: Measure,
-    /// Of `overshoot`, `rise-time` and `settling-time`: where the step ends; the last row if not given.
+    /// Final value of the step for `overshoot`, `rise-time` and `settling-time`; that of the last row if not given.
     pub target: Option<f64>,
-    /// Of `settling-time`: half the width of the band around the target, as a share of the step's height.
+    /// Half the width of the band of `settling-time` around the target, relative to the step's height.
     pub band: f64,
     /// The one time `[s]` that is looked at, if given; it excludes `window`.
     pub at: Option<f64>,
@@ -39,7 +39,7 @@ pub struct Check {
     /// Largest |measured − expected| that holds, in the unit of what is measured (or 1, if `relative`); not negative,
     /// and 0 if `sense` is not `Equal`.
     pub tolerance: f64,
-    /// Whether the difference is divided by max(|expected|, floor).
+    /// True if the difference is divided by max(|expected|, floor).
     pub relative: bool,
     /// Least divisor of a relative difference; zero unless given.
     pub floor: f64,
@@ -47,7 +47,7 @@ pub struct Check {
     pub location: Location,
 }
 
-/// How measured and expected value are compared.
+/// Comparison of measured and expected value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sense {
@@ -60,7 +60,7 @@ pub enum Sense {
     AtLeast,
 }
 
-/// What is measured.
+/// Measured series.
 #[derive(Clone, Debug)]
 pub enum Subject {
     /// A recorded signal by its name.
@@ -69,7 +69,7 @@ pub enum Subject {
     Formula(Expression),
 }
 
-/// What it should be.
+/// Expected value.
 #[derive(Clone, Debug)]
 pub enum Expected {
     /// The same number at all times.
@@ -101,7 +101,7 @@ pub struct Reference {
     pub location: Location,
 }
 
-/// What of a series is compared with the expected value.
+/// Measure of a series that is compared with the expected value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
     /// Every row with the expected value of its time; the largest difference counts.
@@ -120,15 +120,15 @@ pub enum Measure {
     Rms,
     /// Standard deviation over time.
     Std,
-    /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value stands for
-    /// the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
+    /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value
+    /// stands for the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
     Integral,
     /// Time `[s]` of the least value.
     TimeOfMin,
     /// Time `[s]` of the greatest value.
     TimeOfMax,
-    /// How far a step response goes beyond its target, as a share of the step's height. The step leads from the first row that is
-    /// looked at to the target.
+    /// Overshoot of a step response beyond its target, relative to the step's height. The step leads from the first row
+    /// that is looked at to the target.
     Overshoot,
     /// Time `[s]` between the first crossings of 10 % and of 90 % of the step's height.
     RiseTime,
@@ -161,7 +161,7 @@ impl Measure {
         }
     }
 
-    /// Whether it is one of a step response, which has a target.
+    /// Returns true if it is one of a step response, which has a target.
     #[must_use]
     pub fn is_of_step(self) -> bool {
         matches!(self, Self::Overshoot | Self::RiseTime | Self::SettlingTime)
@@ -178,7 +178,8 @@ impl Check {
         own.into_iter().chain(self.aliases.iter().map(|(_, signal)| signal))
     }
 
-    /// The slots of the check's formulas for one row: the aliases' values in their order, the time `[s]`, the parameters.
+    /// The slots of the check's formulas for one row: the aliases' values in their order, the time `[s]`, the
+    /// parameters.
     #[must_use]
     pub fn values(&self, aliases: &[f64], t: f64) -> Vec<f64> {
         let parameters = self.parameters.iter().map(|(_, value)| *value);

@@ -8,12 +8,12 @@ use sincro_math::expression::{Expression, is_name};
 use super::check::{Check, Expected, Measure, Reference, Sense, Subject};
 use super::file::{CheckFile, NumberOrFormula, ReferenceFile};
 use super::grid::{Grid, short};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
-use crate::problem::{Located, Location, Problem, Problems};
 use crate::series::{self, Query};
 
-/// What rows are lined up along.
+/// Key along which rows are aligned.
 pub(super) enum Keys {
     /// Times of a run.
     Run(Grid),
@@ -27,9 +27,9 @@ pub(super) struct CheckReader<'a> {
     pub folder: &'a Folder,
     pub parameters: Arc<[(String, f64)]>,
     pub keys: Keys,
-    /// Whether to refuse what looks where nothing is recorded.
+    /// True if checks of times without recorded rows are refused.
     pub check_times: bool,
-    pub problems: &'a mut Problems,
+    pub diagnostics: &'a mut Diagnostics,
 }
 
 impl CheckReader<'_> {
@@ -42,8 +42,8 @@ impl CheckReader<'_> {
             let location = self.document.title_at(&pointer);
             let (line, _) = location.line_column();
             if let Some(first) = names.insert(&file.name, line) {
-                let problem = Problem::error(&location, format!("there are two checks `{}`", file.name));
-                self.problems.push(problem.with_help(format!("the other one is in line {first}")));
+                let diagnostic = Diagnostic::error(&location, format!("there are two checks `{}`", file.name));
+                self.diagnostics.push(diagnostic.with_help(format!("the other one is in line {first}")));
             }
             checks.extend(self.check(file, &pointer, location));
         }
@@ -67,8 +67,8 @@ impl CheckReader<'_> {
         self.times(file, pointer, "");
         if file.floor.is_some() && !file.relative {
             let at = self.document.key_at(&format!("{pointer}/floor"));
-            let problem = Problem::error(&at, "`floor` without `relative = true`");
-            self.problems.push(problem.with_help("it is the least divisor of a relative difference"));
+            let diagnostic = Diagnostic::error(&at, "`floor` without `relative = true`");
+            self.diagnostics.push(diagnostic.with_help("it is the least divisor of a relative difference"));
         }
         Some(Check {
             name: file.name.clone(),
@@ -104,7 +104,8 @@ impl CheckReader<'_> {
             };
             if let Some(help) = help {
                 let at = self.document.key_at(&inner);
-                self.problems.push(Problem::error(&at, format!("`{alias}` cannot stand for a signal")).with_help(help));
+                self.diagnostics
+                    .push(Diagnostic::error(&at, format!("`{alias}` cannot stand for a signal")).with_help(help));
             }
             aliases.push((alias.clone(), Located { value: signal.clone(), at: self.document.at(&inner) }));
         }
@@ -119,16 +120,17 @@ impl CheckReader<'_> {
             }
             (Some(_), Some(_)) => {
                 let at = self.document.key_at(&format!("{pointer}/formula"));
-                let problem = Problem::error(&at, "`signal` and `formula` exclude each other");
-                self.problems.push(problem.with_help("name the signals of a formula: signals = { x = \"…\" }"));
+                let diagnostic = Diagnostic::error(&at, "`signal` and `formula` exclude each other");
+                self.diagnostics.push(diagnostic.with_help("name the signals of a formula: signals = { x = \"…\" }"));
                 None
             }
             (None, Some(formula)) => self.formula(formula, &format!("{pointer}/formula"), slots).map(Subject::Formula),
             (None, None) => {
                 let at = self.document.key_at(&format!("{pointer}/signals"));
-                let problem = Problem::error(&at, format!("`formula` is missing in check `{}`", file.name));
-                self.problems
-                    .push(problem.with_help("`signals` names what a formula is made of; `signal` is checked as it is"));
+                let diagnostic = Diagnostic::error(&at, format!("`formula` is missing in check `{}`", file.name));
+                self.diagnostics.push(
+                    diagnostic.with_help("`signals` names what a formula is made of; `signal` is checked as it is"),
+                );
                 None
             }
         }
@@ -151,7 +153,7 @@ impl CheckReader<'_> {
         }
     }
 
-    /// How measured and expected are compared, and the tolerance; none, with a problem noted, if it is missing.
+    /// Comparison and tolerance; none, with a diagnostic, if they are missing.
     fn sense(&mut self, file: &CheckFile, pointer: &str) -> (Sense, Option<f64>) {
         let bound = match (&file.at_most, &file.at_least) {
             (Some(_), _) => Some((Sense::AtMost, "at_most")),
@@ -162,21 +164,22 @@ impl CheckReader<'_> {
         let Some((sense, key)) = bound else {
             if file.tolerance.is_none() {
                 let at = self.document.title_at(pointer);
-                let problem = Problem::error(&at, format!("`tolerance` is missing in check `{}`", file.name));
-                self.problems.push(problem.with_help("it is the largest difference that holds; `at_most` needs none"));
+                let diagnostic = Diagnostic::error(&at, format!("`tolerance` is missing in check `{}`", file.name));
+                self.diagnostics
+                    .push(diagnostic.with_help("it is the largest difference that holds; `at_most` needs none"));
             }
             return (Sense::Equal, file.tolerance);
         };
         let given = [("tolerance", file.tolerance.is_some()), ("relative", file.relative)];
         for (other, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
             let at = self.document.key_at(&format!("{pointer}/{other}"));
-            let problem = Problem::error(&at, format!("`{other}` has no meaning with `{key}`"));
-            self.problems.push(problem.with_help(format!("leave it out: `{key}` is exact")));
+            let diagnostic = Diagnostic::error(&at, format!("`{other}` has no meaning with `{key}`"));
+            self.diagnostics.push(diagnostic.with_help(format!("leave it out: `{key}` is exact")));
         }
         (sense, Some(0.0))
     }
 
-    /// Where the step of a measure ends, if that is given; refuses keys that belong to other measures.
+    /// Final value of the step of a measure, if given; refuses keys that belong to other measures.
     fn step_response(&mut self, file: &CheckFile, pointer: &str) -> Option<f64> {
         let measure = Measure::from(file.measure);
         let given = [
@@ -185,8 +188,9 @@ impl CheckReader<'_> {
         ];
         for (key, _, owners) in given.into_iter().filter(|(_, is_wrong, _)| *is_wrong) {
             let at = self.document.key_at(&format!("{pointer}/{key}"));
-            let problem = Problem::error(&at, format!("`{key}` has no meaning for the measure `{}`", measure.word()));
-            self.problems.push(problem.with_help(format!("it belongs to {owners}")));
+            let diagnostic =
+                Diagnostic::error(&at, format!("`{key}` has no meaning for the measure `{}`", measure.word()));
+            self.diagnostics.push(diagnostic.with_help(format!("it belongs to {owners}")));
         }
         self.of_parameters(file.target.as_ref()?, &format!("{pointer}/target"))
     }
@@ -205,12 +209,13 @@ impl CheckReader<'_> {
         }
     }
 
-    /// Refuses what has no meaning for a divergence: it is the first passage of one signal's magnitude through a number.
+    /// Refuses what has no meaning for a divergence: it is the first passage of one signal's magnitude through a
+    /// number.
     fn divergence(&mut self, file: &CheckFile, pointer: &str) {
         let Some(bound) = &file.diverges else { return };
         let mut refuse = |key: &str, message: &str, help: &str| {
             let at = self.document.key_at(&format!("{pointer}/{key}"));
-            self.problems.push(Problem::error(&at, message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help(help));
         };
         if matches!(self.keys, Keys::Sweep(_)) {
             let help = "a sweep compares final values; let a `variant` diverge";
@@ -236,12 +241,12 @@ impl CheckReader<'_> {
             Ok(formula) => Some(formula),
             Err(error) => {
                 let at = inside_string(&self.document.at(pointer), text, &error.span);
-                let problem = Problem::error(&at, format!("formula: {}", error.message));
+                let diagnostic = Diagnostic::error(&at, format!("formula: {}", error.message));
                 let unknown = error.message.starts_with("unknown name");
-                self.problems.push(match error.help {
-                    Some(help) => problem.with_help(help),
-                    None if unknown => problem.with_help(format!("it knows {}", known(&names))),
-                    None => problem,
+                self.diagnostics.push(match error.help {
+                    Some(help) => diagnostic.with_help(help),
+                    None if unknown => diagnostic.with_help(format!("it knows {}", known(&names))),
+                    None => diagnostic,
                 });
                 None
             }
@@ -254,8 +259,8 @@ impl CheckReader<'_> {
         let (own, other) = if is_sweep { ("parameter", "time") } else { ("time", "parameter") };
         if self.document.get(&format!("{pointer}/{other}")).is_some() {
             let at = self.document.key_at(&format!("{pointer}/{other}"));
-            let problem = Problem::error(&at, format!("`{other}` has no meaning here"));
-            self.problems.push(problem.with_help(format!("rows are lined up by `{own}`")));
+            let diagnostic = Diagnostic::error(&at, format!("`{other}` has no meaning here"));
+            self.diagnostics.push(diagnostic.with_help(format!("rows are lined up by `{own}`")));
             return None;
         }
         let key_pointer = format!("{pointer}/{own}");
@@ -263,8 +268,8 @@ impl CheckReader<'_> {
         let key = match written {
             Some(key) => Located { value: key.clone(), at: self.document.at(&key_pointer) },
             None if is_sweep => {
-                let problem = Problem::error(&self.document.at(pointer), "`parameter` is missing in `reference`");
-                self.problems.push(problem.with_help("it names the column of the values of the swept parameter"));
+                let diagnostic = Diagnostic::error(&self.document.at(pointer), "`parameter` is missing in `reference`");
+                self.diagnostics.push(diagnostic.with_help("it names the column of the values of the swept parameter"));
                 return None;
             }
             None => Located { value: "t".into(), at: self.document.at(pointer) },
@@ -275,7 +280,7 @@ impl CheckReader<'_> {
         };
         let (name, column) = (located("file", &file.file), located("column", &file.column));
         let query = Query { file: &name, key: &key, column: &column };
-        let (keys, values) = series::read(self.folder, &query, self.problems)?;
+        let (keys, values) = series::read(self.folder, &query, self.diagnostics)?;
         Some(Reference {
             file: self.folder.path_of(&file.file),
             key_column: key.value,
@@ -306,13 +311,13 @@ impl CheckReader<'_> {
         };
         if let Some((key, (message, help))) = refused {
             let at = self.document.at(&format!("{pointer}/{key}"));
-            self.problems.push(Problem::error(&at, format!("{of}{message}")).with_help(help));
+            self.diagnostics.push(Diagnostic::error(&at, format!("{of}{message}")).with_help(help));
         }
     }
 }
 
 impl Keys {
-    /// Why nothing is recorded at `at`, and what would be.
+    /// Reason for which nothing is recorded at `at`, with advice.
     fn refuse_at(&self, at: f64) -> Option<(String, String)> {
         match self {
             Self::Run(grid) if !grid.contains(at) => Some((
@@ -332,7 +337,7 @@ impl Keys {
         }
     }
 
-    /// Why a window shows nothing, or reaches too far.
+    /// Reason for which a window is empty, or reaches too far.
     fn refuse_window(&self, from: f64, to: f64) -> Option<(String, String)> {
         if from > to {
             return Some((

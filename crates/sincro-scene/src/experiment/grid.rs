@@ -52,7 +52,7 @@ impl Grid {
         (before, before + row)
     }
 
-    /// Whether `t` lies in the run.
+    /// Returns true if `t` lies in the run.
     pub fn contains(&self, t: f64) -> bool {
         let slack = SLACK * self.duration;
         t >= -slack && t <= self.duration + slack

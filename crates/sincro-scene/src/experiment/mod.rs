@@ -1,4 +1,4 @@
-//! What is run, recorded and checked: the experiment file, resolved.
+//! Experiment file, resolved: duration, recorded signals, checks, variants, sweep.
 //!
 //! Names of recorded signals are kept as they were written, with their places; whoever knows the model resolves them.
 
@@ -20,8 +20,8 @@ pub(crate) use resolve::resolve;
 pub(crate) use sample_times::check_sample_times;
 pub use schema::experiment_schema;
 
+use crate::diagnostic::{Located, Location};
 use crate::overrides::Override;
-use crate::problem::{Located, Location};
 use check::{Check, Reference};
 use stop::StopWhen;
 
@@ -30,11 +30,11 @@ use stop::StopWhen;
 pub struct Experiment {
     /// Title of the report.
     pub title: String,
-    /// What stands under it; may be empty.
+    /// Description under the title; may be empty.
     pub description: String,
     /// The scene file; the folder is part of it.
     pub scene_path: PathBuf,
-    /// How long is simulated `[s]`.
+    /// Simulated time `[s]`.
     pub duration: f64,
     /// Base step `[s]`.
     pub step: f64,
@@ -44,11 +44,11 @@ pub struct Experiment {
     pub simulation_ticks: u64,
     /// Base steps for each recorded row; at least one.
     pub record_every: u64,
-    /// How the equations of motion are integrated.
+    /// Integration method of the equations of motion.
     pub integrator: Integrator,
     /// Local tolerance of the variable-step methods.
     pub accuracy: f64,
-    /// How the error bar of the recorded signals is found.
+    /// Estimate of the error bar of the recorded signals.
     pub error_bar: ErrorBar,
     /// Seed of everything random.
     pub seed: u64,
@@ -56,9 +56,9 @@ pub struct Experiment {
     pub record: Vec<Located<String>>,
     /// Names and numbers for formulas.
     pub parameters: BTreeMap<String, f64>,
-    /// Where the run ends before its duration.
+    /// Bounds at which the run ends before its duration.
     pub stops: Vec<StopWhen>,
-    /// What must come out of the run.
+    /// Checks of the run.
     pub checks: Vec<Check>,
     /// Repeats the run over a parameter.
     pub sweep: Option<Sweep>,
@@ -68,7 +68,7 @@ pub struct Experiment {
     pub plots: Vec<Plot>,
 }
 
-/// How the equations of motion are integrated.
+/// Integration method of the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Integrator {
     /// Chosen for the scene; second order or better.
@@ -100,7 +100,7 @@ impl Integrator {
     }
 }
 
-/// How the error bar of the recorded signals is found.
+/// Estimate of the error bar of the recorded signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorBar {
     /// By a second, finer run.
@@ -112,13 +112,13 @@ pub enum ErrorBar {
 /// A static characteristic: the run is repeated over a parameter, and final values are recorded.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// What is varied: a path as for `--set`.
+    /// Parameter that is varied: a path as for `--set`.
     pub parameter: Located<String>,
-    /// What takes the same value.
+    /// Further numbers that take the same value.
     pub also: Vec<Located<String>>,
     /// Its values, in the order in which they are run.
     pub values: Vec<f64>,
-    /// What must come out over the whole sweep.
+    /// Checks over the whole sweep.
     pub checks: Vec<Check>,
 }
 
@@ -139,13 +139,13 @@ impl Sweep {
 pub struct Variant {
     /// Short name, letters, digits, `_`, `-` and `.`; none twice.
     pub name: String,
-    /// What is different; may be empty.
+    /// Description of the difference; may be empty.
     pub description: String,
     /// The settings, in the order of their paths.
     pub set: Vec<Override>,
-    /// Whether the main run's checks are also made on the variant.
+    /// True if the main run's checks are also made on the variant.
     pub inherit_checks: bool,
-    /// What must come out of the variant.
+    /// Checks of the variant.
     pub checks: Vec<Check>,
     /// Its name in the file.
     pub location: Location,
@@ -156,13 +156,13 @@ pub struct Variant {
 pub struct Plot {
     /// Its title.
     pub title: String,
-    /// Whether it shows paths in space: its signals are then vectors, see [`path_components`].
+    /// True if it shows paths in space: its signals are then vectors, see [`path_components`].
     pub is_path: bool,
     /// Recorded signals, one line each; at least one.
     pub signals: Vec<Located<String>>,
     /// Drawn over the first signal; if none is given, what the checks compare that signal with.
     pub reference: Option<Reference>,
-    /// Whether the panel below shows how the variants differ from the main run; none: as it fits.
+    /// True if the panel below shows how the variants differ from the main run; none: as it fits.
     pub compares_variants: Option<bool>,
     /// Names of the variants that are drawn; none: all.
     pub variants: Option<Vec<String>>,

@@ -13,27 +13,28 @@ use super::file::{
 use super::grid::Grid;
 use super::stop::{Side, StopWhen};
 use super::{ErrorBar, Experiment, Integrator, Plot, Sweep, Variant, path_components};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
 use crate::overrides::Override;
-use crate::problem::{Located, Problem, Problems};
 
 /// Most values of a sweep: a slip of the pen in `step` must not fill the memory.
 const MAX_SWEEP: f64 = 1e6;
 
-/// Resolves a document that fits the schema. With `check_times`, checks that look where nothing is recorded are refused.
-pub(crate) fn resolve(document: &Document, folder: &Folder, check_times: bool) -> (Option<Experiment>, Problems) {
-    let mut problems = Problems::new();
+/// Resolves a document that fits the schema. With `check_times`, checks that look where nothing is recorded are
+/// refused.
+pub(crate) fn resolve(document: &Document, folder: &Folder, check_times: bool) -> (Option<Experiment>, Diagnostics) {
+    let mut diagnostics = Diagnostics::new();
     let file: ExperimentFile = match serde_json::from_value(document.root.clone()) {
         Ok(file) => file,
         Err(e) => {
-            let problem = Problem::error(&document.at(""), format!("the experiment cannot be read: {e}"));
-            return (None, problem.into());
+            let diagnostic = Diagnostic::error(&document.at(""), format!("the experiment cannot be read: {e}"));
+            return (None, diagnostic.into());
         }
     };
-    let mut resolver = Resolver { document, folder, file: &file, check_times, problems: &mut problems };
+    let mut resolver = Resolver { document, folder, file: &file, check_times, diagnostics: &mut diagnostics };
     let experiment = resolver.experiment();
-    (experiment, problems)
+    (experiment, diagnostics)
 }
 
 struct Resolver<'a> {
@@ -41,7 +42,7 @@ struct Resolver<'a> {
     folder: &'a Folder,
     file: &'a ExperimentFile,
     check_times: bool,
-    problems: &'a mut Problems,
+    diagnostics: &'a mut Diagnostics,
 }
 
 impl Resolver<'_> {
@@ -89,12 +90,12 @@ impl Resolver<'_> {
             parameters: parameters.clone(),
             keys,
             check_times: self.check_times,
-            problems: self.problems,
+            diagnostics: self.diagnostics,
         }
     }
 
     fn error(&mut self, pointer: &str, message: impl Into<String>, help: impl Into<String>) {
-        self.problems.push(Problem::error(&self.document.at(pointer), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(&self.document.at(pointer), message).with_help(help));
     }
 
     /// Base steps in a step of scripts and clients.
@@ -105,7 +106,7 @@ impl Resolver<'_> {
             let message = format!("`simulation_step` is {dt} s, no whole multiple of the base step, {step} s");
             let near = ticks.max(1.0) * step;
             let help = format!("simulation_step = {near}, or another `step`");
-            self.problems.push(Problem::error(&self.document.at("/simulation_step"), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(&self.document.at("/simulation_step"), message).with_help(help));
             return 1;
         }
         ticks as u64
@@ -124,7 +125,7 @@ impl Resolver<'_> {
                 "formulas know names of letters, digits and `_` that begin with a letter".into()
             };
             let at = self.document.key_at(&format!("/parameters/{}", escape(name)));
-            self.problems.push(Problem::error(&at, message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help(help));
         }
     }
 
@@ -134,8 +135,8 @@ impl Resolver<'_> {
                 let every = grid.record_every;
                 let message = format!("the end of the run is not recorded: {n} steps, one row every {every}");
                 let at = self.document.at("/record_every");
-                let problem = Problem::error(&at, message).as_warning();
-                self.problems.push(problem.with_help("let `record_every` divide the number of steps"));
+                let diagnostic = Diagnostic::error(&at, message).as_warning();
+                self.diagnostics.push(diagnostic.with_help("let `record_every` divide the number of steps"));
                 Some(n)
             }
             Ok(n) => Some(n),
@@ -292,8 +293,8 @@ impl Resolver<'_> {
             let pointer = format!("/plot/{k}/{key}");
             if self.document.get(&pointer).is_some() {
                 let at = self.document.key_at(&pointer);
-                let problem = Problem::error(&at, format!("`{key}` has no meaning in a plot of kind `path`"));
-                self.problems.push(problem.with_help("leave it out, or draw lines over time"));
+                let diagnostic = Diagnostic::error(&at, format!("`{key}` has no meaning in a plot of kind `path`"));
+                self.diagnostics.push(diagnostic.with_help("leave it out, or draw lines over time"));
             }
         }
     }

@@ -1,12 +1,12 @@
 //! Sample times of a scene's sensors against the base step of the experiment.
 
 use super::{Experiment, short};
-use crate::problem::{Problem, Problems};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::sensor::{SensorSpec, every};
 
 /// Refuses sample times that are no whole number of base steps.
-pub(crate) fn check_sample_times(specs: &[SensorSpec], experiment: &Experiment) -> Problems {
-    let mut problems = Problems::new();
+pub(crate) fn check_sample_times(specs: &[SensorSpec], experiment: &Experiment) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
     for spec in specs {
         let Some(sample_time) = spec.sample_time.as_ref().filter(|_| every(spec, experiment.step).is_none()) else {
             continue;
@@ -22,7 +22,7 @@ pub(crate) fn check_sample_times(specs: &[SensorSpec], experiment: &Experiment) 
         } else {
             format!("use {} or {}, or another `step`", near[0], near[1])
         };
-        problems.push(Problem::error(&sample_time.at, message).with_help(help));
+        diagnostics.push(Diagnostic::error(&sample_time.at, message).with_help(help));
     }
-    problems
+    diagnostics
 }

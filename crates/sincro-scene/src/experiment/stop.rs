@@ -1,11 +1,12 @@
 //! Bounds at which a run ends before its duration: no failure, but nothing more to be seen.
 //!
-//! There are two kinds: those of `[[stop_when]]`, each of which ends every run of the experiment, and those of `diverges` checks, which end
-//! the run that they are made on when all of them are reached. Recorded rows are looked at, at the instants at which they are recorded.
+//! There are two kinds: those of `[[stop_when]]`, each of which ends every run of the experiment, and those of
+//! `diverges` checks, which end the run that they are made on when all of them are reached. Recorded rows are looked
+//! at, at the instants at which they are recorded.
 
 use super::Experiment;
 use super::check::{Check, Expected, Measure, Subject};
-use crate::problem::{Located, Problem, Problems};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 
 /// A bound of a recorded signal.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,19 +19,19 @@ pub struct StopWhen {
     pub bound: f64,
 }
 
-/// Where a run ends.
+/// Side of a bound on which a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Above the bound.
     Above,
     /// Below it.
     Below,
-    /// Where the magnitude is above it.
+    /// The magnitude is above it.
     Beyond,
 }
 
 impl StopWhen {
-    /// Whether a value lies where the run ends.
+    /// Returns true if a value lies where the run ends.
     #[must_use]
     pub fn is_reached(&self, x: f64) -> bool {
         match self.side {
@@ -71,8 +72,8 @@ fn four_digits(x: f64) -> f64 {
 }
 
 /// Refuses bounds of signals that are not recorded: they would never be reached.
-pub(crate) fn check_recorded(experiment: &Experiment) -> Problems {
-    let mut problems = Problems::new();
+pub(crate) fn check_recorded(experiment: &Experiment) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
     let of_variants = experiment.variants.iter().flat_map(|variant| &variant.checks);
     let wanted = experiment.checks.iter().chain(of_variants).filter_map(StopWhen::of);
     for stop in experiment.stops.iter().cloned().chain(wanted) {
@@ -84,16 +85,16 @@ pub(crate) fn check_recorded(experiment: &Experiment) -> Problems {
                 None => "add it to `record`".to_owned(),
             };
             let message = format!("`{name}` is not recorded, so that its bound cannot be seen");
-            problems.push(Problem::error(&stop.signal.at, message).with_help(help));
+            diagnostics.push(Diagnostic::error(&stop.signal.at, message).with_help(help));
         }
     }
-    problems
+    diagnostics
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{Location, SourceText};
+    use crate::diagnostic::{Location, SourceText};
 
     fn stop(side: Side) -> StopWhen {
         let source = std::sync::Arc::new(SourceText { path: "experiment.toml".into(), text: String::new() });

@@ -16,7 +16,7 @@ pub struct Entry {
     pub name: String,
     /// SI unit.
     pub unit: Cow<'static, str>,
-    /// Where it is read.
+    /// Probe that reads it.
     pub probe: Probe,
 }
 
@@ -182,7 +182,7 @@ fn frame_signals(list: &mut List, name: &str, i: usize, is_body: bool) {
     }
 }
 
-/// Of every body with a contact, every joint with stops, every closure.
+/// Signals of every body with a contact, every joint with limits, every closure.
 fn contact_signals(list: &mut List, model: &Model<f64>) {
     use ContactQuantity as Q;
     let set = model.constraints();

@@ -1,10 +1,10 @@
-//! What touches a body, as numbers: the contact sensor that every body with a contact has.
+//! Contact signals of a body: the contact sensor that every body with a contact has.
 
 use sincro_dynamics::constraint::ContactPoint;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Vec3;
 
-/// What can be read of the contacts of a body.
+/// Quantity of the contacts of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactQuantity {
     /// Sum of all forces on it `[N]`, world axes.

@@ -1,7 +1,7 @@
 //! Recorded signals: from names to numbers.
 //!
-//! [`catalogue`] lists everything that a model can be asked for; a [`Recorder`] holds the chosen ones resolved, so that a row costs
-//! no look-up and no allocation.
+//! [`catalogue`] lists everything that a model can be asked for; a [`Recorder`] holds the chosen ones resolved, so that
+//! a row costs no look-up and no allocation.
 
 mod catalogue;
 pub mod contact;
@@ -15,7 +15,7 @@ use sincro_dynamics::energy::Energy;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
 
-use crate::problem::{Located, Problem, Problems};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::suggest;
 use probe::View;
 
@@ -44,11 +44,11 @@ pub enum Probe {
     AppliedTorque(usize),
     /// Component of a frame's quantity in the world.
     Frame(FrameQuantity, usize, usize),
-    /// Of the whole world.
+    /// Energy of the whole world.
     Energy(EnergyQuantity),
     /// Component 0–2 of the angular, 3–5 of the linear momentum.
     Momentum(usize),
-    /// Of a rotor.
+    /// Quantity of a rotor.
     Rotor(RotorQuantity, usize),
     /// Component of the force of a drag element, world axes.
     Drag(usize, usize),
@@ -58,9 +58,9 @@ pub enum Probe {
     Contact(ContactQuantity, usize, usize),
     /// Torque of the stops of a joint.
     LimitTorque(usize),
-    /// How far a closure is open.
+    /// Constraint residual of a closure.
     Opening(usize),
-    /// What a degree of freedom of a force sensor holds.
+    /// Constraint force of a degree of freedom of a force sensor.
     Reaction(usize),
     /// Value of a sensor, as it was last sampled.
     Sensor(usize),
@@ -70,7 +70,7 @@ pub enum Probe {
     FloatSignal(usize),
 }
 
-/// What stands before the name of a float signal of scripts and clients in `record`.
+/// Prefix of the name of a float signal of scripts and clients in `record`.
 const FLOAT_SIGNAL: &str = "float_signal.";
 
 /// Names of the float signals among recorded names, in their order.
@@ -78,10 +78,10 @@ pub fn float_signals(names: &[Located<String>]) -> impl Iterator<Item = &str> {
     names.iter().filter_map(|name| name.value.strip_prefix(FLOAT_SIGNAL)).filter(|name| !name.is_empty())
 }
 
-/// What can be read of a rotor.
+/// Quantity of a rotor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RotorQuantity {
-    /// What it turns at [rad/s].
+    /// Speed [rad/s].
     Speed,
     /// Force along its axis `[N]`.
     Thrust,
@@ -91,11 +91,11 @@ pub enum RotorQuantity {
     Inflow,
     /// Power of the shaft `[W]`.
     Power,
-    /// Whether its law holds: 1, else 0.
+    /// Validity of its law: 1 if it holds, else 0.
     Valid,
 }
 
-/// What can be read of a frame.
+/// Quantity of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameQuantity {
     /// Origin `[m]`.
@@ -104,19 +104,19 @@ pub enum FrameQuantity {
     Quaternion,
     /// Roll, pitch, yaw `[rad]`.
     Angles,
-    /// Of the origin [m/s].
+    /// Velocity of the origin [m/s].
     Velocity,
     /// [rad/s]
     AngularVelocity,
-    /// Of the origin [m/s²].
+    /// Acceleration of the origin [m/s²].
     Acceleration,
-    /// Of a body `[m]`.
+    /// Centre of mass of a body `[m]`.
     CenterOfMass,
-    /// Of the air at the origin [m/s].
+    /// Velocity of the air at the origin [m/s].
     Wind,
 }
 
-/// What can be read of the energy.
+/// Quantity of the energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum EnergyQuantity {
@@ -148,9 +148,9 @@ impl Recorder {
     /// # Errors
     ///
     /// All names that mean nothing, each with the nearest ones that do.
-    pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Problems> {
+    pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Diagnostics> {
         let all: Vec<Entry> = catalogue(model).into_iter().chain(diagram.iter().cloned()).collect();
-        let mut problems = Problems::new();
+        let mut diagnostics = Diagnostics::new();
         let (mut entries, mut n_floats) = (Vec::with_capacity(names.len()), 0);
         for name in names {
             let of_scripts = float_signals(std::slice::from_ref(name)).next().is_some();
@@ -161,11 +161,11 @@ impl Recorder {
                     n_floats += 1;
                 }
                 Some(entry) => entries.push(entry.clone()),
-                None => problems.push(unknown(name, &all)),
+                None => diagnostics.push(unknown(name, &all)),
             }
         }
-        if problems.any_error() {
-            return Err(problems);
+        if diagnostics.any_error() {
+            return Err(diagnostics);
         }
         let row = Vec::with_capacity(entries.len() + 1);
         let motor_impulse = vec![0.0; model.motors().len()];
@@ -178,7 +178,9 @@ impl Recorder {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), &*e.unit)))
     }
 
-    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, after them the float signals that are recorded and the values of all sensors. To be called at every recorded instant, in order, the start included.
+    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, after them the float signals
+    /// that are recorded and the values of all sensors. To be called at every recorded instant, in order, the start
+    /// included.
     pub fn row(&mut self, seen: &Observation<'_>, signals: &[f64], t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {
@@ -241,7 +243,7 @@ impl Recorder {
 }
 
 /// The finding about a name that means nothing: what is near, or what the object it names offers.
-fn unknown(name: &Located<String>, all: &[Entry]) -> Problem {
+fn unknown(name: &Located<String>, all: &[Entry]) -> Diagnostic {
     let message = format!("there is no signal `{}`", name.value);
     let of_object: Vec<&str> = match name.value.split_once('.') {
         Some((object, _)) => {
@@ -255,12 +257,12 @@ fn unknown(name: &Located<String>, all: &[Entry]) -> Problem {
     let components: Vec<&str> = all.iter().map(|e| e.name.as_str()).filter(|n| n.starts_with(&component)).collect();
     if let [first, .., last] = components[..] {
         let help = format!("it is a vector: name its components, `{first}` to `{last}`");
-        return Problem::error(&name.at, message).with_help(help);
+        return Diagnostic::error(&name.at, message).with_help(help);
     }
     let help = match (nearest, of_object.is_empty()) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, false) => format!("its object has {}", of_object.join(", ")),
         (None, true) => "`sincro check SCENE` lists every signal".into(),
     };
-    Problem::error(&name.at, message).with_help(help)
+    Diagnostic::error(&name.at, message).with_help(help)
 }

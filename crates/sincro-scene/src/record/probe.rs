@@ -1,4 +1,5 @@
-//! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is linearised.
+//! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is
+//! linearised.
 
 use sincro_dynamics::actuation::{damper, spring};
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
@@ -14,7 +15,7 @@ use sincro_math::Real;
 
 use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
 
-/// What a measurement is taken of.
+/// State of which a measurement is taken.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a, R> {
     /// Time `[s]`.
@@ -34,7 +35,7 @@ pub struct View<'a, R> {
 }
 
 impl<'a, R> View<'a, R> {
-    /// Of what an attachment sees.
+    /// View of the state that a coupled system sees.
     pub fn of(seen: &'a StateView<'_, R>) -> Self {
         let &StateView { t, model, q, v, rotors, commands, ref scratch } = seen;
         Self { t, model, q, v, rotors, commands, scratch }
@@ -42,19 +43,20 @@ impl<'a, R> View<'a, R> {
 }
 
 impl<'a> View<'a, f64> {
-    /// Of a world that is observed.
+    /// View of an observed world.
     pub fn observed(seen: &'a Observation<'_>, t: f64) -> Self {
         let State { q, v, rotors, commands, .. } = seen.state;
         Self { t, model: seen.model(), q, v, rotors, commands, scratch: seen.scratch() }
     }
 }
 
-/// Whether a probe needs the poses and twists of links.
+/// Returns true if a probe needs the poses and twists of links.
 pub fn needs_kinematics(probe: Probe) -> bool {
     matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
 }
 
-/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks only.
+/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks
+/// only.
 pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     let model = at.model;
     Some(match probe {
@@ -95,7 +97,7 @@ pub fn of_response<R: Real>(at: &View<'_, R>, response: Response<'_, R>, probe: 
     })
 }
 
-/// Whether what a rotor does changes at once when its command does.
+/// Returns true if the load of a rotor depends on its present command.
 pub fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuantity, rotor: usize) -> bool {
     quantity != RotorQuantity::Speed && model.rotors()[rotor].speed.follows_at_once()
 }
@@ -136,7 +138,7 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
 }
 
-/// Where a frame of the model is fixed.
+/// Attachment of a frame of the model.
 pub fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
     let info = &model.names().frames[frame];
     let rot = Mat3(info.pose.rot.0.map(|row| row.map(R::splat)));

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::model::DragSpec;
 
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
 use crate::tree::join;
 
 /// Wind: felt by rotors and drag elements.
@@ -126,7 +126,7 @@ pub(crate) struct DragFile {
 }
 
 /// The wind; none, with the reasons noted, if it cannot be.
-pub(super) fn wind(file: &WindFile, seed: u64, document: &Document, problems: &mut Problems) -> Option<Wind> {
+pub(super) fn wind(file: &WindFile, seed: u64, document: &Document, diagnostics: &mut Diagnostics) -> Option<Wind> {
     let profile = match file.profile {
         None => Profile::Constant,
         Some(ProfileFile { linear: Some(LinearFile { reference }), .. }) => Profile::Linear { reference },
@@ -138,7 +138,7 @@ pub(super) fn wind(file: &WindFile, seed: u64, document: &Document, problems: &m
     let gust = |g: &GustFile| Gust { start: g.start, rise: g.rise, peak: g.peak, holds: g.holds };
     let turbulence = match &file.turbulence {
         None => None,
-        Some(turbulence) => Some(spec(turbulence, file.mean, seed, document, problems)?),
+        Some(turbulence) => Some(spec(turbulence, file.mean, seed, document, diagnostics)?),
     };
     match Wind::new(file.mean, profile, file.gust.iter().map(gust).collect(), turbulence) {
         Ok(wind) => Some(wind),
@@ -149,7 +149,7 @@ pub(super) fn wind(file: &WindFile, seed: u64, document: &Document, problems: &m
                 let inner = ["turbulence/low_altitude", "turbulence", "profile/linear", "profile/logarithmic"];
                 let mut pointers = inner.iter().map(|table| format!("/wind/{table}/{key}"));
                 let written = pointers.find(|p| document.get(p).is_some()).unwrap_or_else(|| "/wind".into());
-                problems.push(Problem::error(&document.at(&written), format!("wind: {reason}")));
+                diagnostics.push(Diagnostic::error(&document.at(&written), format!("wind: {reason}")));
             }
             None
         }
@@ -161,7 +161,7 @@ fn spec(
     mean: [f64; 3],
     seed: u64,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<TurbulenceSpec> {
     let at = |key: &str| document.at(&format!("/wind/turbulence{key}"));
     let scales = match (file.low_altitude, file.deviation, file.length) {
@@ -169,24 +169,27 @@ fn spec(
             Scales::LowAltitude { wind_at_20_feet, height }
         }
         (Some(_), _, Some(_)) => {
-            let problem = Problem::error(&at("/length"), "`length` has no meaning with `low_altitude`");
-            problems.push(problem.with_help("leave it out: the standard gives the lengths at that height"));
+            let diagnostic = Diagnostic::error(&at("/length"), "`length` has no meaning with `low_altitude`");
+            diagnostics.push(diagnostic.with_help("leave it out: the standard gives the lengths at that height"));
             return None;
         }
         (None, Some(deviations), Some(lengths)) => Scales::Given { deviations, lengths },
         _ => {
-            let problem = Problem::error(&at(""), "`length` is missing in `turbulence`");
-            problems.push(
-                problem.with_help("`length`: three lengths [m] that go with the deviations, or take `low_altitude`"),
+            let diagnostic = Diagnostic::error(&at(""), "`length` is missing in `turbulence`");
+            diagnostics.push(
+                diagnostic.with_help("`length`: three lengths [m] that go with the deviations, or take `low_altitude`"),
             );
             return None;
         }
     };
     let of_mean = mean.iter().map(|x| x * x).sum::<f64>().sqrt();
     let Some(airspeed) = file.airspeed.or((of_mean > 0.0).then_some(of_mean)) else {
-        let problem =
-            Problem::error(&at(""), "`airspeed` is missing in `turbulence`, and there is no mean wind to take it from");
-        problems.push(problem.with_help("`airspeed`: velocity [m/s] at which the vehicle crosses the turbulence"));
+        let diagnostic = Diagnostic::error(
+            &at(""),
+            "`airspeed` is missing in `turbulence`, and there is no mean wind to take it from",
+        );
+        diagnostics
+            .push(diagnostic.with_help("`airspeed`: velocity [m/s] at which the vehicle crosses the turbulence"));
         return None;
     };
     Some(TurbulenceSpec { seed, scales, airspeed })
@@ -198,12 +201,12 @@ pub(super) fn drag(
     pointer: &str,
     density: f64,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> DragSpec {
     if file.area.is_none() && file.linear.is_none() {
         let message = format!("drag `{}` has neither `area` nor `linear`", join(&file.parent, &file.name));
-        let problem = Problem::error(&document.title_at(pointer), message);
-        problems.push(problem.with_help("give drag areas [m²], linear coefficients [N·s/m], or both"));
+        let diagnostic = Diagnostic::error(&document.title_at(pointer), message);
+        diagnostics.push(diagnostic.with_help("give drag areas [m²], linear coefficients [N·s/m], or both"));
     }
     DragSpec { area: file.area.unwrap_or_default(), linear: file.linear.unwrap_or_default(), density }
 }

@@ -12,14 +12,14 @@ use super::file::{BodyFile, ShapeFile};
 use super::mesh::MeshInstance;
 use super::object::ShapeInstance;
 use super::placement::{self, Placement};
+use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::Document;
-use crate::problem::{Location, Problem, Problems};
 
 /// Stands in for the mass of a body that has been refused, so that the rest can still be checked.
 const UNIT: MassProperties =
     MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 1.0] };
 
-/// Whether a body has shapes that others touch and nothing that says what it weighs: then it must be fixed in the world.
+/// Returns true if a body has contact shapes and no mass properties: it must then be fixed in the world.
 pub(super) fn is_fixture(file: &BodyFile) -> bool {
     let weighs = file.mass.is_some() || file.density.is_some() || file.inertia.is_some();
     let densities = file.shape.iter().any(|s| s.density.is_some());
@@ -31,7 +31,7 @@ pub(super) fn shapes(
     file: &BodyFile,
     pointer: &str,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<ShapeInstance> {
     let solids = file.shape.iter().enumerate().filter(|(_, s)| is_solid(s));
     let one = |(k, shape): (usize, &ShapeFile)| {
@@ -39,9 +39,9 @@ pub(super) fn shapes(
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
         ShapeInstance {
             shape: solid(shape),
-            pose: placement::pose(&placement, &pointer, document, problems),
+            pose: placement::pose(&placement, &pointer, document, diagnostics),
             density: shape.density.or(file.density),
-            color: shape.color.as_ref().and_then(|text| color_of(text, &pointer, document, problems)),
+            color: shape.color.as_ref().and_then(|text| color_of(text, &pointer, document, diagnostics)),
         }
     };
     solids.map(one).collect()
@@ -64,16 +64,21 @@ fn solid(file: &ShapeFile) -> Shape {
 }
 
 /// Red, green and blue of the `color` of a table; notes what is none.
-pub(super) fn color_of(text: &str, pointer: &str, document: &Document, problems: &mut Problems) -> Option<[u8; 3]> {
-    color(text, &document.at(&format!("{pointer}/color")), problems)
+pub(super) fn color_of(
+    text: &str,
+    pointer: &str,
+    document: &Document,
+    diagnostics: &mut Diagnostics,
+) -> Option<[u8; 3]> {
+    color(text, &document.at(&format!("{pointer}/color")), diagnostics)
 }
 
 /// Red, green and blue of `#rrggbb`; notes what is none.
-pub(super) fn color(text: &str, at: &Location, problems: &mut Problems) -> Option<[u8; 3]> {
+pub(super) fn color(text: &str, at: &Location, diagnostics: &mut Diagnostics) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
     let Some(digits) = digits else {
-        let problem = Problem::error(at, format!("`{text}` is not a colour"));
-        problems.push(problem.with_help("write \"#rrggbb\", such as \"#8a5a2b\""));
+        let diagnostic = Diagnostic::error(at, format!("`{text}` is not a colour"));
+        diagnostics.push(diagnostic.with_help("write \"#rrggbb\", such as \"#8a5a2b\""));
         return None;
     };
     let number = u32::from_str_radix(digits, 16).ok()?;
@@ -88,18 +93,18 @@ pub(super) fn mass(
     meshes: &[MeshInstance],
     pointer: &str,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> MassProperties {
     let solids = shapes.iter().map(Solid::Shape).chain(meshes.iter().map(Solid::Mesh)).collect();
     if meshes.len() < file.shape.iter().filter(|s| s.mesh.is_some()).count() {
         // one of them was refused, and no more can be said
         return UNIT;
     }
-    let mut judge = Judge { file, solids, pointer, document, problems };
+    let mut judge = Judge { file, solids, pointer, document, diagnostics };
     judge.mass().unwrap_or(UNIT)
 }
 
-/// What encloses a volume.
+/// Solid that encloses a volume.
 enum Solid<'a> {
     Shape(&'a ShapeInstance),
     Mesh(&'a MeshInstance),
@@ -128,7 +133,7 @@ struct Judge<'a> {
     solids: Vec<Solid<'a>>,
     pointer: &'a str,
     document: &'a Document,
-    problems: &'a mut Problems,
+    diagnostics: &'a mut Diagnostics,
 }
 
 impl Judge<'_> {
@@ -206,8 +211,8 @@ impl Judge<'_> {
             if shape.density.is_some() {
                 let at = self.document.key_at(&format!("{}/shape/{k}/density", self.pointer));
                 let message = format!("the density of a shape of `{}` has no effect", self.file.name);
-                let problem = Problem::error(&at, message).as_warning();
-                self.problems.push(problem.with_help("`mass` and `inertia` are given, shapes only show"));
+                let diagnostic = Diagnostic::error(&at, message).as_warning();
+                self.diagnostics.push(diagnostic.with_help("`mass` and `inertia` are given, shapes only show"));
             }
         }
     }
@@ -216,8 +221,8 @@ impl Judge<'_> {
         let pointer = format!("{}/{key}", self.pointer);
         let at = if key.contains('/') { self.document.at(&pointer) } else { self.document.key_at(&pointer) };
         let at = if key == "name" { self.document.title_at(self.pointer) } else { at };
-        let problem = Problem::error(&at, format!("body `{}`: {message}", self.file.name));
-        self.problems.push(problem.with_help(help));
+        let diagnostic = Diagnostic::error(&at, format!("body `{}`: {message}", self.file.name));
+        self.diagnostics.push(diagnostic.with_help(help));
         None
     }
 }

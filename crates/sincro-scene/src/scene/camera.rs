@@ -7,8 +7,8 @@ use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use super::body;
 use super::placement::{self, Placement};
 use crate::camera::{self, Lens, Optics};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
 
 /// A camera: looks along z of its frame, y is up in the picture. The first one of a scene is the one that pictures and the viewer begin with.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -54,7 +54,7 @@ pub(crate) struct CameraFile {
     pub external_input: Option<bool>,
 }
 
-/// What the pictures of a camera are like that clients and scripts read.
+/// Settings of the images of a camera that clients and scripts read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VisionSensor {
     /// Pixels, lens, where they begin and end.
@@ -75,12 +75,12 @@ fn field_of_view() -> f64 {
     38.0
 }
 
-/// What its pictures are like, if it has any; notes what cannot be.
+/// Settings of its images, if it has any; reports those that are not valid.
 pub(super) fn sensor(
     file: &CameraFile,
     pointer: &str,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<VisionSensor> {
     let name = &file.name;
     let Some(resolution) = file.resolution else {
@@ -95,8 +95,8 @@ pub(super) fn sensor(
         ];
         for (key, _) in keys.into_iter().zip(given).filter(|(_, is_given)| *is_given) {
             let at = document.at(&format!("{pointer}/{key}"));
-            let problem = Problem::error(&at, format!("camera `{name}` has `{key}`, but no `resolution`"));
-            problems.push(problem.with_help("`resolution = [256, 256]` makes it a vision sensor"));
+            let diagnostic = Diagnostic::error(&at, format!("camera `{name}` has `{key}`, but no `resolution`"));
+            diagnostics.push(diagnostic.with_help("`resolution = [256, 256]` makes it a vision sensor"));
         }
         return None;
     };
@@ -112,11 +112,11 @@ pub(super) fn sensor(
     // a wrong field of view is said of every camera
     for wrong in optics.wrongs().into_iter().filter(|wrong| wrong.key != "field_of_view_deg") {
         let at = document.at(&format!("{pointer}/{}", wrong.key));
-        let problem = Problem::error(&at, format!("camera `{name}` has {}", wrong.found));
-        problems.push(problem.with_help(format!("expected {}", wrong.expected)));
+        let diagnostic = Diagnostic::error(&at, format!("camera `{name}` has {}", wrong.found));
+        diagnostics.push(diagnostic.with_help(format!("expected {}", wrong.expected)));
     }
     let at = document.at(&format!("{pointer}/background"));
-    let background = file.background.as_ref().and_then(|text| body::color(text, &at, problems));
+    let background = file.background.as_ref().and_then(|text| body::color(text, &at, diagnostics));
     Some(VisionSensor {
         optics,
         background: background.unwrap_or(camera::BACKGROUND),
@@ -126,21 +126,21 @@ pub(super) fn sensor(
 }
 
 /// Its frame in its parent's; notes what cannot be.
-pub(super) fn pose(file: &CameraFile, pointer: &str, document: &Document, problems: &mut Problems) -> Pose<f64> {
+pub(super) fn pose(file: &CameraFile, pointer: &str, document: &Document, diagnostics: &mut Diagnostics) -> Pose<f64> {
     if file.field_of_view_deg >= 170.0 {
         let at = document.at(&format!("{pointer}/field_of_view_deg"));
         let message = format!("camera `{}` has a field of view of {}°", file.name, file.field_of_view_deg);
-        problems.push(Problem::error(&at, message).with_help("expected more than 0° and less than 170°"));
+        diagnostics.push(Diagnostic::error(&at, message).with_help("expected more than 0° and less than 170°"));
     }
     let Some(target) = file.look_at else {
         let placement = Placement::new(file.position, file.rotation_deg, file.quaternion_wxyz);
-        return placement::pose(&placement, pointer, document, problems);
+        return placement::pose(&placement, pointer, document, diagnostics);
     };
     let pos = Vec3(file.position);
     let rot = looking(Vec3(target) - pos).unwrap_or_else(|| {
         let at = document.at(&format!("{pointer}/look_at"));
-        let problem = Problem::error(&at, format!("camera `{}` stands where it looks at", file.name));
-        problems.push(problem.with_help("give a `position` away from `look_at`"));
+        let diagnostic = Diagnostic::error(&at, format!("camera `{}` stands where it looks at", file.name));
+        diagnostics.push(diagnostic.with_help("give a `position` away from `look_at`"));
         Mat3::identity()
     });
     Pose { rot, pos }

@@ -1,4 +1,5 @@
-//! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot start.
+//! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot
+//! start.
 
 use sincro_dynamics::constraint::LoopJointKind;
 use sincro_dynamics::contact::{Material, Surface};
@@ -14,9 +15,9 @@ use super::mesh::MeshInstance;
 use super::object::{Object, ObjectKind, ShapeInstance};
 use super::placement::{self, Placement};
 use super::signal_file::SignalReader;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problem, Problems};
 use crate::suggest;
 
 /// A closure open by more than this at the start is closed by moving joints, and a warning says so `[m]`, `[rad]`.
@@ -25,7 +26,7 @@ const CLOSED: f64 = 1e-6;
 /// Overlap at the start that is put down to rounding of figures in the file `[m]`.
 const OVERLAP: f64 = 1e-9;
 
-/// What a body touches others with.
+/// Contact geometry and material of a body.
 #[derive(Default)]
 pub(super) struct Skin {
     pub material: Option<Material>,
@@ -55,7 +56,7 @@ pub(super) fn skin(
     pointer: &str,
     document: &Document,
     folder: &Folder,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Skin {
     let mut surfaces: Vec<_> = meshes.iter().map(|mesh| (mesh.surface(), mesh.pose)).collect();
     let mut colors: Vec<_> = meshes.iter().map(|mesh| mesh.color).collect();
@@ -64,12 +65,12 @@ pub(super) fn skin(
         let surface = match (&shape.plane, &shape.hull, &shape.height_field) {
             (Some(_), _, _) => Surface::HalfSpace,
             (None, Some(hull), _) => {
-                check_hull(&hull.points, &format!("{pointer}/hull/points"), &file.name, document, problems);
+                check_hull(&hull.points, &format!("{pointer}/hull/points"), &file.name, document, diagnostics);
                 Surface::Hull(hull.points.clone())
             }
             (None, None, Some(field)) => {
                 let pointer = format!("{pointer}/height_field");
-                let Some(surface) = height_field::surface(field, &pointer, document, folder, problems) else {
+                let Some(surface) = height_field::surface(field, &pointer, document, folder, diagnostics) else {
                     continue;
                 };
                 surface
@@ -78,34 +79,35 @@ pub(super) fn skin(
         };
         if file.contact.is_none() {
             let at = document.at(&pointer);
-            let problem = Problem::error(&at, format!("body `{}` has a surface that nothing can touch", file.name));
-            problems.push(problem.with_help("give the body a `contact`, such as contact = { friction = 0.5 }"));
+            let diagnostic =
+                Diagnostic::error(&at, format!("body `{}` has a surface that nothing can touch", file.name));
+            diagnostics.push(diagnostic.with_help("give the body a `contact`, such as contact = { friction = 0.5 }"));
         }
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
-        surfaces.push((surface, placement::pose(&placement, &pointer, document, problems)));
-        colors.push(shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, problems)));
+        surfaces.push((surface, placement::pose(&placement, &pointer, document, diagnostics)));
+        colors.push(shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, diagnostics)));
     }
     let material = file.contact.as_ref().map(|contact| {
         if file.shape.is_empty() {
             let at = document.key_at(&format!("{pointer}/contact"));
-            let problem = Problem::error(&at, format!("body `{}` has a contact and no shape", file.name));
-            problems.push(problem.with_help("give it the shapes that touch"));
+            let diagnostic = Diagnostic::error(&at, format!("body `{}` has a contact and no shape", file.name));
+            diagnostics.push(diagnostic.with_help("give it the shapes that touch"));
         }
-        material(contact, &format!("{pointer}/contact"), document, problems)
+        material(contact, &format!("{pointer}/contact"), document, diagnostics)
     });
     Skin { material, surfaces, colors }
 }
 
-fn material(file: &ContactFile, pointer: &str, document: &Document, problems: &mut Problems) -> Material {
+fn material(file: &ContactFile, pointer: &str, document: &Document, diagnostics: &mut Diagnostics) -> Material {
     if file.dissipation.is_some() && file.stiffness.is_none_or(f64::is_infinite) {
         let at = document.key_at(&format!("{pointer}/dissipation"));
-        let problem = Problem::error(&at, "`dissipation` has no meaning for a rigid contact");
-        problems.push(problem.with_help("give `stiffness` [N/m] too, or `restitution` instead"));
+        let diagnostic = Diagnostic::error(&at, "`dissipation` has no meaning for a rigid contact");
+        diagnostics.push(diagnostic.with_help("give `stiffness` [N/m] too, or `restitution` instead"));
     }
     if file.restitution > 1.0 {
         let at = document.at(&format!("{pointer}/restitution"));
         let message = format!("`restitution` is {}, expected 0 to 1", file.restitution);
-        problems.push(Problem::error(&at, message).with_help("above 1 an impact would add energy"));
+        diagnostics.push(Diagnostic::error(&at, message).with_help("above 1 an impact would add energy"));
     }
     Material {
         friction: file.friction,
@@ -119,7 +121,7 @@ fn material(file: &ContactFile, pointer: &str, document: &Document, problems: &m
 }
 
 /// A hull needs finite points that span a volume.
-fn check_hull(points: &[[f64; 3]], pointer: &str, name: &str, document: &Document, problems: &mut Problems) {
+fn check_hull(points: &[[f64; 3]], pointer: &str, name: &str, document: &Document, diagnostics: &mut Diagnostics) {
     let p: Vec<Vec3<f64>> = points.iter().map(|p| Vec3(*p)).collect();
     let spans = p.len() >= 4 && {
         let far =
@@ -131,8 +133,8 @@ fn check_hull(points: &[[f64; 3]], pointer: &str, name: &str, document: &Documen
         n.dot(c).abs() > 1e-9 * a.norm() * a.norm() * a.norm()
     };
     if !spans {
-        let problem = Problem::error(&document.at(pointer), format!("the hull of body `{name}` has no volume"));
-        problems.push(problem.with_help("give four points or more that do not lie in one plane [m]"));
+        let diagnostic = Diagnostic::error(&document.at(pointer), format!("the hull of body `{name}` has no volume"));
+        diagnostics.push(diagnostic.with_help("give four points or more that do not lie in one plane [m]"));
     }
 }
 
@@ -143,12 +145,13 @@ pub(super) fn limits(list: &[LimitsFile], pointer: &str, signals: &mut SignalRea
         if limits.restitution > 1.0 {
             let at = signals.document.at(&format!("{pointer}/limits"));
             let message = format!("`restitution` of a stop is {}, expected 0 to 1", limits.restitution);
-            signals.problems.push(Problem::error(&at, message).with_help("above 1 an impact would add energy"));
+            signals.diagnostics.push(Diagnostic::error(&at, message).with_help("above 1 an impact would add energy"));
         }
         if lower >= upper {
             let at = signals.document.at(&format!("{pointer}/limits"));
-            let problem = Problem::error(&at, format!("lower limit {lower} is not below the upper limit {upper}"));
-            signals.problems.push(problem.with_help("exchange them, or use a fixed joint"));
+            let diagnostic =
+                Diagnostic::error(&at, format!("lower limit {lower} is not below the upper limit {upper}"));
+            signals.diagnostics.push(diagnostic.with_help("exchange them, or use a fixed joint"));
         }
         (lower, upper)
     };
@@ -160,7 +163,7 @@ pub(super) struct Joiner<'a> {
     pub objects: &'a [Object],
     pub nodes: &'a [NodeId],
     pub document: &'a Document,
-    pub problems: &'a mut Problems,
+    pub diagnostics: &'a mut Diagnostics,
 }
 
 impl Joiner<'_> {
@@ -174,18 +177,20 @@ impl Joiner<'_> {
             let at = self.document.title_at(pointer);
             let message =
                 format!("closure `{}`: `length` belongs to the kind `distance`, and is needed there", file.name);
-            self.problems.push(Problem::error(&at, message).with_help("give `length` [m] for `distance` only"));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("give `length` [m] for `distance` only"));
         }
         if file.axis.is_some() && file.kind != ClosureKindFile::Hinge {
             let at = self.document.key_at(&format!("{pointer}/axis"));
-            let problem = Problem::error(&at, format!("closure `{}`: `axis` belongs to the kind `hinge`", file.name));
-            self.problems.push(problem.with_help("leave it out"));
+            let diagnostic =
+                Diagnostic::error(&at, format!("closure `{}`: `axis` belongs to the kind `hinge`", file.name));
+            self.diagnostics.push(diagnostic.with_help("leave it out"));
         }
         let axis = Vec3(file.axis.unwrap_or([0.0, 0.0, 1.0]));
         if axis.norm() < 1e-12 || !axis.norm().is_finite() {
             let at = self.document.at(&format!("{pointer}/axis"));
-            let problem = Problem::error(&at, format!("axis {:?} of closure `{}` has no direction", axis.0, file.name));
-            self.problems.push(problem.with_help("give three finite numbers, not all zero"));
+            let diagnostic =
+                Diagnostic::error(&at, format!("axis {:?} of closure `{}` has no direction", axis.0, file.name));
+            self.diagnostics.push(diagnostic.with_help("give three finite numbers, not all zero"));
             return None;
         }
         let kind = match file.kind {
@@ -209,8 +214,8 @@ impl Joiner<'_> {
         let joints = [0, 1].map(|k| self.find(&file.joints[k], &format!("{pointer}/joints/{k}"), fits, what));
         if file.joints[0] == file.joints[1] {
             let at = self.document.at(&format!("{pointer}/joints"));
-            let problem = Problem::error(&at, format!("coupling `{}` is of a joint with itself", file.name));
-            self.problems.push(problem.with_help("give two joints"));
+            let diagnostic = Diagnostic::error(&at, format!("coupling `{}` is of a joint with itself", file.name));
+            self.diagnostics.push(diagnostic.with_help("give two joints"));
             return None;
         }
         let [Some(a), Some(b)] = joints else { return None };
@@ -227,11 +232,11 @@ impl Joiner<'_> {
         }
         let at = self.document.at(pointer);
         let known: Vec<&str> = self.objects.iter().filter(|o| fits(o)).map(|o| o.path.as_str()).collect();
-        let problem = match found {
-            Some(k) => Problem::error(&at, format!("`{path}` is a {}, not a {what}", self.objects[k].kind.word())),
-            None => Problem::error(&at, format!("there is no object `{path}`")),
+        let diagnostic = match found {
+            Some(k) => Diagnostic::error(&at, format!("`{path}` is a {}, not a {what}", self.objects[k].kind.word())),
+            None => Diagnostic::error(&at, format!("there is no object `{path}`")),
         };
-        self.problems.push(problem.with_help(suggest::help(path, &known, "objects")));
+        self.diagnostics.push(diagnostic.with_help(suggest::help(path, &known, "objects")));
         None
     }
 }
@@ -256,7 +261,7 @@ pub(super) fn check_start(
     file: &SceneFile,
     objects: &[Object],
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) {
     for opening in
         initial::constraint_residuals(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED)
@@ -268,8 +273,8 @@ pub(super) fn check_start(
         } else {
             format!("its ends are {:.6e} m apart", opening.distance)
         };
-        let problem = Problem::error(&at, format!("closure `{}` is open at the start: {gap}", opening.name));
-        problems.push(problem.with_help(match initial::assemble(model, initial) {
+        let diagnostic = Diagnostic::error(&at, format!("closure `{}` is open at the start: {gap}", opening.name));
+        diagnostics.push(diagnostic.with_help(match initial::assemble(model, initial) {
             Some(q) => format!("it closes if the joints start at {}", names(model, initial, &q)),
             None => "no position of the joints near the given ones closes it: check lengths and places".into(),
         }));
@@ -279,7 +284,7 @@ pub(super) fn check_start(
         let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
         let message =
             format!("joint `{}` starts at {}, beyond its limit {}", beyond.joint, beyond.position, beyond.limit);
-        problems.push(Problem::error(&at, message).with_help("start within the limits, or move them"));
+        diagnostics.push(Diagnostic::error(&at, message).with_help("start within the limits, or move them"));
     }
     if file.allow_overlap {
         return;
@@ -289,7 +294,7 @@ pub(super) fn check_start(
         let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
         let message = format!("`{}` and `{}` overlap at the start by {:.6e} m", overlap.a, overlap.b, overlap.depth);
         let help = "move one of them, give both the same `group` in `contact`, or set allow_overlap = true";
-        problems.push(Problem::error(&at, message).with_help(help));
+        diagnostics.push(Diagnostic::error(&at, message).with_help(help));
     }
 }
 

@@ -3,9 +3,9 @@
 use sincro_dynamics::contact::Surface;
 
 use super::file::HeightFieldFile;
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Located, Location, Problem, Problems};
 
 /// The surface of a height field; a problem is noted if it is no grid.
 pub(super) fn surface(
@@ -13,7 +13,7 @@ pub(super) fn surface(
     pointer: &str,
     document: &Document,
     folder: &Folder,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Surface> {
     let rows = match (&file.file, &file.heights) {
         (Some(name), _) => {
@@ -29,8 +29,8 @@ pub(super) fn surface(
     let grid = rows.and_then(|rows| grid(&rows, &document.at(pointer), file.scale));
     match grid {
         Ok((columns, heights)) => Some(Surface::HeightField { columns, heights, size: file.size }),
-        Err(problem) => {
-            problems.push(problem);
+        Err(diagnostic) => {
+            diagnostics.push(diagnostic);
             None
         }
     }
@@ -42,21 +42,21 @@ struct Row {
     at: Location,
 }
 
-fn grid(rows: &[Row], at: &Location, scale: f64) -> Result<(usize, Vec<f64>), Problem> {
+fn grid(rows: &[Row], at: &Location, scale: f64) -> Result<(usize, Vec<f64>), Diagnostic> {
     let columns = rows.first().map_or(0, |row| row.heights.len());
     if let Some(odd) = rows.iter().position(|row| row.heights.len() != columns) {
         let message = format!("row {} has {} heights, the first one {columns}", odd + 1, rows[odd].heights.len());
-        return Err(Problem::error(&rows[odd].at, message).with_help("a grid has rows of equal length, along x"));
+        return Err(Diagnostic::error(&rows[odd].at, message).with_help("a grid has rows of equal length, along x"));
     }
     if rows.len() < 2 || columns < 2 {
         let message = format!("a height field of {} by {columns} heights spans no ground", rows.len());
-        return Err(Problem::error(at, message).with_help("give two rows or more of two heights or more"));
+        return Err(Diagnostic::error(at, message).with_help("give two rows or more of two heights or more"));
     }
     Ok((columns, rows.iter().flat_map(|row| &row.heights).map(|h| h * scale).collect()))
 }
 
 /// Rows of numbers with commas between them; `#` comments; no line of names.
-fn from_csv(named: &Located<String>, folder: &Folder) -> Result<Vec<Row>, Problem> {
+fn from_csv(named: &Located<String>, folder: &Folder) -> Result<Vec<Row>, Diagnostic> {
     let source = folder.read_named(named)?;
     let (mut rows, mut start) = (Vec::new(), 0);
     for line in source.text.split_inclusive('\n') {
@@ -74,9 +74,8 @@ fn from_csv(named: &Located<String>, folder: &Folder) -> Result<Vec<Row>, Proble
                 _ => {
                     let message = format!("`{}` is not a height", text.trim());
                     let at = place(cell + text.len() - text.trim_start().len(), text.trim().len());
-                    return Err(
-                        Problem::error(&at, message).with_help("rows of finite numbers with commas between them [m]")
-                    );
+                    return Err(Diagnostic::error(&at, message)
+                        .with_help("rows of finite numbers with commas between them [m]"));
                 }
             }
             cell += text.len() + 1;

@@ -1,4 +1,4 @@
-//! Where a scene starts: coordinates and velocities of its joints.
+//! Initial state of a scene: coordinates and velocities of its joints.
 
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, Model};
@@ -6,8 +6,8 @@ use sincro_dynamics::state::State;
 
 use super::file::{InitialFile, OneOrList};
 use super::placement::normalized;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
 
 /// A quaternion whose length is farther from 1 than this was not meant as one.
 const UNIT_SLACK: f64 = 1e-6;
@@ -17,7 +17,7 @@ pub(super) fn state(
     model: &Model<f64>,
     starts: &[(&str, &str, &InitialFile)],
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> State<f64> {
     let mut state = State::new(model);
     for (path, pointer, file) in starts {
@@ -28,7 +28,7 @@ pub(super) fn state(
                 Ok(()) => {}
                 Err((message, help)) => {
                     let message = format!("initial {key} of joint `{path}`: {message}");
-                    problems.push(Problem::error(&document.at(&inner), message).with_help(help));
+                    diagnostics.push(Diagnostic::error(&document.at(&inner), message).with_help(help));
                 }
             }
         }
@@ -86,7 +86,7 @@ fn numbers(n: usize) -> String {
     if n == 1 { "1 number".into() } else { format!("{n} numbers") }
 }
 
-/// What the numbers of a joint are, in words.
+/// Description of the coordinates of a joint.
 fn layout(kind: &JointKind, key: &str) -> String {
     let words = match (kind, key) {
         (JointKind::Universal { .. }, "position") => "the two angles [rad]",

@@ -7,7 +7,7 @@ use sincro_dynamics::signal::Signal;
 
 use super::file::{JointFile, JointKindFile, MotorFile, MotorModeFile, OneOrList};
 use super::signal_file::SignalReader;
-use crate::problem::Problem;
+use crate::diagnostic::Diagnostic;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -66,8 +66,8 @@ fn kind(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> Join
     }
     if file.kind == K::Screw && file.pitch.is_none() {
         let at = signals.document.title_at(pointer);
-        let problem = Problem::error(&at, format!("`pitch` is missing in joint `{}`", file.name));
-        signals.problems.push(problem.with_help("a screw joint needs its advance, `pitch` [m/rad]"));
+        let diagnostic = Diagnostic::error(&at, format!("`pitch` is missing in joint `{}`", file.name));
+        signals.diagnostics.push(diagnostic.with_help("a screw joint needs its advance, `pitch` [m/rad]"));
     }
     match file.kind {
         K::Fixed => JointKind::Fixed,
@@ -98,8 +98,8 @@ fn kind_word(kind: JointKindFile) -> &'static str {
 fn refuse_key(pointer: &str, key: &str, of: &str, signals: &mut SignalReader<'_>) {
     if signals.document.get(pointer).is_some() {
         let at = signals.document.key_at(pointer);
-        let problem = Problem::error(&at, format!("`{key}` has no meaning for {of}"));
-        signals.problems.push(problem.with_help("leave it out"));
+        let diagnostic = Diagnostic::error(&at, format!("`{key}` has no meaning for {of}"));
+        signals.diagnostics.push(diagnostic.with_help("leave it out"));
     }
 }
 
@@ -128,9 +128,9 @@ fn motor(file: &MotorFile, pointer: &str, signals: &mut SignalReader<'_>) -> Mot
     for (key, needed) in [("kp", position), ("stiffness", spring)] {
         if needed && signals.document.get(&format!("{pointer}/{key}")).is_none() {
             let at = signals.document.at(&format!("{pointer}/mode"));
-            let problem = Problem::error(&at, format!("`{key}` is missing: mode `{word}` needs it"));
+            let diagnostic = Diagnostic::error(&at, format!("`{key}` is missing: mode `{word}` needs it"));
             let unit = if position { "[1/s]" } else { "[N·m/rad] or [N/m]" };
-            signals.problems.push(problem.with_help(format!("give `{key}` {unit}")));
+            signals.diagnostics.push(diagnostic.with_help(format!("give `{key}` {unit}")));
         }
     }
     Motor {

@@ -12,12 +12,12 @@ use sincro_dynamics::spatial::Pose;
 use super::body;
 use super::file::{BodyFile, MeshFile, OneOrList};
 use super::placement::{self, Placement};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Located, Location, Problem, Problems, SourceText};
 
 /// Flaws of one mesh that are told one by one.
-const TOLD: usize = 4;
+const MAX_REPORTED: usize = 4;
 
 /// Corners of a hull beyond which contact would take too long: each may touch.
 const MAX_HULL: usize = 512;
@@ -55,7 +55,7 @@ impl MeshInstance {
         own.placed(&self.pose.rot, self.pose.pos)
     }
 
-    /// What it touches others with.
+    /// Contact surface.
     pub fn surface(&self) -> Surface {
         if self.is_convex {
             return Surface::Hull(self.mesh.corners.clone());
@@ -70,7 +70,7 @@ pub(super) fn meshes(
     pointer: &str,
     document: &Document,
     folder: &Folder,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<MeshInstance> {
     let mut list = Vec::new();
     for (k, shape) in file.shape.iter().enumerate() {
@@ -78,35 +78,44 @@ pub(super) fn meshes(
         let pointer = format!("{pointer}/shape/{k}");
         let named = Located { value: mesh.file.clone(), at: document.at(&format!("{pointer}/mesh/file")) };
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
-        let pose = placement::pose(&placement, &pointer, document, problems);
+        let pose = placement::pose(&placement, &pointer, document, diagnostics);
         let scale = mesh.scale.as_ref().map_or(&[1.0][..], OneOrList::as_slice);
         if !matches!(scale.len(), 1 | 3) || !scale.iter().all(|x| *x > 0.0) {
             let at = document.at(&format!("{pointer}/mesh/scale"));
-            let problem = Problem::error(&at, format!("`scale` of the mesh `{}` is {scale:?}", mesh.file));
-            problems.push(problem.with_help("give a positive number, or one for x, y and z; 0.001 for millimetres"));
+            let diagnostic = Diagnostic::error(&at, format!("`scale` of the mesh `{}` is {scale:?}", mesh.file));
+            diagnostics
+                .push(diagnostic.with_help("give a positive number, or one for x, y and z; 0.001 for millimetres"));
             continue;
         }
         match read(&named, mesh, scale, folder) {
             Ok(found) => {
                 let density = shape.density.or(file.density);
-                let color = shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, problems));
+                let color = shape.color.as_ref().and_then(|text| body::color_of(text, &pointer, document, diagnostics));
                 list.push(MeshInstance { mesh: found, is_convex: mesh.convex, pose, density, color });
             }
-            Err(found) => found.into_iter().for_each(|p| problems.push(p)),
+            Err(found) => found.into_iter().for_each(|p| diagnostics.push(p)),
         }
     }
     list
 }
 
 /// The mesh of a file, scaled; its hull if that is asked for.
-fn read(named: &Located<String>, file: &MeshFile, scale: &[f64], folder: &Folder) -> Result<Triangles, Vec<Problem>> {
+fn read(
+    named: &Located<String>,
+    file: &MeshFile,
+    scale: &[f64],
+    folder: &Folder,
+) -> Result<Triangles, Vec<Diagnostic>> {
     let bytes = folder.bytes_named(named).map_err(|p| vec![p])?;
     let found = triangles_of(&bytes, &folder.path_of(&named.value));
     // what has no place of its own in the file stands where the file is named
     let found = found.map_err(|p| match p.source {
         Some(_) => vec![p],
         None => {
-            vec![Problem { help: p.help, ..Problem::error(&named.at, format!("`{}`: {}", named.value, p.message)) }]
+            vec![Diagnostic {
+                help: p.help,
+                ..Diagnostic::error(&named.at, format!("`{}`: {}", named.value, p.message))
+            }]
         }
     })?;
     let corners = found.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c.min(scale.len() - 1)]));
@@ -115,7 +124,7 @@ fn read(named: &Located<String>, file: &MeshFile, scale: &[f64], folder: &Folder
 }
 
 /// The triangles of a file's bytes; its name tells what it is.
-fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Problem> {
+fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Diagnostic> {
     let source = |text: &str| Arc::new(SourceText { path: path.to_path_buf(), text: text.to_owned() });
     let lower = path.to_string_lossy().to_lowercase();
     if lower.ends_with(".stl") {
@@ -123,12 +132,12 @@ fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Problem> {
     } else if lower.ends_with(".obj") {
         text_of(bytes).and_then(|text| obj(text, &source(text)))
     } else {
-        Err(Problem::nowhere("a mesh is an STL or an OBJ file").with_help("name a file that ends in .stl or .obj"))
+        Err(Diagnostic::nowhere("a mesh is an STL or an OBJ file").with_help("name a file that ends in .stl or .obj"))
     }
 }
 
 /// Largest mesh file that is read for clients and scripts.
-const MOST_BYTES: u64 = 64 << 20;
+const MAX_BYTES: u64 = 64 << 20;
 
 /// The triangles of a mesh file; what is wrong, in a sentence.
 ///
@@ -137,15 +146,15 @@ const MOST_BYTES: u64 = 64 << 20;
 /// The file cannot be read, is too large, or is no mesh.
 pub fn mesh_of_file(path: &Path) -> Result<Triangles, String> {
     let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
-    if size > MOST_BYTES {
-        return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MOST_BYTES >> 20));
+    if size > MAX_BYTES {
+        return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MAX_BYTES >> 20));
     }
     let bytes = std::fs::read(path).map_err(|e| e.to_string())?;
-    triangles_of(&bytes, path).map_err(|problem| problem.message)
+    triangles_of(&bytes, path).map_err(|diagnostic| diagnostic.message)
 }
 
-fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {
-    let refuse = |message: String, help: &str| Err(vec![Problem::error(&named.at, message).with_help(help)]);
+fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Diagnostic>> {
+    let refuse = |message: String, help: &str| Err(vec![Diagnostic::error(&named.at, message).with_help(help)]);
     match polyhedron::convex_hull(&mesh.corners) {
         None => refuse(
             format!("the convex hull of `{}` has no volume", named.value),
@@ -159,20 +168,20 @@ fn convex(mesh: &Triangles, named: &Located<String>) -> Result<Triangles, Vec<Pr
     }
 }
 
-fn closed(mesh: Triangles, named: &Located<String>) -> Result<Triangles, Vec<Problem>> {
+fn closed(mesh: Triangles, named: &Located<String>) -> Result<Triangles, Vec<Diagnostic>> {
     let flaws = polyhedron::defects(&mesh.corners, &mesh.triangles);
     if flaws.is_empty() {
         return Ok(mesh);
     }
-    let told = flaws.iter().take(TOLD).map(|flaw| {
+    let told = flaws.iter().take(MAX_REPORTED).map(|flaw| {
         let (message, help) = words(flaw);
-        Problem::error(&named.at, format!("the mesh `{}` {message}", named.value)).with_help(help)
+        Diagnostic::error(&named.at, format!("the mesh `{}` {message}", named.value)).with_help(help)
     });
-    let mut problems: Vec<Problem> = told.collect();
-    if let Some(last) = problems.last_mut().filter(|_| flaws.len() > TOLD) {
-        last.message += &format!(" (and {} flaws more)", flaws.len() - TOLD);
+    let mut diagnostics: Vec<Diagnostic> = told.collect();
+    if let Some(last) = diagnostics.last_mut().filter(|_| flaws.len() > MAX_REPORTED) {
+        last.message += &format!(" (and {} flaws more)", flaws.len() - MAX_REPORTED);
     }
-    Err(problems)
+    Err(diagnostics)
 }
 
 /// Triangles are counted from 1, in the order of the file.
@@ -206,8 +215,8 @@ fn triple(p: &[f64; 3]) -> String {
     format!("({}, {}, {})", p[0], p[1], p[2])
 }
 
-fn text_of(bytes: &[u8]) -> Result<&str, Problem> {
-    let refused = |_| Problem::nowhere("it is not UTF-8 text").with_help("an OBJ file is text; export it again");
+fn text_of(bytes: &[u8]) -> Result<&str, Diagnostic> {
+    let refused = |_| Diagnostic::nowhere("it is not UTF-8 text").with_help("an OBJ file is text; export it again");
     std::str::from_utf8(bytes).map_err(refused)
 }
 
@@ -229,14 +238,14 @@ impl Weld {
     }
 }
 
-fn stl(bytes: &[u8], source: &dyn Fn(&str) -> Arc<SourceText>) -> Result<Triangles, Problem> {
+fn stl(bytes: &[u8], source: &dyn Fn(&str) -> Arc<SourceText>) -> Result<Triangles, Diagnostic> {
     let count = bytes.get(80..STL_HEAD).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     if let Some(n) = count.filter(|n| bytes.len() == STL_HEAD + n * STL_TRIANGLE) {
         return Ok(binary_stl(&bytes[STL_HEAD..], n));
     }
     match std::str::from_utf8(bytes) {
         Ok(text) if text.trim_start().starts_with("solid") => text_stl(text, &source(text)),
-        _ => Err(Problem::nowhere(match count {
+        _ => Err(Diagnostic::nowhere(match count {
             Some(n) => format!(
                 "it is no STL file: its head tells of {n} triangles, which take {} bytes, and it has {}",
                 STL_HEAD + n * STL_TRIANGLE,
@@ -271,13 +280,13 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    fn refuse<T>(&self, message: String, help: &str) -> Result<T, Problem> {
+    fn refuse<T>(&self, message: String, help: &str) -> Result<T, Diagnostic> {
         let at = Location { source: self.source.clone(), span: self.start..self.start + self.length };
-        Err(Problem::error(&at, message).with_help(help))
+        Err(Diagnostic::error(&at, message).with_help(help))
     }
 
     /// Three numbers from word `first` on.
-    fn point(&self, first: usize) -> Result<[f64; 3], Problem> {
+    fn point(&self, first: usize) -> Result<[f64; 3], Diagnostic> {
         let mut p = [f64::NAN; 3];
         for (k, x) in p.iter_mut().enumerate() {
             let Some(word) = self.words.get(first + k) else {
@@ -303,7 +312,7 @@ fn lines<'a>(text: &'a str, source: &'a Arc<SourceText>) -> impl Iterator<Item =
     })
 }
 
-fn text_stl(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Problem> {
+fn text_stl(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Diagnostic> {
     let (mut weld, mut loop_of) = (Weld::default(), Vec::new());
     for line in lines(text, source) {
         match line.words[0] {
@@ -325,14 +334,14 @@ fn text_stl(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Problem> 
     Ok(weld.mesh)
 }
 
-fn obj(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Problem> {
+fn obj(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Diagnostic> {
     let mut mesh = Triangles::default();
     for line in lines(text, source) {
         match line.words[0] {
             "v" => mesh.corners.push(line.point(1)?),
             "f" => {
                 let corner = |word: &&str| face_corner(word, mesh.corners.len(), &line);
-                let face = line.words[1..].iter().map(corner).collect::<Result<Vec<u32>, Problem>>()?;
+                let face = line.words[1..].iter().map(corner).collect::<Result<Vec<u32>, Diagnostic>>()?;
                 if face.len() < 3 {
                     return line
                         .refuse(format!("a face of {} corners", face.len()), "a face has three corners or more");
@@ -351,7 +360,7 @@ fn obj(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Problem> {
 }
 
 /// A corner of a face, `7`, `7/1`, `7//3` or, counted from the last one, `-1`.
-fn face_corner(word: &str, n: usize, line: &Line<'_>) -> Result<u32, Problem> {
+fn face_corner(word: &str, n: usize, line: &Line<'_>) -> Result<u32, Diagnostic> {
     let index = word.split('/').next().unwrap_or("").parse::<i64>().ok();
     let known =
         index.and_then(|k| if k < 0 { usize::try_from(n as i64 + k).ok() } else { usize::try_from(k - 1).ok() });

@@ -47,9 +47,9 @@ pub use schema::scene_schema;
 pub use stills::Camera;
 pub use text::from_text;
 
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problem, Problems};
 use crate::scenery::Scenery;
 use crate::script::{Script, ScriptParser};
 use crate::sensor::SensorSpec;
@@ -62,9 +62,10 @@ use tree::Entry;
 pub struct Scene {
     /// The compiled model; its names are the paths of the objects.
     pub model: Arc<Model<f64>>,
-    /// Where it starts.
+    /// Initial state.
     pub initial: State<f64>,
-    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of rotors.
+    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of
+    /// rotors.
     pub commands: Vec<Signal>,
     /// Its sensors, in the order in which their values are kept.
     pub sensors: Vec<SensorSpec>,
@@ -72,14 +73,14 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
     pub scripts: Vec<Script>,
-    /// What the user should know of.
-    pub warnings: Vec<Problem>,
+    /// Warnings for the user.
+    pub warnings: Vec<Diagnostic>,
     /// Made when somebody looks first.
     scenery: OnceLock<Scenery>,
 }
 
 impl Scene {
-    /// What of it can be seen.
+    /// Visible geometry.
     #[must_use]
     pub fn scenery(&self) -> &Scenery {
         self.scenery.get_or_init(|| pieces::scenery_of(self))
@@ -98,7 +99,7 @@ impl Scene {
     }
 }
 
-/// What the builder is told of an object.
+/// Specification of an object for the builder.
 enum Spec {
     Joint(JointSpec, Option<Signal>),
     Body(BodySpec, Vec<ShapeInstance>, contact::Skin),
@@ -117,13 +118,13 @@ pub(crate) fn compile(
     folder: &Folder,
     seed: u64,
     parser: Option<&dyn ScriptParser>,
-) -> Result<Scene, Problems> {
+) -> Result<Scene, Diagnostics> {
     let file: SceneFile = serde_json::from_value(document.root.clone())
-        .map_err(|e| Problem::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
+        .map_err(|e| Diagnostic::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
     let entries = tree::entries(&file);
-    let mut problems = Problems::new();
-    let order = tree::order(&entries, document, &mut problems);
-    let mut maker = Maker { document, folder, air_density: file.air_density, problems: &mut problems };
+    let mut diagnostics = Diagnostics::new();
+    let order = tree::order(&entries, document, &mut diagnostics);
+    let mut maker = Maker { document, folder, air_density: file.air_density, diagnostics: &mut diagnostics };
     let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
     let joints: Vec<&str> =
         entries.iter().filter(|e| matches!(e.file, tree::AnyFile::Joint(_))).map(|e| e.path.as_str()).collect();
@@ -132,9 +133,9 @@ pub(crate) fn compile(
             rotor::check_joint(file, &entry.pointer, &joints, &mut maker.signals());
         }
     }
-    let wind = file.wind.as_ref().and_then(|wind| air::wind(wind, seed, document, &mut problems));
-    if problems.any_error() {
-        return Err(problems.sorted());
+    let wind = file.wind.as_ref().and_then(|wind| air::wind(wind, seed, document, &mut diagnostics));
+    if diagnostics.any_error() {
+        return Err(diagnostics.sorted());
     }
     let mut assembly = Assembly::new(file.gravity);
     if let Some(wind) = wind {
@@ -144,9 +145,9 @@ pub(crate) fn compile(
         let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
         assembly.add(&entries[place.entry], place, spec, pose, document);
     }
-    assembly.join(&file, document, &mut problems);
-    let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut problems);
-    assembly.finish(&entries, &file, scripts, document, problems)
+    assembly.join(&file, document, &mut diagnostics);
+    let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut diagnostics);
+    assembly.finish(&entries, &file, scripts, document, diagnostics)
 }
 
 /// Makes specifications, noting what is wrong.
@@ -155,7 +156,7 @@ struct Maker<'a> {
     folder: &'a Folder,
     /// [kg/m³]
     air_density: f64,
-    problems: &'a mut Problems,
+    diagnostics: &'a mut Diagnostics,
 }
 
 impl Maker<'_> {
@@ -166,27 +167,27 @@ impl Maker<'_> {
                 Spec::Joint(spec, command)
             }
             tree::AnyFile::Body(file) => {
-                let shapes = body::shapes(file, &entry.pointer, self.document, self.problems);
-                let meshes = mesh::meshes(file, &entry.pointer, self.document, self.folder, self.problems);
-                let skin = contact::skin(file, &meshes, &entry.pointer, self.document, self.folder, self.problems);
+                let shapes = body::shapes(file, &entry.pointer, self.document, self.diagnostics);
+                let meshes = mesh::meshes(file, &entry.pointer, self.document, self.folder, self.diagnostics);
+                let skin = contact::skin(file, &meshes, &entry.pointer, self.document, self.folder, self.diagnostics);
                 if body::is_fixture(file) {
                     return Spec::Fixture(shapes, skin);
                 }
-                let mass = body::mass(file, &shapes, &meshes, &entry.pointer, self.document, self.problems);
+                let mass = body::mass(file, &shapes, &meshes, &entry.pointer, self.document, self.diagnostics);
                 Spec::Body(BodySpec { mass }, shapes, skin)
             }
             tree::AnyFile::Frame(_) => Spec::Frame,
             tree::AnyFile::Rotor(file) => rotor::spec(file, &entry.pointer, self.air_density, &mut self.signals()),
             tree::AnyFile::Drag(file) => {
                 let (density, document) = (self.air_density, self.document);
-                Spec::Drag(air::drag(file, &entry.pointer, density, document, self.problems))
+                Spec::Drag(air::drag(file, &entry.pointer, density, document, self.diagnostics))
             }
             tree::AnyFile::Sensor(file) => {
                 let (path, pointer) = (&entry.path, &entry.pointer);
-                Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.problems))
+                Spec::Sensor(sensor::spec(file, path, pointer, self.document, self.diagnostics))
             }
             tree::AnyFile::Camera(file) => {
-                let sensor = camera::sensor(file, &entry.pointer, self.document, self.problems);
+                let sensor = camera::sensor(file, &entry.pointer, self.document, self.diagnostics);
                 Spec::Camera(file.field_of_view_deg, sensor)
             }
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
@@ -194,14 +195,14 @@ impl Maker<'_> {
     }
 
     fn signals(&mut self) -> SignalReader<'_> {
-        SignalReader { document: self.document, folder: self.folder, problems: self.problems }
+        SignalReader { document: self.document, folder: self.folder, diagnostics: self.diagnostics }
     }
 
     fn pose(&mut self, entry: &Entry<'_>) -> Pose<f64> {
         if let tree::AnyFile::Camera(file) = entry.file {
-            return camera::pose(file, &entry.pointer, self.document, self.problems);
+            return camera::pose(file, &entry.pointer, self.document, self.diagnostics);
         }
-        placement::pose(&entry.placement(), &entry.pointer, self.document, self.problems)
+        placement::pose(&entry.placement(), &entry.pointer, self.document, self.diagnostics)
     }
 }
 
@@ -217,7 +218,7 @@ fn force(file: &ForceFile, pointer: &str, signals: &mut SignalReader<'_>) -> For
     }
 }
 
-/// What of a surface only something fixed in the world can have, and what else to do.
+/// Property of a surface that requires a body fixed in the world, with advice.
 fn only_fixed(surface: &Surface) -> Option<(&'static str, &'static str)> {
     match surface {
         Surface::HalfSpace => Some(("a plane", "planes are fixed in the world; use a cuboid, or hang the body on `/`")),
@@ -315,9 +316,9 @@ impl Assembly {
     }
 
     /// Closures and couplings, which name objects by their paths.
-    fn join(&mut self, file: &SceneFile, document: &Document, problems: &mut Problems) {
+    fn join(&mut self, file: &SceneFile, document: &Document, diagnostics: &mut Diagnostics) {
         self.builder.set_rest_speed(file.rest_speed);
-        let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, problems };
+        let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, diagnostics };
         for (k, closure) in file.closure.iter().enumerate() {
             if let Some(spec) = joiner.closure(closure, &format!("/closure/{k}")) {
                 self.builder.loop_joint(&format!("/{}", closure.name), spec);
@@ -336,38 +337,39 @@ impl Assembly {
         file: &SceneFile,
         scripts: Vec<Script>,
         document: &Document,
-        mut problems: Problems,
-    ) -> Result<Scene, Problems> {
+        mut diagnostics: Diagnostics,
+    ) -> Result<Scene, Diagnostics> {
         let (model, found) = match self.builder.build() {
             Ok((model, warnings)) => (Some(model), warnings),
             Err(found) => (None, found.into()),
         };
-        for problem in found {
-            problems.push(self.place(problem, entries, document));
+        for diagnostic in found {
+            diagnostics.push(self.place(diagnostic, entries, document));
         }
-        let Some(mut model) = model else { return Err(problems.sorted()) };
+        let Some(mut model) = model else { return Err(diagnostics.sorted()) };
         crate::sensor::register(&mut model, &self.sensors);
-        sensor::find_bodies(&mut self.sensors, &self.objects, &mut problems);
-        proximity::find_bodies(&mut self.sensors, &self.objects, &mut problems);
+        sensor::find_bodies(&mut self.sensors, &self.objects, &mut diagnostics);
+        proximity::find_bodies(&mut self.sensors, &self.objects, &mut diagnostics);
         let mut starts = Vec::new();
         for (object, &entry) in self.objects.iter().zip(&self.entry_of) {
             if let tree::AnyFile::Joint(file) = entries[entry].file {
                 starts.push((object.path.as_str(), entries[entry].pointer.as_str(), &file.initial));
             }
         }
-        let initial = initial::state(&model, &starts, document, &mut problems);
-        self.check_fixtures(&model, &mut problems);
-        contact::check_start(&model, &initial, file, &self.objects, document, &mut problems);
+        let initial = initial::state(&model, &starts, document, &mut diagnostics);
+        self.check_fixtures(&model, &mut diagnostics);
+        contact::check_start(&model, &initial, file, &self.objects, document, &mut diagnostics);
         let commands = self.motors(&model);
-        self.warn_of_idle_forces(&model, &mut problems);
+        self.warn_of_idle_forces(&model, &mut diagnostics);
         if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
-            let problem = Problem::error(&document.at("/wind"), "nothing in this scene feels the wind").as_warning();
-            problems.push(problem.with_help("rotors and drag elements do: add a [[drag]] to a body"));
+            let diagnostic =
+                Diagnostic::error(&document.at("/wind"), "nothing in this scene feels the wind").as_warning();
+            diagnostics.push(diagnostic.with_help("rotors and drag elements do: add a [[drag]] to a body"));
         }
-        if problems.any_error() {
-            return Err(problems.sorted());
+        if diagnostics.any_error() {
+            return Err(diagnostics.sorted());
         }
-        let warnings = problems.sorted().0;
+        let warnings = diagnostics.sorted().0;
         Ok(Scene {
             model: Arc::new(model),
             initial,
@@ -402,23 +404,24 @@ impl Assembly {
     }
 
     /// A body without mass can only stand in the world.
-    fn check_fixtures(&self, model: &Model<f64>, problems: &mut Problems) {
+    fn check_fixtures(&self, model: &Model<f64>, diagnostics: &mut Diagnostics) {
         for object in self.objects.iter().filter(|o| o.kind == ObjectKind::Fixture || !o.surfaces.is_empty()) {
             let moves = model.names().frame(&object.path).is_some_and(|f| f.link.is_some());
             let only_fixed = object.surfaces.iter().find_map(|(s, _)| only_fixed(s));
             if moves && object.kind == ObjectKind::Fixture {
-                let problem = Problem::error(&object.location, format!("body `{}`: it has no mass", object.path));
+                let diagnostic = Diagnostic::error(&object.location, format!("body `{}`: it has no mass", object.path));
                 let help =
                     "give `density` and shapes, or `mass` and `inertia`; only what is fixed in the world needs none";
-                problems.push(problem.with_help(help));
+                diagnostics.push(diagnostic.with_help(help));
             } else if let Some((what, help)) = only_fixed.filter(|_| moves && object.contact.is_some()) {
-                let problem = Problem::error(&object.location, format!("body `{}` moves and has {what}", object.path));
-                problems.push(problem.with_help(help));
+                let diagnostic =
+                    Diagnostic::error(&object.location, format!("body `{}` moves and has {what}", object.path));
+                diagnostics.push(diagnostic.with_help(help));
             }
         }
     }
 
-    fn warn_of_idle_forces(&self, model: &Model<f64>, problems: &mut Problems) {
+    fn warn_of_idle_forces(&self, model: &Model<f64>, diagnostics: &mut Diagnostics) {
         for object in
             self.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Force | ObjectKind::Rotor | ObjectKind::Drag))
         {
@@ -426,14 +429,19 @@ impl Assembly {
             if carrier.is_some_and(|frame| frame.link.is_none()) {
                 let word = object.kind.word();
                 let message = format!("{word} `{}` acts on something that is fixed in the world", object.path);
-                let problem = Problem::error(&object.location, message).as_warning();
-                problems.push(problem.with_help("it moves nothing; hang its parent on a joint"));
+                let diagnostic = Diagnostic::error(&object.location, message).as_warning();
+                diagnostics.push(diagnostic.with_help("it moves nothing; hang its parent on a joint"));
             }
         }
     }
 
     /// A finding of the builder, at the key of the file that it is about.
-    fn place(&self, found: sincro_dynamics::model::Diagnostic, entries: &[Entry<'_>], document: &Document) -> Problem {
+    fn place(
+        &self,
+        found: sincro_dynamics::model::Diagnostic,
+        entries: &[Entry<'_>],
+        document: &Document,
+    ) -> Diagnostic {
         let object = found.node.and_then(|node| self.nodes.iter().position(|n| *n == node));
         let at = match object {
             Some(k) => {
@@ -444,7 +452,7 @@ impl Assembly {
             }
             None => document.at(&format!("/{}", found.field)),
         };
-        Problem { severity: found.severity, ..Problem::error(&at, found.message) }.with_help(found.help)
+        Diagnostic { severity: found.severity, ..Diagnostic::error(&at, found.message) }.with_help(found.help)
     }
 }
 

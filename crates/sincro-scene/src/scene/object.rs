@@ -6,7 +6,7 @@ use sincro_dynamics::model::{MassProperties, Shape};
 use sincro_dynamics::spatial::Pose;
 
 use super::camera::VisionSensor;
-use crate::problem::Location;
+use crate::diagnostic::Location;
 
 /// A joint, body, frame or force.
 #[derive(Clone, Debug)]
@@ -15,30 +15,30 @@ pub struct Object {
     pub path: String,
     /// Last part of the path.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: ObjectKind,
     /// Index of its parent among the objects; none for children of the world.
     pub parent: Option<usize>,
-    /// Where its frame stands in its parent's (at zero coordinates, if it hangs on a joint).
+    /// Pose of its frame in its parent's (at zero coordinates, if it is carried by a joint).
     pub pose: Pose<f64>,
-    /// What a body touches others with; beside its shapes there are surfaces that enclose nothing, such as planes.
+    /// Contact material of a body; beside its shapes there are surfaces that enclose nothing, such as planes.
     pub contact: Option<Material>,
     /// Surfaces of a body that are not solids with mass.
     pub surfaces: Vec<(Surface, Pose<f64>)>,
     /// Colours of the surfaces, as far as they have one.
     pub surface_colors: Vec<Option<[u8; 3]>>,
-    /// What a body looks like.
+    /// Shapes of a body.
     pub shapes: Vec<ShapeInstance>,
     /// Its name in the file.
     pub location: Location,
 }
 
-/// What an object is.
+/// Kind of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ObjectKind {
     /// Joint; fixed ones too.
     Joint {
-        /// How it moves.
+        /// Kind of motion.
         kind: JointKind,
         /// Index of its motor among the model's, if it has one.
         motor: Option<usize>,
@@ -64,7 +64,7 @@ pub enum ObjectKind {
     Camera {
         /// Angle between the upper and the lower edge of its picture `[deg]`.
         field_of_view_deg: f64,
-        /// What its pictures are like, if clients and scripts can read them.
+        /// Settings of its images, if clients and scripts can read them.
         sensor: Option<VisionSensor>,
     },
 }
@@ -101,7 +101,7 @@ impl ObjectKind {
 pub struct ShapeInstance {
     /// The solid.
     pub shape: Shape,
-    /// Where it stands in the body's frame.
+    /// Pose in the body's frame.
     pub pose: Pose<f64>,
     /// [kg/m³], if it has one: its own or the body's.
     pub density: Option<f64>,

@@ -19,7 +19,7 @@ const PLAIN: [[u8; 3]; 6] = [
     [0x8a, 0x8f, 0x98],
     [0xb5, 0xa6, 0x42],
 ];
-/// Of planes without one.
+/// Default colour of planes.
 const FLOOR: [u8; 3] = [0xf1, 0xf3, 0xf5];
 
 /// Scenery of a scene, which keeps it: [`Scene::scenery`].
@@ -56,13 +56,13 @@ fn pieces_of(objects: &[Object], names: &Names, k: usize, plain: [u8; 3]) -> Vec
     solids.chain(surfaces).filter_map(piece).collect()
 }
 
-/// Where the frame of object `k` of a scene is fixed: at its link, or in the world.
+/// Frame of object `k` of a scene, attached to its link or to the world.
 #[must_use]
 pub fn frame_of(scene: &Scene, k: usize) -> Attached<f64> {
     attached(&scene.objects, scene.model.names(), k)
 }
 
-/// Where an object's frame is fixed: at its link, or in the world.
+/// Frame of an object, attached to its link or to the world.
 fn attached(objects: &[Object], names: &Names, k: usize) -> Attached<f64> {
     let object = &objects[k];
     if let Some(joint) = names.joint(&object.path) {

@@ -1,10 +1,10 @@
-//! Where things stand: position and rotation as written, to a pose.
+//! Placement: position and rotation as written, to a pose.
 
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::elementary::sin_cos;
 
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
 
 /// Position `[m]` and one of the two forms of a rotation; the schema lets only one through.
 pub(super) struct Placement {
@@ -20,14 +20,19 @@ impl Placement {
 }
 
 /// The pose; notes a null quaternion.
-pub(super) fn pose(placement: &Placement, pointer: &str, document: &Document, problems: &mut Problems) -> Pose<f64> {
+pub(super) fn pose(
+    placement: &Placement,
+    pointer: &str,
+    document: &Document,
+    diagnostics: &mut Diagnostics,
+) -> Pose<f64> {
     let rot = match (placement.rotation_deg, placement.quaternion_wxyz) {
         (Some(angles), _) => rotation(angles),
         (None, Some(q)) => normalized(q).map_or_else(
             || {
                 let at = document.at(&format!("{pointer}/quaternion_wxyz"));
-                let problem = Problem::error(&at, format!("the quaternion {q:?} has no direction"));
-                problems.push(problem.with_help("no rotation is [1, 0, 0, 0]: w, x, y, z"));
+                let diagnostic = Diagnostic::error(&at, format!("the quaternion {q:?} has no direction"));
+                diagnostics.push(diagnostic.with_help("no rotation is [1, 0, 0, 0]: w, x, y, z"));
                 Mat3::identity()
             },
             |q| q.matrix(),

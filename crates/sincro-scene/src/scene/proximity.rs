@@ -5,8 +5,8 @@ use serde::Deserialize;
 use sincro_dynamics::geometry::{FieldOfView, Volume};
 
 use super::object::{Object, ObjectKind};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
 use crate::sensor::{SensorKind, SensorSpec};
 use crate::suggest;
 
@@ -77,13 +77,13 @@ pub(crate) struct PyramidFile {
     pub far_size: Option<[f64; 2]>,
 }
 
-/// What it measures; none, with the reason noted, if it has no volume.
+/// Kind of the sensor; none, with a diagnostic, if it has no volume.
 pub(super) fn kind(
     file: &ProximityFile,
     name: &str,
     pointer: &str,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<SensorKind> {
     let (key, volume) = match file {
         ProximityFile { cylinder: Some(c), .. } => {
@@ -119,17 +119,17 @@ pub(super) fn kind(
         Volume::Ray => ("range".to_owned(), format!("a range of {}", file.range), "give lengths that are finite"),
     };
     let at = document.at(&format!("{pointer}/proximity/{at}"));
-    problems.push(Problem::error(&at, format!("proximity sensor `{name}` has {what}")).with_help(help));
+    diagnostics.push(Diagnostic::error(&at, format!("proximity sensor `{name}` has {what}")).with_help(help));
     None
 }
 
-/// Whether anything of an object can be seen.
+/// Returns true if anything of an object can be seen.
 fn is_visible(object: &Object) -> bool {
     !(object.shapes.is_empty() && object.surfaces.is_empty())
 }
 
 /// Finds the bodies that proximity sensors are fixed to and see.
-pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems: &mut Problems) {
+pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], diagnostics: &mut Diagnostics) {
     let known: Vec<&str> = objects.iter().filter(|o| is_visible(o)).map(|o| o.path.as_str()).collect();
     for spec in specs.iter_mut().filter(|s| matches!(s.kind, SensorKind::Proximity { .. })) {
         let sensor = objects.iter().find(|o| o.path == spec.path).expect("a sensor is an object");
@@ -144,7 +144,7 @@ pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems
                 None => format!("there is no object `{}`", path.value),
             };
             let help = suggest::help(&path.value, &known, "bodies with shapes");
-            problems.push(Problem::error(&path.at, message).with_help(help));
+            diagnostics.push(Diagnostic::error(&path.at, message).with_help(help));
         }
     }
 }

@@ -10,7 +10,7 @@ use sincro_dynamics::model::{RotorDrive, RotorSpec};
 
 use super::Spec;
 use super::signal_file::{SignalFile, SignalReader};
-use crate::problem::{Located, Problem};
+use crate::diagnostic::{Diagnostic, Located};
 use crate::series;
 use crate::tree::join;
 
@@ -53,7 +53,8 @@ pub(crate) struct RotorFile {
     pub speed: Option<SignalFile>,
     /// The speed follows `speed` with a first-order lag.
     pub lag: Option<LagFile>,
-    /// Path of the revolute joint that turns it, in place of `speed`: its rate is the rotor's speed, and the air brakes it.
+    /// Path of the revolute joint that turns it, in place of `speed`: its rate is the rotor's speed, and the air brakes
+    /// it.
     pub joint: Option<String>,
 }
 
@@ -155,7 +156,7 @@ fn torque_column() -> String {
     "c_Q".into()
 }
 
-/// What is known of a rotor before the tree is built: its joint is a path still.
+/// Rotor before the tree is built: its joint is still a path.
 pub(super) struct RotorMade {
     pub law: RotorLaw,
     pub density: f64,
@@ -217,8 +218,8 @@ impl Judge<'_, '_> {
             return self.or_note("table", CoefficientTable::new(table.diameter, spin, rows)).map(RotorLaw::Table);
         }
         let stock = stock(file.stock.as_ref()?);
-        let problems = stock.problems();
-        let made = if problems.is_empty() { Ok(stock) } else { Err(problems) };
+        let diagnostics = stock.problems();
+        let made = if diagnostics.is_empty() { Ok(stock) } else { Err(diagnostics) };
         self.or_note("stock", made).map(RotorLaw::Stock)
     }
 
@@ -227,17 +228,17 @@ impl Judge<'_, '_> {
         let document = self.signals.document;
         if knows_spin && self.file.spin.is_none() {
             let message = format!("`spin` is missing in rotor `{}`", self.file.name);
-            let problem = Problem::error(&document.title_at(self.pointer), message);
-            self.signals.problems.push(problem.with_help("`spin`: \"ccw\" or \"cw\", seen from above"));
+            let diagnostic = Diagnostic::error(&document.title_at(self.pointer), message);
+            self.signals.diagnostics.push(diagnostic.with_help("`spin`: \"ccw\" or \"cw\", seen from above"));
         } else if !knows_spin && self.file.spin.is_some() {
             let at = document.key_at(&format!("{}/spin", self.pointer));
             let word = if self.file.stock.is_some() { "stock" } else { "printed" };
-            let problem = Problem::error(&at, format!("`spin` has no meaning with `{word}`"));
-            self.signals.problems.push(problem.with_help("leave it out: that law knows no sense of rotation"));
+            let diagnostic = Diagnostic::error(&at, format!("`spin` has no meaning with `{word}`"));
+            self.signals.diagnostics.push(diagnostic.with_help("leave it out: that law knows no sense of rotation"));
         }
     }
 
-    /// What was made, or its reasons not to, each at the key that it begins with.
+    /// Returns the value, or reports its errors, each at the key that it begins with.
     fn or_note<T>(&mut self, table: &str, made: Result<T, impl IntoIterator<Item = String>>) -> Option<T> {
         let document = self.signals.document;
         let reasons = match made {
@@ -248,8 +249,8 @@ impl Judge<'_, '_> {
             let key = reason.split('`').nth(1).unwrap_or("");
             let inner = format!("{}/{table}/{key}", self.pointer);
             let at = if document.get(&inner).is_some() { document.at(&inner) } else { document.title_at(self.pointer) };
-            let problem = Problem::error(&at, format!("rotor `{}`: {reason}", self.file.name));
-            self.signals.problems.push(problem);
+            let diagnostic = Diagnostic::error(&at, format!("rotor `{}`: {reason}", self.file.name));
+            self.signals.diagnostics.push(diagnostic);
         }
         None
     }
@@ -263,9 +264,9 @@ impl Judge<'_, '_> {
         };
         let (file, key) = (located("file", &table.file), located("advance", &table.advance));
         let columns = [located("thrust", &table.thrust), located("torque", &table.torque)];
-        let SignalReader { folder, problems, .. } = &mut *self.signals;
+        let SignalReader { folder, diagnostics, .. } = &mut *self.signals;
         let mut read = |column: &Located<String>| {
-            series::read(folder, &series::Query { file: &file, key: &key, column }, problems)
+            series::read(folder, &series::Query { file: &file, key: &key, column }, diagnostics)
         };
         let (advances, thrusts) = read(&columns[0])?;
         let (_, torques) = read(&columns[1])?;
@@ -302,11 +303,13 @@ pub(super) fn check_joint(file: &RotorFile, pointer: &str, joints: &[&str], sign
     let path = join(&file.parent, &file.name);
     let at = signals.document.at(&format!("{pointer}/joint"));
     if !joints.contains(&joint.as_str()) {
-        let problem = Problem::error(&at, format!("there is no joint `{joint}` to turn rotor `{path}`"));
-        signals.problems.push(problem.with_help(crate::suggest::help(joint, joints, "joints")));
+        let diagnostic = Diagnostic::error(&at, format!("there is no joint `{joint}` to turn rotor `{path}`"));
+        signals.diagnostics.push(diagnostic.with_help(crate::suggest::help(joint, joints, "joints")));
     } else if !path.starts_with(&format!("{joint}/")) {
         let message = format!("rotor `{path}` takes its speed from joint `{joint}`, but does not turn with it");
-        let problem = Problem::error(&at, message);
-        signals.problems.push(problem.with_help("hang the rotor on the joint, or on a body that the joint carries"));
+        let diagnostic = Diagnostic::error(&at, message);
+        signals
+            .diagnostics
+            .push(diagnostic.with_help("hang the rotor on the joint, or on a body that the joint carries"));
     }
 }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::file::{ScriptFile, ScriptKindFile, ScriptParameterFile, ScriptStyleFile};
 use super::object::Object;
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problem, Problems, SourceText};
 use crate::script::{Kind, Parameter, Script, ScriptParser, Style};
 use crate::suggest;
 
@@ -17,22 +17,22 @@ pub(super) fn read(
     document: &Document,
     folder: &Folder,
     parser: Option<&dyn ScriptParser>,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<Script> {
     let mut scripts: Vec<Script> = Vec::new();
     for (k, file) in files.iter().enumerate() {
         let pointer = format!("/script/{k}");
-        let Some(script) = script(file, &pointer, objects, document, folder, problems) else { continue };
+        let Some(script) = script(file, &pointer, objects, document, folder, diagnostics) else { continue };
         if let Some(first) = scripts.iter().find(|s| s.object == script.object && s.kind == script.kind) {
             let line = first.at.line_column().0;
             let message = format!("`{}` has two {} scripts", file.object, word(script.kind));
             let help = format!("the other one is in line {line}; put both into one, or one of them on another object");
-            problems.push(Problem::error(&document.at(&format!("{pointer}/object")), message).with_help(help));
+            diagnostics.push(Diagnostic::error(&document.at(&format!("{pointer}/object")), message).with_help(help));
             continue;
         }
         scripts.push(script);
     }
-    check(&scripts, parser, problems);
+    check(&scripts, parser, diagnostics);
     scripts
 }
 
@@ -43,16 +43,16 @@ fn word(kind: Kind) -> &'static str {
     }
 }
 
-/// What the language says of the texts.
-fn check(scripts: &[Script], parser: Option<&dyn ScriptParser>, problems: &mut Problems) {
+/// Checks the texts with the parser of the language.
+fn check(scripts: &[Script], parser: Option<&dyn ScriptParser>, diagnostics: &mut Diagnostics) {
     let Some(first) = scripts.first() else { return };
     let Some(parser) = parser else {
-        let problem = Problem::error(&first.at, "this program cannot run Lua scripts");
-        problems.push(problem.with_help("it was built without `sincro-lua`; use the `sincro` command"));
+        let diagnostic = Diagnostic::error(&first.at, "this program cannot run Lua scripts");
+        diagnostics.push(diagnostic.with_help("it was built without `sincro-lua`; use the `sincro` command"));
         return;
     };
     for fault in scripts.iter().filter_map(|script| parser.check(script).err()) {
-        problems.push(fault.problem());
+        diagnostics.push(fault.diagnostic());
     }
 }
 
@@ -62,19 +62,19 @@ fn script(
     objects: &[Object],
     document: &Document,
     folder: &Folder,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Script> {
     let object = objects.iter().position(|object| object.path == file.object);
     if object.is_none() {
         let known: Vec<&str> = objects.iter().map(|object| object.path.as_str()).collect();
         let message = format!("there is no object `{}` for the script", file.object);
-        let problem = Problem::error(&document.at(&format!("{pointer}/object")), message);
-        problems.push(problem.with_help(suggest::help(&file.object, &known, "objects")));
+        let diagnostic = Diagnostic::error(&document.at(&format!("{pointer}/object")), message);
+        diagnostics.push(diagnostic.with_help(suggest::help(&file.object, &known, "objects")));
     }
     let (source, text, lines_before) = match (&file.file, &file.code) {
         (Some(_), _) => {
             let name = document.located(&format!("{pointer}/file"))?;
-            let source = folder.read_named(&name).map_err(|problem| problems.push(problem)).ok()?;
+            let source = folder.read_named(&name).map_err(|diagnostic| diagnostics.push(diagnostic)).ok()?;
             (source.clone(), source.text.clone(), 0)
         }
         (None, Some(code)) => {
@@ -86,7 +86,7 @@ fn script(
         }
         (None, None) => return None,
     };
-    let files = granted(file, pointer, document, folder, problems);
+    let files = granted(file, pointer, document, folder, diagnostics);
     let object = object?;
     let parameters = file.parameters.iter().map(|(name, value)| (name.clone(), parameter(value))).collect();
     Some(Script {
@@ -119,15 +119,15 @@ fn granted(
     pointer: &str,
     document: &Document,
     folder: &Folder,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Vec<(String, Arc<SourceText>)>> {
     let mut files = Some(Vec::new());
     for (k, name) in file.files.iter().enumerate() {
         let named = document.located(&format!("{pointer}/files/{k}"))?;
         match folder.read_named(&named) {
             Ok(source) => files.as_mut().into_iter().for_each(|files| files.push((name.clone(), source.clone()))),
-            Err(problem) => {
-                problems.push(problem);
+            Err(diagnostic) => {
+                diagnostics.push(diagnostic);
                 files = None;
             }
         }

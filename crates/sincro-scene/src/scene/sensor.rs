@@ -5,8 +5,8 @@ use serde::Deserialize;
 
 use super::object::{Object, ObjectKind};
 use super::proximity::{self, ProximityFile};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::Document;
-use crate::problem::{Located, Problem, Problems};
 use crate::sensor::{Errors, SensorKind, SensorSpec};
 use crate::suggest;
 
@@ -126,7 +126,7 @@ pub(crate) struct ContactSensorFile {
 }
 
 /// Finds the bodies that contact sensors stand on and feel.
-pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems: &mut Problems) {
+pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], diagnostics: &mut Diagnostics) {
     let touches = |o: &Object| matches!(o.kind, ObjectKind::Body { .. } | ObjectKind::Fixture) && o.contact.is_some();
     let known: Vec<&str> = objects.iter().filter(|o| touches(o)).map(|o| o.path.as_str()).collect();
     for spec in specs.iter_mut().filter(|s| matches!(s.kind, SensorKind::Contact { .. })) {
@@ -141,7 +141,7 @@ pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems
                 let of = carrier.map_or("the world".to_owned(), |o| format!("`{}`", o.path));
                 let message = format!("contact sensor `{}` is on {of}, which nothing can touch", spec.path);
                 let help = "hang it on a body with a `contact`, or on a frame of such a body";
-                problems.push(Problem::error(&sensor.location, message).with_help(help));
+                diagnostics.push(Diagnostic::error(&sensor.location, message).with_help(help));
             }
         }
         for path in spec.with.iter().filter(|path| !known.contains(&path.value.as_str())) {
@@ -150,18 +150,18 @@ pub(super) fn find_bodies(specs: &mut [SensorSpec], objects: &[Object], problems
                 None => format!("there is no object `{}`", path.value),
             };
             let help = suggest::help(&path.value, &known, "bodies with a contact");
-            problems.push(Problem::error(&path.at, message).with_help(help));
+            diagnostics.push(Diagnostic::error(&path.at, message).with_help(help));
         }
     }
 }
 
-/// What it measures; none, with the reason noted, if it cannot be.
+/// Specification of the sensor; none, with a diagnostic, if it is not valid.
 pub(super) fn spec(
     file: &SensorFile,
     path: &str,
     pointer: &str,
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) -> Option<SensorSpec> {
     let of = if file.proximity.is_some() { "proximity" } else { "contact" };
     let place = |k: usize| document.at(&format!("{pointer}/{of}/with/{k}"));
@@ -170,7 +170,7 @@ pub(super) fn spec(
     let with = paths.map(|(k, path)| Located { value: path.clone(), at: place(k) }).collect();
     let kind = match (&file.imu, &file.pose, &file.velocity, &file.height) {
         _ if file.proximity.is_some() => {
-            proximity::kind(file.proximity.as_ref()?, &file.name, pointer, document, problems)?
+            proximity::kind(file.proximity.as_ref()?, &file.name, pointer, document, diagnostics)?
         }
         (Some(imu), ..) => SensorKind::Imu {
             accelerometer: Errors { bias: imu.accelerometer_bias, noise: imu.accelerometer_noise_density },
@@ -186,8 +186,8 @@ pub(super) fn spec(
     };
     if file.parent == "/" && file.contact.is_none() && file.proximity.is_none() {
         let at = document.at(&format!("{pointer}/parent"));
-        let problem = Problem::error(&at, format!("sensor `{}` is fixed in the world", file.name)).as_warning();
-        problems.push(problem.with_help("it measures nothing that moves; hang it on a body"));
+        let diagnostic = Diagnostic::error(&at, format!("sensor `{}` is fixed in the world", file.name)).as_warning();
+        diagnostics.push(diagnostic.with_help("it measures nothing that moves; hang it on a body"));
     }
     let at = document.at(&format!("{pointer}/sample_time"));
     let sample_time = file.sample_time.map(|value| Located { value, at });

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use sincro_dynamics::signal::Signal;
 
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Located, Problem, Problems};
 use crate::series;
 
 /// A number that depends on time: a number, or a table with one kind of signal.
@@ -159,11 +159,11 @@ fn one() -> f64 {
     1.0
 }
 
-/// Where a signal stands, for whatever is wrong with it.
+/// Reader of a signal at a location, for its diagnostics.
 pub(crate) struct SignalReader<'a> {
     pub document: &'a Document,
     pub folder: &'a Folder,
-    pub problems: &'a mut Problems,
+    pub diagnostics: &'a mut Diagnostics,
 }
 
 impl SignalReader<'_> {
@@ -188,7 +188,7 @@ impl SignalReader<'_> {
         if until < ramp.start {
             let at = self.document.at(&format!("{pointer}/ramp/until"));
             let message = format!("the ramp ends at {until} s, before it starts at {} s", ramp.start);
-            self.problems.push(Problem::error(&at, message).with_help("`until` is a time after `start`"));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("`until` is a time after `start`"));
         }
         Signal::Ramp { start: ramp.start, slope: ramp.slope, from: ramp.from, until }
     }
@@ -198,7 +198,7 @@ impl SignalReader<'_> {
         if width > period {
             let at = self.document.at(&format!("{pointer}/pulse/width"));
             let message = format!("pulses of {width} s do not fit in a period of {period} s");
-            self.problems.push(Problem::error(&at, message).with_help("`width` is at most `period`"));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("`width` is at most `period`"));
         }
         Signal::Pulse { period, width, low, high, start }
     }
@@ -221,13 +221,13 @@ impl SignalReader<'_> {
         };
         let Some(column) = table.column.as_ref().map(|value| located("column", value)) else {
             let at = self.document.at(pointer);
-            let problem = Problem::error(&at, "`column` is missing in `table`");
-            self.problems.push(problem.with_help("`column` names the column of values in the file"));
+            let diagnostic = Diagnostic::error(&at, "`column` is missing in `table`");
+            self.diagnostics.push(diagnostic.with_help("`column` names the column of values in the file"));
             return None;
         };
         let file = located("file", table.file.as_ref()?);
         let key = located("time", table.time.as_ref().unwrap_or(&"t".to_owned()));
-        series::read(self.folder, &series::Query { file: &file, key: &key, column: &column }, self.problems)
+        series::read(self.folder, &series::Query { file: &file, key: &key, column: &column }, self.diagnostics)
     }
 
     fn points(&mut self, table: &TableFile, pointer: &str) -> Option<(Vec<f64>, Vec<f64>)> {
@@ -235,20 +235,20 @@ impl SignalReader<'_> {
         let times = table.times.clone().unwrap_or_default();
         let Some(values) = table.values.clone() else {
             let at = self.document.at(pointer);
-            let problem = Problem::error(&at, "`values` is missing in `table`");
-            self.problems.push(problem.with_help("give one value for each of `times`"));
+            let diagnostic = Diagnostic::error(&at, "`values` is missing in `table`");
+            self.diagnostics.push(diagnostic.with_help("give one value for each of `times`"));
             return None;
         };
         if values.len() != times.len() {
             let at = self.document.at(&format!("{pointer}/values"));
             let message = format!("{} values for {} times", values.len(), times.len());
-            self.problems.push(Problem::error(&at, message).with_help("give one value for each of `times`"));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("give one value for each of `times`"));
             return None;
         }
         if let Some(k) = (1..times.len()).find(|&k| times[k] <= times[k - 1]) {
             let at = self.document.at(&format!("{pointer}/times/{k}"));
             let message = format!("time {} s does not come after {} s", times[k], times[k - 1]);
-            self.problems.push(Problem::error(&at, message).with_help("times increase"));
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("times increase"));
             return None;
         }
         Some((times, values))
@@ -259,7 +259,8 @@ impl SignalReader<'_> {
             let inner = format!("{pointer}/{key}");
             if self.document.get(&inner).is_some() {
                 let at = self.document.key_at(&inner);
-                self.problems.push(Problem::error(&at, format!("`{key}` has no meaning in this table")).with_help(why));
+                self.diagnostics
+                    .push(Diagnostic::error(&at, format!("`{key}` has no meaning in this table")).with_help(why));
             }
         }
     }

@@ -37,7 +37,8 @@ impl Camera {
         Some(Self::new(scene, sensor.clone().unwrap_or_else(plain), frame_of(scene, k)))
     }
 
-    /// A camera of one's own, which stands in the world and looks at a point `[m]`, z up in the picture; none if it stands there.
+    /// A camera of one's own, which stands in the world and looks at a point `[m]`, z up in the picture; none if it
+    /// stands there.
     #[must_use]
     pub fn looking_at(scene: &Scene, optics: Optics, from: [f64; 3], at: [f64; 3]) -> Option<Self> {
         let pos = Vec3(from);
@@ -54,13 +55,13 @@ impl Camera {
         Self { model: scene.model.clone(), sensor, frame, scenery, scratch, renderer: Renderer::new(), image }
     }
 
-    /// How it draws.
+    /// Optics of the camera.
     #[must_use]
     pub fn optics(&self) -> &Optics {
         &self.sensor.optics
     }
 
-    /// What it sees at coordinates `q`.
+    /// Renders the image at coordinates `q`.
     pub fn look(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);

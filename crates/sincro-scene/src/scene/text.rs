@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Scene, scene_schema};
+use crate::diagnostic::{Diagnostics, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::problem::{Problems, SourceText};
 use crate::schema::validate;
 
 /// Compiles the text of a scene file. Files that it names are looked for in the working directory; the seed of its
@@ -26,14 +26,14 @@ use crate::schema::validate;
 ///     center_of_mass = [0.0, 0.0, -0.5]
 ///     inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
 /// "#;
-/// let scene = crate::scene::from_text(text).unwrap();
+/// let scene = sincro_scene::scene::from_text(text).unwrap();
 /// assert_eq!(scene.model.n_v(), 1);
 /// ```
 ///
 /// # Errors
 ///
 /// Everything that is wrong with the text, warnings included.
-pub fn from_text(text: &str) -> Result<Scene, Problems> {
+pub fn from_text(text: &str) -> Result<Scene, Diagnostics> {
     let source = Arc::new(SourceText { path: "scene.toml".into(), text: text.to_owned() });
     let document = Document::parse(&source)?;
     let found = validate(&document, scene_schema());

@@ -1,7 +1,7 @@
 //! The tree of a scene: who hangs on whom, whatever the order in the file.
 //!
-//! A path is the parent's path, `/` and the name, so a parent's path is always shorter than its child's and no object can
-//! be its own ancestor; what a user means as a circle shows as parents that do not exist, and is told as a circle.
+//! A path is the parent's path, `/` and the name, so a parent's path is always shorter than its child's and no object
+//! can be its own ancestor; what a user means as a circle shows as parents that do not exist, and is told as a circle.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,8 +11,8 @@ use super::file::{BodyFile, ForceFile, FrameFile, JointFile, SceneFile};
 use super::placement::Placement;
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
-use crate::problem::{Problem, Problems};
 use crate::suggest;
 use crate::tree::join;
 
@@ -65,7 +65,7 @@ pub(super) struct PlaceInTree {
 }
 
 impl Entry<'_> {
-    /// Where its frame stands in its parent's.
+    /// Placement of its frame in its parent's.
     pub fn placement(&self) -> Placement {
         match self.file {
             AnyFile::Joint(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
@@ -111,23 +111,23 @@ pub(super) fn entries(file: &SceneFile) -> Vec<Entry<'_>> {
 }
 
 /// The objects, parents before children and children in the order of the file; notes what does not fit.
-pub(super) fn order(entries: &[Entry<'_>], document: &Document, problems: &mut Problems) -> Vec<PlaceInTree> {
-    check_names(entries, document, problems);
+pub(super) fn order(entries: &[Entry<'_>], document: &Document, diagnostics: &mut Diagnostics) -> Vec<PlaceInTree> {
+    check_names(entries, document, diagnostics);
     let mut by_path: BTreeMap<&str, usize> = BTreeMap::new();
     for (k, entry) in entries.iter().enumerate() {
         match by_path.get(entry.path.as_str()) {
-            Some(&first) => problems.push(duplicate(entry, &entries[first], document)),
+            Some(&first) => diagnostics.push(duplicate(entry, &entries[first], document)),
             None => {
                 by_path.insert(&entry.path, k);
             }
         }
     }
     let parents: Vec<Result<Option<usize>, ()>> = entries.iter().map(|e| parent_of(e, entries, &by_path)).collect();
-    report_orphans(entries, &parents, document, problems);
+    report_orphans(entries, &parents, document, diagnostics);
     let mut children: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
     for (k, parent) in parents.iter().enumerate() {
         if let Ok(parent) = *parent {
-            check_parent(&entries[k], parent.map(|p| &entries[p]), document, problems);
+            check_parent(&entries[k], parent.map(|p| &entries[p]), document, diagnostics);
             children.entry(parent).or_default().push(k);
         }
     }
@@ -165,25 +165,25 @@ fn parent_of(entry: &Entry<'_>, entries: &[Entry<'_>], by_path: &BTreeMap<&str, 
     Ok(Some(parent))
 }
 
-fn check_names(entries: &[Entry<'_>], document: &Document, problems: &mut Problems) {
+fn check_names(entries: &[Entry<'_>], document: &Document, diagnostics: &mut Diagnostics) {
     for entry in entries {
         let good = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if entry.name.is_empty() || !entry.name.chars().all(good) {
             let at = document.at(&format!("{}/name", entry.pointer));
-            let problem = Problem::error(&at, format!("`{}` is not a name", entry.name));
-            problems.push(problem.with_help("names have letters a–z and A–Z, digits, `_` and `-`"));
+            let diagnostic = Diagnostic::error(&at, format!("`{}` is not a name", entry.name));
+            diagnostics.push(diagnostic.with_help("names have letters a–z and A–Z, digits, `_` and `-`"));
         }
     }
 }
 
-fn duplicate(entry: &Entry<'_>, first: &Entry<'_>, document: &Document) -> Problem {
+fn duplicate(entry: &Entry<'_>, first: &Entry<'_>, document: &Document) -> Diagnostic {
     let at = document.title_at(&entry.pointer);
     let (line, _) = document.title_at(&first.pointer).line_column();
-    Problem::error(&at, format!("there are two objects `{}`", entry.path))
+    Diagnostic::error(&at, format!("there are two objects `{}`", entry.path))
         .with_help(format!("the other one is in line {line}; give one of them another name or parent"))
 }
 
-fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Document, problems: &mut Problems) {
+fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Document, diagnostics: &mut Diagnostics) {
     let at = document.at(&format!("{}/parent", entry.pointer));
     let carrier = parent.map(|p| p.file);
     match (entry.file, carrier) {
@@ -192,16 +192,17 @@ fn check_parent(entry: &Entry<'_>, parent: Option<&Entry<'_>>, document: &Docume
             Some(AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_) | AnyFile::Sensor(_) | AnyFile::Camera(_)),
         ) => {
             let word = carrier.map_or("", AnyFile::word);
-            let problem = Problem::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
-            problems.push(problem.with_help("the parent is a body, joint or frame, or `/`"));
+            let diagnostic = Diagnostic::error(&at, format!("`{}` is a {word}, it carries nothing", entry.parent));
+            diagnostics.push(diagnostic.with_help("the parent is a body, joint or frame, or `/`"));
         }
         // a rotor may hang on the joint that turns it
         (AnyFile::Rotor(_), Some(AnyFile::Joint(_))) => {}
         (AnyFile::Force(_) | AnyFile::Rotor(_) | AnyFile::Drag(_), None | Some(AnyFile::Joint(_))) => {
             let word = entry.file.word();
             let message = format!("{word} `{}` acts on `{}`, which is no body and no frame", entry.path, entry.parent);
-            problems
-                .push(Problem::error(&at, message).with_help(format!("the parent of a {word} is a body or a frame")));
+            diagnostics.push(
+                Diagnostic::error(&at, message).with_help(format!("the parent of a {word} is a body or a frame")),
+            );
         }
         _ => {}
     }
@@ -212,17 +213,18 @@ fn report_orphans(
     entries: &[Entry<'_>],
     parents: &[Result<Option<usize>, ()>],
     document: &Document,
-    problems: &mut Problems,
+    diagnostics: &mut Diagnostics,
 ) {
-    let told_before = problems.0.len();
+    let told_before = diagnostics.0.len();
     let mut in_circles: BTreeSet<&str> = BTreeSet::new();
     let orphans = || (0..entries.len()).filter(|k| parents[*k].is_err()).map(|k| &entries[k]);
     for entry in orphans() {
         let Some(circle) = circle(entry, entries) else { continue };
         if !in_circles.contains(entry.name) {
             let at = document.at(&format!("{}/parent", entry.pointer));
-            let problem = Problem::error(&at, format!("`{}` hangs on itself: {}", entry.name, circle.join(" on ")));
-            problems.push(problem.with_help("one of them must hang on something that hangs on the world, `/`"));
+            let diagnostic =
+                Diagnostic::error(&at, format!("`{}` hangs on itself: {}", entry.name, circle.join(" on ")));
+            diagnostics.push(diagnostic.with_help("one of them must hang on something that hangs on the world, `/`"));
         }
         in_circles.extend(circle);
     }
@@ -237,12 +239,12 @@ fn report_orphans(
         let wanted = last_name(entry.parent);
         let namesake = (0..entries.len()).find(|k| entries[*k].name == wanted);
         if !namesake.is_some_and(adrift) {
-            problems.push(unknown_parent(entry, entries, namesake.map(|k| &entries[k]), document));
+            diagnostics.push(unknown_parent(entry, entries, namesake.map(|k| &entries[k]), document));
         }
     }
     // same names in several places can hide all of them behind each other: nothing is dropped in silence
-    if problems.0.len() == told_before {
-        orphans().for_each(|entry| problems.push(unknown_parent(entry, entries, None, document)));
+    if diagnostics.0.len() == told_before {
+        orphans().for_each(|entry| diagnostics.push(unknown_parent(entry, entries, None, document)));
     }
 }
 
@@ -251,14 +253,15 @@ fn unknown_parent(
     entries: &[Entry<'_>],
     namesake: Option<&Entry<'_>>,
     document: &Document,
-) -> Problem {
+) -> Diagnostic {
     let at = document.at(&format!("{}/parent", entry.pointer));
-    let problem = Problem::error(&at, format!("there is no object `{}` to hang `{}` on", entry.parent, entry.name));
+    let diagnostic =
+        Diagnostic::error(&at, format!("there is no object `{}` to hang `{}` on", entry.parent, entry.name));
     if let Some(meant) = namesake {
-        return problem.with_help(format!("did you mean `{}`?", meant.path));
+        return diagnostic.with_help(format!("did you mean `{}`?", meant.path));
     }
     let known: Vec<&str> = entries.iter().filter(|e| !std::ptr::eq(*e, entry)).map(|e| e.path.as_str()).collect();
-    problem.with_help(suggest::help(entry.parent, &known, "objects"))
+    diagnostic.with_help(suggest::help(entry.parent, &known, "objects"))
 }
 
 /// The names of a circle that leads from an object, by the last names of parents, back to it.

@@ -8,7 +8,7 @@ use crate::document::Odd;
 /// Longest text of a value that is quoted whole.
 const QUOTED: usize = 40;
 
-/// What was found, such as `the string "abc"` or `a list of 3`.
+/// Description of the value found, such as `the string "abc"` or `a list of 3`.
 pub(super) fn found(value: &Value, odd: Option<&Odd>) -> String {
     match value {
         Value::Null => match odd {
@@ -29,7 +29,7 @@ pub(super) fn found(value: &Value, odd: Option<&Odd>) -> String {
     }
 }
 
-/// What was expected, such as `a number in kg`.
+/// Description of the value expected, such as `a number in kg`.
 pub(super) fn expected(root: &Value, schema: &Value) -> String {
     let unit = unit(description(root, schema));
     let mut parts: Vec<String> = Vec::new();

@@ -1,7 +1,8 @@
-//! The JSON Schemas of the files, generated from the types that read them, and the checker that walks a file against them.
+//! The JSON Schemas of the files, generated from the types that read them, and the checker that walks a file against
+//! them.
 //!
-//! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what `sincro check`
-//! says is one thing. A test keeps the files equal to the types.
+//! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what
+//! `sincro check` says is one thing. A test keeps the files equal to the types.
 
 mod describe;
 mod validate;
@@ -137,7 +138,7 @@ mod tests {
         assert!(no_null(scene_schema()) && no_null(experiment_schema()) && no_null(diagram_schema()));
     }
 
-    /// Of every number the schema says what it is measured in, or that it has no unit by its description alone.
+    /// The schema states the unit of every number, or that it has none by its description alone.
     #[test]
     fn every_property_is_described() {
         fn visit(value: &Value, path: &str) {

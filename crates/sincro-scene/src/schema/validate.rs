@@ -1,27 +1,27 @@
 //! Walks a document against its schema and reports everything at once, each finding where it stands.
 //!
-//! It knows the part of JSON Schema that the generator writes: types, ranges, lengths, enumerations, required and unknown
-//! keys, and tables in which one of several keys is given.
+//! It knows the part of JSON Schema that the generator writes: types, ranges, lengths, enumerations, required and
+//! unknown keys, and tables in which one of several keys is given.
 
 use serde_json::{Map, Value};
 
 use super::describe::{self, expected, found, quoted};
 use super::{alternatives, exclusive_keys, property, property_names};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, Odd, escape, unescape};
-use crate::problem::{Problem, Problems};
 use crate::suggest;
 
 /// Everything in `document` that does not fit `schema`.
-pub fn validate(document: &Document, schema: &Value) -> Problems {
-    let mut walker = Walker { document, root: schema, problems: Problems::new() };
+pub fn validate(document: &Document, schema: &Value) -> Diagnostics {
+    let mut walker = Walker { document, root: schema, diagnostics: Diagnostics::new() };
     walker.value("", &document.root, schema);
-    walker.problems.sorted()
+    walker.diagnostics.sorted()
 }
 
 struct Walker<'a> {
     document: &'a Document,
     root: &'a Value,
-    problems: Problems,
+    diagnostics: Diagnostics,
 }
 
 impl<'a> Walker<'a> {
@@ -143,7 +143,7 @@ impl<'a> Walker<'a> {
     fn too_many(&mut self, pointer: &str, given: &[&str]) {
         let at = self.document.key_at(&format!("{pointer}/{}", given[1]));
         let message = format!("{} exclude each other", quoted(given).replacen(", ", " and ", given.len()));
-        self.problems.push(Problem::error(&at, message).with_help("leave all but one out"));
+        self.diagnostics.push(Diagnostic::error(&at, message).with_help("leave all but one out"));
     }
 
     fn missing(&mut self, pointer: &str, what: &str, help: Option<String>) {
@@ -152,10 +152,10 @@ impl<'a> Walker<'a> {
             Some(owner) => format!("{what} in {owner}"),
             None => what.to_owned(),
         };
-        let problem = Problem::error(&at, message);
-        self.problems.push(match help {
-            Some(help) => problem.with_help(help),
-            None => problem,
+        let diagnostic = Diagnostic::error(&at, message);
+        self.diagnostics.push(match help {
+            Some(help) => diagnostic.with_help(help),
+            None => diagnostic,
         });
     }
 
@@ -165,8 +165,8 @@ impl<'a> Walker<'a> {
             Some(owner) => format!("unknown key `{key}` in {owner}"),
             None => format!("unknown key `{key}`"),
         };
-        let problem = Problem::error(&self.document.key_at(pointer), message);
-        self.problems.push(problem.with_help(suggest::help(key, &property_names(choice), "keys here")));
+        let diagnostic = Diagnostic::error(&self.document.key_at(pointer), message);
+        self.diagnostics.push(diagnostic.with_help(suggest::help(key, &property_names(choice), "keys here")));
     }
 
     fn help_of(&self, schema: &Value) -> Option<String> {
@@ -175,10 +175,10 @@ impl<'a> Walker<'a> {
     }
 
     fn error_at_value(&mut self, pointer: &str, message: String, help: Option<String>) {
-        let problem = Problem::error(&self.document.at(pointer), message);
-        self.problems.push(match help {
-            Some(help) => problem.with_help(help),
-            None => problem,
+        let diagnostic = Diagnostic::error(&self.document.at(pointer), message);
+        self.diagnostics.push(match help {
+            Some(help) => diagnostic.with_help(help),
+            None => diagnostic,
         });
     }
 }

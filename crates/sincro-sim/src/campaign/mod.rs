@@ -1,4 +1,5 @@
-//! An experiment with everything that belongs to it: the main run, its error bars, its variants, its sweep, their checks.
+//! An experiment with everything that belongs to it: the main run, its error bars, its variants, its sweep, their
+//! checks.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -15,7 +16,7 @@ use crate::results::{
     ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
     SweepReport, VariantReport,
 };
-use crate::run::{Manner, RunError, Simulated, Watch, method_word, simulate};
+use crate::run::{RunError, RunMonitor, RunOptions, Simulated, method_word, simulate};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::trace::model_hash;
@@ -28,13 +29,13 @@ use sincro_scene::scene::{ObjectKind, Scene};
 /// One run of a campaign with its judgement.
 #[derive(Clone, Debug)]
 pub struct Done {
-    /// What came out.
+    /// Result of the run.
     pub simulated: Simulated,
     /// Columns with their error bars.
     pub columns: Vec<ColumnReport>,
     /// Its checks.
     pub outcomes: Vec<Outcome>,
-    /// How it was run.
+    /// Settings of the run.
     pub settings: Settings,
     /// Hash of its model.
     pub model_hash: String,
@@ -60,12 +61,13 @@ pub struct Campaign {
 /// Told what is being done and the share of it.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 
-/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a folder a variant.
+/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a
+/// folder a variant.
 ///
 /// # Errors
 ///
-/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that fails is a
-/// result, not an error.
+/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that
+/// fails is a result, not an error.
 pub fn run_campaign(
     folder: &Path,
     overrides: &[Override],
@@ -112,8 +114,8 @@ pub fn run_campaign(
     Ok(Campaign { main, variants, sweep, report })
 }
 
-/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no variants, no sweep, no error
-/// bars, because it cannot be repeated.
+/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no
+/// variants, no sweep, no error bars, because it cannot be repeated.
 #[must_use]
 pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     let columns = ColumnReport::of_table(&simulated.table);
@@ -131,7 +133,8 @@ pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
 
 type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
 
-/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs `before` it.
+/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs
+/// `before` it.
 fn one_run(
     loaded: &Loaded,
     variant: Option<&str>,
@@ -142,10 +145,10 @@ fn one_run(
     let (scene, experiment) = (&loaded.scene, &loaded.experiment);
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
-    let mut watch = Watch { interrupt, progress: &mut tell };
-    let simulated = simulate(loaded, Manner { csv, variant, refined: false, films: true }, &mut watch)?;
+    let mut monitor = RunMonitor { interrupt, progress: &mut tell };
+    let simulated = simulate(loaded, RunOptions { csv, variant, refined: false, keyframes: true }, &mut monitor)?;
     let columns = match simulated.status {
-        Status::Completed => refine::columns(loaded, &simulated, &mut watch)?,
+        Status::Completed => refine::columns(loaded, &simulated, &mut monitor)?,
         _ => ColumnReport::of_table(&simulated.table),
     };
     let stopped = simulated.status.stopped_at();
@@ -193,7 +196,7 @@ fn run_sweep(
     let point = |value: f64| -> Result<Simulated, RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
         let at = load(folder, &settings, loaded.extensions)?;
-        simulate(&at, Manner::default(), &mut Watch { interrupt, progress: &mut |_| {} })
+        simulate(&at, RunOptions::default(), &mut RunMonitor { interrupt, progress: &mut |_| {} })
     };
     let next = std::sync::atomic::AtomicUsize::new(0);
     let mut points: Vec<Option<Result<Simulated, RunError>>> = (0..n).map(|_| None).collect();
@@ -272,7 +275,7 @@ fn report(
     sweep: Option<&(Sweep, Vec<Outcome>)>,
 ) -> RunReport {
     let scene = sincro_scene::open::folder_name(folder);
-    let problems = loaded.warnings.iter().map(|w| w.message.clone());
+    let diagnostics = loaded.warnings.iter().map(|w| w.message.clone());
     RunReport {
         sincro_version: env!("CARGO_PKG_VERSION").into(),
         scene,
@@ -289,7 +292,7 @@ fn report(
         sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
         variants: variants.iter().map(variant_report).collect(),
         outside_theory: main.simulated.outside.iter().map(Into::into).collect(),
-        warnings: problems.chain(main.simulated.warnings.iter().cloned()).collect(),
+        warnings: diagnostics.chain(main.simulated.warnings.iter().cloned()).collect(),
         messages: main.simulated.messages.iter().map(message_report).collect(),
         changes: main.simulated.changes.iter().map(change_report).collect(),
         wall_time_s: main.simulated.wall_time,

@@ -1,22 +1,27 @@
-//! Error bars: the same run once more, finer; the difference of the recorded signals estimates the error of the coarser one.
+//! Error bars: the same run once more, finer; the difference of the recorded signals estimates the error of the coarser
+//! one.
 //!
-//! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a method
-//! estimates of itself.
+//! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a
+//! method estimates of itself.
 
 use sincro_dynamics::world::MethodKind;
 
 use crate::load::Loaded;
 use crate::results::ColumnReport;
-use crate::run::{FINER, Manner, RunError, Simulated, Watch, simulate};
+use crate::run::{FINER, RunError, RunMonitor, RunOptions, Simulated, simulate};
 use sincro_scene::experiment::ErrorBar;
 
 /// The recorded columns with their error bars.
-pub(super) fn columns(loaded: &Loaded, run: &Simulated, watch: &mut Watch<'_>) -> Result<Vec<ColumnReport>, RunError> {
+pub(super) fn columns(
+    loaded: &Loaded,
+    run: &Simulated,
+    monitor: &mut RunMonitor<'_>,
+) -> Result<Vec<ColumnReport>, RunError> {
     let mut columns = ColumnReport::of_table(&run.table);
     if loaded.experiment.error_bar == ErrorBar::None {
         return Ok(columns);
     }
-    let finer = simulate(loaded, Manner { refined: true, ..Manner::default() }, watch)?;
+    let finer = simulate(loaded, RunOptions { refined: true, ..RunOptions::default() }, monitor)?;
     let (factor, method) = estimate(run.method);
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {

@@ -3,7 +3,8 @@
 use crate::sweep::SweepStop;
 use crate::table::{Table, number_text};
 
-/// Times closer than this are the same `[s]`. Rounding of a day's time in a scene file is 1e-11 s, no step is below 1e-7 s.
+/// Times closer than this are the same `[s]`. Rounding of a day's time in a scene file is 1e-11 s, no step is below
+/// 1e-7 s.
 const SAME_TIME: f64 = 1e-9;
 
 /// The same for points of a sweep, as a share of the smallest gap between them.
@@ -53,7 +54,7 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// Why a row of a sweep has no values, if it has none.
+    /// Stop of the run of a row of a sweep, if it has no values.
     pub(super) fn stop_of(&self, row_idx: usize) -> Option<&'a SweepStop> {
         match &self.kind {
             Kind::Run { .. } => None,
@@ -99,7 +100,7 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// How the run ended: `the run stopped at t = 0.5 s`.
+    /// End of the run in words: `the run stopped at t = 0.5 s`.
     pub(super) fn ending(&self) -> String {
         match (self.stopped(), self.keys().last()) {
             (Some(time), _) => format!("the run stopped at {}", self.place(time)),

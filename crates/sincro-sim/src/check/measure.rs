@@ -1,11 +1,11 @@
 //! One number of a series: its peak, its mean, its integral.
 //!
-//! A NaN among the values is the result. Means over time follow the trapezoidal rule, that is, they take the series as straight
-//! between the rows. The integral does not: a row's value stands for the interval that ends at the row, Σ x_k·(t_k − t_{k−1}),
-//! which is exact for mean values of a step such as `motor_torque`.
+//! A NaN among the values is the result. Means over time follow the trapezoidal rule, that is, they take the series as
+//! straight between the rows. The integral does not: a row's value stands for the interval that ends at the row, Σ
+//! x_k·(t_k − t_{k−1}), which is exact for mean values of a step such as `motor_torque`.
 //!
-//! A step response leads from x_0, the first value, to the target x_1; h = x_1 − x_0 is the height of the step. Crossing times are
-//! found between two rows on the straight line through them.
+//! A step response leads from x_0, the first value, to the target x_1; h = x_1 − x_0 is the height of the step.
+//! Crossing times are found between two rows on the straight line through them.
 //!
 //! | measure | |
 //! |---|---|
@@ -14,7 +14,8 @@
 //! | divergence | the first \|x\| that is greater than the target, which is the bound; the greatest if none is |
 //! | settling time | from the first row to the instant after which \|x − x_1\| stays at most band·\|h\| |
 //!
-//! A level that is not reached, or a response that has not settled in the last row, gives an infinite time, which never holds.
+//! A level that is not reached, or a response that has not settled in the last row, gives an infinite time, which never
+//! holds.
 
 use sincro_scene::experiment::check::Measure;
 
@@ -25,17 +26,17 @@ pub(super) struct Measured {
     pub(super) row: Option<usize>,
 }
 
-/// What a step response is measured against.
+/// Parameters of the measures of a step response.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepShape {
-    /// Where the step ends; the last value if not given.
+    /// Final value of the step; the last value if not given.
     pub(super) target: Option<f64>,
-    /// Of the settling time, as a share of the step's height.
+    /// Band of the settling time, relative to the step's height.
     pub(super) band: f64,
 }
 
-/// The measure of a series of at least one value over its keys. `Measure::Error` is no number of one series and counts as the
-/// final value.
+/// The measure of a series of at least one value over its keys. `Measure::Error` is no number of one series and counts
+/// as the final value.
 pub(super) fn measure(measure: Measure, shape: &StepShape, keys: &[f64], values: &[f64]) -> Result<Measured, String> {
     let of_row = |row: usize| Ok(Measured { value: values[row], row: Some(row) });
     let key_of_row = |row: usize| if values[row].is_nan() { f64::NAN } else { keys[row] };
@@ -119,13 +120,13 @@ fn settling_time(keys: &[f64], shares: &[f64], band: f64) -> f64 {
     }
 }
 
-/// Where the line from a row to the next passes a level.
+/// Key at which the line from a row to the next passes a level.
 fn crossing(keys: &[f64], values: &[f64], row: usize, level: f64) -> f64 {
     let along = (level - values[row]) / (values[row + 1] - values[row]);
     keys[row] + along * (keys[row + 1] - keys[row])
 }
 
-/// Where the greatest value stands: the first of equals, and the first NaN before any number.
+/// Index of the greatest value: the first of equals, and the first NaN before any number.
 pub(super) fn greatest(values: &[f64]) -> usize {
     first_best(values, |value, best| value > best)
 }
@@ -162,8 +163,8 @@ fn mean_square(keys: &[f64], values: &[f64], centre: f64) -> f64 {
     mean(keys, &squares)
 }
 
-/// Σ x_k·(t_k − t_{k−1}) over the intervals between the rows; the first row has none and only begins one. Its value enters
-/// nothing but for being a number.
+/// Σ x_k·(t_k − t_{k−1}) over the intervals between the rows; the first row has none and only begins one. Its value
+/// enters nothing but for being a number.
 fn integral(keys: &[f64], values: &[f64]) -> f64 {
     if values[0].is_nan() {
         return f64::NAN;

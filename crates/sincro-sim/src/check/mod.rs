@@ -1,4 +1,4 @@
-//! Whether a run gave what it must: each [`Check`] of an experiment against the recorded rows.
+//! Evaluation of checks: each [`Check`] of an experiment against the recorded rows.
 //!
 //! | which rows | |
 //! |---|---|
@@ -10,14 +10,16 @@
 //! Times match within 1e-9 s. Nothing is interpolated: a reference that falls between the rows is not compared, and the
 //! outcome says what step to use.
 //!
-//! The measure `error` compares row by row, and the largest deviation counts. Every other measure is one number of the series,
-//! compared with one expected number. What is expected is then a number or a formula of parameters alone; a reference, or a
-//! formula that varies from row to row, is measured in the same way over the same rows: peak against peak, mean against mean.
+//! The measure `error` compares row by row, and the largest deviation counts. Every other measure is one number of the
+//! series, compared with one expected number. What is expected is then a number or a formula of parameters alone; a
+//! reference, or a formula that varies from row to row, is measured in the same way over the same rows: peak against
+//! peak, mean against mean.
 //!
-//! The deviation is |measured − expected|, with `at_most` and `at_least` how far the measured value lies beyond the bound; with `relative`, divided by max(|expected|, floor), where zero of zero is zero.
-//! A check holds if the deviation is finite and at most the tolerance. A NaN among the numbers that enter a comparison is its
-//! result, so a check with a NaN never holds. What cannot be compared is not made, and says why: a run that stopped early has
-//! only its checks of the time before.
+//! The deviation is |measured − expected|, with `at_most` and `at_least` how far the measured value lies beyond the
+//! bound; with `relative`, divided by max(|expected|, floor), where zero of zero is zero. A check holds if the
+//! deviation is finite and at most the tolerance. A NaN among the numbers that enter a comparison is its result, so a
+//! check with a NaN never holds. What cannot be compared is not made, and says why: a run that stopped early has only
+//! its checks of the time before.
 
 mod along;
 mod measure;
@@ -43,26 +45,26 @@ pub struct Outcome {
     pub name: String,
     /// The judgement.
     pub verdict: Verdict,
-    /// What was compared with what, in words: `greatest value of /shoulder.position against 0.2`.
+    /// Description of the comparison: `greatest value of /shoulder.position against 0.2`.
     pub about: String,
     /// The value measured, for `error` that of the worst row; none if the check was not made.
     pub measured: Option<f64>,
     /// The value expected at the same place.
     pub expected: Option<f64>,
-    /// Whether the expected value is a bound.
+    /// True if the expected value is a bound.
     pub sense: Sense,
     /// |measured − expected|, divided by max(|expected|, floor) if `relative`; how far beyond a bound; may be infinite or NaN, which
     /// never holds.
     pub deviation: Option<f64>,
     /// Largest deviation that holds.
     pub limit: f64,
-    /// Whether deviation and limit are relative, hence without unit.
+    /// True if deviation and limit are relative, hence without unit.
     pub relative: bool,
     /// Unit of measured and expected; empty where it is not known (formulas).
     pub unit: String,
-    /// Where the measured value stands, if it is that of a row: time `[s]`; in a sweep, the value of the parameter.
+    /// Key of the measured value, if it is that of a row: time `[s]`; in a sweep, the value of the parameter.
     pub at: Option<f64>,
-    /// How many rows entered.
+    /// Number of rows that entered.
     pub n_rows: usize,
     /// The recorded signal that was measured as it is; none for formulas.
     pub signal: Option<String>,
@@ -86,7 +88,7 @@ pub enum Verdict {
 pub struct Series {
     /// Times `[s]`, or values of the parameter.
     pub times: Vec<f64>,
-    /// What is expected there.
+    /// Expected values.
     pub values: Vec<f64>,
 }
 
@@ -99,8 +101,8 @@ pub fn evaluate(checks: &[Check], table: &Table, stopped: Option<f64>) -> Vec<Ou
     checks.iter().map(|check| judge(check, &along)).collect()
 }
 
-/// Judges the checks of a sweep, in their order. The parameter takes the place of time: in references, in `at` and `window`, and
-/// in measures. Points match within a billionth of the smallest gap between them.
+/// Judges the checks of a sweep, in their order. The parameter takes the place of time: in references, in `at` and
+/// `window`, and in measures. Points match within a billionth of the smallest gap between them.
 ///
 /// A reference may have more rows than the sweep has points, or fewer, but not both.
 #[must_use]
@@ -163,8 +165,8 @@ fn compare(check: &Check, along: &Along) -> Result<Comparison, String> {
     }
 }
 
-/// The first row beyond the bound, from the start of the run on: that the run ended there is what is wanted. It must lie in the
-/// window.
+/// The first row beyond the bound, from the start of the run on: that the run ended there is what is wanted. It must
+/// lie in the window.
 fn divergence(check: &Check, along: &Along, source: &Source) -> Result<Comparison, String> {
     let Expected::Value(bound) = check.expected else { return Err("the bound is not a number".into()) };
     let (from, to) = check.window.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
@@ -222,7 +224,7 @@ fn compare_numbers(
     })
 }
 
-/// How far a value is from holding: the deviation; for a bound with its sign, negative where it holds.
+/// Deviation of a value; for a bound with its sign, negative where it holds.
 fn excess(check: &Check, measured: f64, expected: f64) -> f64 {
     let difference = match check.sense {
         Sense::Equal => (measured - expected).abs(),
@@ -235,7 +237,7 @@ fn excess(check: &Check, measured: f64, expected: f64) -> f64 {
     difference / expected.abs().max(check.floor)
 }
 
-/// What cannot be reached has no distance: an infinite value is beyond every bound.
+/// Absolute or relative deviation; an infinite value is beyond every bound.
 fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
     let excess = excess(check, measured, expected);
     match measured.is_infinite() {
@@ -245,7 +247,7 @@ fn deviation(check: &Check, measured: f64, expected: f64) -> f64 {
     }
 }
 
-/// What is expected, row by row, where a plot can show it.
+/// Expected series, row by row, if a plot can show it.
 fn overlay(check: &Check, along: &Along) -> Option<Series> {
     if check.measure != Measure::Error || check.sense != Sense::Equal {
         return None;

@@ -70,7 +70,7 @@ fn no_row_at(along: &Along, at: f64) -> String {
     }
 }
 
-/// Whether the rows a check needs were recorded to the last.
+/// Checks that the rows a check needs were recorded to the last.
 fn covered(check: &Check, along: &Along) -> Result<(), String> {
     if along.is_sweep() || check.at.is_some() {
         return Ok(());
@@ -136,7 +136,8 @@ fn matched(check: &Check, along: &Along, reference: &Reference, span: Range<usiz
     Ok(rows)
 }
 
-/// Whether each point of a sweep that lies between the first and the last row of a reference falls on one of its rows.
+/// Returns true if each point of a sweep that lies between the first and the last row of a reference falls on one of
+/// its rows.
 fn every_point_is_a_row(along: &Along, reference: &Reference, mut span: Range<usize>, matched: &[usize]) -> bool {
     let (Some(first), Some(last)) = (reference.keys.first(), reference.keys.last()) else { return false };
     let between = |key: f64| key >= first - along.tolerance && key <= last + along.tolerance;
@@ -160,7 +161,8 @@ pub(super) fn file_name(reference: &Reference) -> String {
     reference.file.file_name().map_or_else(|| "the reference".into(), |name| name.to_string_lossy().into_owned())
 }
 
-/// The greatest step of which all times are whole multiples: Euclid's algorithm, with remainders below `tolerance` taken as zero.
+/// The greatest step of which all times are whole multiples: Euclid's algorithm, with remainders below `tolerance`
+/// taken as zero.
 fn common_step(times: &[f64], tolerance: f64) -> Option<f64> {
     /// No step is as small as this `[s]`.
     const LEAST: f64 = 1e-7;

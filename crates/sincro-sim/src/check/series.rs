@@ -27,7 +27,7 @@ impl<'a> Source<'a> {
         Ok(Self { check, along, aliases: aliases?, swept })
     }
 
-    /// What was measured in the given rows.
+    /// Measured values in the given rows.
     pub(super) fn measured(&self, row_idxs: &[usize]) -> Result<Vec<f64>, String> {
         match &self.check.what {
             Subject::Signal(name) => {
@@ -38,7 +38,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// What is expected in the given rows.
+    /// Expected values in the given rows.
     pub(super) fn expected(&self, rows: &Rows) -> Result<Vec<f64>, String> {
         match (&self.check.expected, &rows.reference) {
             (Expected::Value(value), _) => Ok(vec![*value; rows.idxs.len()]),
@@ -48,7 +48,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// What is expected, if it is the same in all rows.
+    /// Expected value, if it is the same in all rows.
     pub(super) fn expected_number(&self, rows: &Rows) -> Result<Option<f64>, String> {
         match &self.check.expected {
             Expected::Value(value) => Ok(Some(*value)),
@@ -79,7 +79,7 @@ impl<'a> Source<'a> {
         Ok(row_idxs.iter().map(value).collect())
     }
 
-    /// Whether a formula can differ from row to row.
+    /// Returns true if a formula can differ from row to row.
     fn varies(&self, formula: &Expression) -> bool {
         let t_slot = self.aliases.len();
         (0..=t_slot).any(|slot| formula.uses(slot)) || self.swept.is_some_and(|k| formula.uses(t_slot + 1 + k))

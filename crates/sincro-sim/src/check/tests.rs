@@ -5,8 +5,8 @@ use std::sync::Arc;
 use sincro_math::expression::Expression;
 
 use super::*;
+use sincro_scene::diagnostic::{Located, Location, SourceText};
 use sincro_scene::experiment::check::{Reference, Subject};
-use sincro_scene::problem::{Located, Location, SourceText};
 
 fn nowhere() -> Location {
     Location { source: Arc::new(SourceText { path: "experiment.toml".into(), text: String::new() }), span: 0..0 }

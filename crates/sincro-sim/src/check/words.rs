@@ -1,4 +1,4 @@
-//! What a check compares, in words, and the unit of it.
+//! Description of a check's comparison, with its unit.
 
 use super::along::{Along, short};
 use super::rows::file_name;

@@ -21,7 +21,7 @@ pub struct Contacts {
 
 impl Contacts {
     /// Adds the frame of what is seen.
-    pub fn look(&mut self, seen: &Observation<'_>) {
+    pub fn record(&mut self, seen: &Observation<'_>) {
         for point in seen.contacts() {
             // indices below 2²⁴ are exact in single precision; a model has far fewer surfaces
             self.numbers.extend(point.surfaces.map(|k| k as f32));

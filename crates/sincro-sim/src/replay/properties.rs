@@ -1,7 +1,7 @@
 //! Every number that stands in the files of a scene, with the path by which a setting reaches it.
 //!
-//! What the viewer offers for editing is what `--set` takes: one list, from the documents themselves, so that a key that is added to the format is
-//! there without a word here.
+//! What the viewer offers for editing is what `--set` takes: one list, from the documents themselves, so that a key
+//! that is added to the format is there without a word here.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -11,10 +11,10 @@ use serde_json::Value;
 
 use crate::load::Loaded;
 use sincro_scene::apply_overrides::{Target, apply_all};
+use sincro_scene::diagnostic::Location;
 use sincro_scene::document::{Document, escape};
 use sincro_scene::experiment::experiment_schema;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Location;
 use sincro_scene::scene::scene_schema;
 use sincro_scene::schema::{alternatives, description, property, units};
 use sincro_scene::tree;
@@ -26,28 +26,29 @@ pub struct Property {
     pub owner: String,
     /// As `--set` takes it: `/arm/link.mass`.
     pub path: String,
-    /// What is behind the owner: `mass`, `inertia.xx`.
+    /// Key relative to the owner: `mass`, `inertia.xx`.
     pub key: String,
     /// Its value.
     pub value: f64,
     /// Its unit; empty if the format says none.
     pub unit: String,
-    /// What it is; may be empty.
+    /// Description; may be empty.
     pub about: String,
-    /// Where it stands.
+    /// Its place.
     #[serde(skip)]
     pub at: Location,
 }
 
-/// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment, diagram.
+/// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment,
+/// diagram.
 #[must_use]
 pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     let mut found = Vec::new();
     let parsed = |name: &str, target: Target| {
         let source = loaded.sources.iter().find(|s| s.path.file_name().is_some_and(|file| file == name))?;
         let mut document = Document::parse(source).ok()?;
-        let problems = apply_all(&mut document, target, settings);
-        (!problems.any_error()).then_some(document)
+        let diagnostics = apply_all(&mut document, target, settings);
+        (!diagnostics.any_error()).then_some(document)
     };
     let Some(experiment) = parsed("experiment.toml", Target::Experiment) else { return found };
     let file_of = |key: &str| experiment.text(&format!("/{key}")).map(|name| base_name(name).to_owned());
@@ -62,7 +63,8 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     found
 }
 
-/// The texts of the files with settings written into them, by their paths; only the numbers change, comments and order stay.
+/// The texts of the files with settings written into them, by their paths; only the numbers change, comments and order
+/// stay.
 ///
 /// # Errors
 ///
@@ -155,9 +157,9 @@ struct Walk<'a> {
     document: &'a Document,
     root: &'a Value,
     owner: &'a str,
-    /// What stands before the key in a path.
+    /// Prefix of the key in a path.
     prefix: &'a str,
-    /// Whether of two units the second one holds: that of what slides.
+    /// True if the second of two units applies: that of prismatic joints.
     second_unit: bool,
     found: &'a mut Vec<Property>,
 }

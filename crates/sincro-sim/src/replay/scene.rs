@@ -1,7 +1,8 @@
 //! The objects of a scene as plain data: what stands where, how it moves, what it looks like.
 //!
-//! Poses are seven numbers: position `[m]`, then the quaternion x, y, z, w, as pictures want it. An object rides on a *mover*: the link of the
-//! joint of that index in the model, whose pose is in the frames; what is fixed in the world has none.
+//! Poses are seven numbers: position `[m]`, then the quaternion x, y, z, w, as pictures want it. An object is carried
+//! by a *mover*: the link of the joint of that index in the model, whose pose is in the frames; what is fixed in the
+//! world has none.
 
 use serde::Serialize;
 use sincro_dynamics::aero::rotor::{RotorLaw, Spin};
@@ -15,7 +16,7 @@ use sincro_dynamics::spatial::{Pose, Quat};
 use sincro_dynamics::state::State;
 
 use super::surface::{self, Triangles};
-use super::tape::Layout;
+use super::trajectory::Layout;
 use sincro_scene::scene::{Object, ObjectKind, Scene, ShapeInstance};
 
 /// Everything of a scene that a picture needs.
@@ -54,26 +55,26 @@ pub struct ObjectView {
     pub kind: String,
     /// Index of its parent; none for children of the world.
     pub parent: Option<usize>,
-    /// What it rides on; none if it is fixed in the world. Of a joint: its moving side.
+    /// Link that carries it; none if it is fixed in the world. For a joint, its moving side.
     pub mover: Option<usize>,
     /// Its frame in that of its mover, or in the world.
     pub pose: [f64; 7],
-    /// What it looks like.
+    /// Shapes.
     pub shapes: Vec<ShapeView>,
     /// Mass `[kg]`, centre of mass `[m]` and inertia (xx, xy, xz, yy, yz, zz) [kg·m²] of a body.
     pub mass: Option<(f64, [f64; 3], [f64; 6])>,
-    /// How a joint moves.
+    /// Kind of motion of a joint.
     pub joint: Option<JointView>,
-    /// Of a rotor.
+    /// Quantity of a rotor.
     pub rotor: Option<RotorView>,
     /// Index in the frames of a force that moves something.
     pub force: Option<usize>,
     /// Index in the frames of a drag element.
     pub drag: Option<usize>,
-    /// Of a camera.
+    /// Camera data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraView>,
-    /// Of a closure: the mover and the pose of its other end.
+    /// Link index and pose of the other end of a closure.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_end: Option<(Option<usize>, [f64; 7])>,
 }
@@ -98,16 +99,16 @@ pub struct ShapeView {
     /// Its triangles, counter-clockwise seen from outside.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub triangles: Vec<[u32; 3]>,
-    /// Where it stands.
+    /// Its place.
     pub pose: [f64; 7],
     /// `#rrggbb`.
     pub color: Option<String>,
 }
 
-/// How a joint moves.
+/// Kind of motion of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointView {
-    /// What carries it; none for the world.
+    /// Link that carries it; none for the world.
     pub base_mover: Option<usize>,
     /// Its frame in that of what carries it: the fixed side.
     pub base_pose: [f64; 7],
@@ -121,25 +122,26 @@ pub struct JointView {
     pub v_idx: usize,
     /// Number of degrees of freedom.
     pub n_v: usize,
-    /// Stiffness [N·m/rad] or [N/m] and rest `[rad]` or `[m]` of the springs that are there, with their degrees of freedom.
+    /// Stiffness [N·m/rad] or [N/m] and rest `[rad]` or `[m]` of the springs that are there, with their degrees of
+    /// freedom.
     pub springs: Vec<(usize, f64, f64)>,
-    /// Whether it has a motor.
+    /// True if it has a motor.
     pub motor: bool,
 }
 
-/// Of a rotor: thrust is along z of its frame.
+/// Rotor data: thrust is along z of its frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorView {
     /// Its index in the frames.
     pub index: usize,
     /// Radius of the disc `[m]`, if the law has one.
     pub radius: Option<f64>,
-    /// Whether it turns counter-clockwise, seen from above.
+    /// True if it turns counter-clockwise, seen from above.
     pub is_ccw: bool,
 }
 
 impl SceneView {
-    /// Of a compiled scene.
+    /// Creates the view of a compiled scene.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let model = &*scene.model;
@@ -156,7 +158,7 @@ impl SceneView {
             n_rotors: model.rotors().len(),
             n_forces: maker.n_forces,
             n_drags: model.drags().len(),
-            winds: Layout::new(model).airy().to_vec(),
+            winds: Layout::new(model).wind_links().to_vec(),
             surfaces: model.constraints().colliders.iter().map(|c| place(&c.name)).collect(),
             n_q: model.n_q(),
             n_v: model.n_v(),
@@ -164,25 +166,25 @@ impl SceneView {
         }
     }
 
-    /// Where the three numbers of rotor `k` begin in a frame: speed [rad/s], thrust `[N]`, torque [N·m].
+    /// Index of the three numbers of rotor `k` in a frame: speed [rad/s], thrust `[N]`, torque [N·m].
     #[must_use]
     pub fn rotor_at(&self, k: usize) -> usize {
         7 * self.n_movers + 3 * k
     }
 
-    /// Where external force `k` `[N]` begins in a frame.
+    /// Index of external force `k` `[N]` in a frame.
     #[must_use]
     pub fn force_at(&self, k: usize) -> usize {
         self.rotor_at(self.n_rotors + k)
     }
 
-    /// Where the force of drag element `k` `[N]` begins in a frame.
+    /// Index of the force of drag element `k` `[N]` in a frame.
     #[must_use]
     pub fn drag_at(&self, k: usize) -> usize {
         self.force_at(self.n_forces + k)
     }
 
-    /// Where the wind [m/s] at mover `winds[k]` begins in a frame.
+    /// Index of the wind [m/s] at link `winds[k]` in a frame.
     #[must_use]
     pub fn wind_at(&self, k: usize) -> usize {
         self.drag_at(self.n_drags + k)
@@ -196,7 +198,7 @@ struct Maker<'a> {
     links: Vec<usize>,
     /// Link poses at zero coordinates.
     scratch: Scratch<f64>,
-    /// Of each object so far: its mover, and its pose in the world at zero coordinates.
+    /// Link index of each object so far, and its pose in the world at zero coordinates.
     placed: Vec<(Option<usize>, Pose<f64>)>,
     /// External forces so far; those on what is fixed in the world are not in the model.
     n_forces: usize,
@@ -331,7 +333,7 @@ fn shape_view(instance: &ShapeInstance) -> ShapeView {
     ShapeView { kind, size, vertices, triangles, pose: seven(&instance.pose), color: instance.color.map(hex) }
 }
 
-/// What an object has beside solids: planes, and all that is triangles.
+/// Surfaces of an object beside its solids: planes and triangle meshes.
 fn surfaces(object: &Object) -> impl Iterator<Item = ShapeView> {
     object.surfaces.iter().enumerate().map(|(k, (surface, pose))| {
         let mut view = match surface {

@@ -5,18 +5,18 @@ use sincro_dynamics::geometry::polyhedron;
 /// Corners `[m]` and triangles, counter-clockwise seen from outside.
 pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
-/// Of the convex hull of points; none if they span no volume.
+/// Triangles of the convex hull of points; none if they span no volume.
 pub(super) fn of_hull(points: &[[f64; 3]]) -> Triangles {
     polyhedron::convex_hull(points)
         .map_or_else(Triangles::default, |(corners, triangles)| of_mesh(&corners, &triangles))
 }
 
-/// Of a mesh.
+/// Triangles of a mesh.
 pub(super) fn of_mesh(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Triangles {
     (points.iter().map(|p| single(*p)).collect(), triangles.to_vec())
 }
 
-/// Of heights over a grid centred on the frame, `columns` a row along x.
+/// Triangles of heights over a grid centred on the frame, `columns` a row along x.
 pub(super) fn of_heights(columns: usize, heights: &[f64], size: [f64; 2]) -> Triangles {
     let rows = heights.len() / columns.max(1);
     let along = |k: usize, n: usize, span: f64| span * (k as f64 / (n.max(2) - 1) as f64 - 0.5);

@@ -1,7 +1,7 @@
 //! `run.json`: what a run was, what it gave, and how far to trust it.
 //!
-//! [`RunReport`] is the file: fields stand in it in the order in which they stand here, numbers with all their digits. JSON has
-//! no NaN and no infinity; such a number is null, and `not_finite` at the end of the file says what it was:
+//! [`RunReport`] is the file: fields stand in it in the order in which they stand here, numbers with all their digits.
+//! JSON has no NaN and no infinity; such a number is null, and `not_finite` at the end of the file says what it was:
 //! `"/energy/residual": "NaN"`.
 
 mod number;
@@ -28,9 +28,9 @@ pub struct RunReport {
     pub scene_path: String,
     /// Title of the experiment.
     pub title: String,
-    /// Whether it came to its end.
+    /// Status at the end of the run.
     pub status: Status,
-    /// How it was run.
+    /// Settings of the run.
     pub settings: Settings,
     /// Hash of the compiled model, hexadecimal.
     pub model_hash: String,
@@ -42,24 +42,24 @@ pub struct RunReport {
     pub columns: Vec<ColumnReport>,
     /// The balance of energy.
     pub energy: Option<EnergyReport>,
-    /// What must come out, and what did.
+    /// Checks with their measured values.
     pub checks: Vec<CheckReport>,
     /// The static characteristic, if the experiment has one.
     pub sweep: Option<SweepReport>,
     /// The same experiment with other settings.
     pub variants: Vec<VariantReport>,
-    /// Where rotors left what their theory holds for; left out if none did.
+    /// Rotors outside the validity of their theory; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside_theory: Vec<OutsideReport>,
-    /// What to know before trusting the numbers.
+    /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
-    /// What scripts said, if they did.
+    /// Messages of scripts, if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub messages: Vec<MessageReport>,
-    /// What clients and scripts changed of the model, if they did.
+    /// Changes of the model by clients and scripts, if there are any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<ChangeReport>,
-    /// How long it took `[s]`.
+    /// Wall time `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
     /// Simulated time by wall time.
@@ -72,7 +72,7 @@ pub struct RunReport {
 pub struct OutsideReport {
     /// Its path.
     pub rotor: String,
-    /// Why, in words: `steep descent`.
+    /// Reason in words: `steep descent`.
     pub reason: String,
     /// Base steps that ended so.
     pub steps: u64,
@@ -91,14 +91,14 @@ impl From<&Outside> for OutsideReport {
     }
 }
 
-/// What a script said.
+/// Message of a script.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MessageReport {
     /// When `[s]`.
     pub t: f64,
     /// Path of the script's object.
     pub object: String,
-    /// What it said.
+    /// Text of the message.
     pub text: String,
 }
 
@@ -109,14 +109,14 @@ pub struct ChangeReport {
     pub t: f64,
     /// Path of the object; `/` for the world.
     pub object: String,
-    /// Which number, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling` (ratio,
-    /// offset); `gravity`; `respondable` (0: it passes through all others).
+    /// Which number, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits`
+    /// (lower, upper), `coupling` (ratio, offset); `gravity`; `respondable` (0: it passes through all others).
     pub quantity: String,
-    /// What it is now.
+    /// Present value.
     pub value: Vec<f64>,
 }
 
-/// How a run ended.
+/// Status of a run at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "state", rename_all = "kebab-case")]
 pub enum Status {
@@ -137,7 +137,7 @@ pub enum Status {
         tick: u64,
         /// Its time `[s]`.
         time: f64,
-        /// What happened, and to whom.
+        /// Cause, with the element concerned.
         reason: String,
         /// The setting that mends it; may be empty.
         help: String,
@@ -161,14 +161,14 @@ impl Status {
         }
     }
 
-    /// Whether it came to its end, or to a bound at which it was to end.
+    /// Returns true if it came to its end, or to a bound at which it was to end.
     #[must_use]
     pub fn is_good(&self) -> bool {
         matches!(self, Self::Completed | Self::Ended { .. })
     }
 }
 
-/// How a run was run.
+/// Settings of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// The integrator that ran, not `auto`.
@@ -177,20 +177,20 @@ pub struct Settings {
     pub step: f64,
     /// Local tolerance of variable-step methods.
     pub accuracy: f64,
-    /// How long was to be simulated `[s]`.
+    /// Requested simulated time `[s]`.
     pub duration: f64,
     /// Base steps a recorded row.
     pub record_every: u64,
     /// Seed of everything random.
     pub seed: u64,
-    /// What was set against the files, in the order of setting.
+    /// Overrides of the files, in the order of setting.
     pub overrides: Vec<Override>,
 }
 
 /// One `--set PATH=VALUE`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Override {
-    /// What was set.
+    /// Path of the number that was set.
     pub path: String,
     /// To what, as it was written.
     pub value: String,
@@ -205,7 +205,7 @@ pub struct ColumnReport {
     pub unit: String,
     /// Estimated integration error, in the same unit; none if it was not estimated.
     pub error_bar: Option<f64>,
-    /// How it was estimated, or why not.
+    /// Method of the estimate, or the reason for its absence.
     pub error_bar_method: String,
 }
 
@@ -240,30 +240,30 @@ pub struct EnergyReport {
 pub struct CheckReport {
     /// Its name.
     pub name: String,
-    /// What was compared with what.
+    /// Description of the comparison.
     pub about: String,
     /// The judgement.
     pub verdict: VerdictReport,
-    /// Why it was not made, or which number is not finite.
+    /// Reason for which it was not made, or the number that is not finite.
     pub reason: Option<String>,
     /// The value measured.
     pub measured: Option<f64>,
     /// The value expected.
     pub expected: Option<f64>,
-    /// Whether the expected value is a bound.
+    /// True if the expected value is a bound.
     #[serde(default)]
     pub sense: Sense,
-    /// How far they are apart.
+    /// Deviation between them.
     pub deviation: Option<f64>,
-    /// How far they may be.
+    /// Tolerance.
     pub limit: f64,
-    /// Whether deviation and limit are relative.
+    /// True if deviation and limit are relative.
     pub relative: bool,
     /// Unit of measured and expected; empty if not known.
     pub unit: String,
     /// Time `[s]` of the measured value; in a sweep, the value of the parameter.
     pub at: Option<f64>,
-    /// How many rows entered.
+    /// Number of rows that entered.
     pub n_rows: usize,
 }
 
@@ -314,17 +314,17 @@ fn not_finite_reason(outcome: &Outcome) -> Option<String> {
 /// The static characteristic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepReport {
-    /// What was varied.
+    /// Parameter that was varied.
     pub parameter: String,
     /// Its unit; may be empty.
     pub unit: String,
-    /// How many runs.
+    /// Number of runs.
     pub n_runs: usize,
     /// The columns of `sweep.csv` after the parameter, in their order.
     pub columns: Vec<ColumnReport>,
     /// The runs that stopped.
     pub stops: Vec<SweepStopReport>,
-    /// What must come out, and what did.
+    /// Checks with their measured values.
     pub checks: Vec<CheckReport>,
 }
 
@@ -335,7 +335,7 @@ pub struct SweepStopReport {
     pub value: f64,
     /// When `[s]`.
     pub time: f64,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 
@@ -364,11 +364,11 @@ impl SweepReport {
 pub struct VariantReport {
     /// Its name.
     pub name: String,
-    /// What is different, in words.
+    /// Description of the difference.
     pub description: String,
-    /// Whether it came to its end.
+    /// Status at the end of the run.
     pub status: Status,
-    /// How it was run; the overrides are the variant's own, after those of the command line.
+    /// Settings of the run; the overrides are the variant's own, after those of the command line.
     pub settings: Settings,
     /// Hash of the compiled model, hexadecimal.
     pub model_hash: String,
@@ -378,14 +378,14 @@ pub struct VariantReport {
     pub columns: Vec<ColumnReport>,
     /// The balance of energy.
     pub energy: Option<EnergyReport>,
-    /// What must come out, and what did.
+    /// Checks with their measured values.
     pub checks: Vec<CheckReport>,
-    /// Where rotors left what their theory holds for; left out if none did.
+    /// Rotors outside the validity of their theory; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside_theory: Vec<OutsideReport>,
-    /// What to know before trusting the numbers.
+    /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
-    /// How long it took `[s]`.
+    /// Wall time `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
 }

@@ -12,7 +12,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Of an experiment's main run, or of one of its variants.
+    /// Bounds of an experiment's main run, or of one of its variants.
     pub fn new(experiment: &Experiment, variant: Option<&str>, table: &Table) -> Self {
         let column = |stop: &StopWhen| table.columns.iter().position(|c| c.name == stop.signal.value);
         let of_variant = variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name));
@@ -28,7 +28,7 @@ impl Bounds {
         }
     }
 
-    /// Why the run ends with the last row of a table, if it does.
+    /// Reason for which the run ends with the last row of a table, if it does.
     pub fn reached(&mut self, table: &Table) -> Option<String> {
         let last = |column: usize| table.columns[column].values.last().copied().unwrap_or(f64::NAN);
         let words = |stop: &StopWhen, k: usize| stop.words(last(k), &table.columns[k].unit);
@@ -49,8 +49,8 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sincro_scene::diagnostic::{Located, Location, SourceText};
     use sincro_scene::experiment::stop::Side;
-    use sincro_scene::problem::{Located, Location, SourceText};
 
     fn stop(side: Side) -> StopWhen {
         let source = std::sync::Arc::new(SourceText { path: "experiment.toml".into(), text: String::new() });

@@ -14,7 +14,7 @@ use crate::sensors::Sensors;
 use crate::snapshot::Snapshot;
 use crate::trace::Trace;
 use sincro_scene::record::float_signals;
-use sincro_scene::script::Fault;
+use sincro_scene::script::ScriptError;
 
 /// A world with its controller.
 #[derive(Debug)]
@@ -45,23 +45,23 @@ pub struct Fork {
     pub not_copied: Vec<String>,
 }
 
-/// Why it could not go on.
+/// Cause of a stop.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
     /// The world could not be advanced from this tick.
     World {
         /// The tick.
         tick: u64,
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
-        /// Why.
+        /// Reason.
         cause: Stop,
     },
     /// A block gave what is not a finite number.
     Block {
         /// The tick at which it did, or after which, if it did between ticks.
         tick: u64,
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
         /// The block.
         culprit: NotFinite,
@@ -70,17 +70,17 @@ pub enum Halt {
     Controller {
         /// The tick.
         tick: u64,
-        /// Where `[s]`.
+        /// Time `[s]`.
         t: f64,
-        /// Whether the world has made the step.
+        /// True if the world has made the step.
         is_after_step: bool,
         /// Which, where and why.
-        fault: Box<Fault>,
+        fault: Box<ScriptError>,
     },
 }
 
 impl Halt {
-    /// Whether the world has made the step all the same, so that the state is that of another tick.
+    /// Returns true if the world has made the step all the same, so that the state is that of another tick.
     #[must_use]
     pub fn is_after_step(&self) -> bool {
         match self {
@@ -227,8 +227,8 @@ impl LockStep {
         self.tick as f64 * self.step
     }
 
-    /// Evaluates the diagram for the first time. Its continuous commands are seen from then on: the speed of a rotor that lags, the
-    /// torque of a continuous controller.
+    /// Evaluates the diagram for the first time. Its continuous commands are seen from then on: the speed of a rotor
+    /// that lags, the torque of a continuous controller.
     ///
     /// # Errors
     ///
@@ -236,10 +236,10 @@ impl LockStep {
     pub fn start(&mut self) -> Result<(), Halt> {
         self.is_started = true;
         self.call(false, |controller, at| controller.start(at))?;
-        self.look();
+        self.update_proximity_sensors();
         self.measure()?;
         for controller in all(&mut self.control, &mut self.controllers) {
-            controller.show(&mut self.world.state.commands);
+            controller.write_outputs(&mut self.world.state.commands);
         }
         Ok(())
     }
@@ -263,7 +263,7 @@ impl LockStep {
     fn call(
         &mut self,
         is_after_step: bool,
-        mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), Fault>,
+        mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), ScriptError>,
     ) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         for controller in all(&mut self.control, &mut self.controllers) {
@@ -308,15 +308,16 @@ impl LockStep {
     ///   2 latch     u ← signals of the scene, then each controller; the strongest source wins
     ///   3 remember  each controller: memory for its next tick
     ///   4 advance   the world goes from t_k to t_{k+1} under u, in sub-steps; a continuous diagram with it
-    ///   5 look      proximity sensors that are due; each controller sees what they found      t_{k+1}
+    ///   5 detect    proximity sensors that are due; then those of each controller              t_{k+1}
     ///   6 sense     each controller: measurements of the step, forces of the next one
-    ///   7 arrive    continuous commands are brought to t_{k+1}
+    ///   7 evaluate  continuous outputs at t_{k+1}
     ///   8 sample    the other sensors that are due
     ///   9 measure   each controller: measurements at t_{k+1}; blocks that are due are evaluated
     /// ```
     ///
-    /// Whoever drives the lock-step hashes and records the state after it. If 1 fails, the state is that of t_k; if 4 fails, that of the last
-    /// instant reached, and the tick is not counted; if 6 or 9 fails, the step has been made and counted.
+    /// Whoever drives the lock-step hashes and records the state after it. If 1 fails, the state is that of t_k; if 4
+    /// fails, that of the last instant reached, and the tick is not counted; if 6 or 9 fails, the step has been made
+    /// and counted.
     ///
     /// # Errors
     ///
@@ -340,14 +341,14 @@ impl LockStep {
             return Err(culprit.map_or(Halt::World { tick, t, cause }, |culprit| Halt::Block { tick, t, culprit }));
         }
         self.tick += 1;
-        // 5 look
-        self.look();
+        // 5 detect
+        self.update_proximity_sensors();
         // 6 sense
         self.call(true, |controller, at| controller.sense(at))?;
-        // 7 arrive
+        // 7 evaluate
         let (tick, t) = (self.tick, self.t());
         for controller in all(&mut self.control, &mut self.controllers) {
-            controller.arrive(Instant { world: &mut self.world, tick, t });
+            controller.evaluate_outputs(Instant { world: &mut self.world, tick, t });
         }
         // 8 sample, 9 measure
         self.measure()
@@ -375,11 +376,11 @@ impl LockStep {
     }
 
     /// Proximity sensors look at the present tick, then the controllers.
-    fn look(&mut self) {
+    fn update_proximity_sensors(&mut self) {
         let (tick, t) = (self.tick, self.t());
-        self.sensors.look_around(&mut self.world, tick, t, &mut self.controllers);
+        self.sensors.update_proximity_sensors(&mut self.world, tick, t, &mut self.controllers);
         for controller in all(&mut self.control, &mut self.controllers) {
-            controller.look(Instant { world: &mut self.world, tick, t });
+            controller.update_proximity_sensors(Instant { world: &mut self.world, tick, t });
         }
     }
 
@@ -395,8 +396,9 @@ impl LockStep {
         Ok(())
     }
 
-    /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of scripts and clients and the values of
-    /// all sensors after them. A float signal that nobody has set is not a number.
+    /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of
+    /// scripts and clients and the values of all sensors after them. A float signal that nobody has set is not a
+    /// number.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
         if !(self.sensors.values.is_empty() && self.floats.is_empty()) {
@@ -451,7 +453,7 @@ impl LockStep {
         }
     }
 
-    /// What blocks of the diagram have to say of the run so far.
+    /// Notices of the diagram's blocks about the run so far.
     #[must_use]
     pub fn notices(&self) -> Vec<String> {
         let notices = self.control.iter().flat_map(|control| control.runner.notices());

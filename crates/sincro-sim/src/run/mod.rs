@@ -1,9 +1,10 @@
 //! A run, from its start to its end.
 //!
-//! [`LockStep::advance`] is one base step, with its stages in order; [`simulate`] makes them all, hashes and records the state after each.
+//! [`LockStep::advance`] is one base step, with its stages in order; [`simulate`] makes them all, hashes and records
+//! the state after each.
 //!
-//! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says where, who and
-//! why (`stop.rs`).
+//! Time is `tick · step`, never accumulated. If the world cannot go on, everything recorded stays, and the run says
+//! where, who and why (`stop.rs`).
 
 mod bounds;
 mod lockstep;
@@ -27,11 +28,11 @@ pub use recording::Recording;
 use crate::controller::{Change, Message};
 use crate::file::FileError;
 use crate::load::Loaded;
-use crate::replay::Tape;
+use crate::replay::Trajectory;
 use crate::results::{EnergyReport, Status};
 use crate::table::Table;
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::experiment::{Experiment, Integrator};
-use sincro_scene::problem::Problems;
 use sincro_scene::scene::Scene;
 
 /// Rate times base step above which `auto` takes the stiff method.
@@ -40,73 +41,73 @@ const STIFF_FROM: f64 = 1.0;
 const SLOW_FROM: f64 = 20.0;
 /// Pole times step above which a method that takes a feedback at the old state diverges.
 const EULER_LIMIT: f64 = 1.0;
-/// How much finer the second run of an error estimate is: fixed steps halved, tolerance divided.
+/// Refinement of the second run of an error estimate: fixed steps halved, tolerance divided by this.
 pub(crate) const FINER: f64 = 100.0;
 
-/// What a single run gave.
+/// Result of a single run.
 #[derive(Clone, Debug)]
 pub struct Simulated {
     /// The recorded signals.
     pub table: Table,
-    /// How it ended.
+    /// Status at the end.
     pub status: Status,
     /// The method that ran.
     pub method: MethodKind,
     /// Hash of the states of all ticks.
     pub trace: Trace,
     /// Frames to show it again, if they were asked for.
-    pub tape: Option<Tape>,
+    pub trajectory: Option<Trajectory>,
     /// The balance of energy.
     pub energy: EnergyReport,
     /// Sub-steps and events.
     pub effort: StepStatistics,
-    /// Where rotors left what their theory holds for.
+    /// Rotors outside the validity of their theory.
     pub outside: Vec<Outside>,
-    /// What to know before trusting the numbers.
+    /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
-    /// What scripts said.
+    /// Messages of scripts.
     pub messages: Vec<Message>,
-    /// What clients and scripts changed of the model.
+    /// Changes of the model by clients and scripts.
     pub changes: Vec<Change>,
     /// Columns of the table that streams of graphs made: its last ones.
     pub n_streams: usize,
-    /// How long it took `[s]`, recording included.
+    /// Wall time `[s]`, recording included.
     pub wall_time: f64,
 }
 
-/// What may be asked of a run while it runs.
-pub struct Watch<'a> {
+/// Monitor of a run: interruption and progress.
+pub struct RunMonitor<'a> {
     /// Set from outside to end the run after the present tick.
     pub interrupt: &'a AtomicBool,
     /// Told the share done, now and then.
     pub progress: &'a mut dyn FnMut(f64),
 }
 
-/// How a run goes to disk and how fine it is.
+/// Options of a run: output file, refinement, keyframes.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Manner<'a> {
+pub struct RunOptions<'a> {
     /// CSV file that rows are written to as they come.
     pub csv: Option<&'a Path>,
-    /// Whether it is the finer run of an error estimate.
+    /// True if it is the finer run of an error estimate.
     pub refined: bool,
-    /// Whether frames are taken to show it again.
-    pub films: bool,
+    /// True if frames are taken to show it again.
+    pub keyframes: bool,
     /// The variant whose checks end it if they want a divergence; none: the main run.
     pub variant: Option<&'a str>,
 }
 
-/// Why a run could not even be made.
+/// Error before the first step of a run.
 #[derive(Debug)]
 pub enum RunError {
     /// Recorded signals that mean nothing.
-    Problems(Problems),
+    Diagnostics(Diagnostics),
     /// The results cannot be written.
     File(FileError),
 }
 
-impl From<Problems> for RunError {
-    fn from(problems: Problems) -> Self {
-        Self::Problems(problems)
+impl From<Diagnostics> for RunError {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Diagnostics(diagnostics)
     }
 }
 
@@ -163,7 +164,7 @@ fn fastest_lag(scene: &Scene) -> Option<(usize, f64)> {
     scene.model.rotors().iter().enumerate().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// What there is to say about the lag of rotors under an explicit method.
+/// Warnings about the lag of rotors under an explicit method.
 fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Option<String> {
     let (k, rate) = fastest_lag(scene)?;
     let product = rate * experiment.step;
@@ -186,8 +187,8 @@ fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Opti
     }
 }
 
-/// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest pole of the loop that
-/// they close, which the linearisation gives exactly.
+/// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest
+/// pole of the loop that they close, which the linearisation gives exactly.
 #[must_use]
 pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     let (kind, mut warnings) = choose_method(&loaded.scene, &loaded.experiment);
@@ -276,11 +277,11 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
 ///
 /// If a recorded signal does not exist or the CSV file cannot be written. A run that stops is not an error: see
 /// [`Simulated::status`].
-pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> Result<Simulated, RunError> {
+pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonitor<'_>) -> Result<Simulated, RunError> {
     let experiment = &loaded.experiment;
     let (method, warnings) = method_for(loaded);
-    let mut lockstep = LockStep::new(loaded, method, manner.refined);
-    let mut recording = Recording::new(loaded, &mut lockstep, manner)?;
+    let mut lockstep = LockStep::new(loaded, method, options.refined);
+    let mut recording = Recording::new(loaded, &mut lockstep, options)?;
     let mut status = Status::Completed;
     let first = lockstep.start();
     let end = recording.start(&mut lockstep)?;
@@ -311,12 +312,12 @@ pub fn simulate(loaded: &Loaded, manner: Manner<'_>, watch: &mut Watch<'_>) -> R
             status = stopped_by_script(&lockstep);
             break;
         }
-        if watch.interrupt.load(Ordering::Relaxed) {
+        if monitor.interrupt.load(Ordering::Relaxed) {
             status = Status::Interrupted { tick: tick + 1, time: lockstep.t() };
             break;
         }
         if tick % 256 == 0 {
-            (watch.progress)(tick as f64 / experiment.n_steps as f64);
+            (monitor.progress)(tick as f64 / experiment.n_steps as f64);
         }
     }
     if let Err(halt) = lockstep.end()

@@ -1,4 +1,4 @@
-//! What a run leaves behind, gathered tick by tick: recorded rows, hash, balance of energy. A run from a file and a live session
+//! Recording of a run, tick by tick: recorded rows, hash, balance of energy. A run from a file and a live session
 //! keep it in the same way.
 
 use std::time::Instant;
@@ -7,10 +7,10 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 
 use super::bounds::Bounds;
 use super::lockstep::LockStep;
-use super::{Manner, RunError, Simulated};
+use super::{RunError, RunOptions, Simulated};
 use crate::file::FileError;
 use crate::load::Loaded;
-use crate::replay::Tape;
+use crate::replay::Trajectory;
 use crate::results::{EnergyReport, Status};
 use crate::table::{CsvWriter, Table};
 use crate::trace::Trace;
@@ -24,11 +24,11 @@ use super::streams::Streams;
 pub struct Recording {
     recorder: Recorder,
     table: Table,
-    /// What ends the run; none in the finer run of an error estimate, which goes as far as the first one.
+    /// Bounds that end the run; none in the finer run of an error estimate, which goes as far as the first one.
     bounds: Option<Bounds>,
     csv: Option<CsvWriter>,
     streams: Streams,
-    tape: Option<Tape>,
+    trajectory: Option<Trajectory>,
     validity: validity::Register,
     ledger: Ledger,
     trace: Trace,
@@ -44,28 +44,28 @@ impl Recording {
     /// # Errors
     ///
     /// Recorded signals that do not exist, or a CSV file that cannot be written.
-    pub fn new(loaded: &Loaded, lockstep: &mut LockStep, manner: Manner<'_>) -> Result<Self, RunError> {
+    pub fn new(loaded: &Loaded, lockstep: &mut LockStep, options: RunOptions<'_>) -> Result<Self, RunError> {
         let Loaded { scene, experiment, controller, .. } = loaded;
         let entries = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
         let rows = experiment.n_steps / experiment.record_every + 1;
         let table = Table::new(recorder.columns(), rows as usize);
-        let bounds = (!manner.refined).then(|| Bounds::new(experiment, manner.variant, &table));
+        let bounds = (!options.refined).then(|| Bounds::new(experiment, options.variant, &table));
         let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
-        let csv = manner.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
-        let tape = manner.films.then(|| Tape::new(&scene.model, experiment));
+        let csv = options.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
+        let trajectory = options.keyframes.then(|| Trajectory::new(&scene.model, experiment));
         let validity = validity::Register::new(&scene.model);
         let clock = Instant::now();
         let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
-        let streams = Streams::new(manner.csv, rows as usize);
+        let streams = Streams::new(options.csv, rows as usize);
         Ok(Self {
             recorder,
             table,
             bounds,
             csv,
             streams,
-            tape,
+            trajectory,
             validity,
             ledger,
             trace,
@@ -90,12 +90,12 @@ impl Recording {
         // scripts may have changed what the run starts with
         self.ledger = Ledger::start(lockstep.world());
         let end = self.publish(lockstep, true)?;
-        self.film(lockstep, false);
+        self.record_keyframe(lockstep, false);
         Ok(end)
     }
 
-    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be. A text says
-    /// why the run ends here.
+    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be. A
+    /// text says why the run ends here.
     ///
     /// # Errors
     ///
@@ -104,29 +104,29 @@ impl Recording {
         let mut end = None;
         lockstep.add_to(&mut self.trace);
         let (tick, t) = (lockstep.tick(), lockstep.t());
-        self.validity.look(lockstep.world(), t);
+        self.validity.update(lockstep.world(), t);
         if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
             end = self.publish(lockstep, false)?;
         }
-        self.film(lockstep, is_last || end.is_some() || tick == self.last_tick);
+        self.record_keyframe(lockstep, is_last || end.is_some() || tick == self.last_tick);
         Ok(end)
     }
 
-    fn film(&mut self, lockstep: &mut LockStep, is_last: bool) {
+    fn record_keyframe(&mut self, lockstep: &mut LockStep, is_last: bool) {
         let (tick, t) = (lockstep.tick(), lockstep.t());
-        if let Some(tape) = self.tape.as_mut().filter(|tape| tape.is_due(tick) || is_last) {
-            tape.look(&lockstep.observe(t).0, tick, t);
+        if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| trajectory.is_due(tick) || is_last) {
+            trajectory.record(&lockstep.observe(t).0, tick, t);
         }
     }
 
     fn publish(&mut self, lockstep: &mut LockStep, is_start: bool) -> Result<Option<String>, FileError> {
         let t = lockstep.t();
         let (seen, signals) = lockstep.observe(t);
-        self.ledger.look(&seen);
+        self.ledger.update(&seen);
         let row = self.recorder.row(&seen, signals, t, is_start);
         self.table.push_row(row);
         self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
-        self.streams.look(lockstep.controllers_mut(), self.table.n_rows());
+        self.streams.update(lockstep.controllers_mut(), self.table.n_rows());
         Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
     }
 
@@ -142,7 +142,7 @@ impl Recording {
         method: MethodKind,
         mut warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
-        let Self { mut table, csv, streams, tape, validity, ledger, trace, clock, .. } = self;
+        let Self { mut table, csv, streams, trajectory, validity, ledger, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let n_streams = streams.finish(lockstep.controllers_mut(), &mut table)?;
         let wall_time = clock.elapsed().as_secs_f64();
@@ -163,7 +163,7 @@ impl Recording {
             status,
             method,
             trace,
-            tape,
+            trajectory,
             energy,
             effort,
             outside,
@@ -176,7 +176,7 @@ impl Recording {
     }
 }
 
-/// What the user should know of the constraint solver's work.
+/// Warnings about the convergence of the constraint solver.
 fn about_constraints(world: &World) -> Vec<String> {
     let mut warnings = Vec::new();
     let rough = world.statistics().fallback_ticks;
@@ -207,7 +207,7 @@ impl Ledger {
         Self { start: (e.kinetic, e.potential), worst: 0.0, last: (e.kinetic, e.potential) }
     }
 
-    fn look(&mut self, seen: &Observation<'_>) {
+    fn update(&mut self, seen: &Observation<'_>) {
         let (e, totals) = (seen.energy(), &seen.state.totals);
         let balance = e.total() - (self.start.0 + self.start.1) - totals[0] + totals[1];
         self.worst = self.worst.max(balance.abs());

@@ -1,4 +1,4 @@
-//! Why a run stopped: tick, joint, likely cause, and the setting that mends it.
+//! Explanation of a stop: tick, joint, likely cause, and the setting that helps.
 
 use sincro_dynamics::integrate::Failure;
 use sincro_dynamics::stiffness::{RK4_LIMIT, stiffest};

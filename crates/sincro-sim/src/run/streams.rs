@@ -21,7 +21,7 @@ impl Streams {
     }
 
     /// After row `n_rows` was recorded.
-    pub fn look(&mut self, controllers: &mut [Box<dyn Controller>], n_rows: usize) {
+    pub fn update(&mut self, controllers: &mut [Box<dyn Controller>], n_rows: usize) {
         self.values.resize_with(controllers.len(), Vec::new);
         for (controller, streams) in controllers.iter_mut().zip(&mut self.values) {
             for cleared in controller.take_cleared_streams() {
@@ -41,8 +41,8 @@ impl Streams {
         }
     }
 
-    /// Puts them behind the other columns, in the file too; says how many they are. A stream whose column would have the name of another one is told
-    /// apart by `'`.
+    /// Puts them behind the other columns, in the file too; says how many they are. A stream whose column would have
+    /// the name of another one is told apart by `'`.
     ///
     /// # Errors
     ///

@@ -121,8 +121,8 @@ impl TestFolder {
 
     pub fn load(&self, settings: &[&str]) -> Result<Loaded, String> {
         let settings: Result<Vec<Override>, _> = settings.iter().map(|text| Override::parse(text)).collect();
-        let settings = settings.map_err(|problem| problem.to_string())?;
-        load(&self.path, &settings, Extensions::default()).map_err(|problems| self.short(&problems.to_string()))
+        let settings = settings.map_err(|diagnostic| diagnostic.to_string())?;
+        load(&self.path, &settings, Extensions::default()).map_err(|diagnostics| self.short(&diagnostics.to_string()))
     }
 
     /// A message without the folder's path.
@@ -137,7 +137,7 @@ impl Drop for TestFolder {
     }
 }
 
-/// What is said of a folder in which one file was changed.
+/// Diagnostics of a folder in which one file was changed.
 pub fn refused(file: &str, from: &str, to: &str) -> String {
     let folder = TestFolder::new();
     folder.change(file, from, to);

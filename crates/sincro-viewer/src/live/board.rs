@@ -1,4 +1,4 @@
-//! What viewers may read: the scene, the runs so far, how the engine stands, what it has said.
+//! Board that viewers read: the scene, the runs so far, the state of the engine, its messages.
 
 use std::sync::{Mutex, MutexGuard};
 
@@ -7,7 +7,7 @@ use sincro_sim::replay::Contacts;
 use tokio::sync::watch;
 
 /// Words that are kept for viewers; older ones have been read or never will be.
-const MOST_WORDS: usize = 200;
+const MAX_WORDS: usize = 200;
 
 /// The board.
 #[derive(Debug)]
@@ -16,16 +16,16 @@ pub struct Board {
     changed: watch::Sender<u64>,
 }
 
-/// What stands on it.
+/// Content of the board.
 #[derive(Debug, Default)]
 pub struct Content {
     /// The scene and everything that does not change, as JSON.
-    pub film: String,
+    pub replay: String,
     /// The runs, in the order of their numbers.
     pub runs: Vec<RunLog>,
-    /// How the engine stands.
+    /// State of the engine.
     pub standing: Standing,
-    /// What it has said, as JSON, with running numbers.
+    /// Its messages as JSON, with running numbers.
     pub words: Vec<(u64, String)>,
     n_words: u64,
 }
@@ -49,20 +49,20 @@ pub struct RunLog {
     pub contacts: Contacts,
 }
 
-/// How the engine stands.
+/// State of the engine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Standing {
     /// Number of the run that goes on.
     pub run: usize,
-    /// Whether it does so now.
+    /// True if it does so now.
     pub playing: bool,
     /// Simulated seconds a second that are aimed at; none: as fast as it goes.
     pub speed: Option<f64>,
     /// Simulated seconds a second that come out, while it plays.
     pub factor: Option<f64>,
-    /// Why the run ended early; empty if it did not.
+    /// Reason for the early end of the run; empty if there was none.
     pub stop: String,
-    /// Whether it has come to its end.
+    /// True if it has come to its end.
     pub done: bool,
     /// Hash of its states.
     pub trace: String,
@@ -71,8 +71,8 @@ pub struct Standing {
 impl Board {
     /// An empty one.
     #[must_use]
-    pub fn new(film: String) -> Self {
-        let content = Content { film, ..Content::default() };
+    pub fn new(replay: String) -> Self {
+        let content = Content { replay, ..Content::default() };
         Self { content: Mutex::new(content), changed: watch::Sender::new(0) }
     }
 
@@ -97,7 +97,7 @@ impl Board {
         self.write(|content| {
             content.n_words += 1;
             content.words.push((content.n_words, text));
-            if content.words.len() > MOST_WORDS {
+            if content.words.len() > MAX_WORDS {
                 content.words.remove(0);
             }
         });

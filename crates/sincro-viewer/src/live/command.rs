@@ -1,4 +1,4 @@
-//! What viewers may ask of the engine; anything else is refused.
+//! Commands of viewers to the engine; anything else is refused.
 
 use serde::Deserialize;
 
@@ -29,14 +29,14 @@ pub enum Command {
         set: Vec<(String, String)>,
         /// Coordinates that are put elsewhere, at rest.
         joints: Vec<(usize, f64)>,
-        /// Whether it goes on at once.
+        /// True if it goes on at once.
         play: bool,
     },
     /// A force on an object until the next push or [`Command::Release`].
     Push {
         /// Index of the object.
         object: usize,
-        /// Where it acts, world axes `[m]`.
+        /// Point of application, world axes `[m]`.
         point: [f64; 3],
         /// World axes `[N]`.
         force: [f64; 3],

@@ -5,35 +5,35 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
+use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::check::{Expected, Subject};
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::Problems;
 use sincro_sim::replay::{SceneView, properties};
 use sincro_sim::{Extensions, load, load_alone};
 
 use super::board::{Board, RunLog};
 use super::command::Command;
 use super::track::{Taken, Track};
-use crate::film::{FORMAT, Film, plots};
+use crate::replay::{FORMAT, Replay, plots};
 use crate::save::save_scene;
 
 /// Commands that may wait.
-const MOST_WAITING: usize = 64;
+const MAX_WAITING: usize = 64;
 /// Memory for the snapshots of all runs: 256 MB. What does not fit is thinned in time.
 const SNAPSHOT_BYTES: usize = 256 << 20;
-/// How long it computes at a stretch before it looks for commands.
+/// Wall time of computation between two reads of commands.
 const STRETCH: Duration = Duration::from_millis(8);
-/// How long it sleeps when it is ahead of the clock.
+/// Time of sleep when it is ahead of the clock.
 const NAP: Duration = Duration::from_millis(4);
 
-/// What is to be run.
+/// Source of a live run.
 pub struct Source {
     /// The scene's folder.
     pub folder: PathBuf,
-    /// What is set against its files.
+    /// Overrides of its files.
     pub settings: Vec<Override>,
-    /// What the scene may need beyond its files: language of scripts.
+    /// Extensions that the scene may need beyond its files: language of scripts.
     pub extensions: Extensions,
     /// Makes the drawing of a diagram.
     pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
@@ -56,9 +56,9 @@ impl Engine {
     /// # Errors
     ///
     /// Everything that is wrong with the scene.
-    pub fn open(source: Source) -> Result<Self, Problems> {
+    pub fn open(source: Source) -> Result<Self, Diagnostics> {
         let loaded = load(&source.folder, &source.settings, source.extensions)?;
-        let film = Film {
+        let replay = Replay {
             format: FORMAT,
             title: loaded.experiment.title.clone(),
             description: loaded.experiment.description.clone(),
@@ -71,7 +71,7 @@ impl Engine {
             diagram: loaded.controller.as_ref().map(|c| (source.draw)(c)),
             runs: Vec::new(),
         };
-        let board = Arc::new(Board::new(film.to_json()));
+        let board = Arc::new(Board::new(replay.to_json()));
         let first = Track::new(loaded, source.settings.clone())?;
         let since = (Instant::now(), 0.0);
         let mut engine = Self { source, board, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
@@ -79,7 +79,7 @@ impl Engine {
         Ok(engine)
     }
 
-    /// What viewers read.
+    /// Board that viewers read.
     #[must_use]
     pub fn board(&self) -> Arc<Board> {
         self.board.clone()
@@ -88,7 +88,7 @@ impl Engine {
     /// Starts the engine's thread; it ends when the last sender is gone.
     #[must_use]
     pub fn start(mut self) -> SyncSender<Command> {
-        let (sender, receiver) = sync_channel(MOST_WAITING);
+        let (sender, receiver) = sync_channel(MAX_WAITING);
         std::thread::spawn(move || self.run(&receiver));
         sender
     }
@@ -211,8 +211,8 @@ impl Engine {
     fn restart(&mut self) -> Result<(), String> {
         let settings = self.present().settings.clone();
         let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
-            .map_err(|problems| problems.to_string())?;
-        let track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
+            .map_err(|diagnostics| diagnostics.to_string())?;
+        let track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         self.begin_next(track, "from the start");
         Ok(())
     }
@@ -233,8 +233,8 @@ impl Engine {
         let settings = self.settings(set);
         let snapshot = from.snapshot_at(t).filter(|s| s.state.tick > 0 || !joints.is_empty()).cloned();
         let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
-            .map_err(|problems| problems.to_string())?;
-        let mut track = Track::new(loaded, settings).map_err(|problems| problems.to_string())?;
+            .map_err(|diagnostics| diagnostics.to_string())?;
+        let mut track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         if let Some(snapshot) = &snapshot {
             track = track.from(snapshot, joints)?;
         }

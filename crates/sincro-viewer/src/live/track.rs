@@ -1,25 +1,26 @@
-//! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start there.
+//! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start
+//! there.
 
 use sincro_dynamics::actuation::Push;
 use sincro_dynamics::spatial::Vec3;
+use sincro_scene::diagnostic::{Diagnostics, Located};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
-use sincro_scene::problem::{Located, Problems};
 use sincro_scene::record::{Recorder, catalogue};
 use sincro_sim::Loaded;
-use sincro_sim::replay::{Contacts, Layout, SceneView, Tape};
+use sincro_sim::replay::{Contacts, Layout, SceneView, Trajectory};
 use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
 use sincro_sim::trace::Trace;
 
 use super::thinned::Thinned;
-use crate::film::stop_words;
+use crate::replay::stop_words;
 
 /// Signals beyond which the catalogue is not offered whole: what is recorded and the diagram's remain.
-const MOST_SIGNALS: usize = 400;
+const MAX_SIGNALS: usize = 400;
 
 /// Bytes that the recorded signals of a run may take: a long run with many of them is looked at less often.
-const MOST_ROW_BYTES: u64 = 256 << 20;
+const MAX_ROW_BYTES: u64 = 256 << 20;
 
 /// A run under way.
 pub(super) struct Track {
@@ -31,7 +32,7 @@ pub(super) struct Track {
     pub layout: Layout,
     /// Names and units of what is recorded, `t` left out.
     pub columns: Vec<(String, String)>,
-    /// Why it cannot go on; empty if it can.
+    /// Reason for which it cannot go on; empty if it can.
     pub stop: String,
     recorder: Recorder,
     method: sincro_dynamics::world::MethodKind,
@@ -41,7 +42,7 @@ pub(super) struct Track {
     push: Option<Push<f64>>,
 }
 
-/// What a frame adds to the board.
+/// Content that a frame adds to the board.
 pub(super) struct Taken {
     pub t: f64,
     pub row: Vec<f64>,
@@ -51,15 +52,15 @@ pub(super) struct Taken {
 
 impl Track {
     /// From the start.
-    pub fn new(loaded: Loaded, settings: Vec<Override>) -> Result<Self, Problems> {
+    pub fn new(loaded: Loaded, settings: Vec<Override>) -> Result<Self, Diagnostics> {
         let (method, _) = method_for(&loaded);
         let lockstep = LockStep::new(&loaded, method, false);
         let (recorder, columns) = recorder(&loaded)?;
         let model = &loaded.scene.model;
-        let tape = Tape::new(model, &loaded.experiment);
+        let trajectory = Trajectory::new(model, &loaded.experiment);
         let row_bytes = 8 * columns.len() as u64 * loaded.experiment.n_steps;
-        let every = tape.every.max(row_bytes.div_ceil(MOST_ROW_BYTES));
-        let (view, layout) = (SceneView::new(&loaded.scene), tape.layout);
+        let every = trajectory.every.max(row_bytes.div_ceil(MAX_ROW_BYTES));
+        let (view, layout) = (SceneView::new(&loaded.scene), trajectory.layout);
         let trace = lockstep.trace();
         let mut new = Self {
             settings,
@@ -76,7 +77,7 @@ impl Track {
             push: None,
             loaded,
         };
-        new.look();
+        new.record();
         Ok(new)
     }
 
@@ -103,12 +104,12 @@ impl Track {
             self.lockstep.stop();
         }
         self.stop.clear();
-        self.look();
+        self.record();
         Ok(self)
     }
 
     /// Evaluates the diagram at the present state.
-    fn look(&mut self) {
+    fn record(&mut self) {
         if let Err(halt) = self.lockstep.start() {
             self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
         }
@@ -145,7 +146,7 @@ impl Track {
         let row = self.recorder.row(&seen, signals, t, is_start)[1..].to_vec();
         self.layout.write(&seen, t, &mut frame);
         let mut contacts = Contacts::default();
-        contacts.look(&seen);
+        contacts.record(&seen);
         Taken { t, row, frame, contacts }
     }
 
@@ -184,12 +185,12 @@ fn snapshot_bytes(snapshot: &Snapshot) -> usize {
 }
 
 /// Everything that can be looked at, as far as it is not too much.
-fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Problems> {
+fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Diagnostics> {
     let (experiment, model) = (&loaded.experiment, &loaded.scene.model);
     let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
     let all = catalogue(model);
     let mut names: Vec<String> = experiment.record.iter().map(|r| r.value.clone()).collect();
-    let offered = entries.iter().chain(all.iter().filter(|_| all.len() <= MOST_SIGNALS));
+    let offered = entries.iter().chain(all.iter().filter(|_| all.len() <= MAX_SIGNALS));
     for entry in offered {
         if !names.contains(&entry.name) {
             names.push(entry.name.clone());

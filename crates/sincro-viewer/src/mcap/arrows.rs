@@ -1,9 +1,9 @@
-//! What pushes and what blows, as arrows in the world: contact, external, drag and thrust forces, wind. An arrow is half as long as the scene is large
-//! where its kind is greatest in the run.
+//! Forces and wind as arrows in the world: contact, external, drag and thrust forces, wind. An arrow is half as long as
+//! the scene is large where its kind is greatest in the run.
 
 use mcap::McapError;
 use serde_json::{Value, json};
-use sincro_sim::replay::{CONTACT, SceneView, Tape};
+use sincro_sim::replay::{CONTACT, SceneView, Trajectory};
 
 use super::Recording;
 use super::entity::{color, entity, extent, pose};
@@ -17,10 +17,10 @@ struct Kind<'a> {
 }
 
 /// One message a frame.
-pub(super) fn write(out: &mut Recording, view: &SceneView, tape: &Tape) -> Result<(), McapError> {
-    let kinds = kinds(view, tape);
+pub(super) fn write(out: &mut Recording, view: &SceneView, trajectory: &Trajectory) -> Result<(), McapError> {
+    let kinds = kinds(view, trajectory);
     let largest = |kind: &Kind<'_>| {
-        let sizes = (0..tape.n_frames()).flat_map(|k| (kind.of)(k)).map(|(_, vector)| norm(vector));
+        let sizes = (0..trajectory.n_frames()).flat_map(|k| (kind.of)(k)).map(|(_, vector)| norm(vector));
         sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
     };
     let sizes: Vec<f64> = kinds.iter().map(largest).collect();
@@ -29,8 +29,8 @@ pub(super) fn write(out: &mut Recording, view: &SceneView, tape: &Tape) -> Resul
     }
     let id = out.channel("/arrows", "SceneUpdate")?;
     let longest = 0.5 * extent(view);
-    for k in 0..tape.n_frames() {
-        let t = tape.times[k];
+    for k in 0..trajectory.n_frames() {
+        let t = trajectory.times[k];
         let of_kind = |(kind, most): (&Kind<'_>, &f64)| {
             let all = (kind.of)(k).into_iter();
             let arrows = all.filter_map(|(from, vector)| arrow(from, vector, longest / most, kind.color)).collect();
@@ -42,33 +42,33 @@ pub(super) fn write(out: &mut Recording, view: &SceneView, tape: &Tape) -> Resul
     Ok(())
 }
 
-fn kinds<'a>(view: &'a SceneView, tape: &'a Tape) -> [Kind<'a>; 5] {
+fn kinds<'a>(view: &'a SceneView, trajectory: &'a Trajectory) -> [Kind<'a>; 5] {
     let three = |frame: &[f32], at: usize| -> V { std::array::from_fn(|k| f64::from(frame[at + k])) };
-    let at = move |k: usize, object: usize| place(view, object, tape.frame(k));
+    let at = move |k: usize, object: usize| place(view, object, trajectory.frame(k));
     let contacts = move |k: usize| {
-        let points = tape.contacts.frame(k).chunks_exact(CONTACT);
+        let points = trajectory.contacts.frame(k).chunks_exact(CONTACT);
         points.map(|p| (three(p, 2), three(p, 5))).collect()
     };
     let forces = move |k: usize| {
         let found = view.objects.iter().enumerate().filter_map(|(o, object)| Some((o, object.force?)));
-        found.map(|(o, force)| (at(k, o).0, three(tape.frame(k), view.force_at(force)))).collect()
+        found.map(|(o, force)| (at(k, o).0, three(trajectory.frame(k), view.force_at(force)))).collect()
     };
     let drags = move |k: usize| {
         let found = view.objects.iter().enumerate().filter_map(|(o, object)| Some((o, object.drag?)));
-        found.map(|(o, drag)| (at(k, o).0, three(tape.frame(k), view.drag_at(drag)))).collect()
+        found.map(|(o, drag)| (at(k, o).0, three(trajectory.frame(k), view.drag_at(drag)))).collect()
     };
     let thrust = move |k: usize| {
         let found = view.objects.iter().enumerate().filter_map(|(o, object)| Some((o, object.rotor.as_ref()?.index)));
         let along = |o: usize, rotor: usize| {
             let (hub, z) = at(k, o);
-            let thrust = f64::from(tape.frame(k)[view.rotor_at(rotor) + 1]);
+            let thrust = f64::from(trajectory.frame(k)[view.rotor_at(rotor) + 1]);
             (hub, z.map(|x| thrust * x))
         };
         found.map(|(o, rotor)| along(o, rotor)).collect()
     };
     let wind = move |k: usize| {
         let movers = view.winds.iter().enumerate();
-        movers.map(|(w, m)| (three(tape.frame(k), 7 * m), three(tape.frame(k), view.wind_at(w)))).collect()
+        movers.map(|(w, m)| (three(trajectory.frame(k), 7 * m), three(trajectory.frame(k), view.wind_at(w)))).collect()
     };
     [
         Kind { id: "contact forces", color: "#a5127d", of: Box::new(contacts) },
@@ -79,7 +79,7 @@ fn kinds<'a>(view: &'a SceneView, tape: &'a Tape) -> [Kind<'a>; 5] {
     ]
 }
 
-/// Where an object is in the world, and its z axis.
+/// Position of an object in the world, and its z axis.
 fn place(view: &SceneView, object: usize, frame: &[f32]) -> (V, V) {
     let object = &view.objects[object];
     let of = |m: usize| std::array::from_fn(|k| f64::from(frame[7 * m + k]));

@@ -1,5 +1,5 @@
-//! A run as an MCAP file for Foxglove, Lichtblick or Rerun: transforms, shapes and arrows as Foxglove's messages, signals as messages of their own, all
-//! as protocol buffers, which all three decode.
+//! A run as an MCAP file for Foxglove, Lichtblick or Rerun: transforms, shapes and arrows as Foxglove's messages,
+//! signals as messages of their own, all as protocol buffers, which all three decode.
 //!
 //! | topic | schema | what |
 //! |---|---|---|
@@ -8,7 +8,8 @@
 //! | `/arrows` | `foxglove.SceneUpdate` | contact, external, drag and thrust forces and the wind, at the replay's rate |
 //! | `/PATH`, `/energy` … | `sincro.Signals_PATH` | recorded signals, every row; units in the channel's metadata |
 //!
-//! Times are simulated ones, in nanoseconds from zero. Names of signals become fields: `/air.position.x` is `position_x` of the topic `/air`.
+//! Times are simulated ones, in nanoseconds from zero. Names of signals become fields: `/air.position.x` is
+//! `position_x` of the topic `/air`.
 
 mod arrows;
 mod entity;
@@ -24,7 +25,7 @@ use protobuf::Package;
 use serde_json::{Value, json};
 use sincro_sim::campaign::Done;
 use sincro_sim::file::FileError;
-use sincro_sim::replay::{ObjectView, SceneView, Tape};
+use sincro_sim::replay::{ObjectView, SceneView, Trajectory};
 use sincro_sim::table::Table;
 
 /// Definitions of Foxglove's messages.
@@ -48,9 +49,9 @@ pub fn write(done: &Done, path: &Path) -> Result<(), FileError> {
     let write = || -> Result<(), McapError> {
         let mut out = Recording { out: options.create(BufWriter::new(file))?, foxglove: Package::parse(FOXGLOVE) };
         entity::shapes(&mut out, &done.view)?;
-        if let Some(tape) = &done.simulated.tape {
-            transforms(&mut out, &done.view, tape)?;
-            arrows::write(&mut out, &done.view, tape)?;
+        if let Some(trajectory) = &done.simulated.trajectory {
+            transforms(&mut out, &done.view, trajectory)?;
+            arrows::write(&mut out, &done.view, trajectory)?;
         }
         signals(&mut out, &done.simulated.table)?;
         out.out.finish()?;
@@ -102,10 +103,10 @@ fn stamp(t: f64) -> Value {
     json!({ "sec": ns / 1_000_000_000, "nsec": ns % 1_000_000_000 })
 }
 
-fn transforms(out: &mut Recording, view: &SceneView, tape: &Tape) -> Result<(), McapError> {
+fn transforms(out: &mut Recording, view: &SceneView, trajectory: &Trajectory) -> Result<(), McapError> {
     let id = out.channel("/tf", "FrameTransforms")?;
-    for k in 0..tape.n_frames() {
-        let (t, frame) = (tape.times[k], tape.frame(k));
+    for k in 0..trajectory.n_frames() {
+        let (t, frame) = (trajectory.times[k], trajectory.frame(k));
         let mut all: Vec<Value> = (0..view.n_movers)
             .map(|m| {
                 let at: Vec<f64> = frame[7 * m..7 * m + 7].iter().map(|x| f64::from(*x)).collect();
@@ -210,7 +211,7 @@ mod tests {
         let messages: Vec<mcap::Message<'_>> = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap).collect();
         let of = |topic: &str| messages.iter().filter(|m| m.channel.topic == topic).collect::<Vec<_>>();
         let simulated = &campaign.main.simulated;
-        assert_eq!(of("/tf").len(), simulated.tape.as_ref().unwrap().n_frames());
+        assert_eq!(of("/tf").len(), simulated.trajectory.as_ref().unwrap().n_frames());
         assert_eq!(of("/scene").len(), 1);
         let shoulder = of("/shoulder");
         assert_eq!(shoulder.len(), simulated.table.n_rows());

@@ -1,10 +1,11 @@
-//! Protocol buffers, as far as recordings need them: messages described in text, as a descriptor that readers decode with, and as bytes.
+//! Protocol buffers, as far as recordings need them: messages described in text, as a descriptor that readers decode
+//! with, and as bytes.
 //!
 //! Source of the wire format and of the descriptor's numbers: key `protobuf` (encoding; `descriptor.proto`).
 
 use serde_json::Value;
 
-/// What is not a message of the file's own.
+/// Message type that the file does not define itself.
 const TIMESTAMP: &str = ".google.protobuf.Timestamp";
 const DURATION: &str = ".google.protobuf.Duration";
 
@@ -101,7 +102,7 @@ impl Package {
         Self { name: package.to_owned(), messages: vec![message] }
     }
 
-    /// What readers decode with: a set of file descriptors.
+    /// Set of file descriptors with which readers decode.
     pub fn descriptor(&self) -> Vec<u8> {
         let mut set = Vec::new();
         for (name, of) in [("timestamp", "Timestamp"), ("duration", "Duration")] {

@@ -1,57 +1,59 @@
-//! A still picture of a scene as SVG: what the gallery shows before anybody presses play, drawn without a browser or a graphics card.
+//! A still picture of a scene as SVG: what the gallery shows before anybody presses play, drawn without a browser or a
+//! graphics card.
 //!
-//! Solids become flat faces, seen through the scene's first camera or, without one, from far away where the viewer's own first camera stands; they
-//! are painted from back to front and lit by one light. The same scene and frame give the same bytes.
+//! Solids become flat faces, seen through the scene's first camera or, without one, from far away where the viewer's
+//! own first camera stands; they are painted from back to front and lit by one light. The same scene and frame give the
+//! same bytes.
 
-mod eye;
 mod solid;
+mod viewpoint;
 
-use sincro_sim::replay::{ObjectView, SceneView, Tape};
+use sincro_sim::replay::{ObjectView, SceneView, Trajectory};
 
 use crate::vector::{V, add, compose, cross, dot, origin, point, sub, unit};
-use eye::Eye;
 use solid::{Face, cuboid, plane, ring, solid};
+use viewpoint::Viewpoint;
 
-/// Where the light comes from.
+/// Direction of the light.
 const LIGHT: [f64; 3] = [0.35, -0.55, 0.76];
 /// Colours of bodies without one of their own: as in the page.
 const COLORS: [&str; 6] = ["#5b7f9e", "#c98a3c", "#5f9e83", "#a8748f", "#8a8f98", "#b5a642"];
-/// Of planes without one.
+/// Default colour of planes.
 const FLOOR: &str = "#d9dde2";
 
 /// The scene in one frame (poses of its movers first), `width` × `height` `[px]`; empty if there is nothing to see.
 #[must_use]
 pub fn still(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
-    let (faces, eye) = (faces(view, frame), eye(view, frame));
+    let (faces, viewpoint) = (faces(view, frame), viewpoint(view, frame));
     if faces.is_empty() {
         return String::new();
     }
     let below = planes(view, frame, bounds(&faces));
-    paint(&below, &faces, &eye, (framing(&faces, &eye, size), size))
+    paint(&below, &faces, &viewpoint, (framing(&faces, &viewpoint, size), size))
 }
 
 /// Pictures of a run, all framed alike, to be files of their own: at most `rate` a simulated second and `most` in all.
 #[must_use]
-pub fn strip(view: &SceneView, tape: &Tape, (rate, most): (f64, usize), size: (f64, f64)) -> Vec<String> {
+pub fn strip(view: &SceneView, trajectory: &Trajectory, (rate, most): (f64, usize), size: (f64, f64)) -> Vec<String> {
     // the whole run is in view from the first picture on
     let mut all = Vec::new();
-    for k in (0..tape.n_frames()).step_by(tape.n_frames().div_ceil(200)) {
-        all.extend(faces(view, tape.frame(k)));
+    for k in (0..trajectory.n_frames()).step_by(trajectory.n_frames().div_ceil(200)) {
+        all.extend(faces(view, trajectory.frame(k)));
     }
     if all.is_empty() {
         return Vec::new();
     }
-    let (whole, first) = (bounds(&all), eye(view, tape.frame(0)));
+    let (whole, first) = (bounds(&all), viewpoint(view, trajectory.frame(0)));
     let framing = framing(&all, &first, size);
     drop(all);
     let one = |k: usize| {
-        let frame = tape.frame(k);
-        let picture = paint(&planes(view, frame, whole), &faces(view, frame), &eye(view, frame), (framing, size));
+        let frame = trajectory.frame(k);
+        let picture = paint(&planes(view, frame, whole), &faces(view, frame), &viewpoint(view, frame), (framing, size));
         let (width, height) = size;
         let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"");
         picture.replacen("<svg", &head, 1).replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"#f7f8fa\"/>", 1)
     };
-    tape.spread(rate, most).into_iter().map(one).collect()
+    trajectory.spread(rate, most).into_iter().map(one).collect()
 }
 
 /// Everything but planes.
@@ -71,10 +73,10 @@ fn faces(view: &SceneView, frame: &[f32]) -> Vec<Face> {
 }
 
 /// The scene's first camera, or far away.
-fn eye(view: &SceneView, frame: &[f32]) -> Eye {
+fn viewpoint(view: &SceneView, frame: &[f32]) -> Viewpoint {
     let through = view.objects.iter().find_map(|o| Some((o, o.camera.as_ref()?)));
-    through.map_or_else(Eye::far, |(object, camera)| {
-        Eye::camera(&compose(&mover(object.mover, frame), &object.pose), camera.field_of_view_deg)
+    through.map_or_else(Viewpoint::far, |(object, camera)| {
+        Viewpoint::camera(&compose(&mover(object.mover, frame), &object.pose), camera.field_of_view_deg)
     })
 }
 
@@ -99,7 +101,7 @@ fn planes(view: &SceneView, frame: &[f32], bounds: (V, V)) -> Vec<Face> {
     made
 }
 
-/// What shows an object without shapes: the box of its inertia, a rotor's disc, a stick to what carries it.
+/// Drawing of an object without shapes: the box of its inertia, a rotor's disc, a line to the link that carries it.
 fn rest(
     view: &SceneView,
     object: &ObjectView,
@@ -140,15 +142,16 @@ fn mover(index: Option<usize>, frame: &[f32]) -> [f64; 7] {
 fn paint(
     below: &[Face],
     faces: &[Face],
-    eye: &Eye,
+    viewpoint: &Viewpoint,
     ((scale, middle), (width, height)): (Framing, (f64, f64)),
 ) -> String {
     let place = |p: &V| {
-        let (x, y) = eye.flat(*p)?;
+        let (x, y) = viewpoint.flat(*p)?;
         Some((width / 2.0 + scale * (x - middle.0), height / 2.0 + scale * (y - middle.1)))
     };
-    let under: String = below.iter().filter_map(|face| element(face, eye, &place)).map(|(_, text)| text).collect();
-    let mut drawn: Vec<(f64, String)> = faces.iter().filter_map(|face| element(face, eye, &place)).collect();
+    let under: String =
+        below.iter().filter_map(|face| element(face, viewpoint, &place)).map(|(_, text)| text).collect();
+    let mut drawn: Vec<(f64, String)> = faces.iter().filter_map(|face| element(face, viewpoint, &place)).collect();
     drawn.sort_by(|a, b| a.0.total_cmp(&b.0));
     let content: String = drawn.into_iter().map(|(_, text)| text).collect();
     format!(
@@ -160,11 +163,11 @@ fn paint(
 type Framing = (f64, (f64, f64));
 
 /// A camera has its own; from far away all faces are in the picture.
-fn framing(faces: &[Face], eye: &Eye, (width, height): (f64, f64)) -> Framing {
-    if let Some(tall) = eye.tall() {
+fn framing(faces: &[Face], viewpoint: &Viewpoint, (width, height): (f64, f64)) -> Framing {
+    if let Some(tall) = viewpoint.tall() {
         return (height / tall, (0.0, 0.0));
     }
-    let all = || faces.iter().flat_map(|f| f.corners.iter().filter_map(|p| eye.flat(*p)));
+    let all = || faces.iter().flat_map(|f| f.corners.iter().filter_map(|p| viewpoint.flat(*p)));
     let range = |of: fn((f64, f64)) -> f64| {
         let values = all().map(of);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
@@ -175,9 +178,9 @@ fn framing(faces: &[Face], eye: &Eye, (width, height): (f64, f64)) -> Framing {
 }
 
 /// A face that looks at the reader, with its depth.
-fn element(face: &Face, eye: &Eye, place: &dyn Fn(&V) -> Option<(f64, f64)>) -> Option<(f64, String)> {
+fn element(face: &Face, viewpoint: &Viewpoint, place: &dyn Fn(&V) -> Option<(f64, f64)>) -> Option<(f64, String)> {
     let n = face.corners.len() as f64;
-    let depth = face.corners.iter().map(|p| eye.depth(*p)).sum::<f64>() / n;
+    let depth = face.corners.iter().map(|p| viewpoint.depth(*p)).sum::<f64>() / n;
     let flat: Option<Vec<(f64, f64)>> = face.corners.iter().map(place).collect();
     let data: Vec<String> = flat?.into_iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
     let hex = |shade: f64| {
@@ -200,7 +203,7 @@ fn element(face: &Face, eye: &Eye, place: &dyn Fn(&V) -> Option<(f64, f64)>) -> 
     }
     let normal = area.map(|x| x / length);
     let is_glass = face.opacity < 1.0;
-    if !is_glass && dot(normal, eye.towards(first)) <= 0.0 {
+    if !is_glass && dot(normal, viewpoint.towards(first)) <= 0.0 {
         return None;
     }
     let shade = if is_glass { 1.0 } else { 0.62 + 0.5 * dot(normal, unit(LIGHT)).max(0.0) };
@@ -234,24 +237,24 @@ mod tests {
         faces
     }
 
-    fn picture(eye: &Eye) -> String {
+    fn picture(viewpoint: &Viewpoint) -> String {
         let size = (300.0, 300.0);
-        paint(&[], &cube(), eye, (framing(&cube(), eye, size), size))
+        paint(&[], &cube(), viewpoint, (framing(&cube(), viewpoint, size), size))
     }
 
     #[test]
     fn a_cube_shows_three_of_its_faces() {
-        assert_eq!(picture(&Eye::far()).matches("<path").count(), 3);
+        assert_eq!(picture(&Viewpoint::far()).matches("<path").count(), 3);
     }
 
     #[test]
     fn a_camera_shows_what_is_before_it_at_its_size() {
         // 1.5 m from the front face, which looks down on it; half the picture's height there is 1.5 m
-        let ahead = Eye::camera(&[0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 1.0], 90.0);
+        let ahead = Viewpoint::camera(&[0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 1.0], 90.0);
         let picture_ahead = picture(&ahead);
         assert_eq!(picture_ahead.matches("<path").count(), 1, "{picture_ahead}");
         assert!(picture_ahead.contains("100.0 100.0") && picture_ahead.contains("200.0 200.0"), "{picture_ahead}");
-        let behind = Eye::camera(&[0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0], 90.0);
+        let behind = Viewpoint::camera(&[0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0], 90.0);
         assert_eq!(picture(&behind).matches("<path").count(), 0);
     }
 
@@ -262,11 +265,11 @@ mod tests {
         let interrupt = std::sync::atomic::AtomicBool::new(false);
         let campaign =
             sincro_sim::campaign::run_campaign(&folder, &[], &loaded, None, &interrupt, &mut |_, _| {}).unwrap();
-        let tape = campaign.main.simulated.tape.as_ref().unwrap();
-        let span = tape.times.last().unwrap() - tape.times[0];
-        let pictures = strip(&campaign.main.view, tape, (4.0, 1000), (400.0, 300.0));
+        let trajectory = campaign.main.simulated.trajectory.as_ref().unwrap();
+        let span = trajectory.times.last().unwrap() - trajectory.times[0];
+        let pictures = strip(&campaign.main.view, trajectory, (4.0, 1000), (400.0, 300.0));
         assert_eq!(pictures.len(), (4.0 * span) as usize + 1);
-        assert_eq!(strip(&campaign.main.view, tape, (4.0, 7), (400.0, 300.0)).len(), 7);
+        assert_eq!(strip(&campaign.main.view, trajectory, (4.0, 7), (400.0, 300.0)).len(), 7);
         assert!(pictures.iter().all(|picture| picture.starts_with("<svg xmlns=")));
         assert!(pictures[0] != pictures[1], "something moves");
         // whatever moves, no corner leaves the picture

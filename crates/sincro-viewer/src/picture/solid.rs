@@ -8,7 +8,7 @@ use crate::vector::{V, add, dot, origin, point, rotate, scale, sub};
 /// Sides of what is round.
 const N_SIDES: usize = 20;
 /// Triangles that a mesh has in a picture at most; one with more is drawn coarser.
-const MOST_TRIANGLES: usize = 1200;
+const MAX_TRIANGLES: usize = 1200;
 /// Squares along an edge of a plane's piece.
 const N_SQUARES: usize = 10;
 
@@ -60,7 +60,7 @@ fn mesh(shape: &ShapeView, at: &[f64; 7], color: [f64; 3], faces: &mut Vec<Face>
     let corners: Vec<V> = shape.vertices.iter().map(|p| p.map(f64::from)).collect();
     let mut triangles = shape.triangles.clone();
     let mut cells = 96.0;
-    while triangles.len() > MOST_TRIANGLES && cells > 4.0 {
+    while triangles.len() > MAX_TRIANGLES && cells > 4.0 {
         triangles = coarser(&corners, &shape.triangles, cells);
         cells *= 0.75;
     }
@@ -160,7 +160,7 @@ mod tests {
         };
         let mut faces = Vec::new();
         solid(&shape, &shape.pose, [0.5; 3], &mut faces);
-        assert!(faces.len() <= MOST_TRIANGLES && faces.len() > 300, "{}", faces.len());
+        assert!(faces.len() <= MAX_TRIANGLES && faces.len() > 300, "{}", faces.len());
         let area = |face: &Face| {
             let normal = cross(sub(face.corners[1], face.corners[0]), sub(face.corners[2], face.corners[0]));
             0.5 * normal[2]

@@ -1,15 +1,16 @@
-//! The server: a page, a film or a live line, and nothing else.
+//! Server of the page, with the data of a replay or the messages of a live run, and nothing else.
 //!
 //! | path | what |
 //! |---|---|
 //! | `/` | the page |
 //! | `/viewer.js`, `/viewer.css` | its program and style, from this binary |
-//! | `/film.json` | the film of finished runs, if that is what is shown |
+//! | `/film.json` | the replay of finished runs, if that is what is shown |
 //! | `/live` | the line to a live run (WebSocket), if that is what is shown |
 //!
-//! No path leads to a file. Every request must name this server in `Host`, come from its own page if it names an `Origin`, and carry the token
-//! ([`sincro_access::guard`]): a page of another site, a name that was pointed at this machine and another user of it can neither look nor
-//! command. A head must come within ten seconds, and an address has its share of the connections only.
+//! No path leads to a file. Every request must name this server in `Host`, come from its own page if it names an
+//! `Origin`, and carry the token ([`sincro_access::guard`]): a page of another site, a name that was pointed at this
+//! machine and another user of it can neither look nor command. A head must come within ten seconds, and an address has
+//! its share of the connections only.
 
 mod connection;
 mod socket;
@@ -36,13 +37,13 @@ use crate::embed::{SCRIPT, STYLE};
 use crate::live::{Board, Command};
 
 /// Largest message of a viewer [bytes].
-const MOST_BYTES: usize = 1 << 18;
+const MAX_BYTES: usize = 1 << 18;
 
-/// What is shown.
+/// Content that a server shows.
 #[derive(Clone)]
 pub enum Show {
     /// Finished runs, as JSON.
-    Film(Arc<str>),
+    Replay(Arc<str>),
     /// A live run.
     Live(Arc<Board>, SyncSender<Command>),
 }
@@ -53,7 +54,7 @@ impl Show {
     pub fn cameras(&self) -> Vec<String> {
         let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
         let view = match self {
-            Self::Film(text) => parse(text)["views"][0].take(),
+            Self::Replay(text) => parse(text)["views"][0].take(),
             Self::Live(board, _) => {
                 board.read().runs.first().map_or(Value::Null, |run| parse(&run.header)["view"].take())
             }
@@ -124,7 +125,7 @@ fn router(shared: Shared) -> Router {
         .route("/", get(page))
         .route("/viewer.js", script(SCRIPT, "text/javascript; charset=utf-8"))
         .route("/viewer.css", script(STYLE, "text/css; charset=utf-8"))
-        .route("/film.json", get(film))
+        .route("/film.json", get(replay))
         .route("/live", get(live))
         .layer(middleware::from_fn_with_state(shared.clone(), admit))
         .with_state(shared)
@@ -169,7 +170,7 @@ fn asked(request: &Request) -> guard::Request<'_> {
 
 async fn page(State(shared): State<Shared>) -> Html<String> {
     let source = match shared.show {
-        Show::Film(_) => "film",
+        Show::Replay(_) => "film",
         Show::Live(..) => "live",
     };
     Html(format!(
@@ -181,9 +182,9 @@ async fn page(State(shared): State<Shared>) -> Html<String> {
     ))
 }
 
-async fn film(State(shared): State<Shared>) -> Response {
+async fn replay(State(shared): State<Shared>) -> Response {
     match shared.show {
-        Show::Film(film) => ([(header::CONTENT_TYPE, "application/json")], film.to_string()).into_response(),
+        Show::Replay(replay) => ([(header::CONTENT_TYPE, "application/json")], replay.to_string()).into_response(),
         Show::Live(..) => (StatusCode::NOT_FOUND, "this is a live run").into_response(),
     }
 }
@@ -194,10 +195,10 @@ async fn live(
     upgrade: WebSocketUpgrade,
 ) -> Response {
     match shared.show {
-        Show::Film(_) => (StatusCode::NOT_FOUND, "these are finished runs").into_response(),
+        Show::Replay(_) => (StatusCode::NOT_FOUND, "these are finished runs").into_response(),
         Show::Live(board, commands) => upgrade
-            .max_message_size(MOST_BYTES)
-            .max_frame_size(MOST_BYTES)
+            .max_message_size(MAX_BYTES)
+            .max_frame_size(MAX_BYTES)
             .on_upgrade(move |socket| socket::attend(socket, line, board, commands)),
     }
 }

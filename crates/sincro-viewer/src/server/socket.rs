@@ -1,7 +1,8 @@
 //! One viewer's line: everything that is on the board and that it has not seen, at its own pace.
 //!
-//! A frame message is, little endian: `u32` 2, run, number of frames n, number of signals m, number of points of contact c, 0; n times `[s]` as `f64`;
-//! n·m signals as `f64`; n frames as `f32`; n numbers of points as `u32`; c points as `f32`. All else is JSON.
+//! A frame message is, little endian: `u32` 2, run, number of frames n, number of signals m, number of points of
+//! contact c, 0; n times `[s]` as `f64`; n·m signals as `f64`; n frames as `f32`; n numbers of points as `u32`; c
+//! points as `f32`. All else is JSON.
 
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, TrySendError};
@@ -17,7 +18,7 @@ use crate::live::{Board, Command};
 /// Least time between two messages of frames.
 const PAUSE: Duration = Duration::from_millis(16);
 /// Frames in one message at most.
-const MOST_FRAMES: usize = 1000;
+const MAX_FRAMES: usize = 1000;
 
 /// Interval of pings, which browsers answer by themselves.
 const PING: Duration = Duration::from_secs(20);
@@ -26,7 +27,7 @@ const SILENCE: Duration = Duration::from_secs(65);
 /// Time that a viewer may take to take a message.
 const TAKE: Duration = Duration::from_secs(10);
 
-/// What one viewer has seen.
+/// Content that was sent to one viewer.
 struct Seen {
     /// Frames of each run.
     frames: Vec<usize>,
@@ -49,11 +50,11 @@ pub(super) async fn attend(socket: WebSocket, line: Arc<Line>, board: Arc<Board>
 
 async fn show(mut socket: WebSocket, line: &Line, board: Arc<Board>, commands: SyncSender<Command>) {
     let mut changes = board.watch();
-    let (film, words) = {
+    let (replay, words) = {
         let content = board.read();
-        (content.film.clone(), content.last_words())
+        (content.replay.clone(), content.last_words())
     };
-    if !send(&mut socket, Message::text(film)).await {
+    if !send(&mut socket, Message::text(replay)).await {
         return;
     }
     let mut seen = Seen { frames: Vec::new(), words, standing: String::new() };
@@ -137,7 +138,7 @@ fn refuse(reason: &str, has_complained: &mut bool) -> String {
 }
 
 impl Seen {
-    /// What is on the board and was not sent, a bounded piece of it.
+    /// Content of the board that was not sent yet, a bounded part of it.
     fn news(&mut self, board: &Board) -> Vec<Message> {
         let content = board.read();
         let mut news = Vec::new();
@@ -147,7 +148,7 @@ impl Seen {
                 self.frames.push(0);
             }
             let from = self.frames[id];
-            let to = run.times.len().min(from + MOST_FRAMES);
+            let to = run.times.len().min(from + MAX_FRAMES);
             if from < to {
                 self.frames[id] = to;
                 news.push(Message::binary(frames(id, run, from, to)));

@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
         Ok(loaded) => loaded,
-        Err(problems) => return diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     print(&loaded);
     if arguments.signals {
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
             say!("  {:<48} {}", entry.name, entry.unit);
         }
     }
-    diagnostics::print_problems(&loaded.warnings);
+    diagnostics::print_diagnostics(&loaded.warnings);
     Exit::Holds
 }
 

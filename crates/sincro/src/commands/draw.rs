@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
         Ok(loaded) => loaded,
-        Err(problems) => return diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     let Some(controller) = &loaded.controller else {
         let help = "name a diagram in `experiment.toml`: diagram = \"diagram.toml\"";

@@ -7,7 +7,7 @@ use sincro::{Loaded, linearization, load};
 use sincro_analysis::linear::{DMatrix, lqr};
 use sincro_analysis::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
 use sincro_figures::linear::{Analysis, text};
-use sincro_scene::problem::{Located, Location, Problem, Problems, SourceText};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
@@ -54,11 +54,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
         Ok(loaded) => loaded,
-        Err(problems) => return diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     let found = match compute(arguments, &loaded) {
         Ok(found) => found,
-        Err(problems) => return diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
     if let Some(out) = &arguments.out
@@ -78,11 +78,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
             }
             Exit::Holds
         }
-        Err(problem) => diagnostics::refuse_problems(&problem.into()),
+        Err(diagnostic) => diagnostics::refuse_diagnostics(&diagnostic.into()),
     }
 }
 
-fn compute(arguments: &Arguments, loaded: &Loaded) -> Result<Linearization, Problems> {
+fn compute(arguments: &Arguments, loaded: &Loaded) -> Result<Linearization, Diagnostics> {
     let mut at = operating_point(loaded, arguments.at)?;
     if arguments.equilibrium {
         at = trim(loaded, &at, &TrimRequest { is_closed: arguments.closed_loop, ..TrimRequest::default() })?.at;
@@ -126,7 +126,7 @@ fn print(analysis: &Analysis, found: &Linearization, out: Option<&Path>) {
 }
 
 /// The gains of a regulator for the weights that are given; empty if none are.
-fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Problem> {
+fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Diagnostic> {
     if arguments.lqr_q.is_empty() {
         return Ok(String::new());
     }
@@ -137,12 +137,12 @@ fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Pro
         [("--lqr-q", arguments.lqr_q.len(), system.n_states()), ("--lqr-r", arguments.lqr_r.len(), system.n_inputs())]
     {
         if given != wanted {
-            let problem = Problem::nowhere(format!("{flag} has {given} weights for {wanted}"));
-            return Err(problem.with_help("give one for each state (--lqr-q) and each input (--lqr-r)"));
+            let diagnostic = Diagnostic::nowhere(format!("{flag} has {given} weights for {wanted}"));
+            return Err(diagnostic.with_help("give one for each state (--lqr-q) and each input (--lqr-r)"));
         }
     }
     let design = lqr(&system.a, &system.b, &diagonal(&arguments.lqr_q), &diagonal(&arguments.lqr_r))
-        .map_err(|e| Problem::nowhere(format!("there is no regulator: {e}")))?;
+        .map_err(|e| Diagnostic::nowhere(format!("there is no regulator: {e}")))?;
     let mut words = String::from("\nlinear-quadratic regulator u = −K·x");
     for (i, input) in system.inputs.iter().enumerate() {
         let row: Vec<String> = design.k.row(i).iter().map(|x| format!("{x:?}")).collect();

@@ -93,7 +93,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 /// Runs one scene into its folder below `out`; its card for the index.
 fn one(scene: &Path, out: &Path) -> Result<(Card, Exit), Exit> {
-    let loaded = load(scene, &[]).map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    let loaded = load(scene, &[]).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))?;
     let name = scene_name(scene);
     let folder = out.join(&name);
     let index = Some(Link { label: "all experiments", href: "../index.html" });

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use clap::Args;
 use sincro::results::{write_camera_frames, write_frames, write_mcap};
-use sincro::{Campaign, Loaded, Override, Problems, RunRequest, Verdict, load, scene_name};
+use sincro::{Campaign, Diagnostics, Loaded, Override, RunRequest, Verdict, load, scene_name};
 
 use super::console::{self, Bar};
 use crate::{Exit, diagnostics};
@@ -55,11 +55,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     let overrides = match overrides(arguments) {
         Ok(overrides) => overrides,
-        Err(problems) => return diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     let loaded = match load(&arguments.scene, &overrides) {
         Ok(loaded) => loaded,
-        Err(problems) => return diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     let camera = match arguments.camera.as_deref().map(|name| camera_of(&loaded, name)).transpose() {
         Ok(camera) => camera,
@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     if arguments.json {
         say!("{}", campaign.report.to_json());
     } else {
-        diagnostics::print_problems(&loaded.warnings);
+        diagnostics::print_diagnostics(&loaded.warnings);
         console::print_summary(&loaded, &campaign, &out);
     }
     Verdict::of(&campaign).into()
@@ -101,19 +101,19 @@ fn camera_of(loaded: &Loaded, name: &str) -> Result<usize, Exit> {
 }
 
 /// Parses the texts that stand after `--set`.
-pub(crate) fn parse_settings(texts: &[String]) -> Result<Vec<Override>, Problems> {
-    let (mut problems, mut overrides) = (Problems::new(), Vec::new());
+pub(crate) fn parse_settings(texts: &[String]) -> Result<Vec<Override>, Diagnostics> {
+    let (mut diagnostics, mut overrides) = (Diagnostics::new(), Vec::new());
     for text in texts {
         match Override::parse(text) {
             Ok(setting) => overrides.push(setting),
-            Err(problem) => problems.push(problem),
+            Err(diagnostic) => diagnostics.push(diagnostic),
         }
     }
-    if problems.any_error() { Err(problems) } else { Ok(overrides) }
+    if diagnostics.any_error() { Err(diagnostics) } else { Ok(overrides) }
 }
 
 /// Everything set on the command line, in the order of reading.
-fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Problems> {
+fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Diagnostics> {
     let mut overrides = parse_settings(&arguments.set)?;
     let number = |x: Option<f64>| x.map(|x| format!("{x:?}"));
     let flags = [

@@ -128,7 +128,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         files: arguments.grant.contains(&Grant::Files).then(|| Files::new(out.join("received"))),
         evaluation: arguments.grant.contains(&Grant::Scripts),
     });
-    diagnostics::print_problems(&session.loaded().warnings);
+    diagnostics::print_diagnostics(&session.loaded().warnings);
     let title = session.loaded().experiment.title.clone();
     let server = match Server::start(session, &options) {
         Ok(server) => server,
@@ -161,9 +161,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 }
 
 fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
-    let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_problems(&p))?;
+    let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_diagnostics(&p))?;
     let session = open(&arguments.scene, &overrides, arguments.simulation_step);
-    let session = session.map_err(|problems| diagnostics::refuse_problems(&problems))?;
+    let session = session.map_err(|found| diagnostics::refuse_diagnostics(&found))?;
     let client_timeout = seconds("--client-timeout", arguments.client_timeout)?;
     let idle = seconds("--idle-timeout", arguments.idle_timeout)?;
     let legacy = match arguments.legacy_port.as_slice() {

@@ -8,7 +8,7 @@ use sincro::load;
 use sincro::results::write_text;
 use sincro_analysis::linear::Axis;
 use sincro_analysis::linearize::{Trim, TrimRequest, operating_point, trim};
-use sincro_scene::problem::{Located, Problem, Problems};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located};
 
 use super::linearize::located;
 use super::run::parse_settings;
@@ -46,13 +46,13 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     match compute(arguments) {
         Ok(found) => show(arguments, &found),
-        Err(problems) => diagnostics::refuse_problems(&problems),
+        Err(diagnostics) => diagnostics::refuse_diagnostics(&diagnostics),
     }
 }
 
-fn compute(arguments: &Arguments) -> Result<Trim, Problems> {
+fn compute(arguments: &Arguments) -> Result<Trim, Diagnostics> {
     let loaded = load(&arguments.scene, &parse_settings(&arguments.set)?)?;
-    let wanted: Result<Vec<_>, Problem> = arguments.want.iter().map(|text| wanted(text)).collect();
+    let wanted: Result<Vec<_>, Diagnostic> = arguments.want.iter().map(|text| wanted(text)).collect();
     let request = TrimRequest {
         free: arguments.free.iter().map(|name| located("--free", name)).collect(),
         wanted: wanted?,
@@ -62,12 +62,12 @@ fn compute(arguments: &Arguments) -> Result<Trim, Problems> {
     Ok(trim(&loaded, &at, &request)?.trim)
 }
 
-fn wanted(text: &str) -> Result<(Located<String>, f64), Problem> {
+fn wanted(text: &str) -> Result<(Located<String>, f64), Diagnostic> {
     let whole = located("--want", text);
     let (name, value) = text.split_once('=').unwrap_or((text, ""));
     match value.trim().parse::<f64>() {
         Ok(x) if x.is_finite() => Ok((Located { value: name.trim().to_owned(), at: whole.at }, x)),
-        _ => Err(Problem::error(&whole.at, format!("`{text}` is no signal with a value"))
+        _ => Err(Diagnostic::error(&whole.at, format!("`{text}` is no signal with a value"))
             .with_help("write SIGNAL=NUMBER, such as /shoulder.position=0.5")),
     }
 }

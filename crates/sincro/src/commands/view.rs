@@ -67,8 +67,9 @@ fn replay_of(run: &Path) -> Result<Show, Exit> {
 }
 
 fn live(arguments: &Arguments) -> Result<Show, Exit> {
-    let overrides = parse_settings(&arguments.set).map_err(|problems| diagnostics::refuse_problems(&problems))?;
-    view::live(&arguments.what, overrides).map_err(|problems| diagnostics::refuse_problems(&problems))
+    let overrides =
+        parse_settings(&arguments.set).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))?;
+    view::live(&arguments.what, overrides).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))
 }
 
 fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {

@@ -24,7 +24,7 @@ use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{Manner, Watch, simulate};
+use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::trace::Trace;
 
 use legacy_client::{Client as Legacy, Command, ONCE, STREAM, floats, ints};
@@ -43,8 +43,8 @@ fn scene(name: &str) -> PathBuf {
 fn in_process(name: &str) -> Trace {
     let loaded = load(&scene(name), &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
         .unwrap_or_else(|p| panic!("{:?}", p.0));
-    let watch = &mut Watch { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(&loaded, Manner::default(), watch).unwrap().trace
+    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+    simulate(&loaded, RunOptions::default(), watch).unwrap().trace
 }
 
 fn serve(name: &str) -> Server {

@@ -2,7 +2,7 @@
 
 use super::{Function, Outcome};
 use crate::session::{ApiError, Arguments, SimApi, Value};
-use sincro_scene::camera::{MOST_PIXELS, png};
+use sincro_scene::camera::{MAX_PIXELS, png};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -32,11 +32,9 @@ fn resolution(a: Arguments<'_>, k: usize) -> Result<[usize; 2], ApiError> {
     let sides = a.reals::<2>(k)?;
     let side = |x: f64| if x.fract() == 0.0 && (1.0..1e6).contains(&x) { x as usize } else { 0 };
     let [columns, rows] = sides.map(side);
-    if columns == 0 || rows == 0 || columns * rows > MOST_PIXELS {
+    if columns == 0 || rows == 0 || columns * rows > MAX_PIXELS {
         let [x, y] = sides;
-        return Err(ApiError(format!(
-            "a picture of {x} × {y} pixels cannot be: expected at most {MOST_PIXELS} in all"
-        )));
+        return Err(ApiError(format!("a picture of {x} × {y} pixels cannot be: expected at most {MAX_PIXELS} in all")));
     }
     Ok([columns, rows])
 }
@@ -103,8 +101,8 @@ fn kept_ratio(from: [usize; 2], wanted: [usize; 2], covers: bool) -> Result<[usi
     let [x, y] = [0, 1].map(|k| wanted[k] as f64 / from[k] as f64);
     let factor = if covers { x.max(y) } else { x.min(y) };
     let size = from.map(|n| ((n as f64 * factor).round() as usize).max(1));
-    if size[0].saturating_mul(size[1]) > MOST_PIXELS {
-        return Err(ApiError(format!("the picture would have more than {MOST_PIXELS} pixels")));
+    if size[0].saturating_mul(size[1]) > MAX_PIXELS {
+        return Err(ApiError(format!("the picture would have more than {MAX_PIXELS} pixels")));
     }
     Ok(size)
 }

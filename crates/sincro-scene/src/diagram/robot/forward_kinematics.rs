@@ -13,8 +13,8 @@ use sincro_math::Real;
 use super::{Context, Item, Robot, check_widths, frame};
 use crate::record::probe::attached;
 
-/// Where a body or frame is in the world: position `[m]`, quaternion (w, x, y, z), and with velocities also angular velocity [rad/s] and
-/// velocity [m/s] in world axes.
+/// Pose of a body or frame in the world: position `[m]`, quaternion (w, x, y, z), and with velocities also angular
+/// velocity [rad/s] and velocity [m/s] in world axes.
 #[derive(Clone, Debug)]
 pub struct ForwardKinematics {
     model: Arc<Model<f64>>,
@@ -31,7 +31,8 @@ pub(super) const ITEM: Item = Item {
 };
 
 impl ForwardKinematics {
-    /// Of the frame with this number in the model's names; `velocity`: with an input `v` and outputs for velocities.
+    /// Creates the block for the frame with this number in the model's names; `velocity`: with an input `v` and outputs
+    /// for velocities.
     #[must_use]
     pub fn new(context: &Context, frame: usize, velocity: bool) -> Self {
         Self { model: context.model.clone(), frame, velocity }

@@ -21,7 +21,7 @@ pub(super) const ITEM: Item =
     Item { kind: InverseDynamics::KIND, read: |_, context| Box::new(InverseDynamics::new(context)) };
 
 impl InverseDynamics {
-    /// Of the scene's model.
+    /// Creates the block for the scene's model.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

@@ -12,7 +12,8 @@ use sincro_math::Real;
 use super::{Context, Item, Robot, check_widths, frame};
 use crate::record::probe::attached;
 
-/// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s], world axes.
+/// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s],
+/// world axes.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
     model: Arc<Model<f64>>,
@@ -50,7 +51,7 @@ pub(super) const ITEM: Item = Item {
 };
 
 impl Jacobian {
-    /// Of the frame with this number in the model's names.
+    /// Creates the block for the frame with this number in the model's names.
     #[must_use]
     pub fn new(context: &Context, frame: usize, rows: Rows) -> Self {
         Self { model: context.model.clone(), frame, rows }

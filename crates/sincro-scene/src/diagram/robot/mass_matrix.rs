@@ -20,7 +20,7 @@ pub struct MassMatrix {
 pub(super) const ITEM: Item = Item { kind: MassMatrix::KIND, read: |_, context| Box::new(MassMatrix::new(context)) };
 
 impl MassMatrix {
-    /// Of the scene's model.
+    /// Creates the block for the scene's model.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

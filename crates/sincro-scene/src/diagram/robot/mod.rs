@@ -1,7 +1,8 @@
 //! Robot blocks: what the model knows, for use in a controller.
 //!
-//! `q` are all coordinates of the scene's model and `v` all velocities, in the order of `world.q` and `world.v`. Springs, dampers and friction
-//! are no part of inverse dynamics, gravity torque and mass matrix; the armature of motors is part of the mass matrix.
+//! `q` are all coordinates of the scene's model and `v` all velocities, in the order of `world.q` and `world.v`.
+//! Springs, dampers and friction are no part of inverse dynamics, gravity torque and mass matrix; the armature of
+//! motors is part of the mass matrix.
 
 mod forward_kinematics;
 mod gravity_torque;
@@ -26,7 +27,7 @@ pub use inverse_dynamics::InverseDynamics;
 pub use jacobian::{Jacobian, Rows as JacobianRows};
 pub use mass_matrix::MassMatrix;
 
-/// What robot blocks are made with.
+/// Context from which robot blocks are created.
 #[derive(Clone, Debug)]
 pub struct Context {
     /// Parser of laws that are written in a script's language, if this program has one.
@@ -46,7 +47,7 @@ pub struct Item {
 
 /// All blocks that are made here and not in the library.
 pub fn all() -> impl Iterator<Item = &'static Item> {
-    const BLOCKS: &[Item] = &[
+    const ROBOT_BLOCKS: &[Item] = &[
         forward_kinematics::ITEM,
         jacobian::ITEM,
         inverse_dynamics::ITEM,
@@ -54,7 +55,7 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
         mass_matrix::ITEM,
         super::lua::ITEM,
     ];
-    BLOCKS.iter()
+    ROBOT_BLOCKS.iter()
 }
 
 /// The block of a name.

@@ -1,4 +1,4 @@
-//! Frames of a run: where every joint carried what hangs on it, decimated, in single precision.
+//! Trajectory of a run: keyframes with the poses of all links, decimated, in single precision.
 //!
 //! | part of a frame | numbers | unit |
 //! |---|---|---|
@@ -10,8 +10,8 @@
 //! | coordinates q | `n_q` | rad, m |
 //! | rates v | `n_v` | rad/s, m/s |
 //!
-//! Points of contact are kept beside the frames ([`Contacts`]): there are now more of them, now fewer. A frame is for the eye: seven digits.
-//! Whoever wants all of them reads `signals.csv`.
+//! Points of contact are kept beside the frames ([`Contacts`]): their number varies. A frame has single precision,
+//! about seven digits; `signals.csv` has all of them.
 
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;
@@ -25,12 +25,12 @@ use sincro_scene::record::probe::{self, View};
 const RATE: f64 = 60.0;
 /// Frames that a short run has all the same, so that it can be watched slowly.
 const LEAST_FRAMES: f64 = 300.0;
-/// Numbers that a tape may have: 64 MB.
-const MOST_NUMBERS: u64 = 16_000_000;
+/// Limit of the numbers of a trajectory: 64 MB.
+const MAX_NUMBERS: u64 = 16_000_000;
 /// Points of contact that are expected in a frame at most, where there can be that many.
 const USUAL_CONTACTS: usize = 8;
 
-/// What stands where in a frame.
+/// Layout of a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// The link that each joint of the model moves last.
@@ -39,7 +39,7 @@ pub struct Layout {
     n_forces: usize,
     n_drags: usize,
     /// Joints whose last link feels the wind; none if the air stands still.
-    airy: Vec<usize>,
+    wind_links: Vec<usize>,
     n_q: usize,
     n_v: usize,
 }
@@ -59,7 +59,7 @@ impl Layout {
         };
         let is_windy = model.wind().is_some();
         Self {
-            airy: (0..links.len()).filter(|k| is_windy && feels(links[*k])).collect(),
+            wind_links: (0..links.len()).filter(|k| is_windy && feels(links[*k])).collect(),
             links,
             n_rotors: model.rotors().len(),
             n_forces: model.wrenches().len(),
@@ -77,14 +77,14 @@ impl Layout {
 
     /// Joints whose last link feels the wind.
     #[must_use]
-    pub fn airy(&self) -> &[usize] {
-        &self.airy
+    pub fn wind_links(&self) -> &[usize] {
+        &self.wind_links
     }
 
     /// Numbers of a frame.
     #[must_use]
     pub fn width(&self) -> usize {
-        let vectors = self.n_rotors + self.n_forces + self.n_drags + self.airy.len();
+        let vectors = self.n_rotors + self.n_forces + self.n_drags + self.wind_links.len();
         7 * self.links.len() + 3 * vectors + self.n_q + self.n_v
     }
 
@@ -118,7 +118,7 @@ impl Layout {
         for k in 0..self.n_drags {
             out.extend(probe::drag(&view, k).0.map(|x| x as f32));
         }
-        for &k in &self.airy {
+        for &k in &self.wind_links {
             let height = poses[self.links[k]].pos[2];
             let velocity = seen.model().wind().map_or([0.0; 3], |wind| wind.velocity(t, height).0);
             out.extend(velocity.map(|x| x as f32));
@@ -129,8 +129,8 @@ impl Layout {
 
 /// The frames of a run, in the order of their times.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tape {
-    /// What stands where in a frame.
+pub struct Trajectory {
+    /// Layout of a frame.
     pub layout: Layout,
     /// Base steps from frame to frame.
     pub every: u64,
@@ -144,31 +144,31 @@ pub struct Tape {
     pub contacts: Contacts,
 }
 
-impl Tape {
-    /// An empty tape for a run.
+impl Trajectory {
+    /// Empty trajectory of a run.
     #[must_use]
     pub fn new(model: &Model<f64>, experiment: &Experiment) -> Self {
         let layout = Layout::new(model);
         let span = (1.0 / RATE).min(experiment.duration / LEAST_FRAMES);
         let every = ((span / experiment.step).ceil() as u64).max(1);
         let touching = CONTACT * model.constraints().n_contacts().min(USUAL_CONTACTS);
-        let least = (experiment.n_steps * (layout.width() + touching) as u64).div_ceil(MOST_NUMBERS);
+        let least = (experiment.n_steps * (layout.width() + touching) as u64).div_ceil(MAX_NUMBERS);
         let every = every.max(least);
         Self { layout, every, ticks: Vec::new(), times: Vec::new(), numbers: Vec::new(), contacts: Contacts::default() }
     }
 
-    /// Whether a frame is to be taken after so many base steps.
+    /// Returns true if a frame is to be taken after so many base steps.
     #[must_use]
     pub fn is_due(&self, tick: u64) -> bool {
         tick.is_multiple_of(self.every)
     }
 
     /// Takes a frame at time `t` `[s]`.
-    pub fn look(&mut self, seen: &Observation<'_>, tick: u64, t: f64) {
+    pub fn record(&mut self, seen: &Observation<'_>, tick: u64, t: f64) {
         self.ticks.push(tick);
         self.times.push(t);
         self.layout.write(seen, t, &mut self.numbers);
-        self.contacts.look(seen);
+        self.contacts.record(seen);
     }
 
     /// Number of frames.

@@ -1,12 +1,12 @@
-//! Why something about a linear system could not be computed, in words.
+//! Errors of the analysis of linear systems.
 
 use std::fmt;
 
 use super::DMatrix;
 
-/// What is wrong with matrices, or with what is asked of them.
+/// Error of an analysis of a linear system.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Problem {
+pub enum LinearError {
     /// A matrix has the wrong size.
     Size {
         /// Its name.
@@ -47,7 +47,8 @@ pub enum Problem {
         /// Real and imaginary part of its eigenvalue.
         mode: (f64, f64),
     },
-    /// No stabilising solution of the Riccati equation was found: a mode that does not decay costs nothing, or rounding wins.
+    /// No stabilising solution of the Riccati equation was found: a mode that does not decay costs nothing, or rounding
+    /// wins.
     NotDetectable,
     /// The output does not depend on the input.
     NoPath {
@@ -58,7 +59,7 @@ pub enum Problem {
     },
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for LinearError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Size { what, expected, found } => {
@@ -89,24 +90,28 @@ impl fmt::Display for Problem {
     }
 }
 
-impl std::error::Error for Problem {}
+impl std::error::Error for LinearError {}
 
 /// Refuses a matrix of another size.
-pub(super) fn expect_size(what: &'static str, matrix: &DMatrix<f64>, expected: (usize, usize)) -> Result<(), Problem> {
+pub(super) fn expect_size(
+    what: &'static str,
+    matrix: &DMatrix<f64>,
+    expected: (usize, usize),
+) -> Result<(), LinearError> {
     let found = matrix.shape();
-    if found == expected { Ok(()) } else { Err(Problem::Size { what, expected, found }) }
+    if found == expected { Ok(()) } else { Err(LinearError::Size { what, expected, found }) }
 }
 
 /// Refuses a matrix with an entry that is not finite.
-pub(super) fn expect_finite(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Problem> {
+pub(super) fn expect_finite(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), LinearError> {
     match matrix.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
-        Some(k) => Err(Problem::NotFinite { what, at: (k % matrix.nrows(), k / matrix.nrows()) }),
+        Some(k) => Err(LinearError::NotFinite { what, at: (k % matrix.nrows(), k / matrix.nrows()) }),
     }
 }
 
 /// Refuses a matrix that is not symmetric up to rounding.
-pub(super) fn expect_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), Problem> {
+pub(super) fn expect_symmetric(what: &'static str, matrix: &DMatrix<f64>) -> Result<(), LinearError> {
     let skew = (matrix - matrix.transpose()).amax();
-    if skew <= 1e-12 * matrix.amax() { Ok(()) } else { Err(Problem::NotSymmetric { what }) }
+    if skew <= 1e-12 * matrix.amax() { Ok(()) } else { Err(LinearError::NotSymmetric { what }) }
 }

@@ -1,4 +1,4 @@
-//! Where a picture is seen from: from far away, fitted to the scene, or through a camera of the scene.
+//! Viewpoint of a picture: from far away, fitted to the scene, or through a camera of the scene.
 
 use sincro_math::elementary;
 
@@ -8,14 +8,14 @@ use crate::vector::{V, cross, dot, origin, rotate, scale, sub, unit};
 const FAR: [f64; 3] = [0.55, -1.0, 0.42];
 
 /// An eye: its axes, and for a camera where it stands and what height a metre before it shows.
-pub(super) struct Eye {
+pub(super) struct Viewpoint {
     right: V,
     up: V,
     back: V,
     camera: Option<(V, f64)>,
 }
 
-impl Eye {
+impl Viewpoint {
     /// Far away: lines that are parallel stay so.
     pub fn far() -> Self {
         let back = unit(FAR);
@@ -37,7 +37,7 @@ impl Eye {
         }
     }
 
-    /// Whether the picture's size is the camera's own.
+    /// Returns true if the picture's size is the camera's own.
     pub fn tall(&self) -> Option<f64> {
         self.camera.map(|(_, tall)| tall)
     }

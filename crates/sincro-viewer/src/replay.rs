@@ -1,41 +1,42 @@
-//! A film: everything that the page shows of finished runs, as one JSON text.
+//! Replay: everything that the page shows of finished runs, as one JSON text.
 //!
-//! `replay.json` of a run's folder, the data in `report.html` and what `sincro view RUN` sends are the same text. Numbers are little-endian bytes
-//! in base 64: frames in single precision ([`Tape`]), signals in double precision. A film that goes into a page is thinned to a size; what was left
-//! out is said (`every`), and `signals.csv` has it.
+//! `replay.json` of a run's folder, the data in `report.html` and what `sincro view RUN` sends are the same text.
+//! Numbers are little-endian bytes in base 64: frames in single precision ([`Trajectory`]), signals in double
+//! precision. A replay that goes into a page is thinned to a size; what was left out is said (`every`), and
+//! `signals.csv` has it.
 
 use serde::Serialize;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::{Campaign, Done};
 use sincro_sim::check::Outcome;
-use sincro_sim::replay::{CONTACT, Property, SceneView, Tape, properties};
+use sincro_sim::replay::{CONTACT, Property, SceneView, Trajectory, properties};
 use sincro_sim::results::Status;
 use sincro_sim::table::Table;
 
 use crate::encoding;
 
-/// What the page checks before it reads on.
+/// Format identifier that the page checks.
 pub const FORMAT: &str = "sincro-film-2";
 
-/// Bytes that the frames of all runs in a film may have, before base 64.
-const MOST_FRAME_BYTES: usize = 450_000;
-/// Bytes that the signals of all runs in a film may have, before base 64.
-const MOST_SIGNAL_BYTES: usize = 450_000;
+/// Bytes that the frames of all runs in a replay may have, before base 64.
+const MAX_FRAME_BYTES: usize = 450_000;
+/// Bytes that the signals of all runs in a replay may have, before base 64.
+const MAX_SIGNAL_BYTES: usize = 450_000;
 
 /// The whole text.
 #[derive(Clone, Debug, Serialize)]
-pub struct Film {
+pub struct Replay {
     /// [`FORMAT`].
     pub format: &'static str,
     /// Title of the experiment.
     pub title: String,
-    /// What stands under it.
+    /// Description under the title.
     pub description: String,
     /// Name of the scene's folder.
     pub scene: String,
     /// Base step `[s]`.
     pub step: f64,
-    /// How long is simulated `[s]`.
+    /// Simulated time `[s]`.
     pub duration: f64,
     /// The scenes of the runs, each once.
     pub views: Vec<SceneView>,
@@ -46,19 +47,19 @@ pub struct Film {
     /// The diagram's drawing as SVG, if there is one.
     pub diagram: Option<String>,
     /// The runs, the main one first.
-    pub runs: Vec<Reel>,
+    pub runs: Vec<ReplayRun>,
 }
 
-/// One run of a film.
+/// One run of a replay.
 #[derive(Clone, Debug, Serialize)]
-pub struct Reel {
+pub struct ReplayRun {
     /// `main`, or the variant's name.
     pub name: String,
-    /// What is different about it.
+    /// Description of the difference.
     pub about: String,
-    /// Index of its scene in [`Film::views`].
+    /// Index of its scene in [`Replay::views`].
     pub view: usize,
-    /// Why it ended early; empty if it did not.
+    /// Reason for an early end; empty if there was none.
     pub stop: String,
     /// Hash of its states.
     pub trace: String,
@@ -94,19 +95,19 @@ pub struct Signals {
     pub times: String,
     /// The columns, one after the other: doubles.
     pub numbers: String,
-    /// What checks expect: signal, times and values.
+    /// Expected values of checks: signal, times and values.
     pub references: Vec<(String, String, String)>,
 }
 
-impl Film {
-    /// Of a campaign; `diagram` is its drawing.
+impl Replay {
+    /// Creates the replay of a campaign; `diagram` is its drawing.
     #[must_use]
     pub fn of_campaign(loaded: &Loaded, campaign: &Campaign, diagram: Option<String>) -> Self {
         let variants = campaign.variants.iter().map(|(v, done)| (v.name.as_str(), v.description.as_str(), done));
         let all: Vec<(&str, &str, &Done)> = std::iter::once(("main", "", &campaign.main)).chain(variants).collect();
         let share = 1.0 / all.len() as f64;
         let mut views = Vec::new();
-        let runs = all.iter().map(|(name, about, done)| reel(name, about, done, share, &mut views)).collect();
+        let runs = all.iter().map(|(name, about, done)| replay_run(name, about, done, share, &mut views)).collect();
         Self {
             format: FORMAT,
             title: loaded.experiment.title.clone(),
@@ -135,7 +136,7 @@ pub(crate) fn plots(loaded: &Loaded) -> Vec<(String, Vec<String>)> {
     loaded.experiment.plots.iter().map(|p| (p.title.clone(), names(p))).collect()
 }
 
-fn reel(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneView>) -> Reel {
+fn replay_run(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneView>) -> ReplayRun {
     let view = match views.iter().position(|known| *known == done.view) {
         Some(k) => k,
         None => {
@@ -144,21 +145,21 @@ fn reel(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneV
         }
     };
     let run = &done.simulated;
-    let of_frames = (share * MOST_FRAME_BYTES as f64) as usize;
-    let of_signals = (share * MOST_SIGNAL_BYTES as f64) as usize;
+    let of_frames = (share * MAX_FRAME_BYTES as f64) as usize;
+    let of_signals = (share * MAX_SIGNAL_BYTES as f64) as usize;
     let bars = done.columns.iter().skip(1).map(|c| c.error_bar).collect::<Vec<_>>();
-    Reel {
+    ReplayRun {
         name: name.to_owned(),
         about: about.to_owned(),
         view,
         stop: stop_words(&run.status),
         trace: run.trace.to_string(),
-        frames: run.tape.as_ref().map(|tape| frames(tape, of_frames)).unwrap_or_default(),
+        frames: run.trajectory.as_ref().map(|trajectory| frames(trajectory, of_frames)).unwrap_or_default(),
         signals: signals(&run.table, &bars, &done.outcomes, of_signals),
     }
 }
 
-/// Why a run ended early; empty if it did not.
+/// Reason for the early end of a run; empty if there was none.
 pub(crate) fn stop_words(status: &Status) -> String {
     match status {
         Status::Completed => String::new(),
@@ -178,18 +179,18 @@ fn thinned(n: usize, every: usize) -> impl Iterator<Item = usize> + Clone {
     (0..n).filter(move |k| k.is_multiple_of(every) || k + 1 == n)
 }
 
-/// A tape in at most so many bytes.
-pub(crate) fn frames(tape: &Tape, most_bytes: usize) -> Frames {
-    let points: usize = (0..tape.n_frames()).map(|k| tape.contacts.count(k)).sum();
-    let bytes = tape.n_frames() * (8 + 4 * tape.layout.width()) + 4 * CONTACT * points;
-    let kept = thinned(tape.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1));
-    let counts = kept.clone().filter(|_| points > 0).map(|k| tape.contacts.count(k) as f32);
+/// Keyframes of a trajectory in at most so many bytes.
+pub(crate) fn frames(trajectory: &Trajectory, most_bytes: usize) -> Frames {
+    let points: usize = (0..trajectory.n_frames()).map(|k| trajectory.contacts.count(k)).sum();
+    let bytes = trajectory.n_frames() * (8 + 4 * trajectory.layout.width()) + 4 * CONTACT * points;
+    let kept = thinned(trajectory.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1));
+    let counts = kept.clone().filter(|_| points > 0).map(|k| trajectory.contacts.count(k) as f32);
     Frames {
         counts: encoding::singles(&counts.collect::<Vec<_>>()),
-        contacts: encoding::singles(kept.clone().flat_map(|k| tape.contacts.frame(k))),
-        width: tape.layout.width(),
-        times: encoding::doubles(kept.clone().map(|k| tape.times[k])),
-        numbers: encoding::singles(kept.flat_map(|k| tape.frame(k))),
+        contacts: encoding::singles(kept.clone().flat_map(|k| trajectory.contacts.frame(k))),
+        width: trajectory.layout.width(),
+        times: encoding::doubles(kept.clone().map(|k| trajectory.times[k])),
+        numbers: encoding::singles(kept.flat_map(|k| trajectory.frame(k))),
     }
 }
 

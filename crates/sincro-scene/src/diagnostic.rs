@@ -1,7 +1,7 @@
-//! What is wrong with the files of a scene, and where: one type for every reader, from TOML syntax to physics.
+//! Diagnostics of the files of a scene, with their locations: one type for every reader, from TOML syntax to physics.
 //!
-//! A [`Problem`] points at bytes of a [`SourceText`]; [`Problems`] are all that were found, in the order of the files. The
-//! plain rendering is here; the command line draws prettier ones from the same data.
+//! A [`Diagnostic`] points at bytes of a [`SourceText`]; [`Diagnostics`] are all that were found, in the order of the
+//! files. The plain rendering is here; the command line draws prettier ones from the same data.
 
 use std::fmt;
 use std::ops::Range;
@@ -68,26 +68,26 @@ impl fmt::Display for Location {
 pub struct Located<T> {
     /// The value.
     pub value: T,
-    /// Where it was written.
+    /// Location at which it was written.
     pub at: Location,
 }
 
 /// One finding.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Problem {
+pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
     /// The text it is about, none where there is no text (a folder that does not exist).
     pub source: Option<Arc<SourceText>>,
     /// The bytes it is about, none where the whole text is meant.
     pub span: Option<Range<usize>>,
-    /// What is wrong: lower case, names in backticks, the value as it was found.
+    /// Message: lower case, names in backticks, the value as it was found.
     pub message: String,
-    /// How to mend it, where that is known.
+    /// Advice on a correction, if there is any.
     pub help: Option<String>,
 }
 
-impl Problem {
+impl Diagnostic {
     /// An error at a place.
     #[must_use]
     pub fn error(at: &Location, message: impl Into<String>) -> Self {
@@ -125,14 +125,14 @@ impl Problem {
         Some(source.line_column(self.span.as_ref()?.start))
     }
 
-    /// Whether it is an error.
+    /// Returns true if it is an error.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(source) = &self.source {
             write!(f, "{}:", source.path.display())?;
@@ -152,9 +152,9 @@ impl fmt::Display for Problem {
 
 /// Everything that was found.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Problems(pub Vec<Problem>);
+pub struct Diagnostics(pub Vec<Diagnostic>);
 
-impl Problems {
+impl Diagnostics {
     /// Nothing found.
     #[must_use]
     pub fn new() -> Self {
@@ -162,31 +162,31 @@ impl Problems {
     }
 
     /// Adds one.
-    pub fn push(&mut self, problem: Problem) {
-        self.0.push(problem);
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.0.push(diagnostic);
     }
 
     /// Adds all of another's that are not among these already.
     pub fn merge(&mut self, other: Self) {
-        for problem in other.0 {
-            if !self.0.contains(&problem) {
-                self.0.push(problem);
+        for diagnostic in other.0 {
+            if !self.0.contains(&diagnostic) {
+                self.0.push(diagnostic);
             }
         }
     }
 
-    /// Whether there is an error among them.
+    /// Returns true if there is an error among them.
     #[must_use]
     pub fn any_error(&self) -> bool {
-        self.0.iter().any(Problem::is_error)
+        self.0.iter().any(Diagnostic::is_error)
     }
 
     /// In the order of the texts, file by file in the order in which they were first met.
     #[must_use]
     pub fn sorted(mut self) -> Self {
         let mut files: Vec<Option<PathBuf>> = Vec::new();
-        let rank = |problem: &Problem, files: &mut Vec<Option<PathBuf>>| {
-            let path = problem.source.as_ref().map(|s| s.path.clone());
+        let rank = |diagnostic: &Diagnostic, files: &mut Vec<Option<PathBuf>>| {
+            let path = diagnostic.source.as_ref().map(|s| s.path.clone());
             files.iter().position(|known| *known == path).unwrap_or_else(|| {
                 files.push(path);
                 files.len() - 1
@@ -199,23 +199,23 @@ impl Problems {
     }
 }
 
-impl From<Problem> for Problems {
-    fn from(problem: Problem) -> Self {
-        Self(vec![problem])
+impl From<Diagnostic> for Diagnostics {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self(vec![diagnostic])
     }
 }
 
-impl fmt::Display for Problems {
+impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, problem) in self.0.iter().enumerate() {
+        for (k, diagnostic) in self.0.iter().enumerate() {
             let separator = if k == 0 { "" } else { "\n" };
-            write!(f, "{separator}{problem}")?;
+            write!(f, "{separator}{diagnostic}")?;
         }
         Ok(())
     }
 }
 
-impl std::error::Error for Problems {}
+impl std::error::Error for Diagnostics {}
 
 #[cfg(test)]
 mod tests {
@@ -237,10 +237,10 @@ mod tests {
     #[test]
     fn problems_read_well_without_colour() {
         let place = at("step = 0\n", 7..8);
-        let problem = Problem::error(&place, "`step` is 0").with_help("give a positive number");
-        let problems = Problems(vec![problem.clone(), problem.as_warning()]);
+        let diagnostic = Diagnostic::error(&place, "`step` is 0").with_help("give a positive number");
+        let diagnostics = Diagnostics(vec![diagnostic.clone(), diagnostic.as_warning()]);
         assert_eq!(
-            problems.to_string(),
+            diagnostics.to_string(),
             "a.toml:1:8: error: `step` is 0\n  help: give a positive number\na.toml:1:8: warning: `step` is 0\n  help: \
              give a positive number"
         );
@@ -250,8 +250,9 @@ mod tests {
     fn sorting_keeps_files_apart() {
         let (b, a) = (at("123", 2..3), at("123", 0..1));
         let other = Location { source: Arc::new(SourceText { path: "b.toml".into(), text: "x".into() }), span: 0..1 };
-        let problems = Problems(vec![Problem::error(&b, "1"), Problem::error(&other, "2"), Problem::error(&a, "3")]);
-        let order: Vec<String> = problems.sorted().0.into_iter().map(|p| p.message).collect();
+        let diagnostics =
+            Diagnostics(vec![Diagnostic::error(&b, "1"), Diagnostic::error(&other, "2"), Diagnostic::error(&a, "3")]);
+        let order: Vec<String> = diagnostics.sorted().0.into_iter().map(|p| p.message).collect();
         assert_eq!(order, ["3", "1", "2"]);
     }
 }
