@@ -48,6 +48,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-sim",
             "sincro-analysis",
             "sincro-coppelia",
+            "sincro-access",
             "sincro-lua",
             "sincro-remote",
             "sincro-viewer",

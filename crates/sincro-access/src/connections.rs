@@ -38,7 +38,12 @@ struct Slot {
     network: IpAddr,
     activity: Arc<Activity>,
     close: Box<dyn Fn() + Send + Sync>,
+    /// True once it was told to close; it counts against [`MAX_CLOSING`] until it has.
+    is_closing: bool,
 }
+
+/// Connections that were told to close and have not yet, at most: their threads may be waiting for something else.
+const MAX_CLOSING: usize = 64;
 
 /// Use of one connection so far.
 #[derive(Debug, Default)]
@@ -63,10 +68,10 @@ impl Connections {
         Arc::new(Self { limits, start: Instant::now(), slots: Mutex::default() })
     }
 
-    /// Number of connections that are open.
+    /// Number of connections that are open and were not told to close.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.lock().open.len()
+        self.lock().open.values().filter(|slot| !slot.is_closing).count()
     }
 
     /// True while no connection is open.
@@ -81,16 +86,17 @@ impl Connections {
         let network = network_of(peer);
         let now = self.now();
         let mut slots = self.lock();
-        let of_peer = slots.open.values().filter(|slot| slot.network == network).count();
+        let in_use = slots.open.values().filter(|slot| !slot.is_closing);
+        let (n, of_peer) = in_use.fold((0, 0), |(n, m), slot| (n + 1, m + usize::from(slot.network == network)));
         if of_peer >= self.limits.per_address {
             self.make_room(&mut slots, now, Some(network))?;
-        } else if slots.open.len() >= self.limits.total {
+        } else if n >= self.limits.total {
             self.make_room(&mut slots, now, None)?;
         }
         let (id, activity) = (slots.next, Arc::new(Activity::default()));
         activity.last.store(now, Ordering::Relaxed);
         slots.next += 1;
-        slots.open.insert(id, Slot { network, activity: activity.clone(), close: Box::new(close) });
+        slots.open.insert(id, Slot { network, activity: activity.clone(), close: Box::new(close), is_closing: false });
         drop(slots);
         Some(Permit { connections: self.clone(), id, activity })
     }
@@ -98,14 +104,19 @@ impl Connections {
     /// Closes the connection that is least missed, of one network if one is given; none if all are in use.
     fn make_room(&self, slots: &mut Slots, now: u64, network: Option<IpAddr>) -> Option<()> {
         let limit = u64::try_from(self.limits.idle_under_pressure.as_millis()).unwrap_or(u64::MAX);
-        let candidates = slots.open.iter().filter(|(_, slot)| network.is_none_or(|wanted| wanted == slot.network));
+        if slots.open.values().filter(|slot| slot.is_closing).count() >= MAX_CLOSING {
+            return None;
+        }
+        let of_network = |slot: &Slot| network.is_none_or(|wanted| wanted == slot.network);
+        let candidates = slots.open.iter().filter(|(_, slot)| !slot.is_closing && of_network(slot));
         let ranked = candidates.filter_map(|(id, slot)| {
             let is_proven = slot.activity.is_proven.load(Ordering::Relaxed);
             let last = slot.activity.last.load(Ordering::Relaxed);
             (!is_proven || now.saturating_sub(last) > limit).then_some((is_proven, last, *id))
         });
         let (_, _, id) = ranked.min()?;
-        let slot = slots.open.remove(&id)?;
+        let slot = slots.open.get_mut(&id)?;
+        slot.is_closing = true;
         (slot.close)();
         Some(())
     }
@@ -200,6 +211,16 @@ mod tests {
         assert_eq!(closed.load(Ordering::Relaxed), 4);
         e.mark_message();
         assert!(admit(6).is_none(), "all are in use and none is idle");
+    }
+
+    #[test]
+    fn connections_that_do_not_close_bound_those_that_may_come() {
+        let all = Connections::new(LIMITS);
+        // their threads wait for something else and never drop what they hold
+        let held: Vec<Permit> = (0..500).filter_map(|_| all.admit(ip("127.0.0.1"), || {})).collect();
+        assert_eq!((held.len(), all.len()), (3 + MAX_CLOSING, 3));
+        drop(held);
+        assert!(all.admit(ip("127.0.0.1"), || {}).is_some());
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! those, and against other users of the machine, only the token helps. `Origin: null` (sandboxed frames, `file:`
 //! pages) says nothing, so it counts as a foreign page.
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::sync::Mutex;
 
 /// Bytes of randomness in a token.
@@ -94,7 +94,17 @@ impl Guard {
     /// Link with the token, for a scheme such as `http` or `ws`.
     #[must_use]
     pub fn link(&self, scheme: &str) -> String {
-        format!("{scheme}://{}/?{}", self.address, self.token_query())
+        format!("{scheme}://{}/?{}", self.reachable(), self.token_query())
+    }
+
+    /// Address for a link: that of loopback in place of "all addresses", which is no address to connect to.
+    fn reachable(&self) -> SocketAddr {
+        let mut address = self.address;
+        if address.ip().is_unspecified() {
+            let ip: IpAddr = if address.is_ipv4() { Ipv4Addr::LOCALHOST.into() } else { Ipv6Addr::LOCALHOST.into() };
+            address.set_ip(ip);
+        }
+        address
     }
 
     /// Link that works once and leads to the one with the token: it may stand in the argument list of a process, which
@@ -106,7 +116,7 @@ impl Guard {
     #[must_use]
     pub fn single_use_link(&self) -> String {
         let ticket = random();
-        let link = format!("http://{}/?ticket={ticket}", self.address);
+        let link = format!("http://{}/?ticket={ticket}", self.reachable());
         *self.ticket.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(ticket);
         link
     }

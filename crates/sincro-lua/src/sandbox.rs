@@ -194,8 +194,8 @@ pub(crate) fn charge_text(lua: &Lua, guard: &Arc<Guard>, text: &str) -> mlua::Re
             MAX_TEXT >> 10
         )));
     }
-    let jumps =
-        ["elseif", "goto", "::", "break"].map(|word| memchr::memmem::find_iter(text.as_bytes(), word).count() as u64);
+    let jumps = ["elseif", "goto", "::", "break", "and", "or"]
+        .map(|word| memchr::memmem::find_iter(text.as_bytes(), word).count() as u64);
     let jumps: u64 = jumps.iter().sum();
     guard.charge(lua, (text.len() as u64 + jumps * jumps) / 16)
 }

@@ -20,6 +20,10 @@ use crate::limits::Deadlines;
 /// Interval at which a thread that waits for input checks its deadline and whether shutdown has begun.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
+/// Stack of a thread that serves a client [bytes]. Scripts run on it, up to Lua's 200 calls of C functions within each
+/// other; only what is used of it takes memory.
+pub(crate) const STACK: usize = 16 << 20;
+
 /// Accepts connections until the hub is closed; each is served by `serve` in a thread of its own.
 pub(crate) fn accept<F>(
     listener: TcpListener,
@@ -41,7 +45,7 @@ where
             let Some(permit) = admit(&stream, &hub) else { continue };
             let (of_thread, serve) = (hub.clone(), serve.clone());
             // a thread that cannot be started drops the connection and its slot
-            let _ = thread::Builder::new().name(format!("{name} client")).stack_size(512 << 10).spawn(move || {
+            let _ = thread::Builder::new().name(format!("{name} client")).stack_size(STACK).spawn(move || {
                 if let Ok(connection) = Connection::new(stream, permit, of_thread.clone()) {
                     serve(connection, &of_thread);
                 }
@@ -78,6 +82,8 @@ pub(crate) struct Connection {
     /// Part of the buffer that is still to be taken.
     unread: Range<usize>,
     stage: Stage,
+    /// Bytes that have come since the last whole message.
+    received: usize,
     /// Instant by which the present answer must have been taken; none before its first byte.
     write_by: Option<Instant>,
 }
@@ -101,7 +107,7 @@ impl Connection {
         stream.set_write_timeout(Some(POLL_INTERVAL))?;
         let stage = Stage::Begun { until: Instant::now() + hub.deadlines().handshake };
         let (buffer, unread) = (Box::new([0; BUFFER]), 0..0);
-        Ok(Self { stream, hub, permit, buffer, unread, stage, write_by: None })
+        Ok(Self { stream, hub, permit, buffer, unread, stage, received: 0, write_by: None })
     }
 
     /// Address of the peer, as text.
@@ -116,12 +122,23 @@ impl Connection {
 
     /// Begins to wait for a message. Until this is called first, the deadline of the handshake holds.
     pub fn next_message(&mut self) {
+        self.received = 0;
         self.stage = Stage::Waiting { until: Instant::now() + self.hub.deadlines().idle };
     }
 
     /// Notes that a whole message has come: this connection is in use.
     pub fn end_message(&mut self) {
+        self.received = 0;
         self.permit.mark_message();
+    }
+
+    /// Notes a control frame of `n` bytes. If nothing else has come, the wait for a message begins anew; a message that
+    /// has begun keeps its deadline.
+    pub fn pass_control_frame(&mut self, n: usize) {
+        self.received = self.received.saturating_sub(n);
+        if self.received == 0 {
+            self.next_message();
+        }
     }
 
     /// True if the idle time-out has passed before a byte of the present message has come, and the server is not
@@ -185,6 +202,7 @@ fn is_pending(error: &io::Error) -> bool {
 impl Read for Connection {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let n = self.receive(out)?;
+        self.received = self.received.saturating_add(n);
         self.write_by = None;
         if let Stage::Waiting { .. } = self.stage {
             self.stage = Stage::Begun { until: Instant::now() + self.hub.deadlines().read };

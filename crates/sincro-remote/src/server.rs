@@ -60,6 +60,18 @@ impl Options {
     /// asks for.
     fn check(&self) -> Result<(), ServeError> {
         let has_open = !self.legacy.is_empty() || self.zmq.is_some();
+        if !has_open && self.ws.is_none() {
+            return Err(ServeError {
+                message: "no port is left to be served".into(),
+                help: "leave out one of --no-legacy, --no-zmq and --no-ws".into(),
+            });
+        }
+        if self.zmq == Some(u16::MAX) {
+            return Err(ServeError {
+                message: format!("port {} leaves none after it for clients of version 1", u16::MAX),
+                help: "take a smaller one with --zmq-port".into(),
+            });
+        }
         if self.bind.is_loopback() || self.unauthenticated || !has_open {
             return Ok(());
         }
@@ -165,7 +177,8 @@ impl Server {
             threads.push(listen::accept(listener, &hub, "ws", serve).map_err(failed)?);
         }
         let of_run = hub.clone();
-        let run = std::thread::Builder::new().name("simulation".into()).spawn(move || of_run.run());
+        let run =
+            std::thread::Builder::new().name("simulation".into()).stack_size(listen::STACK).spawn(move || of_run.run());
         threads.push(run.map_err(failed)?);
         Ok(Self { hub, ports, ws_guard, threads, events })
     }

@@ -60,11 +60,13 @@ fn admit(request: &Request, guard: &Guard) -> Result<(), guard::Refused> {
     })
 }
 
-/// The next message with content; none when the client has disconnected or broken the protocol. Pings are answered on
-/// the way.
+/// Bytes of a masked control frame without its payload.
+const CONTROL_HEAD: usize = 6;
+
+/// The next message with content; none when the client has gone or broken the protocol. Pings are answered on the way.
 fn receive(socket: &mut WebSocket<Connection>) -> Option<Message> {
+    socket.get_mut().next_message();
     loop {
-        socket.get_mut().next_message();
         match socket.read().ok()? {
             message @ (Message::Text(_) | Message::Binary(_)) => {
                 socket.get_mut().end_message();
@@ -75,7 +77,11 @@ fn receive(socket: &mut WebSocket<Connection>) -> Option<Message> {
                 let _ = socket.flush();
                 return None;
             }
-            Message::Ping(_) | Message::Pong(_) | Message::Frame(_) => socket.flush().ok()?,
+            Message::Ping(payload) | Message::Pong(payload) => {
+                socket.flush().ok()?;
+                socket.get_mut().pass_control_frame(CONTROL_HEAD + payload.len());
+            }
+            Message::Frame(_) => {}
         }
     }
 }

@@ -21,7 +21,7 @@ pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Exten
     let loaded = load(folder, &[], extensions).map_err(|diagnostics| diagnostics.to_string())?;
     let texts = edited(&loaded, settings).map_err(|refused| refused.join("\n"))?;
     let files = files(folder)?;
-    let target = free_name(folder);
+    let target = free_name(folder)?;
     for file in &files {
         let inner = file.strip_prefix(folder).map_err(|_| format!("`{}` is not in the folder", file.display()))?;
         let to = target.join(inner);
@@ -37,13 +37,23 @@ pub(crate) fn save_scene(folder: &Path, settings: &[Override], extensions: Exten
     Ok(target)
 }
 
+/// Copies of one scene that are made; more are to be cleared away first.
+const MAX_COPIES: usize = 100;
+
 /// `arm-edited`, `arm-edited-2` …: the first one that is not there.
-fn free_name(folder: &Path) -> PathBuf {
+///
+/// # Errors
+///
+/// There are [`MAX_COPIES`] already.
+fn free_name(folder: &Path) -> Result<PathBuf, String> {
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let name = whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned());
     let beside =
         |k: usize| whole.with_file_name(if k == 1 { format!("{name}-edited") } else { format!("{name}-edited-{k}") });
-    (1..).map(beside).find(|path| !path.exists()).expect("there is always a next number")
+    (1..=MAX_COPIES)
+        .map(beside)
+        .find(|path| path.symlink_metadata().is_err())
+        .ok_or_else(|| format!("there are {MAX_COPIES} copies of `{}` beside it already: delete some", whole.display()))
 }
 
 /// The files of a folder and of those in it; links are left out.

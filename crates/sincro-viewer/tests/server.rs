@@ -173,6 +173,71 @@ fn heads_that_do_not_come_and_silent_connections_keep_nobody_out() {
 }
 
 #[test]
+fn who_lacks_the_token_locks_nobody_out() {
+    let served = serve(Show::Replay("{}".into()));
+    let style = format!("GET /viewer.css HTTP/1.1\r\nHost: {}\r\n\r\n", served.address);
+    // as many connections as one address may have, each of them kept alive by what needs no token
+    let mut strangers: Vec<TcpStream> = (0..64).map(|_| TcpStream::connect(served.address).unwrap()).collect();
+    for stranger in &mut strangers {
+        stranger.write_all(style.as_bytes()).unwrap();
+        assert!(stranger.read(&mut [0; 64]).unwrap() > 0);
+    }
+    for _ in 0..4 {
+        assert!(get(&served, "/", "").0.contains("200"));
+    }
+}
+
+#[test]
+fn a_reader_that_takes_nothing_is_closed() {
+    let served = serve(Show::Replay("{}".into()));
+    let mut slow = TcpStream::connect(served.address).unwrap();
+    slow.set_write_timeout(Some(Duration::from_secs(1))).unwrap();
+    let script = format!("GET /viewer.js HTTP/1.1\r\nHost: {}\r\n\r\n", served.address);
+    let begin = Instant::now();
+    // it asks for far more than the system keeps for a connection, and reads a byte now and then
+    slow.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
+    for k in 0.. {
+        let asked = if k < 100 { slow.write_all(script.as_bytes()) } else { Ok(()) };
+        let closed =
+            |e: &std::io::Error| !matches!(e.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut);
+        if asked.is_err_and(|e| closed(&e)) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        match slow.read(&mut [0; 1]) {
+            Ok(0) => break,
+            Err(e) if closed(&e) => break,
+            _ => assert!(begin.elapsed() < Duration::from_secs(60), "it is still open"),
+        }
+        // what it has not taken is dropped with the connection; a peer that is gone is seen by what it is sent
+        if slow.peer_addr().is_err() || slow.take_error().ok().flatten().is_some() {
+            break;
+        }
+    }
+}
+
+#[test]
+fn what_could_be_read_in_two_ways_is_refused() {
+    let served = serve(Show::Replay("{}".into()));
+    let Served { address, token, .. } = &served;
+    for head in [
+        format!("GET /?{token} HTTP/1.1\r\nHost: {address}\r\nHost: evil.example\r\n"),
+        format!(
+            "GET /?{token} HTTP/1.1\r\nHost: {address}\r\nOrigin: http://{address}\r\nOrigin: http://evil.example\r\n"
+        ),
+        format!("GET http://evil.example/?{token} HTTP/1.1\r\nHost: {address}\r\n"),
+    ] {
+        let mut stream = TcpStream::connect(address).unwrap();
+        stream.write_all(format!("{head}Connection: close\r\n\r\n").as_bytes()).unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        assert!(answer.starts_with("HTTP/1.1 40"), "{head}: {answer}");
+        let lower = answer.to_lowercase();
+        assert!(!answer.starts_with("HTTP/1.1 403") || lower.contains("content-security-policy"), "{answer}");
+    }
+}
+
+#[test]
 fn no_path_leads_to_a_file() {
     let served = serve(Show::Replay("{}".into()));
     for path in [

@@ -3,6 +3,8 @@
 //! [`open`] makes a session, [`Server::start`] serves it until the server is dropped, and its
 //! [`events`](Server::events) give the runs that clients made, which a [`Recorder`] writes as any other run.
 
+use std::collections::VecDeque;
+use std::io::ErrorKind;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -41,19 +43,24 @@ pub enum Record {
     Full,
 }
 
-/// Folders `run-1`, `run-2` … of the runs that clients made, the newest ones kept.
+/// Folders `run-1`, `run-2` … of the runs that clients made, the newest ones kept. Folders that were there before are
+/// neither written into nor deleted: numbers go on behind them.
 #[derive(Debug)]
 pub struct Recorder {
     out: PathBuf,
     record: Record,
     keep: usize,
     n_runs: usize,
+    /// Number of the next folder that may be free.
+    next: usize,
+    /// Folders that this recorder made and has not deleted, the oldest first.
+    kept: VecDeque<PathBuf>,
 }
 
 /// Outcome of [`Recorder::store`].
 #[derive(Debug)]
 pub struct Stored {
-    /// Number of the run, from 1.
+    /// Number of the run among those of this recorder, from 1.
     pub number: usize,
     /// File to look at first; none if nothing is kept.
     pub path: Option<PathBuf>,
@@ -63,10 +70,10 @@ impl Recorder {
     /// Recorder into folders below `out`; of the runs that it stores the newest `keep` stay.
     #[must_use]
     pub fn new(out: PathBuf, record: Record, keep: NonZeroUsize) -> Self {
-        Self { out, record, keep: keep.get(), n_runs: 0 }
+        Self { out, record, keep: keep.get(), n_runs: 0, next: 1, kept: VecDeque::new() }
     }
 
-    /// Judges a run, writes it into the next folder and deletes the one that is too many.
+    /// Judges a run, writes it into the next free folder and deletes the oldest of its own that is too many.
     ///
     /// # Errors
     ///
@@ -74,18 +81,54 @@ impl Recorder {
     pub fn store(&mut self, finished: &Finished) -> Result<Stored, FileError> {
         self.n_runs += 1;
         let number = self.n_runs;
-        let out = self.out.join(format!("run-{number}"));
-        let path = match self.record {
+        let file = match self.record {
             Record::None => return Ok(Stored { number, path: None }),
-            Record::Signals => out.join("signals.csv"),
-            Record::Full => out.join("report.html"),
+            Record::Signals => "signals.csv",
+            Record::Full => "report.html",
         };
+        let out = self.next_folder()?;
         write_run(finished, &out, self.record)?;
-        if let Some(oldest) = number.checked_sub(self.keep).filter(|oldest| *oldest > 0) {
-            let oldest = self.out.join(format!("run-{oldest}"));
-            std::fs::remove_dir_all(&oldest).map_err(|cause| FileError { path: oldest, action: "delete", cause })?;
+        let path = Some(out.join(file));
+        self.kept.push_back(out);
+        while self.kept.len() > self.keep {
+            if let Some(oldest) = self.kept.pop_front() {
+                delete(&oldest)?;
+            }
         }
-        Ok(Stored { number, path: Some(path) })
+        Ok(Stored { number, path })
+    }
+
+    /// Makes the next folder of which nothing is there, not even a link.
+    fn next_folder(&mut self) -> Result<PathBuf, FileError> {
+        prepare(&self.out)?;
+        loop {
+            let folder = self.out.join(format!("run-{}", self.next));
+            self.next += 1;
+            match std::fs::create_dir(&folder) {
+                Ok(()) => return Ok(folder),
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                Err(cause) => return Err(FileError { path: folder, action: "create the folder", cause }),
+            }
+        }
+    }
+}
+
+/// The first of `received`, `received-2` … below a folder of which nothing is there: files of an earlier server are not
+/// those of this one's clients.
+#[must_use]
+pub fn received_folder(out: &Path) -> PathBuf {
+    let name = |k: usize| if k == 1 { "received".to_owned() } else { format!("received-{k}") };
+    let folders = (1..).map(|k| out.join(name(k)));
+    folders.into_iter().find(|folder| folder.symlink_metadata().is_err()).unwrap_or_else(|| out.join("received"))
+}
+
+/// Deletes a folder; one that is gone already is no error.
+fn delete(folder: &Path) -> Result<(), FileError> {
+    match std::fs::remove_dir_all(folder) {
+        Err(cause) if cause.kind() != ErrorKind::NotFound => {
+            Err(FileError { path: folder.to_owned(), action: "delete", cause })
+        }
+        _ => Ok(()),
     }
 }
 

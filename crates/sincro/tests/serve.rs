@@ -173,12 +173,33 @@ fn runs_take_as_much_disk_as_was_asked_for() {
     assert!(report.contains("src=\"../viewer.js\"") && folder.0.join("full/viewer.js").is_file());
 }
 
+#[cfg(unix)]
+#[test]
+fn folders_that_were_there_are_left_as_they_are() {
+    let folder = Folder::new("foreign", "");
+    let (out, outside) = (folder.0.join("out"), folder.0.join("outside"));
+    for path in [out.join("run-1"), outside.clone()] {
+        fs::create_dir_all(path).unwrap();
+    }
+    fs::write(out.join("run-1/my-notes.txt"), "mine").unwrap();
+    std::os::unix::fs::symlink(&outside, out.join("run-3")).unwrap();
+    let mut served = Served::start(&folder, &["--record", "signals", "--keep", "1", "--out", out.to_str().unwrap()]);
+    served.runs(3);
+    assert_eq!(served.interrupt().0, Some(0));
+    assert_eq!(names(&out), ["run-1", "run-3", "run-5"]);
+    assert_eq!(names(&out.join("run-1")), ["my-notes.txt"]);
+    assert!(names(&outside).is_empty());
+}
+
 #[test]
 fn ports_without_password_stay_on_loopback_unless_that_is_asked_for() {
     let said = refused(&["--bind", "0.0.0.0", "--legacy-port", "0", "--zmq-port", "0", "--ws-port", "0"]);
     assert!(said.contains("have no password") && said.contains("--unauthenticated"), "{said}");
+    let said = refused(&["--no-legacy", "--no-zmq", "--no-ws"]);
+    assert!(said.contains("no port is left"), "{said}");
     for (flags, words) in [
-        (["--keep", "0"], "--keep"),
+        (["--keep", "0"], "expected a whole number from 1 on"),
+        (["--zmq-port", "65535"], "leaves none after it"),
         (["--record", "most"], "possible values: none, signals, full"),
         (["--idle-timeout", "0"], "give seconds above 0"),
         (["--idle-timeout", "nan"], "give seconds above 0"),

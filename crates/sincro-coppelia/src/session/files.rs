@@ -1,8 +1,12 @@
 //! Files that clients send, if the server permits it: in one folder of the session, with plain names, not
 //! too many.
 
+use std::collections::BTreeSet;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+
+use sincro_scene::script::Script;
 
 use super::ApiError;
 
@@ -13,17 +17,49 @@ const MAX_BYTES: u64 = 64 << 20;
 /// Longest name.
 const MAX_NAME_LEN: usize = 200;
 
-/// A folder for what clients send.
+/// Instructions that one call of a script of a sent scene may take.
+const MAX_INSTRUCTIONS: u64 = 1_000_000_000;
+/// Memory of a script of a sent scene [bytes].
+const MAX_MEMORY: usize = 256 << 20;
+
+/// Checks that the scripts of a scene that a client has sent ask for no more than the server lets them.
+///
+/// # Errors
+///
+/// A script has larger limits.
+pub(super) fn check_limits(scripts: &[Script]) -> Result<(), ApiError> {
+    let greedy = |script: &&Script| script.max_instructions > MAX_INSTRUCTIONS || script.max_memory > MAX_MEMORY;
+    scripts.iter().find(greedy).map_or(Ok(()), |script| {
+        Err(ApiError(format!(
+            "the script of `{}` asks for too much: scenes of clients have at most {MAX_INSTRUCTIONS} instructions a call and {} MiB",
+            script.path,
+            MAX_MEMORY >> 20
+        )))
+    })
+}
+
+/// Returns true if a text in a value is a path that leads upwards.
+fn leads_out(value: &toml::Value) -> bool {
+    match value {
+        toml::Value::String(text) => text.split(['/', '\\']).any(|part| part == ".."),
+        toml::Value::Array(list) => list.iter().any(leads_out),
+        toml::Value::Table(table) => table.values().any(leads_out),
+        _ => false,
+    }
+}
+
+/// A folder for what clients send, and the names of what they have sent: nothing else in it is theirs.
 #[derive(Clone, Debug)]
 pub struct Files {
     folder: PathBuf,
+    sent: BTreeSet<PathBuf>,
 }
 
 impl Files {
     /// In a folder, which is made when the first file comes.
     #[must_use]
     pub fn new(folder: PathBuf) -> Self {
-        Self { folder }
+        Self { folder, sent: BTreeSet::new() }
     }
 
     /// Folder of the files.
@@ -51,12 +87,19 @@ impl Files {
         )))
     }
 
-    /// Keeps a file; one of the same name is replaced.
+    /// Returns true if a client has sent the file of a place.
+    #[must_use]
+    pub fn has(&self, place: &Path) -> bool {
+        self.sent.contains(place)
+    }
+
+    /// Keeps a file; one of the same name that a client has sent is replaced.
     ///
     /// # Errors
     ///
-    /// It is no plain name, there are too many or too large ones, or it cannot be written.
-    pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), ApiError> {
+    /// It is no plain name, something of the name was there before, there are too many or too large ones, or it cannot be
+    /// written.
+    pub fn put(&mut self, name: &str, bytes: &[u8]) -> Result<(), ApiError> {
         let place = self.place(name)?;
         let refused = |e: std::io::Error| ApiError(format!("`{name}` cannot be written: {e}"));
         fs::create_dir_all(&self.folder).map_err(refused)?;
@@ -69,7 +112,31 @@ impl Files {
             let mib = MAX_BYTES >> 20;
             return Err(ApiError(format!("clients may send {MAX_FILES} files of {mib} MiB together: erase some")));
         }
-        fs::write(place, bytes).map_err(refused)
+        if self.has(&place) {
+            fs::remove_file(&place).map_err(refused)?;
+        }
+        // made anew: nothing that was there is written over, and no link is followed
+        let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&place).map_err(refused)?;
+        file.write_all(bytes).map_err(refused)?;
+        self.sent.insert(place);
+        Ok(())
+    }
+
+    /// Checks, before any of them is opened as a scene, that no file that clients have sent names one outside the folder.
+    ///
+    /// # Errors
+    ///
+    /// A text in one of them has `..` as a part of a path.
+    pub fn check_references(&self) -> Result<(), ApiError> {
+        for place in &self.sent {
+            let Ok(text) = fs::read_to_string(place) else { continue };
+            let Ok(table) = text.parse::<toml::Table>() else { continue };
+            if table.values().any(leads_out) {
+                let name = place.file_name().unwrap_or_default().to_string_lossy();
+                return Err(ApiError(format!("`{name}` names a file outside its folder, which no client has sent")));
+            }
+        }
+        Ok(())
     }
 
     /// Removes a file that a client has sent.
@@ -77,8 +144,11 @@ impl Files {
     /// # Errors
     ///
     /// There is none of that name.
-    pub fn erase(&self, name: &str) -> Result<(), ApiError> {
+    pub fn erase(&mut self, name: &str) -> Result<(), ApiError> {
         let place = self.place(name)?;
-        fs::remove_file(place).map_err(|_| ApiError(format!("there is no file `{name}` that a client has sent")))
+        if !self.sent.remove(&place) {
+            return Err(ApiError(format!("there is no file `{name}` that a client has sent")));
+        }
+        fs::remove_file(place).map_err(|e| ApiError(format!("`{name}` cannot be erased: {e}")))
     }
 }

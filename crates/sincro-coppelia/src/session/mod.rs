@@ -289,9 +289,9 @@ impl Session {
     /// # Errors
     ///
     /// They may not.
-    pub fn files(&self) -> Result<&Files, ApiError> {
+    pub fn files(&mut self) -> Result<&mut Files, ApiError> {
         let refused = "clients send and erase no files here: `sincro serve --grant files` lets them";
-        self.grants.files.as_ref().ok_or_else(|| ApiError::new(refused))
+        self.grants.files.as_mut().ok_or_else(|| ApiError::new(refused))
     }
 
     /// Runs a text in the script on an object, then does what it asked for.
@@ -486,7 +486,15 @@ impl Session {
         let allowed = self.allowed(path);
         let sent = if allowed.is_ok() { None } else { self.sent(path) };
         let folder = sent.clone().map_or(allowed, Ok)?;
-        let loaded = load(&folder, &[], self.loaded.extensions).map_err(|problems| {
+        let mut extensions = self.loaded.extensions;
+        if sent.is_some() {
+            // before anything of it is opened: what is wrong with a file must not tell what is in it
+            self.grants.files.as_ref().map_or(Ok(()), Files::check_references)?;
+            if !self.grants.evaluation {
+                extensions.scripts = None;
+            }
+        }
+        let loaded = load(&folder, &[], extensions).map_err(|problems| {
             let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
             ApiError(format!("the scene `{path}` cannot be loaded: {first}"))
         })?;
@@ -496,6 +504,7 @@ impl Session {
                 let outside = outside.path.display();
                 return Err(ApiError(format!("the scene `{path}` takes `{outside}`, which no client has sent")));
             }
+            files::check_limits(&loaded.scene.scripts)?;
         }
         self.stop()?;
         let mut other =
@@ -503,6 +512,7 @@ impl Session {
         other.finished = std::mem::take(&mut self.finished);
         other.root.clone_from(&self.root);
         other.grants.clone_from(&self.grants);
+        other.loaded.extensions = self.loaded.extensions;
         *self = other;
         Ok(())
     }
@@ -510,8 +520,9 @@ impl Session {
     /// The file that a client has sent and means by a path, if there is one.
     fn sent(&self, path: &str) -> Option<PathBuf> {
         let name = path.rsplit(['/', '\\']).next()?;
-        let place = self.grants.files.as_ref()?.place(name).ok()?;
-        place.is_file().then(|| place.canonicalize().ok())?
+        let files = self.grants.files.as_ref()?;
+        let place = files.place(name).ok()?;
+        (files.has(&place) && place.is_file()).then(|| place.canonicalize().ok())?
     }
 
     /// The scene folder that a client means, if it may be loaded.

@@ -171,7 +171,7 @@ fn beyond_loopback_the_ports_without_password_want_a_flag() {
     let options = Options { bind: all, legacy: Vec::new(), zmq: None, ws: Some(port), ..options() };
     let server = Server::start(session(), &options).unwrap();
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, server.ports().ws.unwrap().port()));
-    let link = server.ws_link().unwrap().replace("0.0.0.0", "127.0.0.1");
+    let link = server.ws_link().unwrap();
     assert!(Ws::connect_to(address, &format!("ws://{address}/")).is_err(), "a program without the token");
     let mut client = Ws::connect_to(address, &link).unwrap();
     assert_eq!(client.json("sim.getSimulationState", &[])["ret"][0], 0);
@@ -209,6 +209,28 @@ fn a_byte_now_and_then_puts_no_deadline_off() {
         });
     });
     wait_until(|| server.hub().connections().is_empty());
+}
+
+#[test]
+fn pings_put_off_no_deadline_of_a_message() {
+    let server = serve_with("security-pings", &Options { deadlines: SHORT, ..options() });
+    let mut client = Ws::connect(server.ports().ws.unwrap());
+    // pings alone keep a connection: it is in use
+    let ping = super::ws_client::frame(0x89, b"");
+    let begin = Instant::now();
+    while begin.elapsed() < 2 * SHORT.idle {
+        client.throw(&ping);
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    // a message in pieces of a byte, a ping between any two
+    client.throw(&super::ws_client::frame(0x02, b"x"));
+    let begin = Instant::now();
+    let piece = [ping, super::ws_client::frame(0x00, b"x")].concat();
+    while client.stream().write_all(&piece).is_ok() {
+        assert!(begin.elapsed() < Duration::from_secs(10), "the message never ends");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    assert!(begin.elapsed() > SHORT.read / 2, "it was open until then");
 }
 
 /// Waits for something that happens soon.

@@ -219,6 +219,29 @@ fn files_are_sent_where_that_is_granted_and_nowhere_else() {
     }
     assert!(!received.parent().unwrap().join("hidden").exists());
 
+    // what somebody else has put there is neither erased nor written over, and no link is followed
+    std::fs::write(received.join("mine.txt"), "precious").unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(received.join("mine.txt"), received.join("link.txt")).unwrap();
+    for name in ["mine.txt", "link.txt"] {
+        assert!(client.call(0x3004, &text(name), b"x").is_err() && client.call(0x3006, &text(name), b"x").is_err());
+    }
+    assert_eq!(std::fs::read(received.join("mine.txt")).unwrap(), b"precious");
+    for name in ["mine.txt", "link.txt"] {
+        std::fs::remove_file(received.join(name)).unwrap();
+    }
+    // a scene that names a file outside is refused before anything of that file could be told
+    std::fs::write(received.with_file_name("touching-secret.toml"), "API_KEY = sk-12345").unwrap();
+    client.call(0x3004, &text("scene.toml"), SCENE.as_bytes()).unwrap();
+    for diagram in ["../touching-secret.toml", "./\\u002e./touching-secret.toml", "a/../../touching-secret.toml"] {
+        let experiment = format!("diagram = \"{diagram}\"\n{EXPERIMENT}");
+        client.call(0x3004, &text("experiment.toml"), experiment.as_bytes()).unwrap();
+        assert!(client.call(0x3002, &text("experiment.toml"), &[]).is_err(), "{diagram}");
+        let errors = client.last_errors();
+        let told = errors.iter().any(|e| e.contains("which no client has sent"));
+        assert!(told && !errors.iter().any(|e| e.contains("API_KEY")), "{diagram}: {errors:?}");
+    }
+
     // a scene that was sent is loaded; one that takes what was not sent is not, nor one of V-REP
     client.call(0x3004, &text("scene.toml"), SCENE.replace("arm", "leg").as_bytes()).unwrap();
     client.call(0x3004, &text("experiment.toml"), EXPERIMENT.as_bytes()).unwrap();

@@ -17,6 +17,8 @@ use tokio::sync::Notify;
 use tokio::time::sleep;
 use tower_service::Service;
 
+use super::timed_stream::TimedStream;
+
 /// Connections at once: a page takes about six while it loads and one afterwards.
 const LIMITS: ConnectionLimits =
     ConnectionLimits { total: 128, per_address: 64, idle_under_pressure: Duration::from_secs(30) };
@@ -68,7 +70,7 @@ async fn serve(stream: TcpStream, line: Arc<Line>, router: Router) {
     let service = service_fn(move |request: Request<Incoming>| router.clone().call(request.map(Body::new)));
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(HEAD);
-    let connection = http.serve_connection(TokioIo::new(stream), service).with_upgrades();
+    let connection = http.serve_connection(TokioIo::new(TimedStream::new(stream)), service).with_upgrades();
     tokio::select! {
         // an error is the peer's: it is gone
         _ = connection => {}

@@ -14,6 +14,7 @@
 
 mod connection;
 mod socket;
+mod timed_stream;
 
 use std::io;
 use std::net::{SocketAddr, TcpListener};
@@ -138,20 +139,16 @@ async fn admit(
     request: Request,
     next: Next,
 ) -> Response {
-    let guard = &shared.guard;
-    let asked = asked(&request);
-    let path = request.uri().path();
-    if path == "/" && guard.redeem(&asked) {
-        return Redirect::to(&format!("/?{}", guard.token_query())).into_response();
-    }
-    // the page's own program and style carry no secrets, and are asked for without a token
-    let is_static = matches!(path, "/viewer.js" | "/viewer.css");
-    let admitted = if is_static { guard.check_without_token(&asked) } else { guard.check(&asked) };
-    if let Err(refused) = admitted {
-        return (StatusCode::FORBIDDEN, refused.0).into_response();
-    }
-    line.mark_message();
-    let mut response = next.run(request).await;
+    let mut response = match admission(&shared.guard, &request) {
+        Ok(Admission::Static) => next.run(request).await,
+        Ok(Admission::Full) => {
+            // who has the token is no stranger: the connection is not the first to make room
+            line.mark_message();
+            next.run(request).await
+        }
+        Ok(Admission::Ticket) => Redirect::to(&format!("/?{}", shared.guard.token_query())).into_response(),
+        Err(refused) => (StatusCode::FORBIDDEN, refused.0).into_response(),
+    };
     let headers = response.headers_mut();
     let policy = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src data: blob:; connect-src 'self'; \
                   base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -159,13 +156,46 @@ async fn admit(
     headers.insert(header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
     headers.insert(header::REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
     headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    headers.insert("cross-origin-resource-policy", HeaderValue::from_static("same-origin"));
     response
 }
 
-/// Parts of a request that decide about its admission.
-fn asked(request: &Request) -> guard::Request<'_> {
-    let text = |name: header::HeaderName| request.headers().get(name).map(|value| value.to_str().unwrap_or("?"));
-    guard::Request { host: text(header::HOST), origin: text(header::ORIGIN), query: request.uri().query() }
+/// Extent to which a request is admitted.
+enum Admission {
+    /// To the page's own program and style, which carry no secrets and are asked for without a token.
+    Static,
+    /// To everything: it has the token.
+    Full,
+    /// To the link with the token: it has the ticket.
+    Ticket,
+}
+
+fn admission(guard: &Guard, request: &Request) -> Result<Admission, guard::Refused> {
+    let asked = asked(request)?;
+    let path = request.uri().path();
+    if path == "/" && guard.redeem(&asked) {
+        return Ok(Admission::Ticket);
+    }
+    if matches!(path, "/viewer.js" | "/viewer.css") {
+        return guard.check_without_token(&asked).map(|()| Admission::Static);
+    }
+    guard.check(&asked).map(|()| Admission::Full)
+}
+
+/// Parts of a request that decide about its admission; a header that stands twice, or a target that names another
+/// server, leaves open which one counts and is refused.
+fn asked(request: &Request) -> Result<guard::Request<'_>, guard::Refused> {
+    let headers = request.headers();
+    for name in [header::HOST, header::ORIGIN] {
+        if headers.get_all(&name).iter().count() > 1 {
+            return Err(guard::Refused(format!("the request has `{name}` twice")));
+        }
+    }
+    if request.uri().authority().is_some() {
+        return Err(guard::Refused("the request names a server in its target".into()));
+    }
+    let text = |name: header::HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or("?"));
+    Ok(guard::Request { host: text(header::HOST), origin: text(header::ORIGIN), query: request.uri().query() })
 }
 
 async fn page(State(shared): State<Shared>) -> Html<String> {

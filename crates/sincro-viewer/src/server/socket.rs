@@ -131,7 +131,7 @@ fn take(text: &str, commands: &SyncSender<Command>, has_complained: &mut bool) -
 /// The answer to a message that is refused; the first one of a viewer is logged.
 fn refuse(reason: &str, has_complained: &mut bool) -> String {
     if !*has_complained {
-        eprintln!("a viewer's message was refused: {reason}");
+        eprintln!("a viewer's message was refused: {}", sincro_access::printable(reason));
         *has_complained = true;
     }
     crate::live::refusal(reason)

@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use sincro::scene_name;
-use sincro::serve::{Deadlines, Event, Options, Record, Recorder, Server, Stored, open};
+use sincro::serve::{Deadlines, Event, Options, Record, Recorder, Server, Stored, open, received_folder};
+use sincro_access::printable;
 use sincro_coppelia::session::{Files, Finished, Grants, Session};
 use sincro_sim::results::Status;
 
@@ -79,7 +80,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, value_name = "WHAT", default_value = "full")]
     record: RecordFlag,
     /// Number of runs that are kept; then the oldest one is deleted
-    #[arg(long, value_name = "N", default_value_t = const { NonZeroUsize::new(100).unwrap() })]
+    #[arg(long, value_name = "N", default_value = "100", value_parser = count)]
     keep: NonZeroUsize,
     /// Folder of the runs, each in a folder run-1, run-2 … of its own [default: results/SCENE-served]
     #[arg(long, value_name = "DIR")]
@@ -125,7 +126,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let name = scene_name(&arguments.scene);
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{name}-served")));
     session.grant(Grants {
-        files: arguments.grant.contains(&Grant::Files).then(|| Files::new(out.join("received"))),
+        files: arguments.grant.contains(&Grant::Files).then(|| Files::new(received_folder(&out))),
         evaluation: arguments.grant.contains(&Grant::Scripts),
     });
     diagnostics::print_diagnostics(&session.loaded().warnings);
@@ -184,6 +185,11 @@ fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
     Ok((session, options))
 }
 
+/// A number of runs, at least one.
+fn count(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "expected a whole number from 1 on; `--record none` keeps no run".to_owned())
+}
+
 /// The value of a flag as a time above zero.
 fn seconds(flag: &str, value: f64) -> Result<Duration, Exit> {
     Duration::try_from_secs_f64(value)
@@ -221,8 +227,8 @@ struct Watch {
 impl Watch {
     fn event(&mut self, event: Event) {
         match event {
-            Event::Log(level, text) if level <= 300 => eprintln!("warning: {text}"),
-            Event::Log(_, text) => say!("  {text}"),
+            Event::Log(level, text) if level <= 300 => eprintln!("warning: {}", printable(&text)),
+            Event::Log(_, text) => say!("  {}", printable(&text)),
             Event::Finished(finished) => self.keep(*finished),
         }
     }
@@ -253,7 +259,7 @@ impl Watch {
         let (n, t) = (finished.steps, finished.simulated.table.times().last().copied().unwrap_or(0.0));
         let hash = finished.simulated.trace;
         let how = match &finished.simulated.status {
-            Status::Stopped { reason, .. } => format!("stopped: {reason}"),
+            Status::Stopped { reason, .. } => format!("stopped: {}", printable(reason)),
             Status::Ended { reason, .. } => format!("ended: {reason}"),
             Status::Completed | Status::Interrupted { .. } => "ended".to_owned(),
         };

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sincro_coppelia::session::{Grants, Session, Value};
+use sincro_coppelia::session::{Files, Grants, Session, Value};
 use sincro_remote::hub::Event;
 use sincro_remote::{Options, Server};
 use sincro_sim::Extensions;
@@ -98,6 +98,12 @@ fn texts_of_clients_are_run_only_where_that_is_granted() {
     assert!(run("this is no Lua").is_err());
     assert!(run("while true do end").unwrap_err().contains("instructions"));
     assert!(run("pcall(function() while true do end end) return 1").is_err(), "pcall does not catch it");
+    // texts that compile texts within each other, as deep as Lua lets them: the thread's stack holds them
+    let nested = "local function f(n) return load(function() f(n + 1) return nil end) end f(0) return 7";
+    assert!(run(nested).is_ok() || run(nested).unwrap_err().contains("stack overflow"));
+    // the compiler is quadratic in what it has to jump over
+    let jumps = "return load('local a = 1 return ' .. string.rep('a and ', 170000) .. 'a') == nil";
+    assert!(run(jumps).unwrap_err().contains("instructions"));
     assert_eq!(run("return secret").unwrap(), [Value::Int(43)], "the script lives on");
     let named = [Value::from("return secret@arm"), Value::Int(1)];
     assert_eq!(client.call("sim.executeScriptString", &named).unwrap(), [Value::Int(43)]);
@@ -118,6 +124,37 @@ fn texts_of_clients_are_run_only_where_that_is_granted() {
     let (joint, signal) =
         (&run.table.column("/first.position").unwrap().values, &run.table.column("float_signal.angle").unwrap().values);
     assert!(signal[0].is_nan() && signal[1..] == joint[1..], "{signal:?}");
+}
+
+#[test]
+fn a_sent_scene_has_scripts_only_where_these_are_granted_and_within_the_limits_of_the_server() {
+    let sent = std::env::temp_dir().join(format!("sincro-sent-{}", std::process::id()));
+    let script =
+        |more: &str| format!("[[script]]\nobject = \"/first\"\n{more}\ncode = \"function sysCall_init() end\"\n");
+    let plain = SCENE.split("[[script]]").next().unwrap();
+    for (evaluation, more, refusal) in [
+        (false, "", Some("script")),
+        (true, "", None),
+        (true, "max_instructions = 9000000000000000000", Some("asks for too much")),
+        (true, "max_memory_mib = 1000000", Some("asks for too much")),
+    ] {
+        let _ = std::fs::remove_dir_all(&sent);
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("scripts-refused");
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
+        std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
+        let extensions = Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() };
+        let mut session = Session::open(&folder, &[], extensions, None).unwrap_or_else(|p| panic!("{:?}", p.0));
+        session.grant(Grants { files: Some(Files::new(sent.clone())), evaluation });
+        session.files().unwrap().put("scene.toml", format!("{plain}{}", script(more)).as_bytes()).unwrap();
+        session.files().unwrap().put("experiment.toml", EXPERIMENT.as_bytes()).unwrap();
+        let loaded = session.load("experiment.toml");
+        match refusal {
+            None => assert!(loaded.is_ok(), "{loaded:?}"),
+            Some(words) => assert!(loaded.unwrap_err().0.contains(words), "{more}"),
+        }
+    }
+    std::fs::remove_dir_all(&sent).unwrap();
 }
 
 #[test]
