@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 /// Folders whose doc comments and comment widths are still to be converted.
-const UNCONVERTED: &[&str] = &["crates/sincro-math", "crates/sincro-dynamics", "crates/sincro-blocks"];
+const UNCONVERTED: &[&str] = &[];
 
 /// Files whose doc comments are the descriptions in `schemas/`, which are part of the format: their openings and line breaks stay.
 const SCHEMA_TEXT: &[&str] = &[
@@ -70,7 +70,6 @@ const RETIRED: &[Retired] = &[
     retired("Problems", "Diagnostics", FILES),
     retired("Fault", "ScriptError", FILES),
     retired("Manner", "RunOptions", &["sincro-sim", "sincro-remote"]),
-    retired("Floor", "SessionGuard", REMOTE),
     retired("Door", "Endpoint", REMOTE),
     retired("door", "endpoint", REMOTE),
     retired("Said", "CallOutcome", REMOTE),

@@ -139,8 +139,8 @@ impl Parameter {
         Self { name, takes, doc, default: Some(default) }
     }
 
-    /// Meaning as a phrase for tables and messages: the sentence ``Instant of the jump `[s]`.`` becomes `instant of the jump
-    /// [s]`; what is no sentence stays as it is.
+    /// Meaning as a phrase for tables and messages: the sentence ``Instant of the jump `[s]`.`` becomes
+    /// `instant of the jump [s]`; what is no sentence stays as it is.
     #[must_use]
     pub fn meaning(&self) -> String {
         let Some(sentence) = self.doc.strip_suffix('.') else { return self.doc.to_owned() };

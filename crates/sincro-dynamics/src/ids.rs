@@ -44,6 +44,7 @@ id! {
 }
 
 id! {
-    /// Id of a rotor: its index in [`Model::rotors`](crate::model::Model::rotors) and [`Names::rotors`](crate::model::Names::rotors).
+    /// Id of a rotor: its index in [`Model::rotors`](crate::model::Model::rotors) and
+    /// [`Names::rotors`](crate::model::Names::rotors).
     RotorId
 }

@@ -20,9 +20,9 @@
 //! | [`initial`] | consistency of an initial state |
 //! | [`world`], [`batch`] | a world that advances; many worlds in lanes |
 //!
-//! A [`model::Model`] is the compiled tree; a [`state::State`] the numbers that a snapshot needs; a [`scratch::Scratch`]
-//! can be recomputed at any time. A [`world::World`] owns one of each, and its model's numbers can be set between steps;
-//! every algorithm below it is a function of the three.
+//! A [`model::Model`] is the compiled tree; a [`state::State`] the numbers that a snapshot needs; a
+//! [`scratch::Scratch`] can be recomputed at any time. A [`world::World`] owns one of each, and its model's numbers can
+//! be set between steps; every algorithm below it is a function of the three.
 
 pub mod actuation;
 pub mod aero;

@@ -3,6 +3,9 @@
 //! Written ([`encode`]): definite lengths, whole numbers for handles and counts, 64-bit floats for every quantity, no
 //! tags. Read: every width of numbers, indefinite lengths, tags (ignored), `undefined` as nil. Depth is limited;
 //! lengths that the message does not have take no memory.
+//!
+//! Ours and not a library's: values are trees of any shape, of which a library would only read and write the heads, and
+//! limits must hold before anything is allocated.
 
 use std::fmt;
 

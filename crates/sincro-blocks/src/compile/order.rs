@@ -1,5 +1,5 @@
-//! Order of evaluation and algebraic loops: every block after those to whose outputs it has direct feedthrough; otherwise
-//! as written. A cycle of blocks with direct feedthrough is an algebraic loop.
+//! Order of evaluation and algebraic loops: every block after those to whose outputs it has direct feedthrough;
+//! otherwise as written. A cycle of blocks with direct feedthrough is an algebraic loop.
 
 use std::collections::BTreeSet;
 

@@ -97,8 +97,8 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// It is no plain name, something of the name was there before, there are too many or too large ones, or it cannot be
-    /// written.
+    /// It is no plain name, something of the name was there before, there are too many or too large ones, or it cannot
+    /// be written.
     pub fn put(&mut self, name: &str, bytes: &[u8]) -> Result<(), ApiError> {
         let place = self.place(name)?;
         let refused = |e: std::io::Error| ApiError(format!("`{name}` cannot be written: {e}"));
@@ -122,7 +122,8 @@ impl Files {
         Ok(())
     }
 
-    /// Checks, before any of them is opened as a scene, that no file that clients have sent names one outside the folder.
+    /// Checks, before any of them is opened as a scene, that no file that clients have sent names one outside the
+    /// folder.
     ///
     /// # Errors
     ///

@@ -6,8 +6,8 @@
 //! ([`crate::world`]). A locked degree of freedom has a prescribed acceleration in the recursions
 //! ([`crate::recursions::aba::Prescribed`]): no gain, no drift, no creep.
 //!
-//! Law: |τ| ≤ τ_max, and τ = τ_max sign(v* − v) where v ≠ v*. Source: key `acary2008`, chapter 3 (friction as a set-valued
-//! law).
+//! Law: |τ| ≤ τ_max, and τ = τ_max sign(v* − v) where v ≠ v*. Source: key `acary2008`, chapter 3 (friction as a
+//! set-valued law).
 
 use crate::ids::MotorId;
 

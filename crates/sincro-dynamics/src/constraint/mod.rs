@@ -9,8 +9,8 @@
 //! Eliminating v̇ leaves w = G λ + b with the Delassus matrix G = J M⁻¹ Jᵀ, built from the factors that the
 //! articulated-body recursion leaves (`delassus`); prescribed degrees of freedom (velocity motors, sticking joint
 //! friction) and the implicit terms of an integrator are thereby included. The problem is solved by an active-set
-//! method with a warm start; where that does not converge, by ADMM. Rigid constraints are not regularised:
-//! there is no stiffness, penalty or stabilisation gain. After each accepted sub-step the world projects positions and velocities
+//! method with a warm start; where that does not converge, by ADMM. Rigid constraints are not regularised: there is no
+//! stiffness, penalty or stabilisation gain. After each accepted sub-step the world projects positions and velocities
 //! onto the constraints in the metric of the mass matrix.
 //!
 //! | file | content |

@@ -39,7 +39,8 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Error of [`ModelBuilder::build`](super::ModelBuilder::build): all diagnostics, warnings too, at least one of them an error.
+/// Error of [`ModelBuilder::build`](super::ModelBuilder::build): all diagnostics, warnings too, at least one of them an
+/// error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BuildError(pub(crate) Vec<Diagnostic>);
 

@@ -62,8 +62,8 @@ impl WorldBuilder {
         self
     }
 
-    /// Sets the integration method; by default [`MethodKind::Implicit`], which is of order 2 and stable for any stiffness
-    /// and damping of joints.
+    /// Sets the integration method; by default [`MethodKind::Implicit`], which is of order 2 and stable for any
+    /// stiffness and damping of joints.
     #[must_use]
     pub fn method(mut self, method: MethodKind) -> Self {
         self.method = method;

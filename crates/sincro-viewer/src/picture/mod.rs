@@ -4,6 +4,10 @@
 //! Solids become flat faces, seen through the scene's first camera or, without one, from far away where the viewer's
 //! own first camera stands; they are painted from back to front and lit by one light. The same scene and frame give the
 //! same bytes.
+//!
+//! A third renderer beside the page (WebGL) and the cameras of scenes (ray casts into pixels), and kept: it is the only
+//! one whose output is a vector graphic, a few kilobytes that an index page of fifty runs can hold and a printer draws at
+//! any size; frames of a film (`run --frames`) are of the same kind.
 
 mod solid;
 mod viewpoint;

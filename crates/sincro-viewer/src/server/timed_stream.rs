@@ -1,4 +1,5 @@
-//! A TCP stream whose writes must make progress: what waits to be taken is taken within a deadline, or the stream fails.
+//! A TCP stream whose writes must make progress: what waits to be taken is taken within a deadline, or the stream
+//! fails.
 
 use std::io;
 use std::pin::Pin;
