@@ -15,6 +15,7 @@ const SCHEMA_TEXT: &[&str] = &[
     "crates/sincro-scene/src/scene/camera.rs",
     "crates/sincro-scene/src/scene/file.rs",
     "crates/sincro-scene/src/scene/proximity.rs",
+    "crates/sincro-scene/src/scene/rotor.rs",
     "crates/sincro-scene/src/scene/sensor.rs",
     "crates/sincro-scene/src/scene/signal_file.rs",
 ];

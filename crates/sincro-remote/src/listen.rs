@@ -54,11 +54,22 @@ where
     })
 }
 
+/// Tries to find a slot for a newcomer.
+const MAX_TRIES: usize = 4;
+
 /// Takes a slot for a connection.
 fn admit(stream: &TcpStream, hub: &Hub) -> Option<Permit> {
     let peer = stream.peer_addr().ok()?;
-    let handle = stream.try_clone().ok()?;
-    hub.connections().admit(peer.ip(), move || drop(handle.shutdown(Shutdown::Both)))
+    for k in 0..MAX_TRIES {
+        let handle = stream.try_clone().ok()?;
+        let permit = hub.connections().admit(peer.ip(), move || drop(handle.shutdown(Shutdown::Both)));
+        if permit.is_some() || k + 1 == MAX_TRIES {
+            return permit;
+        }
+        // those who were told to close have threads of their own, which are about to end
+        thread::sleep(Duration::from_millis(1));
+    }
+    None
 }
 
 /// Wakes a thread that accepts, so that it sees that the hub is closed.

@@ -19,8 +19,8 @@ use sincro_sim::{Extensions, Loaded};
 /// ```
 /// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
 /// let loaded = sincro::load(&scene, &[])?;
-/// assert_eq!(loaded.scene.freedom().left(), 6);
-/// # Ok::<(), sincro::Problems>(())
+/// assert_eq!(loaded.scene.freedom().dofs(), 6);
+/// # Ok::<(), sincro::Diagnostics>(())
 /// ```
 pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics> {
     sincro_sim::load(scene, overrides, extensions())

@@ -64,7 +64,7 @@ const MORE_TIMES: usize = 40;
 /// acceleration there.
 ///
 /// ```
-/// use crate::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
+/// use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
 /// let limits = Limits::symmetric(1.0, 3.0, 8.0);
 /// let axis = Axis { start: Point::default(), limits, goal: Goal::Position(0.25, 0.0) };
 /// let motion = plan(&[axis], Synchronization::Time).unwrap()[0];

@@ -53,8 +53,7 @@ pub(crate) struct RotorFile {
     pub speed: Option<SignalFile>,
     /// The speed follows `speed` with a first-order lag.
     pub lag: Option<LagFile>,
-    /// Path of the revolute joint that turns it, in place of `speed`: its rate is the rotor's speed, and the air brakes
-    /// it.
+    /// Path of the revolute joint that turns it, in place of `speed`: its rate is the rotor's speed, and the air brakes it.
     pub joint: Option<String>,
 }
 

@@ -6,8 +6,8 @@
 //! same bytes.
 //!
 //! A third renderer beside the page (WebGL) and the cameras of scenes (ray casts into pixels), and kept: it is the only
-//! one whose output is a vector graphic, a few kilobytes that an index page of fifty runs can hold and a printer draws at
-//! any size; frames of a film (`run --frames`) are of the same kind.
+//! one whose output is a vector graphic, a few kilobytes that an index page of fifty runs can hold and a printer draws
+//! at any size; frames of a film (`run --frames`) are of the same kind.
 
 mod solid;
 mod viewpoint;

@@ -1,6 +1,7 @@
 //! Connections of viewers: accepted within limits, and closed when their heads do not come.
 
 use std::io;
+use std::net::IpAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -22,6 +23,9 @@ use super::timed_stream::TimedStream;
 /// Connections at once: a page takes about six while it loads and one afterwards.
 const LIMITS: ConnectionLimits =
     ConnectionLimits { total: 128, per_address: 64, idle_under_pressure: Duration::from_secs(30) };
+
+/// Tries to find a slot for a newcomer.
+const MAX_TRIES: usize = 3;
 
 /// Time that the head of a request may take, the wait for its first byte included.
 const HEAD: Duration = Duration::from_secs(10);
@@ -58,10 +62,23 @@ pub(super) async fn accept(listener: TcpListener, router: Router) -> io::Result<
             continue;
         };
         let must_close = Arc::new(Notify::new());
-        let close = must_close.clone();
-        let Some(permit) = connections.admit(peer.ip(), move || close.notify_one()) else { continue };
+        let Some(permit) = admit(&connections, peer.ip(), &must_close).await else { continue };
         tokio::spawn(serve(stream, Arc::new(Line { permit, must_close }), router.clone()));
     }
+}
+
+/// Takes a slot; those who must make room for it are given the time to.
+async fn admit(connections: &Arc<Connections>, peer: IpAddr, must_close: &Arc<Notify>) -> Option<Permit> {
+    for _ in 0..MAX_TRIES {
+        let close = must_close.clone();
+        let permit = connections.admit(peer, move || close.notify_one());
+        // one that was told to close does so now
+        tokio::task::yield_now().await;
+        if permit.is_some() {
+            return permit;
+        }
+    }
+    None
 }
 
 /// Serves one connection until it ends; after an upgrade the WebSocket holds the line.
