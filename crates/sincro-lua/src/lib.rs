@@ -1,7 +1,7 @@
 //! Lua 5.4 scripts as controllers: adapter of the language to the script host of [`sincro_coppelia`].
 //!
 //! Child scripts of V-REP and CoppeliaSim run inside the step, threaded or not, in a sandbox that reaches only the
-//! simulation, with limits on memory, instructions and time. [`engine`] is an argument of [`sincro_sim::load`]; the
+//! simulation, with limits on memory, instructions and time. [`engine`] is an argument of [`sincro_sim::load()`]; the
 //! scripts are in the scene (`[[script]]`, docs/lua.md).
 //!
 //! | modules | hold |
