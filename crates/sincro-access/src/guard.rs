@@ -8,6 +8,8 @@
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::sync::Mutex;
 
+use crate::terminal::printable;
+
 /// Bytes of randomness in a token.
 const TOKEN_BYTES: usize = 16;
 
@@ -158,7 +160,7 @@ impl Guard {
                 _ if has_token => Ok(()),
                 Some(origin) => Err(Refused(format!(
                     "a page of `{}` needs the token: connect to the link that `sincro serve` printed",
-                    printable(origin)
+                    excerpt(origin)
                 ))),
                 None if self.address.ip().is_loopback() => Ok(()),
                 None => Err(Refused("the token is missing: connect to the link that `sincro serve` printed".into())),
@@ -180,7 +182,7 @@ impl Guard {
     fn check_own_page(&self, request: &Request<'_>) -> Result<(), Refused> {
         match request.origin {
             Some(origin) if origin.strip_prefix("http://") != request.host => {
-                Err(Refused(format!("`Origin: {}` is another site", printable(origin))))
+                Err(Refused(format!("`Origin: {}` is another site", excerpt(origin))))
             }
             _ => Ok(()),
         }
@@ -204,7 +206,7 @@ impl Guard {
         } else {
             !name.is_empty()
         };
-        if is_ours { Ok(()) } else { Err(Refused(format!("`Host: {}` is not this server", printable(host)))) }
+        if is_ours { Ok(()) } else { Err(Refused(format!("`Host: {}` is not this server", excerpt(host)))) }
     }
 }
 
@@ -213,9 +215,9 @@ fn parameter<'a>(query: Option<&'a str>, name: &str) -> Option<&'a str> {
     query.into_iter().flat_map(|query| query.split('&')).find_map(|pair| pair.strip_prefix(name))
 }
 
-/// Text without characters that could break a line or a terminal, at most 80 of them.
-fn printable(text: &str) -> String {
-    text.chars().filter(char::is_ascii_graphic).take(80).collect()
+/// First 80 characters of a header, fit for a line of text.
+fn excerpt(text: &str) -> String {
+    printable(text).chars().take(80).collect()
 }
 
 /// Equality in a time that does not depend on where the texts differ.
