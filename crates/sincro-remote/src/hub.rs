@@ -291,6 +291,12 @@ impl SessionGuard {
         self.clients.len()
     }
 
+    /// Clients that step the simulation.
+    #[must_use]
+    pub fn n_stepping(&self) -> usize {
+        self.clients.values().filter(|c| c.level > 0).count()
+    }
+
     /// Returns true if a client steps the simulation.
     #[must_use]
     pub fn is_stepping(&self, id: ClientId) -> bool {

@@ -49,6 +49,13 @@ fn stop(client: &mut Client, server: &Server) -> Trace {
     finished(server).simulated.trace
 }
 
+/// Waits until `n` clients step the simulation: until the server has read the call that makes the last of them do so.
+fn wait_for_stepping(server: &Server, n: usize) {
+    while server.hub().enter().n_stepping() < n {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
 /// Runs the callbacks that the client is asked for, until there is a result.
 fn with_callbacks(client: &mut Client, first: Value, mut act: impl FnMut(&mut Client, &[Value]) -> Value) -> Value {
     let mut answer = first;
@@ -140,6 +147,7 @@ fn a_client_that_does_not_step_does_while_its_motion_lasts() {
     let both = joints(&mut client);
     // asked for before the start: it waits for it, so that it begins at time 0
     client.send("sim.moveToConfig", &[parameters(&both, &[])]);
+    wait_for_stepping(&server, 1);
     start(&mut other);
     let n = (duration() / 0.05).ceil() as i64;
     other.call("sim.step", &[Value::Int(n)]).unwrap();
@@ -229,9 +237,10 @@ fn a_client_that_is_gone_or_a_stop_ends_its_motion() {
     // a run that is ended by somebody else
     let mut third = Client::connect(server.ports().zmq.unwrap(), Some("third"));
     start(&mut third);
-    other.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
     other.send("sim.moveToConfig", &[parameters(&both, &[])]);
-    std::thread::sleep(Duration::from_millis(100));
+    wait_for_stepping(&server, 2);
+    // made when both have asked for it: the motion has begun
+    third.call("sim.step", &[]).unwrap();
     stop(&mut third, &server);
     let answer = other.receive();
     let error = field(&answer, "err").and_then(Value::as_text).unwrap();
