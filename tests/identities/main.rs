@@ -5,3 +5,4 @@ mod derivatives;
 mod dynamics;
 mod random;
 mod rotors;
+mod switching;

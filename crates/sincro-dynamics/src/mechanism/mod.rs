@@ -11,6 +11,7 @@
 //! separated from it.
 
 pub(crate) mod constraints;
+pub(crate) mod drive_monitor;
 mod torques;
 
 use sincro_math::Real;
@@ -27,6 +28,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
+use drive_monitor::DriveMonitor;
 use torques::{TorqueInput, joint_torques};
 
 /// A model with its commands and everything needed to evaluate its rates without allocation.
@@ -60,6 +62,8 @@ pub struct Mechanism<R> {
     pub(crate) constraints: Option<Box<Constraints<R>>>,
     /// Working memory of projections and impacts.
     pub(crate) constraint_change: Vec<R>,
+    /// Laws of limited drives at the stages of a step.
+    pub(crate) drive_monitor: DriveMonitor,
 }
 
 impl<R: Real> Mechanism<R> {
@@ -86,6 +90,7 @@ impl<R: Real> Mechanism<R> {
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
+            drive_monitor: DriveMonitor::default(),
             // constraints branch, which lanes cannot
             constraints: if R::LANES == 1 { Constraints::new(&model) } else { None },
             model,
@@ -510,6 +515,9 @@ impl<R: Real> System<R> for Mechanism<R> {
         self.chart_rate(delta, v, rate);
         let rotors = &y[self.rotor_states()];
         self.accelerations(t, v, rotors, None, &mut rest[..n]);
+        if R::LANES == 1 && self.drive_monitor.is_active {
+            self.monitor_drives(t, v, &rest[..n]);
+        }
         if self.tracks_totals {
             self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
         }
@@ -525,6 +533,9 @@ impl<R: Real> System<R> for Mechanism<R> {
         let (rate, rest) = slope.split_at_mut(n);
         let rotors = &y[self.rotor_states()];
         self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
+        if R::LANES == 1 && self.drive_monitor.is_active {
+            self.monitor_drives(t, v, &rest[..n]);
+        }
         // the position moves with the new velocity; forces do their work over the mean of old and new
         let step = R::splat(h);
         for k in 0..n {

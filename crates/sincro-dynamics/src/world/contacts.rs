@@ -117,29 +117,44 @@ impl World {
         Ok(())
     }
 
-    /// Makes one step of semi-implicit Euler with contacts at velocity level; states of drives are kept.
-    fn velocity_level_step<A: CoupledSystem<f64> + ?Sized>(
+    /// Makes one step at velocity level: semi-implicit Euler, over the whole of which a limited drive either ends at its
+    /// target velocity or is saturated, a contact stays closed or opens. Source: key `acary2008`, chapter 10
+    /// (Moreau–Jean time-stepping).
+    pub(super) fn velocity_level_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        let n = self.model().n_v();
+        let Some(mut method) = self.time_stepping.take() else { return Ok(()) };
         self.statistics.steps += 1;
-        self.resolve_actuator_modes(t, system);
+        let n = self.model().n_v();
         self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
-        let own = self.mechanism.dim();
-        let Some(fallback) = &mut self.fallback else { return Ok(()) };
-        let system = &mut Coupled {
-            mechanism: &mut self.mechanism,
-            system,
-            negated_jacobian_diagonal: &mut self.negated_jacobian_diagonal,
-        };
-        fallback.step(system, t, h, &mut self.y);
-        if !self.y[..own].iter().all(|x| x.is_finite()) {
+        self.save_step_start();
+        self.solve_step_modes(|world| {
+            world.mark_targets(h);
+            world.restore();
+            if let Some(constraints) = &mut world.mechanism.constraints {
+                constraints.sub_step = h;
+            }
+            let system = &mut Coupled {
+                mechanism: &mut world.mechanism,
+                system: &mut *system,
+                negated_jacobian_diagonal: &mut world.negated_jacobian_diagonal,
+            };
+            method.step(system, t, h, &mut world.y);
+        });
+        self.time_stepping = Some(method);
+        if !self.y.iter().all(|x| x.is_finite()) {
+            self.restore();
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
         self.project_penetrations();
+        for i in 0..self.target_velocities.len() {
+            if self.mechanism.drives[i] == 0.0 {
+                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
+            }
+        }
         Ok(())
     }
 

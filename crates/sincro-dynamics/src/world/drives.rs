@@ -1,14 +1,17 @@
-//! Drives within a tick: velocity jumps at its start, locked and saturated modes, events that end a sub-step.
+//! Drives within a tick: velocity jumps at its start, events that end a sub-step.
 //!
-//! The law of a drive: [`crate::actuation::drive`].
+//! The law of a drive: [`crate::actuation::drive`]; the decision between its modes: [`super::switching`].
 
 use super::{Stop, World};
 use crate::actuation::DriveKind;
 use crate::coupled::CoupledSystem;
 use crate::integrate::Control;
 
-/// Relative width below which two velocities count as equal.
-const SAME_VELOCITY: f64 = 1e-12;
+/// Width to which the instant of an event is located, relative to the step.
+const EVENT_RESOLUTION: f64 = 1e-13;
+
+/// Distance of the instants within a step that are looked at where a law seems violated, relative to the step.
+const INTERIOR_STEP: f64 = 0.125;
 
 impl World {
     /// Latches the target velocity of each drive for this tick.
@@ -24,7 +27,7 @@ impl World {
     }
 
     /// Applies the velocity jumps at the start of a tick and resolves the modes of the drives after them.
-    pub(super) fn start_tick<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    pub(super) fn start_tick<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
         if self.mechanism.drives.is_empty() {
             return;
         }
@@ -34,7 +37,7 @@ impl World {
             self.apply_impact();
             self.resolve_impacts();
         }
-        self.resolve_actuator_modes(t, system);
+        self.resolve_actuator_modes(t, h, system);
     }
 
     /// Brings unlimited motors to their target velocity at once.
@@ -104,67 +107,6 @@ impl World {
         }
     }
 
-    /// Resolves the mode of each limited drive: those at their target velocity are locked if their limit allows it.
-    pub(super) fn resolve_actuator_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
-        for i in 0..self.target_velocities.len() {
-            if !self.is_unlimited(i) {
-                let missing = self.velocity_error(i);
-                self.mechanism.drives[i] = if missing == 0.0 { 0.0 } else { missing.signum() };
-            }
-        }
-        self.mechanism.mark_locked();
-        if !self.has_limited_drives() {
-            return;
-        }
-        for _ in 0..=self.target_velocities.len() {
-            self.mechanism.mark_locked();
-            self.evaluate_slope(t, system);
-            if !self.saturate_overloaded() {
-                return;
-            }
-        }
-    }
-
-    /// Velocity error of a drive, target minus present velocity, zero within rounding.
-    fn velocity_error(&self, i: usize) -> f64 {
-        let v = self.velocity(self.mechanism.model.drives[i].dof);
-        let missing = self.target_velocities[i] - v;
-        if missing.abs() <= SAME_VELOCITY * self.target_velocities[i].abs().max(v.abs()).max(1e-3) {
-            0.0
-        } else {
-            missing
-        }
-    }
-
-    /// Saturates the locked drives whose reaction in the last evaluation exceeds their limit; returns true if there
-    /// were any.
-    fn saturate_overloaded(&mut self) -> bool {
-        let mut released = false;
-        for i in 0..self.target_velocities.len() {
-            if let Some(reaction) = self.overload(i) {
-                self.mechanism.drives[i] = reaction.signum();
-                released = true;
-            }
-        }
-        released
-    }
-
-    /// Reaction on a locked drive, if the drives that lock its joint cannot give it together.
-    fn overload(&self, i: usize) -> Option<f64> {
-        if self.mechanism.drives[i] != 0.0 {
-            return None;
-        }
-        let dof = self.mechanism.model.drives[i].dof;
-        let mut limit = 0.0;
-        for (drive, saturation) in self.mechanism.model.drives.iter().zip(&self.mechanism.drives) {
-            if drive.dof == dof && *saturation == 0.0 {
-                limit += self.mechanism.model.drive_limit(drive)?;
-            }
-        }
-        let reaction = self.mechanism.scratch.reaction[dof];
-        (reaction.abs() > limit * (1.0 + 1e-12)).then_some(reaction)
-    }
-
     pub(super) fn has_limited_drives(&self) -> bool {
         (0..self.target_velocities.len()).any(|i| !self.is_unlimited(i))
     }
@@ -172,52 +114,92 @@ impl World {
     /// Zero crossing of drives and contacts: returns true if a saturated drive passed its target velocity, a locked one
     /// exceeds its limit, or a contact has changed.
     pub(super) fn has_event<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
-        let crossed = (0..self.target_velocities.len()).any(|i| {
-            let saturation = self.mechanism.drives[i];
-            !self.is_unlimited(i) && saturation != 0.0 && self.velocity_error(i) * saturation < 0.0
-        });
-        if crossed {
+        if (0..self.target_velocities.len()).any(|i| self.has_passed_target(i)) {
             return true;
         }
-        if self.is_constrained() {
-            self.mechanism.mark_locked();
-            self.evaluate_slope(t, system);
-            return self.has_contact_event() || (0..self.target_velocities.len()).any(|i| self.overload(i).is_some());
-        }
-        if self.mechanism.drives.iter().all(|saturation| *saturation != 0.0) {
+        let locked = self.mechanism.drives.contains(&0.0);
+        if !locked && !self.is_constrained() {
             return false;
         }
+        self.mechanism.mark_locked();
         self.evaluate_slope(t, system);
-        (0..self.target_velocities.len()).any(|i| self.overload(i).is_some())
+        (self.is_constrained() && self.has_contact_event()) || self.has_overload()
     }
 
-    /// Locates by bisection the first instant in (t, t + h] at which a drive or contact changes mode, goes there and
-    /// changes it.
-    pub(super) fn locate_event<A: CoupledSystem<f64> + ?Sized>(
+    /// Time after `t` at which an event has happened `[s]`, none if there is none: at the end of the sub-step of length
+    /// `h`, or at the earliest stage of it at which a law was violated (`violated` after `t`).
+    pub(super) fn find_event<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h: f64,
+        (reached, violated): (f64, f64),
+        control: Option<Control>,
+        system: &mut A,
+    ) -> Result<Option<f64>, (f64, Stop)> {
+        if self.has_event(reached, system) {
+            return Ok(Some(h));
+        }
+        let violated = violated.min(self.find_passage(reached, h, system));
+        if !(violated > 0.0 && violated < h) {
+            return Ok(None);
+        }
+        // stage and cubic are estimates: what they told is looked at, and the rest of the step from there
+        let mut at = violated;
+        while at < h * (1.0 - 1e-6) {
+            self.repeat_step(t, at, control, system)?;
+            if self.has_event(t + at, system) {
+                return Ok(Some(at));
+            }
+            at += INTERIOR_STEP * h;
+        }
+        self.repeat_step(t, h, control, system)?;
+        Ok(None)
+    }
+
+    /// Earliest time within the sub-step at which a saturated drive seems to be beyond its target velocity `[s]`.
+    fn find_passage<A: CoupledSystem<f64> + ?Sized>(&mut self, reached: f64, h: f64, system: &mut A) -> f64 {
+        if self.mechanism.drives.iter().all(|saturation| *saturation == 0.0) {
+            return f64::INFINITY;
+        }
+        self.evaluate_slope(reached, system);
+        let n = self.model().n_v();
+        self.mechanism.drive_monitor.passage(h, |i| {
+            let dof = self.mechanism.model.drives[i].dof;
+            (self.mechanism.drives[i], self.y[n + dof], self.slope[n + dof])
+        })
+    }
+
+    /// Locates by bisection the first instant in (t, t + bad] at which a drive or contact changes mode, goes there and
+    /// changes it; `h` is the length of the sub-step.
+    pub(super) fn locate_event<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (bad, h): (f64, f64),
         control: Option<Control>,
         system: &mut A,
     ) -> Result<f64, (f64, Stop)> {
-        let (mut good, mut bad) = (0.0, h);
-        let resolution = (h * 1e-13).max(4.0 * f64::EPSILON * t.abs());
+        let (mut good, mut bad) = (0.0, bad);
+        // of the step's own time: t itself may be too coarse
+        let resolution = h * EVENT_RESOLUTION;
         while bad - good > resolution {
             let middle = 0.5 * (good + bad);
             self.repeat_step(t, middle, control, system)?;
             if self.has_event(t + middle, system) { bad = middle } else { good = middle }
         }
         self.repeat_step(t, bad, control, system)?;
-        // a saturated drive that has just passed its target velocity is brought back to it, momentum and impulses kept
-        // consistent
+        self.evaluate_slope(t + bad, system);
+        // saturated drives that have just passed their target velocity, or reach it at the same instant, are brought to
+        // it and locked ones kept there, momentum and impulses consistent
+        let mut reached = false;
         for i in 0..self.target_velocities.len() {
-            let saturation = self.mechanism.drives[i];
-            self.jumps[i] = !self.is_unlimited(i) && saturation != 0.0 && self.velocity_error(i) * saturation < 0.0;
+            self.jumps[i] = self.has_passed_target(i) || self.reaches_target(i, resolution);
+            reached |= self.jumps[i];
+            self.jumps[i] |= self.mechanism.drives[i] == 0.0;
         }
-        if self.jumps.contains(&true) {
+        if reached {
             self.apply_impulse();
         }
-        self.resolve_actuator_modes(t + bad, system);
+        self.resolve_actuator_modes(t + bad, h, system);
         Ok(t + bad)
     }
 
@@ -231,22 +213,5 @@ impl World {
                 self.mechanism.prescribed_acceleration[dof] = (self.target_velocities[i] - self.before[n + dof]) / h;
             }
         }
-    }
-
-    /// Updates the modes after a trial step: overloaded drives saturate, drives that passed their target velocity lock;
-    /// returns true if any changed.
-    pub(super) fn update_drive_modes(&mut self) -> bool {
-        if self.saturate_overloaded() {
-            return true;
-        }
-        let mut changed = false;
-        for i in 0..self.target_velocities.len() {
-            let saturation = self.mechanism.drives[i];
-            if saturation != 0.0 && self.velocity_error(i) * saturation <= 0.0 {
-                self.mechanism.drives[i] = 0.0;
-                changed = true;
-            }
-        }
-        changed
     }
 }

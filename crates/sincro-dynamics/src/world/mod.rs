@@ -14,6 +14,7 @@ mod contacts;
 mod drives;
 mod parameters;
 mod step;
+mod switching;
 
 pub use builder::WorldBuilder;
 pub use step::{StepError, StepReport};
@@ -34,6 +35,7 @@ use crate::scratch::Scratch;
 use crate::spatial::Force;
 use crate::state::State;
 use contacts::MAX_CONTACT_EVENTS;
+use switching::{Kink, NO_KINK};
 
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
@@ -41,14 +43,23 @@ const SAME_INSTANT: f64 = 1e-9;
 /// Maximum number of changes of drives in one tick; more are called chatter.
 const MAX_EVENTS: usize = 10_000;
 
+/// Maximum number of events in a row without progress in time.
+const MAX_IDLE_EVENTS: usize = 20;
+
+/// Time between events, relative to the tick, that counts as none.
+const IDLE: f64 = 1e-12;
+
+/// Length of the step at velocity level after too many of them, relative to the tick.
+const IDLE_STEP: f64 = 1e-3;
+
 /// Maximum number of constraint problems without convergence in a run.
 const MAX_UNSOLVED: u64 = 100_000;
 
 /// Integration method with its working memory.
 #[derive(Clone, Debug)]
 pub enum Method {
-    /// Semi-implicit Euler, fixed step, order 1.
-    SemiImplicitEuler(SemiImplicitEuler<f64>),
+    /// Semi-implicit Euler, fixed step, order 1: every step is one at velocity level.
+    SemiImplicitEuler,
     /// Runge–Kutta, fixed step, order 4.
     Rk4(Rk4<f64>),
     /// Extrapolated implicit Euler with two rows, fixed step, order 2.
@@ -100,6 +111,10 @@ pub struct StepStatistics {
     pub impacts: u64,
     /// Ticks finished at velocity level because of Zeno behaviour.
     pub fallback_ticks: u64,
+    /// Steps at velocity level after too many events without progress in time.
+    pub fallback_steps: u64,
+    /// Decisions between modes of drives that did not end.
+    pub undecided_modes: u64,
 }
 
 /// A mechanism, its state and a method.
@@ -114,6 +129,11 @@ pub struct World {
     base_before: Vec<f64>,
     target_velocities: Vec<f64>,
     jumps: Vec<bool>,
+    /// Limited drives whose modes are being decided, and the kink of each drive among them.
+    kinks: Vec<Kink>,
+    kink_of: Vec<usize>,
+    /// y at the present instant during a look-ahead.
+    present: Vec<f64>,
     accelerations: Vec<f64>,
     slope: Vec<f64>,
     negated_jacobian_diagonal: Vec<f64>,
@@ -121,7 +141,8 @@ pub struct World {
     substeps: u32,
     /// Base step of [`World::step`] `[s]`.
     step_size: f64,
-    fallback: Option<SemiImplicitEuler<f64>>,
+    /// Steps at velocity level: of semi-implicit Euler, and the fallback of the others.
+    time_stepping: Option<SemiImplicitEuler<f64>>,
     statistics: StepStatistics,
 }
 
@@ -241,13 +262,14 @@ impl World {
         let mechanism = Mechanism::new(model, tracks_totals);
         let dim = mechanism.dim() + n_states;
         let method = match kind {
-            MethodKind::SemiImplicitEuler => Method::SemiImplicitEuler(SemiImplicitEuler::new(dim)),
+            MethodKind::SemiImplicitEuler => Method::SemiImplicitEuler,
             MethodKind::Rk4 => Method::Rk4(Rk4::new(dim)),
             MethodKind::Implicit => Method::Implicit(Extrapolated::new(dim, 2, control)),
             MethodKind::DormandPrince => Method::DormandPrince(DormandPrince::new(dim, control)),
             MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, 6, control)),
         };
-        let fallback = (!mechanism.model().constraints().is_empty()).then(|| SemiImplicitEuler::new(dim));
+        let switches = n_drives > 0 || !mechanism.model().constraints().is_empty();
+        let time_stepping = (switches || kind == MethodKind::SemiImplicitEuler).then(|| SemiImplicitEuler::new(dim));
         let base_before = vec![0.0; mechanism.model().n_q()];
         let accelerations = vec![0.0; mechanism.model().n_v()];
         Self {
@@ -261,10 +283,13 @@ impl World {
             attached_before: vec![0.0; n_states],
             substeps: 1,
             step_size: control.h,
-            fallback,
+            time_stepping,
             base_before,
             target_velocities: vec![0.0; n_drives],
             jumps: vec![false; n_drives],
+            kinks: Vec::with_capacity(n_drives),
+            kink_of: vec![NO_KINK; n_drives],
+            present: vec![0.0; dim],
             accelerations,
             statistics: StepStatistics::default(),
         }
@@ -336,7 +361,7 @@ impl World {
         self.load(system);
         self.latch_target_velocities();
         self.resolve_impacts();
-        self.resolve_actuator_modes(t, system);
+        self.resolve_actuator_modes(t, self.step_size, system);
         self.resolve_contact_modes(t, system);
         self.mechanism.store(&self.y, &mut self.state);
     }
@@ -353,7 +378,7 @@ impl World {
     pub fn heap_bytes(&self) -> usize {
         let own = self.y.len() * 3 + self.base_before.len() + self.target_velocities.len() + self.accelerations.len();
         let method = match &self.method {
-            Method::SemiImplicitEuler(_) => self.y.len(),
+            Method::SemiImplicitEuler => self.y.len(),
             Method::Rk4(_) => 5 * self.y.len(),
             Method::Implicit(_) | Method::Stiff(_) => 10 * self.y.len(),
             Method::DormandPrince(_) => 9 * self.y.len(),
@@ -388,11 +413,11 @@ impl World {
         self.load(system);
         self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
         self.latch_target_velocities();
-        let reached = if let Method::SemiImplicitEuler(_) = self.method {
+        let reached = if let Method::SemiImplicitEuler = self.method {
             let h = h / f64::from(self.substeps);
-            (0..self.substeps).try_for_each(|k| self.euler_step(t + f64::from(k) * h, h, system))
+            (0..self.substeps).try_for_each(|k| self.velocity_level_step(t + f64::from(k) * h, h, system))
         } else {
-            self.start_tick(t, system);
+            self.start_tick(t, h, system);
             self.sub_steps(t, h, system)
         };
         self.mechanism.store(&self.y, &mut self.state);
@@ -469,6 +494,7 @@ impl World {
         self.state.drives.copy_from_slice(&self.mechanism.drives);
         self.target_velocities.resize(n, 0.0);
         self.jumps.resize(n, false);
+        self.kink_of.resize(n, NO_KINK);
     }
 
     /// The mechanism, for kinematics and energies at the state.
@@ -504,7 +530,7 @@ impl World {
         span: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        let (mut t, end, mut events) = (start, start + span, 0);
+        let (mut t, end, mut events, mut idle) = (start, start + span, 0, 0);
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
             self.set_patience(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
@@ -526,7 +552,7 @@ impl World {
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
             if self.is_constrained() {
                 self.resolve_impacts();
-                self.resolve_actuator_modes(t, system);
+                self.resolve_actuator_modes(t, h_max, system);
                 self.resolve_contact_modes(t, system);
                 if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
                     return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
@@ -537,7 +563,12 @@ impl World {
             if limited {
                 self.save_step_start();
             }
-            let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)))?;
+            if self.has_limited_drives() {
+                self.mechanism.drive_monitor.begin(&self.target_velocities);
+            }
+            let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)));
+            let violated = self.mechanism.drive_monitor.end() - t;
+            let h = h?;
             if !self.y.iter().all(|x| x.is_finite()) {
                 // the coupled system has last seen a trial state: its own is the saved one
                 let own = self.mechanism.dim();
@@ -547,8 +578,11 @@ impl World {
             }
             self.statistics.steps += 1;
             let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
-            if limited && self.has_event(reached, system) {
-                t = self.locate_event(t, h, control, system)?;
+            let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
+            if let Some(bad) = event {
+                let before = t;
+                t = self.locate_event(t, (bad, h), control, system)?;
+                idle = if t - before > IDLE * span { 0 } else { idle + 1 };
                 events += 1;
                 self.statistics.events += 1;
                 if events > MAX_EVENTS {
@@ -561,7 +595,14 @@ impl World {
                 }
             } else {
                 self.project();
-                t = reached;
+                (t, idle) = (reached, 0);
+            }
+            if idle > MAX_IDLE_EVENTS {
+                // whatever alternates here is decided over a short step as a whole
+                let h = (IDLE_STEP * span).min(end - t);
+                self.statistics.fallback_steps += 1;
+                self.velocity_level_step(t, h, system)?;
+                (t, idle) = (if h < end - t { t + h } else { end }, 0);
             }
         }
         self.set_patience(ZenoFallback::default());
@@ -592,7 +633,7 @@ impl World {
         };
         let y = &mut self.y;
         match &mut self.method {
-            Method::SemiImplicitEuler(m) => m.step(system, t, h_max, y),
+            Method::SemiImplicitEuler => unreachable!("its steps are those at velocity level"),
             Method::Rk4(m) => m.step(system, t, h_max, y),
             Method::Implicit(m) => m.step(system, t, h_max, y),
             Method::DormandPrince(m) => return m.step(system, t, h_max, y),
@@ -627,39 +668,6 @@ impl World {
         while done < h {
             let step = self.method_step(t + done, h - done, system).map_err(|f| (t + done, Stop::Integration(f)))?;
             done = if step >= h - done { h } else { done + step };
-        }
-        Ok(())
-    }
-
-    /// Semi-implicit Euler with drives at velocity level: over the whole step a drive either reaches its target
-    /// velocity exactly or is saturated. The modes are found by iteration.
-    fn euler_step<A: CoupledSystem<f64> + ?Sized>(
-        &mut self,
-        t: f64,
-        h: f64,
-        system: &mut A,
-    ) -> Result<(), (f64, Stop)> {
-        self.statistics.steps += 1;
-        let n = self.model().n_v();
-        self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
-        self.save_step_start();
-        for _ in 0..2 * self.target_velocities.len() + 4 {
-            self.mark_targets(h);
-            self.restore();
-            self.method_step(t, h, system).map_err(|f| (t, Stop::Integration(f)))?;
-            if self.target_velocities.is_empty() || !self.update_drive_modes() {
-                break;
-            }
-        }
-        if !self.y.iter().all(|x| x.is_finite()) {
-            self.restore();
-            return Err((t, Stop::Integration(Failure::NotFinite { t })));
-        }
-        self.project_penetrations();
-        for i in 0..self.target_velocities.len() {
-            if self.mechanism.drives[i] == 0.0 {
-                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
-            }
         }
         Ok(())
     }

@@ -138,6 +138,8 @@ impl StepStatistics {
             events: self.events - before.events,
             impacts: self.impacts - before.impacts,
             fallback_ticks: self.fallback_ticks - before.fallback_ticks,
+            fallback_steps: self.fallback_steps - before.fallback_steps,
+            undecided_modes: self.undecided_modes - before.undecided_modes,
         }
     }
 }

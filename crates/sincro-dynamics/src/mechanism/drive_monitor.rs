@@ -1,0 +1,165 @@
+//! Laws of limited drives at one evaluation: overload of a locked drive, passage of a saturated one through its target
+//! velocity, each beyond the rounding of its terms; and a monitor of them at the stages of a step, which notices a law
+//! that is violated within the step and holds again at its end.
+
+use sincro_math::Real;
+
+use super::Mechanism;
+use crate::spatial::Vec3;
+
+/// Relative width below which two velocities count as equal.
+const SAME_VELOCITY: f64 = 1e-12;
+
+/// Least velocity that the width is relative to [rad/s] or [m/s].
+const LEAST_VELOCITY: f64 = 1e-3;
+
+/// Relative excess of a reaction over its limit that counts as rounding.
+const SAME_FORCE: f64 = 1e-12;
+
+/// Rounding of a sum, relative to the sum of the magnitudes of its terms.
+const ROUNDING: f64 = 1e-13;
+
+/// The same where constraints contribute: the solution of their linear system amplifies rounding.
+const ROUNDING_CONSTRAINED: f64 = 1e-11;
+
+/// Monitor of the limited drives over the stages of a step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DriveMonitor {
+    /// True while a step is made with limited drives.
+    pub is_active: bool,
+    /// Target velocity of each drive [rad/s] or [m/s].
+    pub targets: Vec<f64>,
+    /// Earliest stage at which a law was violated `[s]`; infinite for none.
+    pub violated: f64,
+    /// Velocity and acceleration of each drive's joint at the first stage.
+    start: Vec<(f64, f64)>,
+}
+
+impl DriveMonitor {
+    /// Begins a step.
+    pub fn begin(&mut self, targets: &[f64]) {
+        self.targets.clear();
+        self.targets.extend_from_slice(targets);
+        self.start.clear();
+        (self.is_active, self.violated) = (true, f64::INFINITY);
+    }
+
+    /// Earliest time within a step of length `h` at which the velocity of a saturated drive is beyond its target
+    /// `[s]`, by the cubic through velocities and accelerations at both ends; infinite for none. `drive` gives the
+    /// saturation of a drive, and velocity and acceleration of its joint at the end.
+    pub fn passage(&self, h: f64, drive: impl Fn(usize) -> (f64, f64, f64)) -> f64 {
+        let mut earliest = f64::INFINITY;
+        for (i, ((v0, a0), target)) in self.start.iter().zip(&self.targets).enumerate() {
+            let (saturation, v1, a1) = drive(i);
+            for s in extrema((*v0, h * a0), (v1, h * a1)) {
+                let v = hermite((*v0, h * a0), (v1, h * a1), s);
+                if saturation != 0.0 && is_beyond(*target, v, saturation) {
+                    earliest = earliest.min(s * h);
+                }
+            }
+        }
+        earliest
+    }
+
+    /// Ends a step; returns the time of the earliest violation in it `[s]`, infinite for none.
+    pub fn end(&mut self) -> f64 {
+        self.is_active = false;
+        self.violated
+    }
+}
+
+/// Cubic through value and slope at 0 and at 1.
+fn hermite((v0, a0): (f64, f64), (v1, a1): (f64, f64), s: f64) -> f64 {
+    let (c2, c3) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
+    v0 + s * (a0 + s * (c2 + s * c3))
+}
+
+/// Positions of the extrema of that cubic within (0, 1); NaN for none.
+fn extrema((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> [f64; 2] {
+    let (c2, c3) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
+    // a₀ + 2 c₂ s + 3 c₃ s² = 0, without cancellation
+    let root = (c2 * c2 - 3.0 * c3 * a0).sqrt();
+    let q = -(c2 + root.copysign(c2));
+    [q / (3.0 * c3), a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
+}
+
+/// Target minus present velocity, zero within rounding.
+pub(crate) fn velocity_error(target: f64, v: f64) -> f64 {
+    let missing = target - v;
+    let scale = target.abs().max(v.abs()).max(LEAST_VELOCITY);
+    if missing.abs() <= SAME_VELOCITY * scale { 0.0 } else { missing }
+}
+
+/// Returns true if a velocity is beyond its target in the direction in which a drive pushes.
+pub(crate) fn is_beyond(target: f64, v: f64, saturation: f64) -> bool {
+    velocity_error(target, v) * saturation < 0.0
+}
+
+impl<R: Real> Mechanism<R> {
+    /// Terms of the reaction on a degree of freedom in the last evaluation, sum of their magnitudes [N·m] or `[N]`: its
+    /// rounding is relative to this.
+    pub(crate) fn reaction_scale(&self, dof: usize) -> f64 {
+        let link = self.model.links.iter().rposition(|link| link.v_idx as usize <= dof).unwrap_or(0);
+        let (a, of_dof) = (&self.scratch.links[link].a, &self.scratch.dofs[dof]);
+        let product = |a: &Vec3<R>, u: &Vec3<R>| (0..3).map(|k| (a[k] * u[k]).lane(0).abs()).sum::<f64>();
+        product(&a.ang, &of_dof.u.ang)
+            + product(&a.lin, &of_dof.u.lin)
+            + of_dof.force.lane(0).abs()
+            + self.scratch.reaction[dof].lane(0).abs()
+    }
+
+    /// Terms of the acceleration of a degree of freedom in the last evaluation, sum of their magnitudes [rad/s²] or
+    /// [m/s²].
+    pub(crate) fn acceleration_scale(&self, dof: usize) -> f64 {
+        self.reaction_scale(dof) / self.inertia(dof)
+    }
+
+    /// Articulated inertia of a degree of freedom in the last evaluation, those nearer to the base held [kg·m²] or
+    /// `[kg]`.
+    pub(crate) fn inertia(&self, dof: usize) -> f64 {
+        self.scratch.dofs[dof].d.lane(0)
+    }
+
+    /// Rounding of the last evaluation, relative to the sum of the magnitudes of its terms.
+    pub(crate) fn rounding(&self) -> f64 {
+        if self.constraints.is_some() { ROUNDING_CONSTRAINED } else { ROUNDING }
+    }
+
+    /// Returns true if the reaction on a degree of freedom in the last evaluation exceeds `limit`.
+    pub(crate) fn is_overloaded(&self, dof: usize, limit: f64) -> bool {
+        let reaction = self.scratch.reaction[dof].lane(0).abs();
+        reaction > limit * (1.0 + SAME_FORCE) && reaction > limit + self.rounding() * self.reaction_scale(dof)
+    }
+
+    /// Returns true if the reaction on locked drive `i`, in the last evaluation, is more than the drives that lock its
+    /// joint can give together.
+    pub(crate) fn is_drive_overloaded(&self, i: usize) -> bool {
+        let dof = self.model.drives[i].dof;
+        let locked = self.model.drives.iter().zip(&self.drives).filter(|(d, s)| d.dof == dof && s.lane(0) == 0.0);
+        let limit =
+            locked.map(|(drive, _)| self.model.drive_limit(drive).map_or(f64::INFINITY, |limit| limit.lane(0))).sum();
+        self.is_overloaded(dof, limit)
+    }
+
+    /// Notes whether the law of a limited drive is violated at a stage, for velocities `v`, after the evaluation.
+    pub(super) fn monitor_drives(&mut self, t: f64, v: &[R], v_dot: &[R]) {
+        if self.drive_monitor.start.is_empty() {
+            let of_joint = self.model.drives.iter().map(|d| (v[d.dof].lane(0), v_dot[d.dof].lane(0)));
+            self.drive_monitor.start.extend(of_joint);
+        }
+        if t >= self.drive_monitor.violated {
+            return;
+        }
+        let violated = (0..self.model.drives.len()).any(|i| {
+            let (drive, saturation) = (&self.model.drives[i], self.drives[i].lane(0));
+            match self.model.drive_limit(drive) {
+                None => false,
+                Some(_) if saturation == 0.0 => self.is_drive_overloaded(i),
+                Some(_) => is_beyond(self.drive_monitor.targets[i], v[drive.dof].lane(0), saturation),
+            }
+        });
+        if violated {
+            self.drive_monitor.violated = t;
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! Modes of limited drives: which are locked and which saturated, decided for all of them together.
+//!
+//! A velocity motor with a limit and the Coulomb friction of a joint have one set-valued force law, −(v − v*) ∈ N_C(τ)
+//! with C = [−L, L]. The drives at the *kink* of their law, v = v*, form a linear complementarity problem with bounds:
+//! each is either locked, v̇ = v̇* with |τ| ≤ L, or saturated, τ = ±L with (v̇* − v̇)·τ ≥ 0. Its matrix is the Delassus
+//! matrix of their degrees of freedom, and forward dynamics with a trial set of locked drives (contacts and loop joints
+//! included) is one principal solution. Principal pivoting changes all infeasible drives at once while that helps, then
+//! only the one of the highest index, which ends for every positive definite matrix. Sources: keys `judice1994` (block
+//! pivoting), `murty1974` (least index), `acary2008` (chapter 3, set-valued laws).
+//!
+//! **Look ahead.** A force reaches its bound continuously: where a drive is released its relative acceleration is zero
+//! and the sign of it is rounding. After an event the problem is therefore solved again a little later, on a copy of
+//! the state moved by [`LOOK_AHEAD`] of a step with all drives of the problem kept at their kinks, and the modes found
+//! there are taken; the state is not moved.
+//!
+//! **Dead band.** A reaction is beyond its limit, an acceleration beyond zero, only by more than the rounding of the
+//! terms that it is the sum of.
+
+use std::cmp::Ordering;
+
+use super::World;
+use crate::coupled::CoupledSystem;
+use crate::mechanism::drive_monitor::{is_beyond, velocity_error};
+
+/// Distance of a velocity from its target, relative to 1 + |v|, within which drives reach their targets at one event.
+const SIMULTANEOUS: f64 = 1e-13;
+
+/// Time by which modes are decided ahead, relative to the step.
+const LOOK_AHEAD: f64 = 1e-5;
+
+/// Least time of the look-ahead in units of rounding of the time.
+const LOOK_AHEAD_ULPS: f64 = 1e3;
+
+/// Block changes without progress before single ones.
+const BLOCK_CHANGES: u32 = 3;
+
+/// Kink of a drive that is at none.
+pub(super) const NO_KINK: usize = usize::MAX;
+
+/// Limited drives of one degree of freedom at one kink.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kink {
+    dof: usize,
+    /// Sum of the limits [N·m] or `[N]`.
+    limit: f64,
+    /// Target velocity [rad/s] or [m/s].
+    target: f64,
+    /// 0 locked, ±1 saturated.
+    saturation: f64,
+    infeasible: bool,
+}
+
+/// Level at which the problem is posed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Law {
+    /// Accelerations, for drives at their kink.
+    Acceleration,
+    /// Velocities at the end of a step, for all limited drives.
+    Velocity,
+}
+
+impl World {
+    /// Resolves the modes of the limited drives in the present state: those off their kink saturate towards it, those
+    /// on it are decided together. Modes that stand are kept.
+    pub(super) fn resolve_actuator_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+        if !self.has_limited_drives() {
+            self.mechanism.mark_locked();
+            return;
+        }
+        let unchanged = self.collect_kinks();
+        self.mechanism.mark_locked();
+        if self.kinks.is_empty() {
+            return;
+        }
+        self.evaluate_slope(t, system);
+        if unchanged && self.mark_infeasible(Law::Acceleration) == 0 {
+            return;
+        }
+        self.solve_modes(t, system);
+        self.look_ahead(t, h, system);
+    }
+
+    /// Collects the limited drives at their kink, with their present modes; saturates the others. Returns true if no
+    /// mode was changed by that.
+    fn collect_kinks(&mut self) -> bool {
+        self.kinks.clear();
+        let mut unchanged = true;
+        for i in 0..self.target_velocities.len() {
+            self.kink_of[i] = NO_KINK;
+            if self.is_unlimited(i) {
+                continue;
+            }
+            let (missing, before) = (self.velocity_error(i), self.mechanism.drives[i]);
+            if missing != 0.0 {
+                self.mechanism.drives[i] = missing.signum();
+            } else if self.is_held(self.mechanism.model.drives[i].dof) {
+                self.mechanism.drives[i] = 0.0;
+            } else {
+                let dof = self.mechanism.model.drives[i].dof;
+                let known = self.kinks.iter().position(|kink| kink.dof == dof);
+                self.add_to_kink(i, known);
+            }
+            unchanged &= before == self.mechanism.drives[i];
+        }
+        unchanged
+    }
+
+    /// Adds limited drive `i` to a kink, or a new one with its mode; it takes the mode of the kink.
+    fn add_to_kink(&mut self, i: usize, known: Option<usize>) {
+        let drive = self.mechanism.model.drives[i];
+        let limit = self.mechanism.model.drive_limit(&drive).unwrap_or(f64::INFINITY);
+        let k = known.unwrap_or(self.kinks.len());
+        if known.is_none() {
+            let (target, saturation) = (self.target_velocities[i], self.mechanism.drives[i]);
+            self.kinks.push(Kink { dof: drive.dof, limit: 0.0, target, saturation, infeasible: false });
+        }
+        self.kinks[k].limit += limit;
+        self.kink_of[i] = k;
+        self.mechanism.drives[i] = self.kinks[k].saturation;
+    }
+
+    /// Returns true if a drive without limit holds a degree of freedom.
+    fn is_held(&self, dof: usize) -> bool {
+        let model = &self.mechanism.model;
+        model.drives.iter().any(|drive| drive.dof == dof && model.drive_limit(drive).is_none())
+    }
+
+    /// Writes the modes of the kinks to their drives.
+    fn write_modes(&mut self) {
+        for (drive, k) in self.mechanism.drives.iter_mut().zip(&self.kink_of) {
+            if let Some(kink) = self.kinks.get(*k) {
+                *drive = kink.saturation;
+            }
+        }
+        self.mechanism.mark_locked();
+    }
+
+    /// Solves the complementarity problem of the kinks by principal pivoting, from their present modes. Returns false
+    /// if it did not end; the modes with the fewest infeasible drives are then kept.
+    fn solve_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
+        let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
+        for _ in 0..16 + 16 * self.kinks.len() {
+            self.write_modes();
+            self.evaluate_slope(t, system);
+            let infeasible = self.mark_infeasible(Law::Acceleration);
+            if infeasible == 0 {
+                return true;
+            }
+            self.pivot(infeasible, &mut fewest, &mut left);
+        }
+        self.statistics.undecided_modes += 1;
+        false
+    }
+
+    /// Changes the modes of infeasible drives: of all of them, or after some changes without progress of the last one
+    /// alone.
+    fn pivot(&mut self, infeasible: usize, fewest: &mut usize, left: &mut u32) {
+        if infeasible < *fewest {
+            (*fewest, *left) = (infeasible, BLOCK_CHANGES);
+        } else if *left > 0 {
+            *left -= 1;
+        }
+        let block = *left > 0;
+        for kink in self.kinks.iter_mut().rev().filter(|kink| kink.infeasible) {
+            let reaction = self.mechanism.scratch.reaction[kink.dof];
+            kink.saturation = if kink.saturation == 0.0 { reaction.signum() } else { 0.0 };
+            if !block {
+                break;
+            }
+        }
+    }
+
+    /// Marks the kinks whose modes contradict their law in the last evaluation, and counts them.
+    fn mark_infeasible(&mut self, law: Law) -> usize {
+        let (n, rounding) = (self.model().n_v(), self.mechanism.rounding());
+        let mut count = 0;
+        for k in 0..self.kinks.len() {
+            let Kink { dof, limit, target, saturation, .. } = self.kinks[k];
+            let infeasible = if saturation == 0.0 {
+                self.mechanism.is_overloaded(dof, limit)
+            } else if law == Law::Acceleration {
+                let scale = self.mechanism.acceleration_scale(dof);
+                self.slope[n + dof] * saturation > rounding * scale
+            } else {
+                is_beyond(target, self.velocity(dof), saturation)
+            };
+            self.kinks[k].infeasible = infeasible;
+            count += usize::from(infeasible);
+        }
+        count
+    }
+
+    /// Decides the modes of the kinks a little later than `t`; state and time stay.
+    fn look_ahead<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+        let step = (LOOK_AHEAD * h).max(LOOK_AHEAD_ULPS * f64::EPSILON * t.abs());
+        let n = self.model().n_v();
+        self.present.copy_from_slice(&self.y);
+        for (y, slope) in self.y.iter_mut().zip(&self.slope) {
+            *y += step * slope;
+        }
+        for kink in &self.kinks {
+            self.y[n + kink.dof] = kink.target;
+        }
+        self.solve_modes(t + step, system);
+        self.y.copy_from_slice(&self.present);
+        self.write_modes();
+    }
+
+    /// Velocity error of a drive, target minus present velocity, zero within rounding.
+    pub(super) fn velocity_error(&self, i: usize) -> f64 {
+        velocity_error(self.target_velocities[i], self.velocity(self.mechanism.model.drives[i].dof))
+    }
+
+    /// Returns true if a saturated drive has passed its target velocity.
+    pub(super) fn has_passed_target(&self, i: usize) -> bool {
+        let saturation = self.mechanism.drives[i];
+        !self.is_unlimited(i)
+            && saturation != 0.0
+            && is_beyond(self.target_velocities[i], self.velocity(self.mechanism.model.drives[i].dof), saturation)
+    }
+
+    /// Returns true if a saturated drive is so close to its target velocity, in the state last evaluated, that it reaches
+    /// it within the resolution of time `[s]`: its own limit and what accelerates it now are an impulse then.
+    pub(super) fn reaches_target(&self, i: usize, resolution: f64) -> bool {
+        let drive = self.mechanism.model.drives[i];
+        let (target, v) = (self.target_velocities[i], self.velocity(drive.dof));
+        let Some(limit) = self.mechanism.model.drive_limit(&drive).filter(|_| self.mechanism.drives[i] != 0.0) else {
+            return false;
+        };
+        let acceleration = self.slope[self.model().n_v() + drive.dof].abs() + limit / self.mechanism.inertia(drive.dof);
+        target != v && (target - v).abs() <= SIMULTANEOUS * (1.0 + v.abs()) + 4.0 * resolution * acceleration
+    }
+
+    /// Returns true if a locked drive is overloaded in the last evaluation.
+    pub(super) fn has_overload(&self) -> bool {
+        (0..self.target_velocities.len())
+            .any(|i| self.mechanism.drives[i] == 0.0 && self.mechanism.is_drive_overloaded(i))
+    }
+
+    /// Decides the modes over a step at velocity level by trial steps: each limited drive either ends at its target
+    /// velocity or is saturated. `step` makes a trial step with the present modes.
+    pub(super) fn solve_step_modes(&mut self, mut step: impl FnMut(&mut Self)) {
+        self.collect_all_limited();
+        let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
+        for _ in 0..16 + 16 * self.kinks.len() {
+            step(self);
+            let infeasible = self.mark_infeasible(Law::Velocity);
+            if infeasible == 0 {
+                return;
+            }
+            self.pivot(infeasible, &mut fewest, &mut left);
+            self.separate_kinks();
+        }
+        self.statistics.undecided_modes += 1;
+    }
+
+    /// Collects all limited drives, with their present modes.
+    fn collect_all_limited(&mut self) {
+        self.kinks.clear();
+        for i in 0..self.target_velocities.len() {
+            self.kink_of[i] = NO_KINK;
+            let dof = self.mechanism.model.drives[i].dof;
+            if !self.is_unlimited(i) && !self.is_held(dof) {
+                let target = self.target_velocities[i];
+                let known = self.kinks.iter().position(|kink| kink.dof == dof && kink.target == target);
+                self.add_to_kink(i, known);
+            }
+        }
+        self.separate_kinks();
+    }
+
+    /// Saturates all but one of several kinks of one degree of freedom that are locked at different velocities: the one
+    /// nearest to the velocity at the start of the step stays.
+    fn separate_kinks(&mut self) {
+        let n = self.model().n_v();
+        for k in 0..self.kinks.len() {
+            let (v, kink) = (self.before[n + self.kinks[k].dof], self.kinks[k]);
+            let distance = |other: &Kink| (other.target - v).abs();
+            let is_nearer = |(j, other): (usize, &Kink)| {
+                let order = (distance(other), j).partial_cmp(&(distance(&kink), k));
+                j != k && other.dof == kink.dof && other.saturation == 0.0 && order == Some(Ordering::Less)
+            };
+            if kink.saturation == 0.0 && self.kinks.iter().enumerate().any(is_nearer) {
+                self.kinks[k].saturation = (kink.target - v).signum();
+            }
+        }
+        self.write_modes();
+    }
+}

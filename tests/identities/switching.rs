@@ -1,0 +1,136 @@
+//! Arms with many limited drives: every draw runs through without a fallback, and two methods agree on it.
+//!
+//! The number of draws is that of the environment variable `SINCRO_DRAWS` (default 16).
+
+use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId};
+use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::{MethodKind, World};
+
+use crate::random::Random;
+
+/// Duration of a run `[s]` and its tick.
+const DURATION: f64 = 0.5;
+const TICK: f64 = 0.005;
+
+/// Command of one motor: nothing, a sine, or its sign.
+#[derive(Clone, Copy)]
+struct Command {
+    shape: usize,
+    amplitude: f64,
+    rate: f64,
+    phase: f64,
+}
+
+impl Command {
+    fn at(&self, t: f64) -> f64 {
+        let sine = self.amplitude * libm::sin(self.rate * t + self.phase);
+        match self.shape {
+            0 => 0.0,
+            1 => sine,
+            _ => self.amplitude.copysign(sine),
+        }
+    }
+}
+
+/// 10 to a power drawn between two.
+fn decade(r: &mut Random, low: f64, high: f64) -> f64 {
+    libm::pow(10.0, low + (high - low) * 0.5 * (1.0 + r.unit()))
+}
+
+/// An arm of 2 to 8 links under gravity, a velocity motor of limit 1e-3 to 1e6 N·m in each joint, friction in some.
+fn arm(draw: u64) -> (Model<f64>, State<f64>, Vec<Command>) {
+    let r = &mut Random::new(1000 + draw);
+    let is_planar = r.below(2) == 0;
+    let (mut b, mut parent, mut commands) = (ModelBuilder::new([0.0, 0.0, -9.81]), NodeId::WORLD, Vec::new());
+    for k in 0..2 + r.below(7) {
+        let axis = if is_planar || r.below(3) == 0 { [0.0, 1.0, 0.0] } else { r.vector() };
+        let mut joint = JointSpec::new(JointKind::Revolute { axis });
+        joint.motor = Some(Motor { max_torque: decade(r, -3.0, 6.0), ..Motor::new(MotorMode::Velocity) });
+        if r.below(3) == 0 {
+            joint.friction = vec![decade(r, -3.0, 1.0)];
+        }
+        let at = Pose::translation(Vec3([0.0, 0.0, if k == 0 { 0.0 } else { -0.4 }]));
+        parent = b.joint(&format!("joint{k}"), parent, at, joint);
+        let m = 1.2 + 0.8 * r.unit();
+        let inertia = [0.02 * m, 0.0, 0.0, 0.02 * m, 0.0, 0.004 * m];
+        let mass = MassProperties { mass: m, center_of_mass: [0.0, 0.0, -0.2], inertia };
+        b.body(&format!("link{k}"), parent, Pose::identity(), BodySpec { mass });
+        commands.push(Command {
+            shape: r.below(3),
+            amplitude: 1.0 + 0.8 * r.unit(),
+            rate: 3.0 + 2.5 * r.unit(),
+            phase: 3.0 * r.unit(),
+        });
+    }
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    x.q.iter_mut().for_each(|q| *q = 2.0 * r.unit());
+    (model, x, commands)
+}
+
+/// Runs draw `draw` with all positions moved by `nudge`.
+fn run(draw: u64, kind: MethodKind, accuracy: f64, substeps: u32, nudge: f64) -> World {
+    let (model, mut x, commands) = arm(draw);
+    x.q.iter_mut().for_each(|q| *q += nudge);
+    let mut world = World::new(model, x, kind, accuracy, TICK);
+    world.set_substeps(substeps);
+    world.initialize(0.0);
+    for k in 0..(DURATION / TICK).round() as u32 {
+        let t = TICK * f64::from(k);
+        for (slot, command) in world.state.commands.iter_mut().zip(&commands) {
+            *slot = command.at(t);
+        }
+        if let Err((t, reason)) = world.advance(t, TICK) {
+            panic!("draw {draw}, {kind:?}: stopped at {t} s: {reason}");
+        }
+    }
+    let statistics = world.statistics();
+    assert_eq!(
+        (statistics.fallback_steps, statistics.undecided_modes),
+        (0, 0),
+        "draw {draw}, {kind:?}: {statistics:?}"
+    );
+    world
+}
+
+fn difference(a: &World, b: &World) -> f64 {
+    a.state.q.iter().zip(&b.state.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn draws() -> u64 {
+    std::env::var("SINCRO_DRAWS").ok().and_then(|n| n.parse().ok()).unwrap_or(16)
+}
+
+#[test]
+fn any_number_of_limited_drives_is_decided_together() {
+    let mut events = 0;
+    for draw in 0..draws() {
+        let explicit = run(draw, MethodKind::DormandPrince, 1e-9, 1, 0.0);
+        events += explicit.statistics().events;
+        let off = difference(&explicit, &run(draw, MethodKind::Stiff, 1e-9, 1, 0.0));
+        // some draws are chaotic: they amplify what moves their start
+        let amplified = difference(&explicit, &run(draw, MethodKind::DormandPrince, 1e-9, 1, 1e-9));
+        assert!(off < 1e-7 || amplified > 1e-7, "draw {draw}: the methods differ by {off:e} rad ({amplified:e})");
+    }
+    assert!(events > 20 * draws(), "{events} events: the draws test nothing");
+}
+
+#[test]
+fn time_stepping_converges_to_the_located_events() {
+    let (mut coarse, mut fine, mut n) = (0.0, 0.0, 0.0);
+    for draw in 0..draws() {
+        let located = run(draw, MethodKind::DormandPrince, 1e-9, 1, 0.0);
+        if difference(&located, &run(draw, MethodKind::DormandPrince, 1e-9, 1, 1e-9)) > 1e-7 {
+            continue;
+        }
+        let error = |n: u32| difference(&located, &run(draw, MethodKind::SemiImplicitEuler, 1e-9, n, 0.0));
+        let [one, two] = [error(20), error(200)];
+        assert!(two < 1e-3, "draw {draw}: {one:e}, {two:e} rad");
+        (coarse, fine, n) = (coarse + one, fine + two, n + 1.0);
+    }
+    // of first order, on the average
+    assert!(fine < 0.2 * coarse, "mean errors {:e} and {:e} rad of {n} draws", coarse / n, fine / n);
+}
