@@ -3,6 +3,7 @@
 mod batch;
 mod derivatives;
 mod dynamics;
+mod loops;
 mod random;
 mod rotors;
 mod switching;

@@ -50,7 +50,7 @@ pub struct Mobility {
     pub loops: usize,
     /// Number of their equations.
     pub equations: usize,
-    /// Equations that depend on others in this state.
+    /// Equations that depend on others.
     pub redundant: usize,
 }
 
@@ -146,10 +146,7 @@ pub fn mobility(model: &Model<f64>, x: &State<f64>) -> Mobility {
         redundant: 0,
     };
     if found.equations > 0 {
-        let (mut mechanism, y) = placed(model, x);
-        mechanism.drives.fill(1.0);
-        mechanism.mark_locked();
-        found.redundant = mechanism.redundant(&y);
+        found.redundant = found.equations - placed(model, x).0.select_loop_rows(&x.q);
     }
     found
 }

@@ -152,6 +152,15 @@ impl<R: Real> Delassus<R> {
         rows: &[Row<R>],
         a: &mut Vec<R>,
     ) {
+        let m = rows.len();
+        let values = self.factors(model, scratch, columns, rows);
+        a.clear();
+        a.resize(m * m, R::zero());
+        R::run_hot(Products { m, values, a });
+    }
+
+    /// Rows of J M^(−1/2): for each degree of freedom one number a row.
+    pub fn factors(&mut self, model: &Model<R>, scratch: &Scratch<R>, columns: &[Motion<R>], rows: &[Row<R>]) -> &[R] {
         let (m, n) = (rows.len(), model.n_v());
         self.place(model, scratch);
         self.values.clear();
@@ -159,9 +168,7 @@ impl<R: Real> Delassus<R> {
         for (i, row) in rows.iter().enumerate() {
             self.descend(model, columns, row, (i, m));
         }
-        a.clear();
-        a.resize(m * m, R::zero());
-        R::run_hot(Products { m, values: &self.values, a });
+        &self.values
     }
 
     fn place(&mut self, model: &Model<R>, scratch: &Scratch<R>) {

@@ -1,12 +1,15 @@
 //! Rows and residuals of loop joints (loop-closure constraints).
 //!
-//! | kind | residual (world axes) | rows |
+//! | kind | residual, with the axes x, y, z of each end | rows |
 //! |---|---|---|
-//! | point | pₐ − p_b | 3 |
+//! | point | xₐ·(pₐ − p_b), yₐ·(pₐ − p_b), zₐ·(pₐ − p_b) | 3 |
 //! | hinge | the point's, and xₐ·z_b, yₐ·z_b | 5 |
 //! | weld | the point's, and xₐ·y_b, yₐ·z_b, zₐ·x_b | 6 |
 //! | distance | \|pₐ − p_b\| − length | 1 |
 //! | gear (in `mod.rs`) | q₂ − ratio·q₁ − offset | 1 |
+//!
+//! Axes of an end instead of the world's: rows that a planar loop cannot move along stay idle whatever it stands on. The
+//! rows are exact derivatives of the residuals, where the loop is open too.
 //!
 //! Source: key `featherstone2008`, chapter 8.
 
@@ -54,8 +57,11 @@ impl LoopJoint {
             return;
         }
         for k in 0..3 {
-            rows.push(along(&a, &b, Vec3::along(k, R::one()), Vec3::zero()));
-            residual.push(a.pose.pos[k] - b.pose.pos[k]);
+            // e fixed in a: d/dt e·(p_a − p_b) is the velocity of p_b, as a point of a, against that of b
+            let e = a.pose.rot.col(k);
+            let w = force_rate(b.pose.pos, e, b.p_dot, a.w.cross(e));
+            rows.push(Row::between(a.link, b.link, force_at(b.pose.pos, e), w));
+            residual.push(e.dot(a.pose.pos - b.pose.pos));
         }
         let pairs: &[(usize, usize)] = match self.kind {
             LoopJointKind::Hinge => &[(0, 2), (1, 2)],
@@ -70,6 +76,25 @@ impl LoopJoint {
             let m_dot = Force { ang: u_dot.cross(w) + u.cross(w_dot), lin: Vec3::zero() };
             rows.push(Row::between(a.link, b.link, m, m_dot));
             residual.push(u.dot(w));
+        }
+    }
+
+    /// Appends the velocities of both ends apart, before any projection: of the point of each end where the other is,
+    /// along three axes (rows 0 to 5), and of the rotation of each about three axes (rows 6 to 11).
+    pub(crate) fn end_rows<R: Real>(&self, scratch: &Scratch<R>, rows: &mut Vec<Row<R>>) {
+        let place = |anchor: &Anchor| {
+            let pos = Vec3::splat(anchor.pose.pos.0);
+            if anchor.link == WORLD { pos } else { scratch.poses[anchor.link as usize].point(pos) }
+        };
+        let ends = [&self.a, &self.b];
+        for (end, other) in [(ends[0], ends[1]), (ends[1], ends[0])] {
+            let p = place(other);
+            let zero = Force::zero();
+            rows.extend((0..3).map(|k| Row::between(end.link, WORLD, force_at(p, Vec3::along(k, R::one())), zero)));
+        }
+        for end in ends {
+            let moment = |k: usize| Force { ang: Vec3::along(k, R::one()), lin: Vec3::zero() };
+            rows.extend((0..3).map(|k| Row::between(end.link, WORLD, moment(k), Force::zero())));
         }
     }
 

@@ -17,6 +17,7 @@
 //! |---|---|
 //! | `row` | constraint rows in world coordinates, their rates and Jacobians |
 //! | `loop_joint` | rows and residuals of loop joints |
+//! | `rank` | independent rows of loop joints and gears |
 //! | `delassus` | Delassus matrix G; products with M⁻¹ |
 //! | `dense` | elimination that reveals the rank |
 //! | `cone` | unilateral constraints, friction groups, contact modes |
@@ -39,6 +40,7 @@ mod dense;
 mod impact;
 mod loop_joint;
 mod projection;
+pub(crate) mod rank;
 pub(crate) mod row;
 mod solver;
 #[cfg(test)]
@@ -121,6 +123,8 @@ pub(crate) struct Constraints<R> {
     velocity_change: Vec<R>,
     before: Vec<R>,
     kept: Vec<usize>,
+    /// Bilateral rows that are used; the others depend on them.
+    is_independent: Vec<bool>,
     /// Length of the sub-step that is being made `[s]`; 0: none.
     pub sub_step: f64,
     pub solver: Solver<R>,
@@ -154,6 +158,7 @@ impl<R: Real> Constraints<R> {
             velocity_change: n,
             before: Vec::new(),
             kept: Vec::new(),
+            is_independent: vec![true; set.n_bilateral()],
             sub_step: 0.0,
             solver: Solver::default(),
         };
@@ -248,20 +253,7 @@ impl<R: Real> Constraints<R> {
     /// twists of `motions`.
     pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, slides: bool) {
         let set = &*model.constraints;
-        self.rows.clear();
-        self.residual.clear();
-        self.blocks.clear();
-        for joint in &set.loop_joints {
-            joint.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
-        }
-        for gear in &set.gears {
-            let [one, two] = gear.dofs.map(|k| k as u32);
-            let ratio = R::splat(gear.ratio);
-            self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
-            let [q1, q2] = gear.coordinates.map(|k| q[k]);
-            self.residual.push(q2 - ratio * q1 - R::splat(gear.offset));
-        }
-        self.n_free = self.rows.len();
+        self.assemble_loops(model, q, scratch);
         for (slot, limit) in set.limits.iter().enumerate() {
             if self.memory.is_closed(slot) {
                 let sign = R::splat(limit.sign);
@@ -289,6 +281,29 @@ impl<R: Real> Constraints<R> {
         self.lambda.clear();
         self.lambda.resize(self.rows.len(), R::zero());
         self.memory.restore(&mut self.blocks, &mut self.lambda);
+    }
+
+    /// Assembles the rows and residuals of loop joints and gears that are used, and nothing else.
+    pub fn assemble_loops(&mut self, model: &Model<R>, q: &[R], scratch: &Scratch<R>) {
+        let set = &*model.constraints;
+        self.rows.clear();
+        self.residual.clear();
+        self.blocks.clear();
+        for joint in &set.loop_joints {
+            joint.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
+        }
+        for gear in &set.gears {
+            let [one, two] = gear.dofs.map(|k| k as u32);
+            let ratio = R::splat(gear.ratio);
+            self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
+            let [q1, q2] = gear.coordinates.map(|k| q[k]);
+            self.residual.push(q2 - ratio * q1 - R::splat(gear.offset));
+        }
+        let mut is_used = self.is_independent.iter();
+        self.rows.retain(|_| *is_used.next().unwrap_or(&true));
+        let mut is_used = self.is_independent.iter();
+        self.residual.retain(|_| *is_used.next().unwrap_or(&true));
+        self.n_free = self.rows.len();
     }
 
     fn contact(

@@ -130,7 +130,7 @@ impl Mechanism<f64> {
 
     /// Factors the mass matrix for impulses: forward dynamics at rest without forces, prescribed degrees of freedom as
     /// marked.
-    fn factor(&mut self, q_is_base: bool) {
+    pub(super) fn factor(&mut self, q_is_base: bool) {
         self.torque.fill(0.0);
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
@@ -219,21 +219,6 @@ impl Mechanism<f64> {
             y[n + k] += change[k];
         }
         self.constraint_change = change;
-    }
-
-    /// Number of redundant equations of loop joints and gears, at the chart's origin.
-    pub(crate) fn redundant(&mut self, y: &[f64]) -> usize {
-        if !self.prepare(y, false) {
-            return 0;
-        }
-        let c = self.constraints.as_deref_mut().expect("prepared");
-        c.keep_loop_joints();
-        self.factor(true);
-        let mut change = core::mem::take(&mut self.constraint_change);
-        let c = self.constraints.as_deref_mut().expect("prepared");
-        c.project(&self.model, &mut self.scratch, None, &mut change);
-        self.constraint_change = change;
-        self.constraints.as_deref().map_or(0, |c| c.solver.redundant)
     }
 
     /// Assembles the rows at the chart's origin; returns false if there are none.

@@ -12,6 +12,7 @@
 
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
+mod loop_rank;
 mod torques;
 
 use sincro_math::Real;

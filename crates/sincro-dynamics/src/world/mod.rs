@@ -259,7 +259,8 @@ impl World {
         n_states: usize,
     ) -> Self {
         let n_drives = model.n_drives();
-        let mechanism = Mechanism::new(model, tracks_totals);
+        let mut mechanism = Mechanism::new(model, tracks_totals);
+        mechanism.select_loop_rows(&state.q);
         let dim = mechanism.dim() + n_states;
         let method = match kind {
             MethodKind::SemiImplicitEuler => Method::SemiImplicitEuler,

@@ -1,0 +1,166 @@
+//! Independent equations of the loops of a mechanism, decided once for a run.
+//!
+//! Rank is a property of the mechanism, not of one position: at a singular position, such as a parallelogram folded
+//! flat, fewer equations are independent than next to it, and off the manifold an overconstrained spatial loop has more.
+//! It is therefore decided at the start and at a few nearby configurations that close the loops, and the largest rank
+//! counts.
+
+use crate::actuation::DriveKind;
+use crate::constraint::rank::{INDEPENDENT, INDEPENDENT_OPEN};
+use crate::joint::StageKind;
+use crate::mechanism::Mechanism;
+use crate::recursions::kinematics;
+use crate::state::displace;
+
+/// Nearby configurations tried.
+const TRIALS: u64 = 3;
+
+/// Size of the move to one: of angles `[rad]`, and of distances relative to the mechanism's extent.
+const MOVE: f64 = 0.02;
+
+/// Iterations that may close the loops at one.
+const MAX_ITERATIONS: usize = 30;
+
+/// Residual of a closed loop relative to the mechanism's extent.
+const CLOSED: f64 = 1e-13;
+
+impl Mechanism<f64> {
+    /// Decides at coordinates `q` which equations of loop joints and gears are used: an independent set. Returns their
+    /// number.
+    pub(crate) fn select_loop_rows(&mut self, q: &[f64]) -> usize {
+        let n_bilateral = self.model.constraints().n_bilateral();
+        if n_bilateral == 0 || self.constraints.is_none() {
+            return 0;
+        }
+        let base = self.base.clone();
+        self.base.copy_from_slice(q);
+        kinematics::poses(&self.model, &self.base, &mut self.scratch);
+        let extent = self.extent();
+        self.constraints.as_deref_mut().expect("checked").use_all_rows();
+        let (mut best, mut found): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+        for trial in 0..=TRIALS {
+            self.base.copy_from_slice(q);
+            self.find_free_rows();
+            if trial > 0 && !self.move_along_loops(trial, extent) {
+                continue;
+            }
+            if self.close_loops(extent) {
+                self.find_rows(INDEPENDENT, &mut found);
+                if found.len() > best.len() {
+                    core::mem::swap(&mut best, &mut found);
+                }
+            }
+        }
+        if best.is_empty() {
+            // the loops cannot be closed here: what the given position says
+            self.base.copy_from_slice(q);
+            self.find_rows(INDEPENDENT_OPEN, &mut best);
+        }
+        self.base = base;
+        self.constraints.as_deref_mut().expect("checked").use_rows(&best, n_bilateral);
+        self.mark_locked();
+        best.len()
+    }
+
+    /// Lets every degree of freedom move that is one: all but those of force sensors.
+    fn find_free_rows(&mut self) {
+        self.locked_mask.fill(0.0);
+        self.prescribed_acceleration.fill(0.0);
+        for drive in self.model.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {
+            self.locked_mask[drive.dof] = 1.0;
+        }
+    }
+
+    /// Assembles the rows of the loops at the chart's origin, factors the mass matrix, and finds the independent ones.
+    fn find_rows(&mut self, least: f64, independent: &mut Vec<usize>) {
+        let zero = vec![0.0; self.model.n_v()];
+        kinematics::poses(&self.model, &self.base, &mut self.scratch);
+        self.factor(true);
+        kinematics::chain_poses(&self.model, &mut self.scratch);
+        let c = self.constraints.as_deref_mut().expect("there are loops");
+        c.motions.place(&self.model, &self.scratch, &zero);
+        c.assemble_loops(&self.model, &self.base, &self.scratch);
+        c.find_independent_rows(&self.model, &self.scratch, least, independent);
+    }
+
+    /// Change of coordinates that removes the residuals of the rows `kept`, or, with rates `v`, of these.
+    fn change_by(&mut self, kept: &[usize], v: Option<&[f64]>) -> Vec<f64> {
+        let mut change = vec![0.0; self.model.n_v()];
+        let c = self.constraints.as_deref_mut().expect("there are loops");
+        if let Some(v) = v {
+            c.motions.place(&self.model, &self.scratch, v);
+        }
+        c.keep_rows(kept);
+        c.project(&self.model, &mut self.scratch, v, &mut change);
+        change
+    }
+
+    /// Closes the loops from the chart's origin; returns false if they stay open.
+    fn close_loops(&mut self, extent: f64) -> bool {
+        let (mut kept, mut last) = (Vec::new(), f64::INFINITY);
+        for _ in 0..MAX_ITERATIONS {
+            self.find_rows(INDEPENDENT_OPEN, &mut kept);
+            let c = self.constraints.as_deref().expect("there are loops");
+            let worst = c.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+            // rounding may leave a little more than the limit
+            if worst <= CLOSED * extent || (worst >= last && worst <= 1e3 * CLOSED * extent) {
+                return true;
+            }
+            last = worst;
+            let change = self.change_by(&kept, None);
+            self.displace_base(&change);
+        }
+        false
+    }
+
+    /// Moves the chart's origin a little along the loops, in a direction that depends on `seed`; returns false if
+    /// nothing can move.
+    fn move_along_loops(&mut self, seed: u64, extent: f64) -> bool {
+        let mut kept = Vec::new();
+        self.find_rows(INDEPENDENT_OPEN, &mut kept);
+        let mut random = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut v: Vec<f64> = (0..self.model.n_v())
+            .map(|k| {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                let unit = (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+                if self.locked_mask[k] > 0.0 { 0.0 } else { unit }
+            })
+            .collect();
+        let change = self.change_by(&kept, Some(&v));
+        let mut largest = 0.0_f64;
+        for k in 0..v.len() {
+            v[k] += change[k];
+            largest = largest.max(v[k].abs() / if self.is_length(k) { extent } else { 1.0 });
+        }
+        if !(largest > 1e-6) {
+            return false;
+        }
+        v.iter_mut().for_each(|v| *v *= MOVE / largest);
+        self.displace_base(&v);
+        true
+    }
+
+    /// Returns true if a degree of freedom is a translation.
+    fn is_length(&self, dof: usize) -> bool {
+        self.model.links.iter().any(|link| {
+            let k = link.v_idx as usize;
+            match link.kind {
+                StageKind::Prismatic => k == dof,
+                StageKind::Free => (k + 3..k + 6).contains(&dof),
+                _ => false,
+            }
+        })
+    }
+
+    fn displace_base(&mut self, change: &[f64]) {
+        displace(&self.model, &self.base, change, &mut self.q);
+        core::mem::swap(&mut self.base, &mut self.q);
+    }
+
+    /// Largest distance between the origins of links, at the poses last found `[m]`; 1 if all are at one point.
+    fn extent(&self) -> f64 {
+        let first = self.scratch.poses[0].pos;
+        let largest = self.scratch.poses.iter().map(|pose| (pose.pos - first).norm()).fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+}
