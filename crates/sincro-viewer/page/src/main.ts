@@ -1,7 +1,7 @@
 // Starts the page: with a film that stands in it, or with one that the server sends.
 
 import "uplot/dist/uPlot.min.css";
-import "../../../sincro/src/draw/draw.css";
+import "../../../sincro-figures/src/draw/draw.css";
 import "./style.css";
 import { el } from "./format";
 import { readFilm } from "./film";
