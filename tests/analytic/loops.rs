@@ -156,3 +156,91 @@ fn redundant_equations_are_counted() {
     let freedom = initial::mobility(&model, &State::new(&model));
     assert_eq!((freedom.tree_dofs, freedom.equations, freedom.redundant, freedom.dofs()), (3, 5, 3, 1));
 }
+
+/// N-four-bar of `n` loops: vertical rods of 1 m and 1 kg on the ground 1 m apart, joined by horizontal ones at their
+/// tops, which move at 1 m/s. Source: IFToMM benchmark A02, key `iftomm-a02`.
+fn four_bars(n: usize) -> (Model<f64>, State<f64>) {
+    let mut b = ModelBuilder::new([0.0, -9.81, 0.0]);
+    let hinge = || JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
+    let rod = |x: f64, y: f64| {
+        let inertia = [y * y / 3.0, 0.0, 0.0, x * x / 3.0, 0.0, 1.0 / 12.0];
+        BodySpec { mass: MassProperties { mass: 1.0, center_of_mass: [x, y, 0.0], inertia } }
+    };
+    let (top, end) = (Vec3([0.0, 1.0, 0.0]), Vec3([1.0, 0.0, 0.0]));
+    let mut tops = Vec::new();
+    for k in 0..=n {
+        let at = Pose::translation(Vec3([k as f64, 0.0, 0.0]));
+        let vertical = b.joint(&format!("v{k}"), NodeId::WORLD, at, hinge());
+        b.body(&format!("vertical{k}"), vertical, Pose::identity(), rod(0.0, 0.5));
+        tops.push(b.frame(&format!("top{k}"), vertical, Pose::translation(top)));
+        if k < n {
+            let horizontal = b.joint(&format!("h{k}"), vertical, Pose::translation(top), hinge());
+            b.body(&format!("horizontal{k}"), horizontal, Pose::identity(), rod(0.5, 0.0));
+            tops.push(b.frame(&format!("end{k}"), horizontal, Pose::translation(end)));
+        }
+    }
+    for k in 0..n {
+        let ends = [tops[2 * k + 1], tops[2 * k + 2]];
+        let spec = LoopJointSpec { kind: LoopJointKind::Hinge, ends, poses: [Pose::identity(), Pose::identity()] };
+        b.loop_joint(&format!("pin{k}"), spec);
+    }
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    for k in 0..=n {
+        let names = model.names();
+        x.v[names.joint_info(names.joint_id(&format!("v{k}")).unwrap()).v_idx] = -1.0;
+        if k < n {
+            x.v[names.joint_info(names.joint_id(&format!("h{k}")).unwrap()).v_idx] = 1.0;
+        }
+    }
+    (model, x)
+}
+
+/// The pendulum that moves as they do: all rods of one kind stay parallel, and the horizontal ones only shift.
+fn of_four_bars(n: usize) -> (Model<f64>, State<f64>) {
+    let mut b = ModelBuilder::new([0.0, -9.81, 0.0]);
+    let hinge = b.joint(
+        "hinge",
+        NodeId::WORLD,
+        Pose::identity(),
+        JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] }),
+    );
+    let n = n as f64;
+    let (mass, first) = (2.0 * n + 1.0, 0.5 * (n + 1.0) + n);
+    let about_hinge = (n + 1.0) / 3.0 + n;
+    let i = about_hinge - first * first / mass;
+    let mass = MassProperties { mass, center_of_mass: [0.0, first / mass, 0.0], inertia: [i, 0.0, 0.0, i, 0.0, i] };
+    b.body("all", hinge, Pose::identity(), BodySpec { mass });
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    x.v[0] = -1.0;
+    (model, x)
+}
+
+/// Angle of the first rod after 10 s `[rad]`.
+fn angle((model, x): (Model<f64>, State<f64>), accuracy: f64, tick: f64) -> f64 {
+    let mut world = World::new(model, x, MethodKind::DormandPrince, accuracy, tick);
+    run(&mut world, tick, libm::round(10.0 / tick) as u32);
+    world.state.q[0]
+}
+
+#[test]
+fn four_bars_pass_their_singular_positions_on_their_branch() {
+    let expected = angle(of_four_bars(2), 1e-13, 0.01);
+    // the published solution
+    let (x, y) = (0.328_458_111_54, 0.944_518_538_179);
+    assert!(libm::hypot(-libm::sin(expected) - x, libm::cos(expected) - y) < 1e-10);
+    for tick in [0.01, 0.02, 0.05, 0.1, 0.2] {
+        for accuracy in [1e-6, 1e-9, 1e-11, 1e-13] {
+            let error = (angle(four_bars(2), accuracy, tick) - expected).abs();
+            // a thousand steps; rounding where the loops are nearly singular
+            assert!(error < 1e3 * accuracy + 1e-9, "tick {tick} s, accuracy {accuracy:e}: off by {error:e} rad");
+        }
+    }
+}
+
+#[test]
+fn many_four_bars_pass_them_too() {
+    let error = (angle(four_bars(40), 1e-9, 0.01) - angle(of_four_bars(40), 1e-13, 0.01)).abs();
+    assert!(error < 1e-6, "off by {error:e} rad");
+}

@@ -114,7 +114,7 @@ fn a_four_bar_moves_the_same_in_every_frame_and_unit() {
         for turntable in [false, true] {
             let on = Setting { turntable, ..plain() };
             let expected = angles(&corners, on, MethodKind::DormandPrince, 1e-11);
-            let mut agrees = |name: &str, s: Setting, accuracy: f64| {
+            let agrees = |name: &str, s: Setting, accuracy: f64| {
                 let off = difference(&expected, &angles(&corners, s, MethodKind::DormandPrince, accuracy));
                 assert!(off < 1e-9, "draw {draw}, turntable {turntable}, {name}: off by {off:e} rad");
             };

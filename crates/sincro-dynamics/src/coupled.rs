@@ -7,7 +7,7 @@
 
 use sincro_math::Real;
 
-use crate::integrate::{Implicit, System};
+use crate::integrate::{Implicit, SingularStages, System};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -156,6 +156,19 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
         for (slope, negated_jacobian_diagonal) in z_slope.iter_mut().zip(&*self.negated_jacobian_diagonal) {
             *slope = *slope / (R::one() + R::splat(h) * *negated_jacobian_diagonal);
         }
+    }
+
+    fn begin_step(&mut self) {
+        self.mechanism.begin_step();
+    }
+
+    fn singular_stages(&self) -> SingularStages {
+        self.mechanism.singular_stages()
+    }
+
+    fn project_error(&mut self, y: &[R], error: &mut [R]) {
+        let n = self.mechanism.dim();
+        self.mechanism.project_error(&y[..n], &mut error[..n]);
     }
 
     #[inline(always)]

@@ -26,6 +26,9 @@ pub(crate) struct Dense<R> {
     scale: Vec<f64>,
     /// Rank found by the last [`Dense::solve`].
     pub rank: usize,
+    /// Smallest pivot of the last [`Dense::solve`], of rows scaled to a unit diagonal: about the square of the smallest
+    /// singular value of the rows relative to the largest.
+    pub smallest_pivot: f64,
 }
 
 impl<R: Real> Dense<R> {
@@ -64,11 +67,6 @@ impl<R: Real> Dense<R> {
         self.a[i * self.n + j]
     }
 
-    /// Rows (in the order of elimination) that turned out to depend on others in the last solve.
-    pub fn redundant(&self) -> &[usize] {
-        &self.rows[self.rank..]
-    }
-
     #[inline(always)]
     fn normalize(&mut self) {
         let n = self.n;
@@ -95,9 +93,10 @@ impl<R: Real> Dense<R> {
     fn find(&mut self, rank: f64, out: &mut [R]) {
         self.normalize();
         let n = self.n;
-        self.rank = n;
+        (self.rank, self.smallest_pivot) = (n, 1.0);
         for k in 0..n {
             let (p, q, size) = self.pivot(k);
+            self.smallest_pivot = self.smallest_pivot.min(size);
             if size <= rank {
                 self.rank = k;
                 break;
@@ -272,7 +271,6 @@ mod tests {
         let mut x = [9.0; 3];
         d.solve(RANK, &mut x);
         assert_eq!(d.rank, 2);
-        assert_eq!(d.redundant().len(), 1);
         for i in 0..3 {
             let r: f64 = (0..3).map(|j| a[i][j] * (x[j] - [1.0, -2.0, 1.0][j])).sum();
             assert!(r.abs() < 1e-14);

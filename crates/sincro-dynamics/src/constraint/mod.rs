@@ -66,6 +66,9 @@ use warm_start::WarmStart;
 /// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
 pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;
 
+/// Conditioning of the loops below which a position is singular: no stage of a step may stand there.
+pub(crate) const SINGULAR: f64 = 1e-8;
+
 /// Number of contact rows for which memory is reserved beforehand.
 const RESERVED: usize = 48;
 
@@ -123,6 +126,11 @@ pub(crate) struct Constraints<R> {
     velocity_change: Vec<R>,
     before: Vec<R>,
     kept: Vec<usize>,
+    /// Conditioning of the loops in the last evaluation: smallest pivot of G with rows scaled to their sizes, about the
+    /// square of the smallest singular value; 1 with contacts.
+    pub conditioning: f64,
+    /// Size of each bilateral row that is used ([`rank`]), squared.
+    pub row_sizes: Vec<f64>,
     /// Bilateral rows that are used; the others depend on them.
     is_independent: Vec<bool>,
     /// Length of the sub-step that is being made `[s]`; 0: none.
@@ -158,6 +166,8 @@ impl<R: Real> Constraints<R> {
             velocity_change: n,
             before: Vec::new(),
             kept: Vec::new(),
+            conditioning: 1.0,
+            row_sizes: Vec::new(),
             is_independent: vec![true; set.n_bilateral()],
             sub_step: 0.0,
             solver: Solver::default(),
@@ -214,8 +224,29 @@ impl<R: Real> Constraints<R> {
             }
             Level::Velocity(h) => self.velocity_level_rates(model, h, v, v_dot),
         }
+        let vanishing = self.drop_vanishing_rows();
         self.solve();
+        // redundant contacts are no singular position
+        self.conditioning = if self.blocks.is_empty() { vanishing * self.solver.smallest_pivot } else { 1.0 };
         self.push(model, scratch, v_dot, has_drives);
+    }
+
+    /// Drops loop rows that vanish at a singular position, whose forces would be rounding; returns the smallest square of
+    /// a row relative to its size.
+    fn drop_vanishing_rows(&mut self) -> f64 {
+        let m = self.rows.len();
+        let mut smallest = 1.0_f64;
+        for i in 0..self.n_free.min(self.row_sizes.len()) {
+            let of_row = self.a[i * m + i].lane(0) / self.row_sizes[i];
+            smallest = smallest.min(of_row);
+            if of_row < SINGULAR {
+                for j in 0..m {
+                    (self.a[i * m + j], self.a[j * m + i]) = (R::zero(), R::zero());
+                }
+                self.b[i] = R::zero();
+            }
+        }
+        smallest
     }
 
     /// Vector b at velocity level: (J v)/h + J v̇, relaxed by the remaining distance of open constraints, with

@@ -1,6 +1,8 @@
 //! Projection of positions and velocities onto the constraints, in the metric of the mass matrix: Δq = M⁻¹ Jᵀ λ with G
 //! λ = −residual.
 
+use sincro_math::Real;
+
 use super::Constraints;
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, UnilateralConstraint};
@@ -9,15 +11,6 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 
 impl Constraints<f64> {
-    /// Keeps the bilateral rows.
-    pub fn keep_loop_joints(&mut self) {
-        self.rows.truncate(self.n_free);
-        self.residual.truncate(self.n_free);
-        self.blocks.clear();
-        self.lambda.clear();
-        self.lambda.resize(self.n_free, 0.0);
-    }
-
     /// Keeps the rows that hold as equations: bilateral rows, closed contacts (with `inside` only penetrating ones),
     /// and with `sticking` the rows of sticking groups.
     pub fn keep_equations(&mut self, sticking: bool, inside: bool) {
@@ -58,16 +51,39 @@ impl Constraints<f64> {
     /// Smallest change, in the metric of the mass matrix, of positions that removes the residuals, or of velocities
     /// that removes the rates.
     pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
+        self.project_to(PROJECTION_RANK, model, scratch, v, out);
+    }
+}
+
+impl<R: Real> Constraints<R> {
+    /// Keeps the bilateral rows.
+    pub fn keep_loop_joints(&mut self) {
+        self.rows.truncate(self.n_free);
+        self.residual.truncate(self.n_free);
+        self.blocks.clear();
+        self.lambda.clear();
+        self.lambda.resize(self.n_free, R::zero());
+    }
+
+    /// As [`Constraints::project`], with another rank tolerance.
+    pub fn project_to(
+        &mut self,
+        rank: f64,
+        model: &Model<R>,
+        scratch: &mut Scratch<R>,
+        v: Option<&[R]>,
+        out: &mut [R],
+    ) {
         self.assemble_delassus(model, scratch);
         self.b.clear();
         match v {
             Some(v) => self.b.extend(self.rows.iter().map(|row| self.motions.rate(row, v))),
             None => self.b.extend_from_slice(&self.residual),
         }
-        self.solver.rank = PROJECTION_RANK;
+        self.solver.rank = rank;
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         self.solver.correct(&problem, &[], &mut self.lambda);
-        out.fill(0.0);
+        out.fill(R::zero());
         self.push(model, scratch, out, false);
     }
 }

@@ -62,6 +62,8 @@ impl Constraints<f64> {
             independent.push(best);
         }
         independent.sort_unstable();
+        self.row_sizes.clear();
+        self.row_sizes.extend(independent.iter().map(|i| sizes[*i] * sizes[*i]));
     }
 
     /// Size of each assembled bilateral row.

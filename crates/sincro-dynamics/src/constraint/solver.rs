@@ -55,8 +55,8 @@ pub(crate) struct Solver<R> {
     pub report: SolverReport,
     /// Rank tolerance of corrections.
     pub rank: f64,
-    /// Bilateral rows that the last linear system found redundant.
-    pub redundant: usize,
+    /// Smallest scaled pivot of the last linear system.
+    pub smallest_pivot: f64,
 }
 
 impl<R: Real> Solver<R> {
@@ -157,7 +157,7 @@ impl<R: Real> Solver<R> {
         self.delta.clear();
         self.delta.resize(self.active_set.len(), R::zero());
         self.dense.solve(self.rank, &mut self.delta);
-        self.redundant = self.dense.redundant().iter().filter(|k| **k < problem.n_free).count();
+        self.smallest_pivot = self.dense.smallest_pivot;
         self.active_set.change(blocks, &self.delta, lambda);
     }
 

@@ -4,7 +4,7 @@
 //! and key `hairer1996`, section IV.2 (β = 0.04). The last stage could be the next step's first; here it is evaluated
 //! again, because motors may have new commands and a snapshot should hold no slopes.
 
-use super::{Control, Failure, System, power, too_small};
+use super::{Control, Failure, SingularStages, System, power, too_small};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [&[f64]; 7] = [
@@ -21,6 +21,10 @@ const E: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 /// Integral part of the step-size controller.
 const BETA: f64 = 0.04;
+
+/// Factor on a step that has a stage at a singular point, and how often it is tried.
+const DETOUR: f64 = 0.83;
+const MAX_DETOURS: u32 = 20;
 
 /// The method, its step-size control and its working memory.
 #[derive(Clone, Debug)]
@@ -47,9 +51,25 @@ impl DormandPrince {
     ///
     /// When no step is small enough.
     pub fn step<S: System<f64>>(&mut self, system: &mut S, t: f64, h_max: f64, y: &mut [f64]) -> Result<f64, Failure> {
+        let (mut h_max, mut detours) = (h_max, 0);
         loop {
             let h = self.control.h.min(h_max);
+            system.begin_step();
             self.stages(system, t, h, y);
+            match system.singular_stages() {
+                SingularStages::Later if detours < MAX_DETOURS => {
+                    (h_max, detours) = (DETOUR * h, detours + 1);
+                    continue;
+                }
+                SingularStages::None => {}
+                // its error estimate would be rounding
+                _ => {
+                    y.copy_from_slice(&self.stage);
+                    system.rechart(y);
+                    return Ok(h);
+                }
+            }
+            system.project_error(&self.stage, &mut self.error);
             let share = self.control.share(system, &self.stage, &self.error);
             if share <= 1.0 {
                 let factor = 0.9 * power(share.max(1e-10), -(0.2 - 0.75 * BETA)) * power(self.control.last_error, BETA);

@@ -40,11 +40,34 @@ pub trait System<R: Real> {
     /// state.
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]);
 
+    /// Begins a trial step from the present chart.
+    fn begin_step(&mut self) {}
+
+    /// Stages since [`System::begin_step`] at a singular point, where slopes are rounding.
+    fn singular_stages(&self) -> SingularStages {
+        SingularStages::None
+    }
+
+    /// Removes from an error estimate what does not matter: what lies across the manifold of the system at `y`, which
+    /// projection takes away after the step.
+    fn project_error(&mut self, _y: &[R], _error: &mut [R]) {}
+
     /// Lays a new chart at `y`, after which the same state is described by what `y` then holds.
     fn rechart(&mut self, y: &mut [R]);
 
     /// Typical magnitude of each controlled entry, for relative errors: the state's own, not the chart's.
     fn magnitude(&self, y: &[R], k: usize) -> f64;
+}
+
+/// Stages of a trial step at a singular point of the system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SingularStages {
+    /// None.
+    None,
+    /// The first: whatever its length, the step begins there.
+    First,
+    /// A later one: the step can have another length.
+    Later,
 }
 
 /// Terms that a linearly implicit step evaluates at the new state.

@@ -1,6 +1,8 @@
 //! Operations of a constrained mechanism between integration steps: contact detection, impacts, projection, zero
 //! crossings of contacts.
 
+use sincro_math::Real;
+
 use crate::constraint::{CLOSED_DISTANCE, Constraints};
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::{Collider, Pair};
@@ -128,31 +130,6 @@ impl Mechanism<f64> {
         c.blocks.iter().any(|b| b.given.is_some() && c.residual[b.row] > 0.0)
     }
 
-    /// Factors the mass matrix for impulses: forward dynamics at rest without forces, prescribed degrees of freedom as
-    /// marked.
-    pub(super) fn factor(&mut self, q_is_base: bool) {
-        self.torque.fill(0.0);
-        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
-            *d = dof.armature;
-        }
-        self.prescribed_acceleration.fill(0.0);
-        let prescribed = (!self.drives.is_empty())
-            .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
-        let q = if q_is_base { &self.base } else { &self.q };
-        let input = aba::Input {
-            q,
-            v: &self.torque,
-            torque: &self.torque,
-            diagonal: &self.diagonal,
-            prescribed,
-            external: None,
-            gravity: false,
-        };
-        let mut change = core::mem::take(&mut self.constraint_change);
-        aba::forward_dynamics(&self.model, &input, &mut self.scratch, &mut change);
-        self.constraint_change = change;
-    }
-
     /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of
     /// freedom are those marked; the scratch has their impulses as reactions.
     pub(crate) fn apply_impact(&mut self, v: &mut [f64]) -> f64 {
@@ -246,6 +223,33 @@ impl Mechanism<f64> {
     pub(crate) fn has_changed(&self) -> bool {
         let Some(c) = self.constraints.as_deref() else { return false };
         c.memory.has_changed() || self.has_compliant_contact_opened()
+    }
+}
+
+impl<R: Real> Mechanism<R> {
+    /// Factors the mass matrix for impulses: forward dynamics at rest without forces, prescribed degrees of freedom as
+    /// marked.
+    pub(super) fn factor(&mut self, q_is_base: bool) {
+        self.torque.fill(R::zero());
+        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
+            *d = dof.armature;
+        }
+        self.prescribed_acceleration.fill(R::zero());
+        let prescribed = (!self.drives.is_empty())
+            .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
+        let q = if q_is_base { &self.base } else { &self.q };
+        let input = aba::Input {
+            q,
+            v: &self.torque,
+            torque: &self.torque,
+            diagonal: &self.diagonal,
+            prescribed,
+            external: None,
+            gravity: false,
+        };
+        let mut change = core::mem::take(&mut self.constraint_change);
+        aba::forward_dynamics(&self.model, &input, &mut self.scratch, &mut change);
+        self.constraint_change = change;
     }
 }
 

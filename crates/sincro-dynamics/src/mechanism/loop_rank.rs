@@ -38,6 +38,7 @@ impl Mechanism<f64> {
         let extent = self.extent();
         self.constraints.as_deref_mut().expect("checked").use_all_rows();
         let (mut best, mut found): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut sizes = Vec::new();
         for trial in 0..=TRIALS {
             self.base.copy_from_slice(q);
             self.find_free_rows();
@@ -48,6 +49,7 @@ impl Mechanism<f64> {
                 self.find_rows(INDEPENDENT, &mut found);
                 if found.len() > best.len() {
                     core::mem::swap(&mut best, &mut found);
+                    sizes.clone_from(&self.constraints.as_deref().expect("checked").row_sizes);
                 }
             }
         }
@@ -55,9 +57,12 @@ impl Mechanism<f64> {
             // the loops cannot be closed here: what the given position says
             self.base.copy_from_slice(q);
             self.find_rows(INDEPENDENT_OPEN, &mut best);
+            sizes.clone_from(&self.constraints.as_deref().expect("checked").row_sizes);
         }
         self.base = base;
-        self.constraints.as_deref_mut().expect("checked").use_rows(&best, n_bilateral);
+        let c = self.constraints.as_deref_mut().expect("checked");
+        c.use_rows(&best, n_bilateral);
+        c.row_sizes = sizes;
         self.mark_locked();
         best.len()
     }

@@ -13,6 +13,7 @@
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
 mod loop_rank;
+mod singular;
 mod torques;
 
 use sincro_math::Real;
@@ -21,7 +22,7 @@ use crate::actuation::{Drive, DriveKind, Motor, Push, damper, friction};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::{Constraints, Level};
 use crate::ids::{MotorId, RotorId};
-use crate::integrate::{Implicit, System};
+use crate::integrate::{Implicit, SingularStages, System};
 use crate::joint::StageKind;
 use crate::model::Model;
 use crate::recursions::aba::{self, Prescribed};
@@ -30,6 +31,7 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
 use drive_monitor::DriveMonitor;
+use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
 
 /// A model with its commands and everything needed to evaluate its rates without allocation.
@@ -63,6 +65,8 @@ pub struct Mechanism<R> {
     pub(crate) constraints: Option<Box<Constraints<R>>>,
     /// Working memory of projections and impacts.
     pub(crate) constraint_change: Vec<R>,
+    /// Passage of a singular position of the loops.
+    singular: SingularPassage<R>,
     /// Laws of limited drives at the stages of a step.
     pub(crate) drive_monitor: DriveMonitor,
 }
@@ -91,6 +95,7 @@ impl<R: Real> Mechanism<R> {
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
+            singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
             // constraints branch, which lanes cannot
             constraints: if R::LANES == 1 { Constraints::new(&model) } else { None },
@@ -513,9 +518,14 @@ impl<R: Real> System<R> for Mechanism<R> {
         let v = &rest[..n];
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
-        self.chart_rate(delta, v, rate);
         let rotors = &y[self.rotor_states()];
+        let projected = if R::LANES == 1 && self.singular.is_near { self.project_stage(v) } else { None };
+        let v = projected.as_deref().unwrap_or(v);
+        self.chart_rate(delta, v, rate);
         self.accelerations(t, v, rotors, None, &mut rest[..n]);
+        if R::LANES == 1 {
+            self.note_conditioning();
+        }
         if R::LANES == 1 && self.drive_monitor.is_active {
             self.monitor_drives(t, v, &rest[..n]);
         }
@@ -523,6 +533,23 @@ impl<R: Real> System<R> for Mechanism<R> {
             self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
         }
         self.rotor_rates(rotors, 0.0, &mut slope[self.rotor_states()]);
+        if let Some(v) = projected {
+            self.singular.v = v;
+        }
+    }
+
+    fn begin_step(&mut self) {
+        self.singular.begin_step();
+    }
+
+    fn singular_stages(&self) -> SingularStages {
+        self.singular.stages()
+    }
+
+    fn project_error(&mut self, y: &[R], error: &mut [R]) {
+        if R::LANES == 1 && self.singular.is_near {
+            self.project_error_along_loops(y, error);
+        }
     }
 
     #[inline(always)]
