@@ -20,6 +20,7 @@ use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{MethodKind, StepStatistics, World};
 
+use crate::audit::Finding;
 use crate::trace::Trace;
 use crate::validity::Outside;
 pub use lockstep::{Halt, LockStep};
@@ -59,6 +60,12 @@ pub struct Simulated {
     pub trajectory: Option<Trajectory>,
     /// The balance of energy.
     pub energy: EnergyReport,
+    /// Laws of the mechanism and the solver, each with its worst value.
+    pub laws: Vec<Finding>,
+    /// Energy balance of each recorded row `[J]`.
+    pub balances: Vec<f64>,
+    /// Largest energy that entered the balance `[J]`.
+    pub energy_scale: f64,
     /// Sub-steps and events.
     pub effort: StepStatistics,
     /// Rotors outside the validity of their theory.
