@@ -129,6 +129,7 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
         picture: "<svg></svg>".into(),
         figure: Some(page.figures[0].clone()),
         checks: vec![row],
+        n_findings: 0,
         stop: page.stop.clone(),
         run_time: evil.into(),
     };

@@ -4,6 +4,7 @@
 //! base step. Steps, pulses and ramps are exempt: their jumps and corners are located as events.
 
 use sincro_blocks::program::Rate;
+use sincro_dynamics::actuation::Motor;
 use sincro_dynamics::signal::Signal;
 
 use super::{Finding, help};
@@ -54,10 +55,12 @@ pub fn sources(loaded: &Loaded) -> Vec<Finding> {
         let frame = model.names().frames.iter().find(|frame| frame.link == Some(wrench.link));
         add(frame.map_or("/", |frame| &frame.name), frequency, step);
     }
+    // velocity and position motors latch their target at ticks, whatever gives it between them
+    let latches = model.motors().iter().any(Motor::is_drive);
     for block in loaded.controller.iter().flat_map(|controller| &controller.wiring.program().steps) {
         let (period, is_sampled) = match block.rate {
             Rate::Constant => continue,
-            Rate::Continuous => (step, !block.is_minor),
+            Rate::Continuous => (step, latches || !block.is_minor),
             Rate::Sampled(every) => (every as f64 * step, true),
         };
         add(&block.path, block.template.highest_frequency(until, is_sampled), period);
