@@ -14,7 +14,7 @@ pub fn highest_frequency(times: &[f64], value: impl Fn(usize) -> f64, until: f64
     let n = times.partition_point(|t| *t <= until);
     let (low, high) = (0..n).map(&value).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let noise = NOISE * (high - low);
-    if !(noise > 0.0) {
+    if noise.is_nan() || noise <= 0.0 {
         return 0.0;
     }
     // the extreme so far in the present direction, and the last turning point
