@@ -41,23 +41,33 @@ pub(super) fn source(finding: &Finding, experiment: &Experiment) -> String {
 
 /// A finer integration than the present one.
 fn finer(experiment: &Experiment, method: MethodKind) -> String {
-    let step = format!("step = {:?} instead of {:?}", rounded(0.1 * experiment.step), experiment.step);
-    match method {
-        MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit => {
-            // `auto` takes a method with error control
-            format!("take integrator = \"auto\" instead of \"{}\", or {step}", experiment.integrator.word())
-        }
-        MethodKind::DormandPrince | MethodKind::Stiff if experiment.accuracy >= 1e3 * SMALLEST_ACCURACY => {
-            let accuracy = rounded(0.01 * experiment.accuracy).max(SMALLEST_ACCURACY);
-            format!("take accuracy = {accuracy:e} instead of {:e}, or {step}", experiment.accuracy)
-        }
-        MethodKind::DormandPrince | MethodKind::Stiff => format!("take {step}"),
+    if has_error_control(method) && experiment.accuracy >= 1e3 * SMALLEST_ACCURACY {
+        let accuracy = rounded(0.01 * experiment.accuracy).max(SMALLEST_ACCURACY);
+        return format!("take accuracy = {accuracy:e} instead of {:e}, or {}", experiment.accuracy, step(experiment));
     }
+    finer_steps(experiment, method)
+}
+
+/// Another method than one of fixed steps, or a smaller step.
+pub(crate) fn finer_steps(experiment: &Experiment, method: MethodKind) -> String {
+    if has_error_control(method) {
+        return format!("take {}", step(experiment));
+    }
+    // `auto` takes a method with error control
+    format!("take integrator = \"auto\" instead of \"{}\", or {}", experiment.integrator.word(), step(experiment))
+}
+
+fn step(experiment: &Experiment) -> String {
+    format!("step = {:?} instead of {:?}", rounded(0.1 * experiment.step), experiment.step)
+}
+
+fn has_error_control(method: MethodKind) -> bool {
+    matches!(method, MethodKind::DormandPrince | MethodKind::Stiff)
 }
 
 /// A setting that the finer run can meet.
 fn reachable(experiment: &Experiment, method: MethodKind) -> String {
-    if matches!(method, MethodKind::DormandPrince | MethodKind::Stiff) && experiment.accuracy < COARSE {
+    if has_error_control(method) && experiment.accuracy < COARSE {
         let coarser = rounded(100.0 * experiment.accuracy);
         return format!(
             "take accuracy = {coarser:e} instead of {:e}, which the finer run can meet",
