@@ -102,8 +102,8 @@ impl Signal {
         }
     }
 
-    /// Highest frequency `[Hz]` of the signal up to time `until` `[s]`: of a sine, or of a table that is read at ticks only
-    /// (`is_sampled`). Jumps and corners inside a step are located as time events and have none.
+    /// Highest frequency `[Hz]` of the signal up to time `until` `[s]`: of a sine, or of a table that is read at ticks
+    /// only (`is_sampled`). Jumps and corners inside a step are located as time events and have none.
     #[must_use]
     pub fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
         match self {

@@ -33,7 +33,7 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Of a method at the accuracy of an experiment.
+    /// Tolerances of a method at the accuracy of an experiment.
     pub fn new(experiment: &Experiment, method: MethodKind) -> Self {
         let accuracy = match method {
             MethodKind::DormandPrince | MethodKind::Stiff => experiment.accuracy,
