@@ -9,7 +9,12 @@ use crate::run::Simulated;
 #[must_use]
 pub fn audit(loaded: &Loaded, run: &Simulated, finer: Option<&Simulated>) -> AuditReport {
     let mut laws = run.laws.clone();
-    laws.extend(finer.map(|finer| if finer.status.is_good() { energy_balance(run, finer) } else { stop(run, finer) }));
+    let factor = error_bar_factor(run.method, loaded.experiment.accuracy);
+    laws.extend(finer.map(
+        |finer| {
+            if finer.status.is_good() { energy_balance(run, finer, factor) } else { stop(run, finer) }
+        },
+    ));
     laws.extend(sources(loaded));
     for law in laws.iter_mut().filter(|law| !law.holds()) {
         law.help = help(law, &loaded.experiment, run.method);
@@ -31,8 +36,9 @@ fn stop(run: &Simulated, finer: &Simulated) -> Finding {
     }
 }
 
-/// Largest energy balance of a run, against what the error bar of the balance allows.
-fn energy_balance(run: &Simulated, finer: &Simulated) -> Finding {
+/// Largest energy balance of a run, against what the error bar of the balance allows: `factor` times the largest
+/// difference from the finer run.
+fn energy_balance(run: &Simulated, finer: &Simulated, factor: f64) -> Finding {
     let (balances, times) = (&run.balances, run.table.times());
     let worst = (0..balances.len()).max_by(|a, b| balances[*a].abs().total_cmp(&balances[*b].abs())).unwrap_or(0);
     let difference = balances.iter().zip(&finer.balances).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -41,7 +47,7 @@ fn energy_balance(run: &Simulated, finer: &Simulated) -> Finding {
         element: "energy.balance".to_owned(),
         time: times.get(worst).copied().unwrap_or(0.0),
         value: balances.get(worst).map_or(0.0, |x| x.abs()),
-        limit: energy_limit(error_bar_factor(run.method) * difference, run.energy_scale, run.effort.steps),
+        limit: energy_limit(factor * difference, run.energy_scale, run.effort.steps),
         unit: "J".to_owned(),
         help: String::new(),
     }

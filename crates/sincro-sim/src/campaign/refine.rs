@@ -10,7 +10,7 @@ use sincro_dynamics::world::MethodKind;
 
 use crate::load::Loaded;
 use crate::results::{ColumnReport, Status};
-use crate::run::{FINER, RunError, RunMonitor, RunOptions, Simulated, simulate};
+use crate::run::{RunError, RunMonitor, RunOptions, Simulated, finer_accuracy, simulate};
 use sincro_scene::experiment::ErrorBar;
 
 /// The recorded columns with their error bars, and the finer run if there was one.
@@ -35,7 +35,7 @@ pub(super) fn columns(
         without_bars(&mut columns, &format!("not estimated: the finer run stopped: {reason}"));
         return Ok((columns, Some(finer)));
     }
-    let (factor, mut method) = estimate(run.method);
+    let (factor, mut method) = estimate(run.method, loaded.experiment.accuracy);
     if !loaded.scene.scripts.is_empty() {
         method += "; step of scripts halved";
     }
@@ -83,19 +83,20 @@ fn largest_difference(coarse: &[f64], fine: &[f64]) -> f64 {
 }
 
 /// Factor on the difference from a finer run that estimates the error of a run by this method.
-pub(super) fn error_bar_factor(method: MethodKind) -> f64 {
-    estimate(method).0
+pub(super) fn error_bar_factor(method: MethodKind, accuracy: f64) -> f64 {
+    estimate(method, accuracy).0
 }
 
 /// Factor on the difference, and the estimate in words.
-fn estimate(method: MethodKind) -> (f64, String) {
+fn estimate(method: MethodKind, accuracy: f64) -> (f64, String) {
     let order = match method {
         MethodKind::SemiImplicitEuler => 1,
         MethodKind::Implicit => 2,
         MethodKind::Rk4 => 4,
         MethodKind::DormandPrince | MethodKind::Stiff => {
-            let words = format!("tolerance tightened {FINER}-fold: largest difference from that run");
-            return (FINER / (FINER - 1.0), words);
+            let finer = accuracy / finer_accuracy(accuracy);
+            let words = format!("tolerance tightened {finer:.0}-fold: largest difference from that run");
+            return (finer / (finer - 1.0), words);
         }
     };
     let power = f64::from(1 << order);
