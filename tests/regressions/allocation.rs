@@ -7,6 +7,7 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
 use sincro_scene::record::Recorder;
 use sincro_sim::Extensions;
+use sincro_sim::audit::LawAudit;
 use sincro_sim::load;
 use sincro_sim::run::LockStep;
 
@@ -79,10 +80,13 @@ fn a_step_and_a_row_allocate_nothing() {
             let signals = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
             let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &signals).unwrap();
             lockstep.start().unwrap();
+            let mut audit = LawAudit::default();
             let mut tick = |start: bool| {
                 lockstep.advance().unwrap();
                 let t = lockstep.t();
+                audit.tick(lockstep.world(), t);
                 let (seen, signals) = lockstep.observe(t);
+                audit.observe(&seen, t);
                 recorder.row(&seen, signals, t, start).len()
             };
             tick(true);

@@ -36,9 +36,19 @@ fn all_checks(report: &RunReport) -> impl Iterator<Item = &CheckReport> {
     report.checks.iter().chain(variants).chain(sweep)
 }
 
+/// Scenes whose audit has findings, with their laws: run and law. Every other scene must have none.
+///
+/// The humanoid has impacts of redundant contacts for which the constraint solver does not converge. A cure of the
+/// solver empties the list.
+const FINDINGS: [(&str, &str, &str); 3] = [
+    ("humanoid", "", "constraint-solver"),
+    ("humanoid", "velocity-level", "friction-cone"),
+    ("humanoid", "velocity-level", "constraint-solver"),
+];
+
 #[test]
 fn every_scene_holds_its_checks_and_its_bits() {
-    let mut traces = String::new();
+    let (mut traces, mut findings) = (String::new(), Vec::new());
     for folder in folders() {
         let report = run(&folder);
         assert!(report.status.is_good(), "{}: {:?}", folder.display(), report.status);
@@ -46,11 +56,15 @@ fn every_scene_holds_its_checks_and_its_bits() {
             assert_eq!(check.verdict, VerdictReport::Holds, "{}: {check:?}", folder.display());
         }
         assert!(all_checks(&report).count() > 0, "{} checks nothing", folder.display());
+        let found = report.findings().map(|(run, finding)| (report.scene.clone(), run.to_owned(), finding.law.clone()));
+        findings.extend(found);
         writeln!(traces, "{} {}", report.scene, report.trace_hash).unwrap();
         for variant in &report.variants {
             writeln!(traces, "{}/{} {}", report.scene, variant.name, variant.trace_hash).unwrap();
         }
     }
+    let known = FINDINGS.map(|(scene, run, law)| (scene.to_owned(), run.to_owned(), law.to_owned()));
+    assert_eq!(findings, known, "findings of the audit have changed");
     let committed = root().join("tests/regressions/traces.txt");
     if std::env::var_os("SINCRO_BLESS").is_some() {
         std::fs::write(&committed, &traces).unwrap();

@@ -150,6 +150,13 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
         f64::INFINITY
     }
 
+    /// Highest frequency `[Hz]` in the outputs of a source up to time `until` `[s]`, if that depends on time alone;
+    /// zero for blocks that are no source. `is_sampled`: evaluated at ticks only. Jumps and corners that are located as
+    /// time events have none.
+    fn highest_frequency(&self, _until: f64, _is_sampled: bool) -> f64 {
+        0.0
+    }
+
     /// Remark for the end of a run, from the memory: that the block limited a signal, and when first.
     fn notice(&self, _node: &Node, _memory: &[f64]) -> Option<String> {
         None

@@ -59,6 +59,8 @@ pub trait DynBlock: Debug + Send + Sync {
     fn check(&self, node: &Node) -> Result<(), (String, String)>;
     /// Next time event after `t` `[s]`; see [`Block::next_time_event`].
     fn next_time_event(&self, t: f64) -> f64;
+    /// Highest frequency of a source `[Hz]`; see [`Block::highest_frequency`].
+    fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64;
     /// Remark for the end of a run; see [`Block::notice`].
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String>;
     /// Reason for outputs that are not finite; see [`Block::fault`].
@@ -106,6 +108,9 @@ impl<B: Block> DynBlock for B {
     }
     fn next_time_event(&self, t: f64) -> f64 {
         Block::next_time_event(self, t)
+    }
+    fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
+        Block::highest_frequency(self, until, is_sampled)
     }
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String> {
         Block::notice(self, node, memory)

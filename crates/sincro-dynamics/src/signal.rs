@@ -102,6 +102,21 @@ impl Signal {
         }
     }
 
+    /// Highest frequency `[Hz]` of the signal up to time `until` `[s]`: of a sine, or of a table that is read at ticks
+    /// only (`is_sampled`). Jumps and corners inside a step are located as time events and have none.
+    #[must_use]
+    pub fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
+        match self {
+            Self::Sine { amplitude, angular_frequency, .. } if *amplitude != 0.0 => {
+                angular_frequency.abs() / core::f64::consts::TAU
+            }
+            Self::Table { times, values, .. } if is_sampled => {
+                sincro_math::series::highest_frequency(times, |k| values[k], until)
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Next time event: the first instant after `t` at which the signal or its slope jumps, so that no integration step
     /// straddles it; infinite if there is none.
     #[must_use]
@@ -172,5 +187,18 @@ mod tests {
         for (t, l, h) in [(-1.0, 1.0, 1.0), (0.5, 1.5, 1.0), (2.0, 0.0, 2.0), (9.0, -2.0, -2.0)] {
             assert_eq!((linear.value(t), held.value(t)), (l, h));
         }
+    }
+
+    #[test]
+    fn frequencies_are_those_of_sines_and_of_tables_that_are_read_at_ticks() {
+        let sine = |amplitude| Signal::Sine { amplitude, angular_frequency: 20.0, phase: 0.0, offset: 1.0 };
+        assert_eq!(sine(2.0).highest_frequency(1.0, false), 10.0 / core::f64::consts::PI);
+        assert_eq!(sine(0.0).highest_frequency(1.0, false), 0.0);
+        let (times, values): (Arc<[f64]>, Arc<[f64]>) = ([0.0, 0.5, 0.625, 3.0].into(), [1.0, 2.0, 1.0, 3.0].into());
+        let table = Signal::Table { times, values, linear: true };
+        assert_eq!(table.highest_frequency(4.0, true), 4.0);
+        assert_eq!(table.highest_frequency(0.6, true), 0.0);
+        assert_eq!(table.highest_frequency(1.0, false), 0.0);
+        assert_eq!(Signal::Constant(1.0).highest_frequency(1.0, true), 0.0);
     }
 }

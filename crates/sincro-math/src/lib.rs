@@ -8,6 +8,7 @@ pub mod expression;
 pub mod lanes;
 mod real;
 mod scalar;
+pub mod series;
 
 pub use dual::Dual;
 pub use lanes::{LaneVisitor, Lanes};

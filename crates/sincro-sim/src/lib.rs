@@ -11,15 +11,18 @@
 //! | [`sensors`], [`proximity`] | sensors of a scene in a run |
 //! | [`run`] | the step, and a run from its start to its end |
 //! | [`trace`], [`snapshot`], [`validity`], [`replay`] | hash of a run, state as bytes, validity of rotor theory, keyframes |
+//! | [`audit`] | laws, solver, energy balance and inputs of every run, against the limits of its accuracy |
 //! | [`table`], [`sweep`], [`check`], [`results`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, result files |
 //! | [`campaign`] | an experiment with its variants, sweep and error bars |
 
+pub mod audit;
 pub mod campaign;
 pub mod check;
 pub mod controller;
 pub mod diagram_controller;
 pub mod file;
 pub mod load;
+mod number;
 pub mod proximity;
 pub mod replay;
 pub mod results;

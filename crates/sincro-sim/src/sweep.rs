@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::audit::AuditReport;
 use crate::file::FileError;
 use crate::table::{Column, Table};
 
@@ -18,6 +19,8 @@ pub struct Sweep {
     pub columns: Vec<Column>,
     /// The runs that stopped.
     pub stops: Vec<SweepStop>,
+    /// Audit of the runs: of each law the worst value.
+    pub audit: AuditReport,
 }
 
 /// A run of a sweep that ended before its time.
@@ -50,6 +53,7 @@ impl Sweep {
             values: Vec::with_capacity(n_runs),
             columns: signals.into_iter().map(column).collect(),
             stops: Vec::new(),
+            audit: AuditReport::default(),
         }
     }
 

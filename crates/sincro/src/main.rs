@@ -1,7 +1,7 @@
 //! The command line of sincro.
 //!
-//! Exit status: 0 all checks hold, 1 a check fails or could not be made, 2 bad input (nothing is written), 3 the run
-//! stopped (what was recorded is kept).
+//! Exit status: 0 all checks hold and the audit has no findings, 1 a check fails or could not be made or the audit has
+//! findings, 2 bad input (nothing is written), 3 the run stopped (what was recorded is kept).
 
 mod commands;
 mod diagnostics;
@@ -50,9 +50,9 @@ enum Command {
 /// Exit of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
-    /// All checks hold.
+    /// All checks hold, and the audit has no findings.
     Holds,
-    /// A check fails or could not be made.
+    /// A check fails or could not be made, or the audit has findings.
     Fails,
     /// Bad input.
     Refused,

@@ -115,9 +115,9 @@ pub fn simulate(loaded: &Loaded) -> Result<Simulated, RunFailure> {
 /// Judgement of a run with its variants and its sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// All checks hold.
+    /// All checks hold, and the audit has no findings.
     Holds,
-    /// A check fails or could not be made.
+    /// A check fails or could not be made, or the audit of a run has findings.
     Fails,
     /// A run stopped before its end: the state is not finite, a script failed, it was interrupted.
     Stopped,
@@ -132,6 +132,9 @@ impl Verdict {
         let sweep_stopped = report.sweep.as_ref().is_some_and(|s| !s.stops.is_empty());
         if statuses.into_iter().any(|s| !s.is_good()) || sweep_stopped {
             return Self::Stopped;
+        }
+        if report.audits().any(|audit| !audit.ok) {
+            return Self::Fails;
         }
         let of_variants = report.variants.iter().flat_map(|v| &v.checks);
         let of_sweep = report.sweep.iter().flat_map(|s| &s.checks);

@@ -143,6 +143,35 @@ fn a_check_that_fails_is_status_one() {
 }
 
 #[test]
+fn findings_of_the_audit_are_status_one_and_no_green_banner() {
+    let folder = Folder::new("audit");
+    let motor = "motor = { mode = \"velocity\", command = { sine = { amplitude = 1.0, frequency_hz = 400.0 } } }\n";
+    let scene = folder.pendulum("", "");
+    fs::write(scene.join("scene.toml"), SCENE.replacen("\n\n[[body]]", &format!("\n{motor}\n[[body]]"), 1)).unwrap();
+    let out = folder.path("out");
+    let (stdout, stderr, exit) = run(&scene, &out, &[]);
+    assert_eq!(exit, 1, "{stdout}{stderr}");
+    assert!(
+        stdout.contains("ok    no energy") && stdout.contains("the audit has 1 finding; the check holds"),
+        "{stdout}"
+    );
+    assert!(stdout.contains("audit: source frequency of /hinge is 400 Hz at t = 0 s, allowed 50 Hz"), "{stdout}");
+    assert!(stdout.contains("help: take step = "), "{stdout}");
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("class=\"banner bad\"") && !page.contains("class=\"banner good\""));
+    assert!(page.contains("<h2>Audit</h2>") && page.contains("source frequency") && page.contains("Hz"));
+    let json = fs::read_to_string(out.join("run.json")).unwrap();
+    assert!(
+        json.contains("\"audit\": {\n    \"ok\": false") && json.contains("\"law\": \"source-frequency\""),
+        "{json}"
+    );
+    // known before a run
+    let output = sincro(&["check", scene.to_str().unwrap()]);
+    assert_eq!((status(&output), text(&output.stdout).contains("audit: source frequency")), (1, true));
+    assert_eq!(run(&scene, &folder.path("fine"), &["--step", "0.001"]).2, 0);
+}
+
+#[test]
 fn settings_reach_scene_and_experiment() {
     let folder = Folder::new("set");
     let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
@@ -160,7 +189,7 @@ fn settings_reach_scene_and_experiment() {
 fn bad_input_is_status_two_and_writes_nothing() {
     let folder = Folder::new("bad");
     let out = folder.path("out");
-    let cases: [(&str, &str, &[&str], &str); 12] = [
+    let cases: [(&str, &str, &[&str], &str); 13] = [
         ("", "[[body]]\nname = \"x\"\nmasss = 1.0\n", &[], "masss"),
         (
             "",
@@ -177,6 +206,7 @@ fn bad_input_is_status_two_and_writes_nothing() {
         ("", "", &["--set", "/nobody.mass=1"], "/nobody"),
         ("", "", &["--set", "step=0"], "step"),
         ("", "", &["--until", "-1"], "duration"),
+        ("", "", &["--accuracy", "1e-23"], "1e-14"),
         ("", "", &["--set", "record=[\"/hinge.positon\"]"], "positon"),
     ];
     for (experiment, scene, more, named) in cases {

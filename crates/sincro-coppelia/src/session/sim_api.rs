@@ -69,6 +69,7 @@ impl<'a> SimApi<'a> {
     /// The state was changed: poses must be computed again.
     pub(super) fn moved(&mut self) {
         self.is_located = false;
+        self.world.mark_changed();
     }
 
     pub(super) fn place(&mut self, frame: &Attached<f64>) -> Pose<f64> {

@@ -486,6 +486,16 @@ impl<R: Real> Constraints<R> {
         }
     }
 
+    /// Scale of the forces of the problem last solved: the largest multiplier, or the force that would stop the largest
+    /// rate of the lightest row.
+    pub fn force_scale(&self) -> f64 {
+        let largest = |x: &[R]| x.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
+        let m = self.rows.len();
+        let lightest = (0..m).map(|i| self.a[i * m + i].lane(0)).fold(0.0, f64::max);
+        let stopping = if lightest > 0.0 { largest(&self.b) / lightest } else { 0.0 };
+        largest(&self.lambda).max(stopping)
+    }
+
     /// Power dissipated by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
     pub fn dissipation(&self, v: &[R]) -> R {
         let n = v.len();

@@ -312,6 +312,11 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
+    /// Returns true if external forces act from outside the model.
+    pub(crate) fn is_pushed(&self) -> bool {
+        !self.pushes.is_empty()
+    }
+
     /// Removes all external forces.
     pub(crate) fn release(&mut self) {
         self.pushes.clear();

@@ -145,6 +145,12 @@ impl<R: Real> Model<R> {
         self.wind.as_deref()
     }
 
+    /// Torques that are functions of time.
+    #[must_use]
+    pub fn applied(&self) -> &[AppliedTorque] {
+        &self.applied
+    }
+
     /// Returns true if an element feels the air.
     pub(crate) fn feels_air(&self) -> bool {
         !self.rotors.is_empty() || !self.drags.is_empty()

@@ -9,6 +9,7 @@
 //!
 //! A world owns its model, state, mechanism and the working memory of its method; they are not yet separate values.
 
+pub mod audit;
 mod builder;
 mod contacts;
 mod drives;
@@ -144,6 +145,8 @@ pub struct World {
     /// Steps at velocity level: of semi-implicit Euler, and the fallback of the others.
     time_stepping: Option<SemiImplicitEuler<f64>>,
     statistics: StepStatistics,
+    /// Tick at whose end the laws hold; none after a change from outside.
+    settled_at: Option<u64>,
 }
 
 /// Outputs of a world at one instant: kinematics are computed, nothing can be changed.
@@ -154,6 +157,12 @@ pub struct Observation<'a> {
     /// Accelerations [rad/s²] or [m/s²].
     pub accelerations: &'a [f64],
     mechanism: &'a Mechanism<f64>,
+    /// Target velocity of each drive in the tick that ends here.
+    target_velocities: &'a [f64],
+    /// True if the state is that at the end of a tick, and nothing has been changed from outside since.
+    is_settled: bool,
+    /// True if no input jumps at this instant.
+    inputs_are_continuous: bool,
 }
 
 impl Observation<'_> {
@@ -293,6 +302,7 @@ impl World {
             present: vec![0.0; dim],
             accelerations,
             statistics: StepStatistics::default(),
+            settled_at: None,
         }
     }
 
@@ -371,7 +381,25 @@ impl World {
     pub fn observe(&mut self, t: f64) -> Observation<'_> {
         self.rates(t);
         self.mechanism.update_kinematics(&self.state, &self.accelerations);
-        Observation { state: &self.state, accelerations: &self.accelerations, mechanism: &self.mechanism }
+        self.observation(t)
+    }
+
+    /// Outputs as last computed.
+    fn observation(&self, t: f64) -> Observation<'_> {
+        let next_jump = self.model().next_time_event(t - 2.0 * SAME_INSTANT);
+        Observation {
+            state: &self.state,
+            accelerations: &self.accelerations,
+            mechanism: &self.mechanism,
+            target_velocities: &self.target_velocities,
+            is_settled: self.settled_at == Some(self.state.tick),
+            inputs_are_continuous: next_jump > t + SAME_INSTANT && !self.mechanism.is_pushed(),
+        }
+    }
+
+    /// Notes that state or model were changed from outside: the laws are audited again after the next tick.
+    pub fn mark_changed(&mut self) {
+        self.settled_at = None;
     }
 
     /// Bytes that this world takes beside the shared model's numbers.
@@ -425,6 +453,7 @@ impl World {
         system.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
         reached?;
         self.state.tick += 1;
+        self.settled_at = Some(self.state.tick);
         Ok(())
     }
 
@@ -488,6 +517,7 @@ impl World {
     ///
     /// If there is no motor of that id.
     pub fn set_motor(&mut self, id: MotorId, motor: Motor<f64>) {
+        self.mark_changed();
         self.mechanism.drives.copy_from_slice(&self.state.drives);
         self.mechanism.set_motor(id, motor);
         let n = self.mechanism.drives.len();

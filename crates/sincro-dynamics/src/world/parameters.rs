@@ -22,6 +22,7 @@ impl World {
     ///
     /// If there is no such link or frame.
     pub fn set_mass_properties(&mut self, link: usize, bodies: &[(BodyId, MassProperties)]) {
+        self.mark_changed();
         let before = self.energy().total();
         self.mechanism.model.set_mass_properties(link, bodies);
         if self.state.tick > 0 {
@@ -31,6 +32,7 @@ impl World {
 
     /// Sets gravity [m/s²], world axes; the change of energy is counted as work, unless no step has been made yet.
     pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
+        self.mark_changed();
         let before = self.energy().total();
         self.mechanism.model.gravity = gravity;
         if self.state.tick > 0 {
@@ -41,6 +43,7 @@ impl World {
     /// Sets the joint limits of a degree of freedom that has them `[rad]` or `[m]`: lower and upper. Returns false, and
     /// changes nothing, if the bounds given are not those that exist.
     pub fn set_limits(&mut self, dof: usize, bounds: [Option<f64>; 2]) -> bool {
+        self.mark_changed();
         let has =
             |sign: f64, model: &Model<f64>| model.constraints.limits.iter().any(|l| l.dof == dof && l.sign == sign);
         let model = &mut self.mechanism.model;
@@ -61,6 +64,7 @@ impl World {
     ///
     /// If there is no such gear.
     pub fn set_gear(&mut self, k: usize, ratio: f64, offset: f64) {
+        self.mark_changed();
         let gear = &mut Arc::make_mut(&mut self.mechanism.model.constraints).gears[k];
         (gear.ratio, gear.offset) = (ratio, offset);
     }
@@ -72,6 +76,7 @@ impl World {
     ///
     /// If there is no such pair.
     pub fn set_pair(&mut self, pair: usize, is_ignored: bool, material: Material) {
+        self.mark_changed();
         let mechanism = &mut self.mechanism;
         if let Some(constraints) = mechanism.constraints.as_deref_mut() {
             constraints.detector.ignored[pair] = is_ignored;

@@ -4,12 +4,13 @@ mod figures;
 
 use sincro_scene::diagram::ControlDiagram;
 use sincro_sim::Loaded;
+use sincro_sim::audit::Finding;
 use sincro_sim::campaign::Campaign;
 use sincro_sim::results::{CheckReport, Status, VerdictReport};
 
 use crate::draw::{self, Options};
 use crate::plot::{self, number};
-use crate::report::{Card, CheckRow, CheckVerdict, Energy, Page, SignalRow, Stop};
+use crate::report::{Card, CheckRow, CheckVerdict, Energy, FindingRow, Page, SignalRow, Stop};
 
 pub use figures::all as figures;
 
@@ -28,6 +29,7 @@ pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
         picture: String::new(),
         figure: figures(loaded, campaign).into_iter().next(),
         checks: checks(campaign),
+        n_findings: report.findings().count(),
         stop: stop(&report.status),
         run_time: format!("{} s", number::significant(report.wall_time_s, 2)),
     }
@@ -77,6 +79,7 @@ pub fn page(loaded: &Loaded, campaign: &Campaign) -> Page {
         replay: String::new(),
         figures: figures(loaded, campaign),
         diagrams: diagrams(loaded, campaign),
+        findings: report.findings().map(finding_row).collect(),
         checks: checks(campaign),
         signals: signals.collect(),
         energy,
@@ -159,6 +162,11 @@ fn checks(campaign: &Campaign) -> Vec<CheckRow> {
     let sweep = report.sweep.iter().flat_map(|s| &s.checks).map(|c| check_row(c, "sweep"));
     let variants = report.variants.iter().flat_map(|v| v.checks.iter().map(move |c| check_row(c, &v.name)));
     main.chain(sweep).chain(variants).collect()
+}
+
+fn finding_row((run, finding): (&str, &Finding)) -> FindingRow {
+    let Finding { law, element, time, value, limit, unit, help } = finding.clone();
+    FindingRow { run: run.to_owned(), law, element, time, value, limit, unit, help }
 }
 
 fn check_row(check: &CheckReport, run: &str) -> CheckRow {

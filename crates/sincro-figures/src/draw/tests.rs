@@ -49,6 +49,9 @@ impl DynBlock for Sham {
     fn next_time_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
+    fn highest_frequency(&self, _: f64, _: bool) -> f64 {
+        0.0
+    }
     fn notice(&self, _: &Node, _: &[f64]) -> Option<String> {
         None
     }

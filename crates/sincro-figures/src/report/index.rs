@@ -59,7 +59,7 @@ fn fail(count: usize) -> &'static str {
 }
 
 fn outcome(card: &Card) -> Outcome {
-    Outcome::of(&card.checks, card.stop.as_ref())
+    Outcome::of(&card.checks, card.n_findings, card.stop.as_ref())
 }
 
 fn summary(cards: &[Card]) -> String {

@@ -5,7 +5,7 @@
 //! [`Page`] and [`IndexPage`] are plain data; whoever fills them need not know any HTML. All text in them may come from
 //! a scene: it is escaped by [`crate::plot::escape`].
 //!
-//! Verdicts are derived from the checks, so a banner cannot contradict its table.
+//! Verdicts are derived from the checks and findings, so a banner cannot contradict its tables.
 
 mod checks;
 mod comparison;
@@ -36,6 +36,8 @@ pub struct Page {
     pub figures: Vec<Figure>,
     /// Block diagrams as SVG for a page, each with its title.
     pub diagrams: Vec<(String, String)>,
+    /// Findings of the audit.
+    pub findings: Vec<FindingRow>,
     /// The table of checks.
     pub checks: Vec<CheckRow>,
     /// The recorded signals with their error bars.
@@ -88,6 +90,27 @@ pub struct CheckRow {
     pub at: Option<f64>,
     /// The judgement.
     pub verdict: CheckVerdict,
+}
+
+/// Finding of the audit: a law whose residual exceeds its limit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FindingRow {
+    /// Name of the run; empty for the main run.
+    pub run: String,
+    /// Name of the law.
+    pub law: String,
+    /// Element concerned.
+    pub element: String,
+    /// Time of the value `[s]`.
+    pub time: f64,
+    /// The value.
+    pub value: f64,
+    /// Largest value allowed.
+    pub limit: f64,
+    /// Unit of both; empty for relative residuals.
+    pub unit: String,
+    /// The setting that would help; may be empty.
+    pub help: String,
 }
 
 /// The judgement of a check.
@@ -165,6 +188,8 @@ pub struct Card {
     pub figure: Option<Figure>,
     /// All its checks. The card shows four: those that fail first, then in this order.
     pub checks: Vec<CheckRow>,
+    /// Number of findings of the audit.
+    pub n_findings: usize,
     /// Reason for an early end; `None`: it came to its end.
     pub stop: Option<Stop>,
     /// Wall time in words: `0.02 s`.

@@ -1,9 +1,9 @@
 //! `report.html`: verdict first, then pictures, then numbers, then settings.
 
 use super::checks::check_table;
-use super::shell::{Outcome, cell, document, list, paragraph, section, settings, table};
-use super::{Energy, Page, SignalRow};
-use crate::plot::number::{resolved, significant};
+use super::shell::{Outcome, cell, document, list, paragraph, prose, section, settings, table};
+use super::{Energy, FindingRow, Page, SignalRow};
+use crate::plot::number::{resolved, short, significant};
 use crate::plot::{self, Figure, Size, escape, inline_svg};
 
 /// The page as HTML.
@@ -13,6 +13,7 @@ pub(super) fn html(page: &Page) -> String {
     let checks = if checks.is_empty() { checks } else { checks + CHECKS_KEY };
     let body = [
         header(page),
+        section("Audit", &finding_table(&page.findings)),
         section("Replay", &page.replay),
         figures,
         section(if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, &diagrams(&page.diagrams)),
@@ -34,7 +35,7 @@ fn header(page: &Page) -> String {
         .up
         .as_ref()
         .map(|(label, href)| format!("<nav><a href=\"{}\">← {}</a></nav>\n", escape(href), escape(label)));
-    let outcome = Outcome::of(&page.checks, page.stop.as_ref());
+    let outcome = Outcome::of(&page.checks, page.findings.len(), page.stop.as_ref());
     let stop = page.stop.as_ref().map(|stop| paragraph("", &stop.reason) + &paragraph("help", &stop.help));
     let warnings = match page.warnings.is_empty() {
         true => String::new(),
@@ -83,6 +84,32 @@ pub(crate) fn figure(figure: &Figure) -> String {
         inline_svg(figure, Size::narrow(figure))
     )
 }
+
+/// Findings of the audit, with what would help against each.
+fn finding_table(findings: &[FindingRow]) -> String {
+    let columns =
+        [("", "Law"), ("", "Element"), ("num", "Time"), ("num", "Value"), ("num", "Limit"), ("", "Unit"), ("", "Help")];
+    let row = |finding: &FindingRow| {
+        let law = finding.law.replace('-', " ");
+        let run = if finding.run.is_empty() { String::new() } else { format!("{}: ", finding.run) };
+        [
+            cell("Law", "name", &escape(&format!("{run}{law}"))),
+            cell("Element", "name", &format!("<code>{}</code>", escape(&finding.element))),
+            cell("Time", "num", &plot::escape_raised(&format!("{} s", short(finding.time, 9)))),
+            cell("Value", "num", &plot::escape_raised(&significant(finding.value, 3))),
+            cell("Limit", "num", &plot::escape_raised(&significant(finding.limit, 2))),
+            cell("Unit", "unit", &plot::escape_raised(&finding.unit)),
+            cell("Help", "method", &prose(&finding.help)),
+        ]
+        .concat()
+    };
+    let rows: Vec<String> = findings.iter().map(row).collect();
+    let table = table("fold", &columns, &rows);
+    if table.is_empty() { table } else { table + AUDIT_KEY }
+}
+
+const AUDIT_KEY: &str = "<p class=\"key\">Largest residual of each law over the run that exceeds what the accuracy asked for \
+                         allows. Residuals without a unit are relative to the largest force.</p>\n";
 
 /// Messages of scripts and clients, in the order of time.
 fn messages(messages: &[(String, String, String)]) -> String {

@@ -25,6 +25,8 @@ pub(crate) fn document(title: &str, class: &str, body: &str) -> String {
 pub(super) enum Outcome {
     /// It stopped at that time `[s]`.
     Stopped(f64),
+    /// So many findings of the audit; that many of so many checks fail or could not be made.
+    Found(usize, usize, usize),
     /// That many of so many checks fail or could not be made.
     Fails(usize, usize),
     /// All so many checks hold.
@@ -35,10 +37,11 @@ pub(super) enum Outcome {
 
 impl Outcome {
     /// Judges a run.
-    pub(super) fn of(checks: &[CheckRow], stop: Option<&Stop>) -> Self {
+    pub(super) fn of(checks: &[CheckRow], n_findings: usize, stop: Option<&Stop>) -> Self {
         let failed = checks.iter().filter(|check| check.verdict != CheckVerdict::Holds).count();
         match (stop.filter(|stop| !stop.is_good), failed, checks.len()) {
             (Some(stop), _, _) => Self::Stopped(stop.time),
+            (None, failed, total) if n_findings > 0 => Self::Found(n_findings, failed, total),
             (None, 0, 0) => Self::Unchecked,
             (None, 0, total) => Self::Holds(total),
             (None, failed, total) => Self::Fails(failed, total),
@@ -49,6 +52,15 @@ impl Outcome {
     pub(super) fn sentence(self) -> String {
         match self {
             Self::Stopped(time) => format!("the run stopped at t = {} s", escape_raised(&short(time, 9))),
+            Self::Found(n, failed, total) => {
+                let plural = if n == 1 { "" } else { "s" };
+                let checks = match (failed, total) {
+                    (_, 0) => String::new(),
+                    (0, total) => format!("; {}", Self::Holds(total).sentence()),
+                    (failed, total) => format!("; {}", Self::Fails(failed, total).sentence()),
+                };
+                format!("the audit has {n} finding{plural}{checks}")
+            }
             Self::Fails(1, 1) => "the check fails".into(),
             Self::Fails(failed @ 1, total) => format!("{failed} of {total} checks fails"),
             Self::Fails(failed, total) => format!("{failed} of {total} checks fail"),
@@ -63,7 +75,7 @@ impl Outcome {
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Stopped(_) => "stopped",
-            Self::Fails(..) => "fails",
+            Self::Found(..) | Self::Fails(..) => "fails",
             Self::Holds(_) => "holds",
             Self::Unchecked => "unchecked",
         }
@@ -73,7 +85,7 @@ impl Outcome {
     pub(super) fn symbol(self) -> &'static str {
         match self {
             Self::Stopped(_) => "■",
-            Self::Fails(..) => "✗",
+            Self::Found(..) | Self::Fails(..) => "✗",
             Self::Holds(_) => "✓",
             Self::Unchecked => "○",
         }
@@ -82,7 +94,7 @@ impl Outcome {
     /// The class that colours it.
     pub(super) fn class(self) -> &'static str {
         match self {
-            Self::Stopped(_) | Self::Fails(..) => "bad",
+            Self::Stopped(_) | Self::Found(..) | Self::Fails(..) => "bad",
             Self::Holds(_) => "good",
             Self::Unchecked => "plain",
         }
@@ -158,7 +170,7 @@ pub(crate) fn paragraph(class: &str, text: &str) -> String {
 }
 
 /// Escaped text in which names between backticks are set as code, as in the messages of a terminal.
-fn prose(text: &str) -> String {
+pub(super) fn prose(text: &str) -> String {
     let escaped = escape(text);
     let pieces: Vec<&str> = escaped.split('`').collect();
     if pieces.len().is_multiple_of(2) {

@@ -56,6 +56,35 @@ fn the_banner_follows_the_checks() {
     assert!(html(&Page::default()).contains("it has no checks"));
 }
 
+fn finding() -> FindingRow {
+    FindingRow {
+        run: "coarse".into(),
+        law: "loop-position".into(),
+        element: "/crank".into(),
+        time: 0.25,
+        value: 1.5e-3,
+        limit: 1e-9,
+        unit: "m".into(),
+        help: "take step = 0.001".into(),
+    }
+}
+
+#[test]
+fn a_finding_of_the_audit_leaves_no_good_banner() {
+    let mut page = page();
+    assert!(html(&page).contains("banner good") && !html(&page).contains("<h2>Audit</h2>"));
+    page.findings.push(finding());
+    let text = html(&page);
+    assert!(text.contains("banner bad") && !text.contains("banner good"));
+    assert!(text.contains("the audit has 1 finding; both checks hold"));
+    for part in ["<h2>Audit</h2>", "coarse: loop position", "/crank", "0.25 s", "take step = 0.001"] {
+        assert!(text.contains(part), "{part}");
+    }
+    let card = Card { checks: page.checks, n_findings: 1, ..Card::default() };
+    let index = index_html(&IndexPage { cards: vec![card], ..IndexPage::default() });
+    assert!(index.contains("banner bad") && index.contains("1 of 1 experiments fails"));
+}
+
 #[test]
 fn a_page_needs_nothing_from_outside() {
     let index = IndexPage { cards: vec![Card { figure: Some(figure()), ..Card::default() }], ..IndexPage::default() };
@@ -75,6 +104,14 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     page.up = Some((evil.into(), evil.into()));
     page.stop = Some(Stop { time: 0.0, reason: evil.into(), help: evil.into(), is_good: false });
     page.warnings = vec![evil.into()];
+    page.findings = vec![FindingRow {
+        run: evil.into(),
+        law: evil.into(),
+        element: evil.into(),
+        unit: evil.into(),
+        help: evil.into(),
+        ..finding()
+    }];
     page.notes = vec![evil.into()];
     page.messages = vec![(evil.into(), evil.into(), evil.into())];
     page.settings = vec![(evil.into(), evil.into())];
@@ -92,6 +129,7 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
         picture: "<svg></svg>".into(),
         figure: Some(page.figures[0].clone()),
         checks: vec![row],
+        n_findings: 0,
         stop: page.stop.clone(),
         run_time: evil.into(),
     };

@@ -25,6 +25,10 @@ use crate::overrides::Override;
 use check::{Check, Reference};
 use stop::StopWhen;
 
+/// Smallest useful accuracy of the variable-step methods: below, the rounding of double precision in a step is larger
+/// than its tolerance, and the steps become shorter without end.
+pub const SMALLEST_ACCURACY: f64 = 1e-14;
+
 /// An experiment: everything about a run but the scene.
 #[derive(Clone, Debug)]
 pub struct Experiment {

@@ -12,7 +12,7 @@ use super::file::{
 };
 use super::grid::Grid;
 use super::stop::{Side, StopWhen};
-use super::{ErrorBar, Experiment, Integrator, Plot, Sweep, Variant, path_components};
+use super::{ErrorBar, Experiment, Integrator, Plot, SMALLEST_ACCURACY, Sweep, Variant, path_components};
 use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
@@ -51,6 +51,7 @@ impl Resolver<'_> {
         self.parameter_names();
         let grid = Grid { duration: file.duration, step: file.step, record_every: file.record_every };
         let n_steps = self.steps(&grid);
+        self.accuracy();
         let simulation_ticks = self.simulation_ticks();
         let record = self.record();
         let parameters: Arc<[(String, f64)]> = file.parameters.iter().map(|(k, x)| (k.clone(), *x)).collect();
@@ -96,6 +97,15 @@ impl Resolver<'_> {
 
     fn error(&mut self, pointer: &str, message: impl Into<String>, help: impl Into<String>) {
         self.diagnostics.push(Diagnostic::error(&self.document.at(pointer), message).with_help(help));
+    }
+
+    /// Refuses an accuracy beyond double precision.
+    fn accuracy(&mut self) {
+        let accuracy = self.file.accuracy;
+        if accuracy < SMALLEST_ACCURACY {
+            let message = format!("`accuracy` is {accuracy:e}, beyond double precision");
+            self.error("/accuracy", message, format!("the smallest useful value is {SMALLEST_ACCURACY:e}"));
+        }
     }
 
     /// Base steps in a step of scripts and clients.

@@ -6,8 +6,12 @@ use std::sync::atomic::AtomicBool;
 
 use sincro_dynamics::joint::JointKind;
 
+mod audit;
 mod refine;
 
+pub use audit::audit;
+
+use crate::audit::AuditReport;
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::controller::{Change, Message};
 use crate::load::{Loaded, load};
@@ -33,6 +37,8 @@ pub struct Done {
     pub simulated: Simulated,
     /// Columns with their error bars.
     pub columns: Vec<ColumnReport>,
+    /// Its audit.
+    pub audit: AuditReport,
     /// Its checks.
     pub outcomes: Vec<Outcome>,
     /// Settings of the run.
@@ -126,7 +132,8 @@ pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     let model_hash = model_hash(&loaded.scene.model);
     let controller = loaded.controller.clone();
     let view = SceneView::new(&loaded.scene);
-    let main = Done { simulated, columns, outcomes, settings, model_hash, controller, view };
+    let audit = audit(loaded, &simulated, None);
+    let main = Done { simulated, columns, audit, outcomes, settings, model_hash, controller, view };
     let report = report(folder, loaded, &main, &[], None);
     Campaign { main, variants: Vec::new(), sweep: None, report }
 }
@@ -147,10 +154,11 @@ fn one_run(
     let mut tell = |share: f64| progress(words, share);
     let mut monitor = RunMonitor { interrupt, progress: &mut tell };
     let simulated = simulate(loaded, RunOptions { csv, variant, refined: false, keyframes: true }, &mut monitor)?;
-    let columns = match simulated.status {
+    let (columns, finer) = match simulated.status {
         Status::Completed => refine::columns(loaded, &simulated, &mut monitor)?,
-        _ => ColumnReport::of_table(&simulated.table),
+        _ => (ColumnReport::of_table(&simulated.table), None),
     };
+    let audit = audit(loaded, &simulated, finer.as_ref());
     let stopped = simulated.status.stopped_at();
     let outcomes = match variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) {
         None => evaluate(&experiment.checks, &simulated.table, stopped),
@@ -167,7 +175,7 @@ fn one_run(
     let model_hash = model_hash(&scene.model);
     let controller = loaded.controller.clone();
     let view = SceneView::new(scene);
-    Ok(Done { simulated, columns, outcomes, settings, model_hash, controller, view })
+    Ok(Done { simulated, columns, audit, outcomes, settings, model_hash, controller, view })
 }
 
 fn settings(experiment: &Experiment, run: &Simulated) -> Settings {
@@ -193,13 +201,15 @@ fn run_sweep(
 ) -> Result<(Sweep, Vec<Outcome>), RunError> {
     let n = plan.values.len();
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
-    let point = |value: f64| -> Result<Simulated, RunError> {
+    let point = |value: f64| -> Result<(Simulated, AuditReport), RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
         let at = load(folder, &settings, loaded.extensions)?;
-        simulate(&at, RunOptions::default(), &mut RunMonitor { interrupt, progress: &mut |_| {} })
+        let run = simulate(&at, RunOptions::default(), &mut RunMonitor { interrupt, progress: &mut |_| {} })?;
+        let audit = audit(&at, &run, None);
+        Ok((run, audit))
     };
     let next = std::sync::atomic::AtomicUsize::new(0);
-    let mut points: Vec<Option<Result<Simulated, RunError>>> = (0..n).map(|_| None).collect();
+    let mut points: Vec<Option<Result<(Simulated, AuditReport), RunError>>> = (0..n).map(|_| None).collect();
     std::thread::scope(|scope| {
         let worker = || {
             let take = || next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
@@ -222,8 +232,10 @@ fn run_sweep(
     let unit = parameter_unit(&loaded.scene, &plan.parameter.value);
     let signals: Vec<(&str, &str)> = Vec::new();
     let mut sweep = Sweep::new(&plan.parameter.value, unit, signals, n);
+    let mut audits = Vec::with_capacity(n);
     for (k, result) in points.into_iter().enumerate() {
-        let run = result.expect("every point was run")?;
+        let (run, audit) = result.expect("every point was run")?;
+        audits.push((format!("{} = {}", plan.parameter.value, plan.values[k]), audit));
         if k == 0 {
             let columns =
                 run.table.columns[..n_recorded(&run)].iter().skip(1).map(|c| (c.name.as_str(), c.unit.as_str()));
@@ -241,6 +253,7 @@ fn run_sweep(
             Status::Interrupted { time, .. } => sweep.push_stopped(plan.values[k], *time, "interrupted"),
         }
     }
+    sweep.audit = AuditReport::worst(audits);
     let outcomes = evaluate_sweep(&loaded.experiment.sweep.as_ref().map_or(Vec::new(), |s| s.checks.clone()), &sweep);
     Ok((sweep, outcomes))
 }
@@ -288,6 +301,7 @@ fn report(
         n_dof: loaded.scene.model.n_v(),
         columns: main.columns.clone(),
         energy: Some(main.simulated.energy),
+        audit: main.audit.clone(),
         checks: main.outcomes.iter().map(CheckReport::from).collect(),
         sweep: sweep.map(|(sweep, outcomes)| SweepReport::new(sweep, outcomes)),
         variants: variants.iter().map(variant_report).collect(),
@@ -325,6 +339,7 @@ fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {
         trace_hash: done.simulated.trace.to_string(),
         columns: done.columns.clone(),
         energy: Some(done.simulated.energy),
+        audit: done.audit.clone(),
         checks: done.outcomes.iter().map(CheckReport::from).collect(),
         outside_theory: done.simulated.outside.iter().map(Into::into).collect(),
         warnings: done.simulated.warnings.clone(),

@@ -2,53 +2,101 @@
 //! one.
 //!
 //! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a
-//! method estimates of itself.
+//! method estimates of itself. The bar of an energy is never below the largest energy balance, which is an error of the
+//! run whatever a finer one says. Where the finer run cannot halve the step of scripts, which is part of the error,
+//! there are no bars.
 
 use sincro_dynamics::world::MethodKind;
 
 use crate::load::Loaded;
-use crate::results::ColumnReport;
-use crate::run::{FINER, RunError, RunMonitor, RunOptions, Simulated, simulate};
+use crate::results::{ColumnReport, Status};
+use crate::run::{RunError, RunMonitor, RunOptions, Simulated, finer_accuracy, simulate};
 use sincro_scene::experiment::ErrorBar;
 
-/// The recorded columns with their error bars.
+/// The recorded columns with their error bars, and the finer run if there was one.
 pub(super) fn columns(
     loaded: &Loaded,
     run: &Simulated,
     monitor: &mut RunMonitor<'_>,
-) -> Result<Vec<ColumnReport>, RunError> {
+) -> Result<(Vec<ColumnReport>, Option<Simulated>), RunError> {
     let mut columns = ColumnReport::of_table(&run.table);
     if loaded.experiment.error_bar == ErrorBar::None {
-        return Ok(columns);
+        return Ok((columns, None));
     }
-    let finer = simulate(loaded, RunOptions { refined: true, ..RunOptions::default() }, monitor)?;
-    let (factor, method) = estimate(run.method);
+    columns[0].error_bar_method = "exact: tick times step".into();
+    let Some(finer) = finer_run(loaded, monitor)? else {
+        let reason = "not estimated: scripts act once a step, which a finer run cannot halve; with an even number of base \
+                      steps as `simulation_step` it can";
+        without_bars(&mut columns, reason);
+        return Ok((columns, None));
+    };
+    if !finer.status.is_good() {
+        let reason = if let Status::Stopped { reason, .. } = &finer.status { reason } else { "it was interrupted" };
+        without_bars(&mut columns, &format!("not estimated: the finer run stopped: {reason}"));
+        return Ok((columns, Some(finer)));
+    }
+    let (factor, mut method) = estimate(run.method, loaded.experiment.accuracy);
+    if !loaded.scene.scripts.is_empty() {
+        method += "; step of scripts halved";
+    }
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
         // a script may have made another stream in the finer run
         let Some(fine) = finer.table.column(&column.path).map(|c| &c.values) else { continue };
-        let coarse = &run.table.columns[k].values;
-        let worst = coarse.iter().zip(fine).fold(0.0_f64, |worst, (a, b)| {
-            // where both have no value, such as a signal that no script has set yet, they agree
-            let difference = if a.is_nan() && b.is_nan() { 0.0 } else { (a - b).abs() };
-            if difference.is_nan() { f64::INFINITY } else { worst.max(difference) }
-        });
-        column.error_bar = Some(factor * worst);
-        column.error_bar_method.clone_from(&method);
+        let bar = factor * largest_difference(&run.table.columns[k].values, fine);
+        let balance = if column.path.starts_with("energy.") { run.energy.residual } else { 0.0 };
+        column.error_bar = Some(bar.max(balance));
+        column.error_bar_method = if balance > bar {
+            format!("largest energy balance; by a finer run {bar:.1e}: {method}")
+        } else {
+            method.clone()
+        };
     }
-    columns[0].error_bar_method = "exact: tick times step".into();
-    Ok(columns)
+    Ok((columns, Some(finer)))
+}
+
+/// The finer run; none if it cannot halve the step of scripts.
+fn finer_run(loaded: &Loaded, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
+    let options = RunOptions { refined: true, ..RunOptions::default() };
+    if loaded.scene.scripts.is_empty() {
+        return simulate(loaded, options, monitor).map(Some);
+    }
+    let ticks = loaded.experiment.simulation_ticks;
+    if !ticks.is_multiple_of(2) {
+        return Ok(None);
+    }
+    let mut halved = loaded.clone();
+    halved.experiment.simulation_ticks = ticks / 2;
+    simulate(&halved, options, monitor).map(Some)
+}
+
+fn without_bars(columns: &mut [ColumnReport], reason: &str) {
+    columns.iter_mut().skip(1).for_each(|column| column.error_bar_method = reason.to_owned());
+}
+
+fn largest_difference(coarse: &[f64], fine: &[f64]) -> f64 {
+    coarse.iter().zip(fine).fold(0.0_f64, |worst, (a, b)| {
+        // where both have no value, such as a signal that no script has set yet, they agree
+        let difference = if a.is_nan() && b.is_nan() { 0.0 } else { (a - b).abs() };
+        if difference.is_nan() { f64::INFINITY } else { worst.max(difference) }
+    })
+}
+
+/// Factor on the difference from a finer run that estimates the error of a run by this method.
+pub(super) fn error_bar_factor(method: MethodKind, accuracy: f64) -> f64 {
+    estimate(method, accuracy).0
 }
 
 /// Factor on the difference, and the estimate in words.
-fn estimate(method: MethodKind) -> (f64, String) {
+fn estimate(method: MethodKind, accuracy: f64) -> (f64, String) {
     let order = match method {
         MethodKind::SemiImplicitEuler => 1,
         MethodKind::Implicit => 2,
         MethodKind::Rk4 => 4,
         MethodKind::DormandPrince | MethodKind::Stiff => {
-            let words = format!("tolerance tightened {FINER}-fold: largest difference from that run");
-            return (FINER / (FINER - 1.0), words);
+            let finer = accuracy / finer_accuracy(accuracy);
+            let words = format!("tolerance tightened {finer:.0}-fold: largest difference from that run");
+            return (finer / (finer - 1.0), words);
         }
     };
     let power = f64::from(1 << order);

@@ -10,6 +10,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::audit::{AuditReport, Finding};
 use crate::check::{Outcome, Verdict};
 use crate::file::{self, FileError};
 use crate::sweep::Sweep;
@@ -42,6 +43,9 @@ pub struct RunReport {
     pub columns: Vec<ColumnReport>,
     /// The balance of energy.
     pub energy: Option<EnergyReport>,
+    /// Audit of the main run.
+    #[serde(default)]
+    pub audit: AuditReport,
     /// Checks with their measured values.
     pub checks: Vec<CheckReport>,
     /// The static characteristic, if the experiment has one.
@@ -324,6 +328,9 @@ pub struct SweepReport {
     pub columns: Vec<ColumnReport>,
     /// The runs that stopped.
     pub stops: Vec<SweepStopReport>,
+    /// Audit of its runs: of each law the worst value.
+    #[serde(default)]
+    pub audit: AuditReport,
     /// Checks with their measured values.
     pub checks: Vec<CheckReport>,
 }
@@ -354,6 +361,7 @@ impl SweepReport {
             n_runs: sweep.values.len(),
             columns: sweep.columns.iter().map(|c| ColumnReport::without_error_bar(&c.name, &c.unit)).collect(),
             stops: stops.collect(),
+            audit: sweep.audit.clone(),
             checks: outcomes.iter().map(CheckReport::from).collect(),
         }
     }
@@ -378,6 +386,9 @@ pub struct VariantReport {
     pub columns: Vec<ColumnReport>,
     /// The balance of energy.
     pub energy: Option<EnergyReport>,
+    /// Its audit.
+    #[serde(default)]
+    pub audit: AuditReport,
     /// Checks with their measured values.
     pub checks: Vec<CheckReport>,
     /// Rotors outside the validity of their theory; left out if there are none.
@@ -405,6 +416,20 @@ impl ColumnReport {
 }
 
 impl RunReport {
+    /// Audits of all runs: of the main run, of the sweep, of each variant.
+    pub fn audits(&self) -> impl Iterator<Item = &AuditReport> {
+        let sweep = self.sweep.iter().map(|sweep| &sweep.audit);
+        [&self.audit].into_iter().chain(sweep).chain(self.variants.iter().map(|variant| &variant.audit))
+    }
+
+    /// Findings of all runs, each with the name of its run; empty for the main run.
+    pub fn findings(&self) -> impl Iterator<Item = (&str, &Finding)> {
+        let sweep = self.sweep.iter().map(|sweep| ("sweep", &sweep.audit));
+        let variants = self.variants.iter().map(|variant| (variant.name.as_str(), &variant.audit));
+        let audits = std::iter::once(("", &self.audit)).chain(sweep).chain(variants);
+        audits.flat_map(|(run, audit)| audit.findings.iter().map(move |finding| (run, finding)))
+    }
+
     /// The file's text.
     #[must_use]
     pub fn to_json(&self) -> String {

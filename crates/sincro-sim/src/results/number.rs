@@ -2,19 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::Serialize;
 
-use super::{CheckReport, ColumnReport, EnergyReport, RunReport};
+use super::{AuditReport, CheckReport, ColumnReport, EnergyReport, RunReport};
 
-/// For `#[serde(with = "number")]`: null where the number is not finite.
-pub(super) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    value.is_finite().then_some(*value).serialize(serializer)
-}
-
-/// For `#[serde(with = "number")]`: NaN where there is null.
-pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
-}
+pub(super) use crate::number::{deserialize, serialize};
 
 /// The report, and by JSON pointer what its nulls were.
 #[derive(Serialize)]
@@ -44,13 +36,16 @@ impl Found {
         self.number("", "wall_time_s", report.wall_time_s);
         self.number("", "real_time_factor", report.real_time_factor);
         self.part("", &report.columns, report.energy.as_ref(), &report.checks);
+        self.audit("/audit", &report.audit);
         if let Some(sweep) = &report.sweep {
             self.part("/sweep", &sweep.columns, None, &sweep.checks);
+            self.audit("/sweep/audit", &sweep.audit);
         }
         for (k, variant) in report.variants.iter().enumerate() {
             let at = format!("/variants/{k}");
             self.number(&at, "wall_time_s", variant.wall_time_s);
             self.part(&at, &variant.columns, variant.energy.as_ref(), &variant.checks);
+            self.audit(&format!("{at}/audit"), &variant.audit);
         }
     }
 
@@ -66,6 +61,16 @@ impl Found {
             self.option(&at, "measured", check.measured);
             self.option(&at, "expected", check.expected);
             self.option(&at, "deviation", check.deviation);
+        }
+    }
+
+    fn audit(&mut self, at: &str, audit: &AuditReport) {
+        for (list, findings) in [("findings", &audit.findings), ("laws", &audit.laws)] {
+            for (k, finding) in findings.iter().enumerate() {
+                let at = format!("{at}/{list}/{k}");
+                self.number(&at, "value", finding.value);
+                self.number(&at, "limit", finding.limit);
+            }
         }
     }
 

@@ -60,6 +60,7 @@ fn report() -> RunReport {
         n_dof: 1,
         columns: vec![ColumnReport::without_error_bar("t", "s")],
         energy: Some(energy()),
+        audit: AuditReport::default(),
         checks: vec![check()],
         sweep: None,
         variants: Vec::new(),
@@ -159,6 +160,15 @@ fn every_number_of_variants_and_sweep_is_looked_at() {
         trace_hash: String::new(),
         columns: vec![column.clone()],
         energy: None,
+        audit: AuditReport::of(vec![Finding {
+            law: "loop-position".into(),
+            element: "/loop".into(),
+            time: 0.5,
+            value: f64::NAN,
+            limit: 1e-9,
+            unit: "m".into(),
+            help: String::new(),
+        }]),
         checks: vec![bad.clone()],
         outside_theory: Vec::new(),
         warnings: Vec::new(),
@@ -170,7 +180,13 @@ fn every_number_of_variants_and_sweep_is_looked_at() {
     let keys: Vec<&String> = json["not_finite"].as_object().unwrap().keys().collect();
     assert_eq!(
         keys,
-        ["/sweep/checks/0/deviation", "/variants/0/checks/0/deviation", "/variants/0/columns/0/error_bar"]
+        [
+            "/sweep/checks/0/deviation",
+            "/variants/0/audit/findings/0/value",
+            "/variants/0/audit/laws/0/value",
+            "/variants/0/checks/0/deviation",
+            "/variants/0/columns/0/error_bar"
+        ]
     );
 }
 

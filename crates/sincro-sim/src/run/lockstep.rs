@@ -191,11 +191,13 @@ impl LockStep {
     /// Brings everything to rest where it is.
     pub fn stop(&mut self) {
         self.world.state.v.fill(0.0);
+        self.world.mark_changed();
     }
 
     /// Puts the world into another state, and the diagram's continuous states with it (none to leave them).
     pub fn place(&mut self, state: State<f64>, continuous: &[f64]) {
         self.world.state = state;
+        self.world.mark_changed();
         if let Some(control) = &mut self.control
             && !continuous.is_empty()
         {
@@ -443,6 +445,7 @@ impl LockStep {
     /// Goes back to a snapshot of the same scene and diagram.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.world.state = snapshot.state.clone();
+        self.world.mark_changed();
         if let Some(control) = snapshot.control {
             self.world.set_control(control);
         }

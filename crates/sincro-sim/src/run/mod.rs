@@ -20,6 +20,7 @@ use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{MethodKind, StepStatistics, World};
 
+use crate::audit::Finding;
 use crate::trace::Trace;
 use crate::validity::Outside;
 pub use lockstep::{Halt, LockStep};
@@ -42,7 +43,9 @@ const SLOW_FROM: f64 = 20.0;
 /// Pole times step above which a method that takes a feedback at the old state diverges.
 const EULER_LIMIT: f64 = 1.0;
 /// Refinement of the second run of an error estimate: fixed steps halved, tolerance divided by this.
-pub(crate) const FINER: f64 = 100.0;
+const FINER: f64 = 100.0;
+/// Smallest tolerance of that run: beyond, `stiff` makes ever shorter steps.
+const FINEST: f64 = 1e-15;
 
 /// Result of a single run.
 #[derive(Clone, Debug)]
@@ -59,6 +62,12 @@ pub struct Simulated {
     pub trajectory: Option<Trajectory>,
     /// The balance of energy.
     pub energy: EnergyReport,
+    /// Laws of the mechanism and the solver, each with its worst value.
+    pub laws: Vec<Finding>,
+    /// Energy balance of each recorded row `[J]`.
+    pub balances: Vec<f64>,
+    /// Largest energy that entered the balance `[J]`.
+    pub energy_scale: f64,
     /// Sub-steps and events.
     pub effort: StepStatistics,
     /// Rotors outside the validity of their theory.
@@ -263,12 +272,17 @@ pub fn world_of(scene: &Scene, experiment: &Experiment, kind: MethodKind, refine
 
 /// A world with room for `n_states` continuous states of a diagram, its drives not settled yet.
 fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, refined: bool, n_states: usize) -> World {
-    let accuracy = if refined { experiment.accuracy / FINER } else { experiment.accuracy };
+    let accuracy = if refined { finer_accuracy(experiment.accuracy) } else { experiment.accuracy };
     let first_step = (experiment.step * 0.1).min(1e-3);
     let (model, control) = ((*scene.model).clone(), Control::new(accuracy, first_step));
     let mut world = World::with_attachment(model, scene.initial.clone(), kind, control, true, n_states);
     world.set_substeps(if refined { 2 } else { 1 });
     world
+}
+
+/// Tolerance of the finer run of an error estimate.
+pub(crate) fn finer_accuracy(accuracy: f64) -> f64 {
+    (accuracy / FINER).max(FINEST)
 }
 
 /// Runs an experiment once, without its variants, sweep and checks.

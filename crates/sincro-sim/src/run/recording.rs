@@ -8,6 +8,7 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 use super::bounds::Bounds;
 use super::lockstep::LockStep;
 use super::{RunError, RunOptions, Simulated};
+use crate::audit::LawAudit;
 use crate::file::FileError;
 use crate::load::Loaded;
 use crate::replay::Trajectory;
@@ -16,6 +17,7 @@ use crate::table::{CsvWriter, Table};
 use crate::trace::Trace;
 use crate::validity;
 use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::Experiment;
 use sincro_scene::record::Recorder;
 
 use super::streams::Streams;
@@ -31,6 +33,8 @@ pub struct Recording {
     trajectory: Option<Trajectory>,
     validity: validity::Register,
     ledger: Ledger,
+    audit: LawAudit,
+    experiment: Experiment,
     trace: Trace,
     record_every: u64,
     /// The last tick that is recorded: a session may last longer than its experiment, its memory may not grow.
@@ -56,7 +60,7 @@ impl Recording {
         let trajectory = options.keyframes.then(|| Trajectory::new(&scene.model, experiment));
         let validity = validity::Register::new(&scene.model);
         let clock = Instant::now();
-        let (ledger, trace) = (Ledger::start(lockstep.world()), lockstep.trace());
+        let (ledger, trace) = (Ledger::start(lockstep.world(), rows as usize), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
         let streams = Streams::new(options.csv, rows as usize);
         Ok(Self {
@@ -68,6 +72,8 @@ impl Recording {
             trajectory,
             validity,
             ledger,
+            audit: LawAudit::default(),
+            experiment: experiment.clone(),
             trace,
             record_every,
             last_tick,
@@ -88,7 +94,7 @@ impl Recording {
     /// The CSV file cannot be written.
     pub fn start(&mut self, lockstep: &mut LockStep) -> Result<Option<String>, FileError> {
         // scripts may have changed what the run starts with
-        self.ledger = Ledger::start(lockstep.world());
+        self.ledger = Ledger::start(lockstep.world(), self.ledger.balances.capacity());
         let end = self.publish(lockstep, true)?;
         self.record_keyframe(lockstep, false);
         Ok(end)
@@ -105,6 +111,7 @@ impl Recording {
         lockstep.add_to(&mut self.trace);
         let (tick, t) = (lockstep.tick(), lockstep.t());
         self.validity.update(lockstep.world(), t);
+        self.audit.tick(lockstep.world(), t);
         if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
             end = self.publish(lockstep, false)?;
         }
@@ -123,6 +130,7 @@ impl Recording {
         let t = lockstep.t();
         let (seen, signals) = lockstep.observe(t);
         self.ledger.update(&seen);
+        self.audit.observe(&seen, t);
         let row = self.recorder.row(&seen, signals, t, is_start);
         self.table.push_row(row);
         self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
@@ -142,7 +150,7 @@ impl Recording {
         method: MethodKind,
         mut warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
-        let Self { mut table, csv, streams, trajectory, validity, ledger, trace, clock, .. } = self;
+        let Self { mut table, csv, streams, trajectory, validity, ledger, audit, experiment, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let n_streams = streams.finish(lockstep.controllers_mut(), &mut table)?;
         let wall_time = clock.elapsed().as_secs_f64();
@@ -150,6 +158,7 @@ impl Recording {
         warnings.extend(lockstep.notices());
         let world = lockstep.world();
         let (energy, effort) = (ledger.close(world), world.statistics());
+        let laws = audit.close(world, &experiment, method);
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
         warnings.extend(about_constraints(world));
@@ -165,6 +174,9 @@ impl Recording {
             trace,
             trajectory,
             energy,
+            laws,
+            balances: ledger.balances,
+            energy_scale: ledger.scale,
             effort,
             outside,
             warnings,
@@ -199,18 +211,27 @@ struct Ledger {
     start: (f64, f64),
     worst: f64,
     last: (f64, f64),
+    /// Balance of each row.
+    balances: Vec<f64>,
+    /// Largest energy so far.
+    scale: f64,
 }
 
 impl Ledger {
-    fn start(world: &mut World) -> Self {
+    /// For at most `rows` rows.
+    fn start(world: &mut World, rows: usize) -> Self {
         let e = world.observe(0.0).energy();
-        Self { start: (e.kinetic, e.potential), worst: 0.0, last: (e.kinetic, e.potential) }
+        let (start, balances) = ((e.kinetic, e.potential), Vec::with_capacity(rows));
+        Self { start, worst: 0.0, last: start, balances, scale: 0.0 }
     }
 
     fn update(&mut self, seen: &Observation<'_>) {
         let (e, totals) = (seen.energy(), &seen.state.totals);
         let balance = e.total() - (self.start.0 + self.start.1) - totals[0] + totals[1];
         self.worst = self.worst.max(balance.abs());
+        self.balances.push(balance);
+        let energies = [e.kinetic, e.potential, totals[0], totals[1]];
+        self.scale = energies.iter().fold(self.scale, |scale, x| scale.max(x.abs()));
         self.last = (e.kinetic, e.potential);
     }
 

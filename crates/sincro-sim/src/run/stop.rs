@@ -6,6 +6,7 @@ use sincro_dynamics::world::{MethodKind, Stop, World};
 
 use super::lockstep::{Halt, LockStep};
 use super::method_word;
+use crate::audit::finer_steps;
 use crate::controller::NotFinite;
 use crate::results::Status;
 use sincro_scene::experiment::Experiment;
@@ -78,17 +79,17 @@ fn explain(
         let help = "its closed form has no root there; take `blade` in place of `printed`: the corrected model is finite everywhere";
         return Status::Stopped { tick, time, reason, help: help.to_owned() };
     }
-    let suspect = suspect(world);
+    let suspect = suspect(world, experiment, method);
     let reason = format!("{what} in tick {tick} at t = {time:.6} s; {}", suspect.0);
     let help = help(world, experiment, method).unwrap_or(suspect.1);
     Status::Stopped { tick, time, reason, help }
 }
 
 /// The fastest joint of the last finite state, and general advice.
-fn suspect(world: &World) -> (String, String) {
+fn suspect(world: &World, experiment: &Experiment, method: MethodKind) -> (String, String) {
     let v = &world.state.v;
     let fastest = (0..v.len()).max_by(|a, b| v[*a].abs().total_cmp(&v[*b].abs()));
-    let advice = "look for a torque without limit, or take a smaller step or integrator = \"auto\"".to_owned();
+    let advice = format!("look for a torque without limit, or {}", finer_steps(experiment, method));
     match fastest {
         Some(k) => {
             (format!("joint `{}` was fastest, with a rate of {:.3e}", world.model().names().dof_name(k), v[k]), advice)

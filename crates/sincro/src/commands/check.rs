@@ -9,10 +9,11 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
 use sincro_scene::scene::{Mobility, Model, Object, ObjectKind, Scene};
 use sincro_scene::script::Kind;
+use sincro_sim::audit::source_findings;
 use sincro_sim::run::{method_for, method_word};
 use sincro_sim::trace::model_hash;
 
-use super::console::{degrees, short};
+use super::console::{degrees, print_findings, short};
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
@@ -44,7 +45,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         }
     }
     diagnostics::print_diagnostics(&loaded.warnings);
-    Exit::Holds
+    let findings = source_findings(&loaded);
+    print_findings("", findings.iter().map(|finding| ("", finding)));
+    if findings.is_empty() { Exit::Holds } else { Exit::Fails }
 }
 
 fn print(loaded: &Loaded) {

@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sincro::Loaded;
 use sincro_figures::plot::number::{self, significant};
 use sincro_scene::experiment::check::Sense;
+use sincro_sim::audit::Finding;
 use sincro_sim::campaign::Campaign;
 use sincro_sim::controller::Message;
 use sincro_sim::results::{CheckReport, RunReport, Status, VerdictReport};
@@ -78,6 +79,7 @@ pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
         print_checks("  ", &variant.checks);
     }
     print_error_bars(report);
+    print_findings("  ", report.findings());
     say!("{}", verdict_line(report));
     say!(
         "  trace {}   wall time {} s, {} times real time",
@@ -171,6 +173,25 @@ fn spaced(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
+/// Findings of the audit, each with the name of its run, and the settings that would help.
+pub(crate) fn print_findings<'a>(indent: &str, findings: impl Iterator<Item = (&'a str, &'a Finding)>) {
+    for (run, finding) in findings {
+        let run = if run.is_empty() { String::new() } else { format!("{run}: ") };
+        let unit = spaced(&finding.unit);
+        say!(
+            "{indent}audit: {run}{} of {} is {}{unit} at t = {} s, allowed {}{unit}",
+            finding.law.replace('-', " "),
+            finding.element,
+            significant(finding.value, 3),
+            short(finding.time),
+            significant(finding.limit, 2)
+        );
+        if !finding.help.is_empty() {
+            say!("{indent}  help: {}", finding.help);
+        }
+    }
+}
+
 fn print_error_bars(report: &RunReport) {
     let worst = |unit: &str| {
         let bars = report.columns.iter().filter(|c| c.unit == unit).filter_map(|c| c.error_bar);
@@ -192,8 +213,16 @@ fn print_error_bars(report: &RunReport) {
     }
 }
 
-/// `all 22 checks hold`, or how many do not.
+/// `all 22 checks hold`, or how many do not; and the number of findings of the audit.
 pub(crate) fn verdict_line(report: &RunReport) -> String {
+    let checks = checks_line(report);
+    match report.findings().count() {
+        0 => checks,
+        n => format!("the audit has {}; {checks}", count(n, "finding")),
+    }
+}
+
+fn checks_line(report: &RunReport) -> String {
     let checks: Vec<&CheckReport> = report
         .checks
         .iter()

@@ -53,6 +53,14 @@ impl Block for Chirp {
         if t + SAME_INSTANT < self.duration { self.duration } else { f64::INFINITY }
     }
 
+    fn highest_frequency(&self, until: f64, _: bool) -> f64 {
+        if self.amplitude == 0.0 {
+            return 0.0;
+        }
+        let reached = self.from_hz + (self.to_hz - self.from_hz) * (until / self.duration).min(1.0);
+        self.from_hz.abs().max(reached.abs())
+    }
+
     fn label(&self) -> String {
         format!("{} … {} Hz", short(self.from_hz), short(self.to_hz))
     }

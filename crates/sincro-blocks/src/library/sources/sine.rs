@@ -67,6 +67,12 @@ impl Block for Sine {
         }
     }
 
+    fn highest_frequency(&self, _: f64, _: bool) -> f64 {
+        let n = self.omega.len().max(self.amplitude.len());
+        let sounding = (0..n).filter(|i| of(&self.amplitude, *i) != 0.0);
+        sounding.map(|i| of(&self.omega, i).abs() / TAU).fold(0.0, f64::max)
+    }
+
     fn label(&self) -> String {
         let wave = format!("sin({}·t)", short_list(&self.omega));
         if self.amplitude == [1.0] { wave } else { format!("{}·{wave}", short_list(&self.amplitude)) }

@@ -191,4 +191,13 @@ impl Block for Table {
             None => f64::INFINITY,
         }
     }
+
+    /// Frequency of the component that turns fastest; between ticks its corners are time events.
+    fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
+        if !is_sampled {
+            return 0.0;
+        }
+        let of = |i| sincro_math::series::highest_frequency(&self.times, |k| self.values.at(k, i), until);
+        (0..self.values.columns).map(of).fold(0.0, f64::max)
+    }
 }

@@ -1,0 +1,335 @@
+//! Residuals of the laws of a mechanism at an observed instant: constraints, drives, contacts, finiteness of the state.
+//!
+//! | law | residual | scale |
+//! |---|---|---|
+//! | [`Law::Finiteness`] | numbers of state and accelerations that are not finite | 1 |
+//! | [`Law::LoopPosition`] | \|g\| of each row of a loop joint or gear `[m]`, `[rad]` | see below |
+//! | [`Law::LoopVelocity`] | \|J q̇\| of each such row [m/s], [rad/s] | max(1, \|q̇\|), for lengths times max(1, \|p\|) |
+//! | [`Law::JointLimit`] | distance beyond a joint limit `[m]`, `[rad]` | max(1, \|bound\|) |
+//! | [`Law::Penetration`] | depth of a rigid contact `[m]` | max(1, \|p\|) |
+//! | [`Law::NormalForce`] | −λₙ of a contact or joint limit, relative to the largest force (dimensionless) | 1 |
+//! | [`Law::FrictionCone`] | ‖λ_t‖ − μ λₙ, relative to the largest force (dimensionless) | 1 |
+//! | [`Law::DriveVelocity`] | \|v − v*\| of a locked drive [rad/s], [m/s] | max(1, \|q̇\|) |
+//! | [`Law::DriveMode`] | speed by which a saturated drive has passed its target velocity [rad/s], [m/s] | max(1, \|q̇\|) |
+//! | [`Law::DriveForce`] | \|τ\| − τ_max of a locked drive, relative to τ_max plus the largest reaction | 1 |
+//!
+//! Loops have the scale max(1, \|p\|) for lengths and 1 for axes, gears max(1, \|q₁\|, \|q₂\|).
+//! \|p\| is the largest distance of a link from the world's origin. The scales are those of the local error that error
+//! control allows, max(\|y\|, 1), so that a tolerance times a scale is the largest residual that an accuracy allows.
+//!
+//! Drives are audited at the end of a tick only, under the target velocities of that tick; their forces not where an
+//! input jumps at that instant, since a drive changes its mode at the start of the next tick.
+
+use super::Observation;
+use crate::constraint::{Constraints, pair_of};
+use crate::joint::StageKind;
+use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::state::State;
+
+/// Law of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Law {
+    /// State and accelerations are finite.
+    Finiteness,
+    /// Loop joints and gears are closed.
+    LoopPosition,
+    /// Loop joints and gears are closed at velocity level.
+    LoopVelocity,
+    /// Joint limits are not passed.
+    JointLimit,
+    /// Rigid surfaces do not penetrate each other.
+    Penetration,
+    /// Contacts and joint limits push, they do not pull.
+    NormalForce,
+    /// Friction forces lie within their cones.
+    FrictionCone,
+    /// A locked drive moves at its target velocity.
+    DriveVelocity,
+    /// A saturated drive pushes in the direction of its velocity error.
+    DriveMode,
+    /// A locked drive needs no more than its limit.
+    DriveForce,
+}
+
+impl Law {
+    /// All laws.
+    pub const ALL: [Self; 10] = [
+        Self::Finiteness,
+        Self::LoopPosition,
+        Self::LoopVelocity,
+        Self::JointLimit,
+        Self::Penetration,
+        Self::NormalForce,
+        Self::FrictionCone,
+        Self::DriveVelocity,
+        Self::DriveMode,
+        Self::DriveForce,
+    ];
+}
+
+/// Element that a law belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawElement {
+    /// Loop joint of this index.
+    LoopJoint(usize),
+    /// Gear of this index.
+    Gear(usize),
+    /// Joint limit of this index.
+    Limit(usize),
+    /// Pair of surfaces of this index.
+    Pair(usize),
+    /// Drive of this index.
+    Drive(usize),
+    /// Degree of freedom.
+    Dof(usize),
+    /// Sums over the whole mechanism, such as its totals.
+    Mechanism,
+}
+
+impl LawElement {
+    /// Name of the element in the words of the user.
+    #[must_use]
+    pub fn name(self, model: &Model<f64>) -> String {
+        let (set, names) = (model.constraints(), model.names());
+        match self {
+            Self::LoopJoint(k) => set.loop_joints[k].name.clone(),
+            Self::Gear(k) => set.gears[k].name.clone(),
+            Self::Limit(k) => names.dof_name(set.limits[k].dof).to_owned(),
+            Self::Pair(k) => {
+                let pair = &set.pairs[k];
+                format!("{} on {}", set.colliders[pair.a].name, set.colliders[pair.b].name)
+            }
+            Self::Drive(k) => names.dof_name(model.drives()[k].dof).to_owned(),
+            Self::Dof(k) => names.dof_name(k).to_owned(),
+            Self::Mechanism => "/".to_owned(),
+        }
+    }
+}
+
+/// Kind of quantity of a residual, which gives its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResidualKind {
+    /// `[m]`
+    Length,
+    /// `[rad]`
+    Angle,
+    /// [m/s]
+    Speed,
+    /// [rad/s]
+    AngularSpeed,
+    /// Relative to a largest force, or a count.
+    Dimensionless,
+}
+
+impl ResidualKind {
+    /// The unit in writing; empty for a dimensionless residual.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Angle => "rad",
+            Self::Speed => "m/s",
+            Self::AngularSpeed => "rad/s",
+            Self::Dimensionless => "",
+        }
+    }
+}
+
+/// Worst residual of one law at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LawResidual {
+    /// The residual; zero or less where the law holds exactly.
+    pub value: f64,
+    /// Scale that a tolerance is multiplied by.
+    pub scale: f64,
+    /// Quantity of the residual.
+    pub kind: ResidualKind,
+    /// Element of the residual.
+    pub element: LawElement,
+}
+
+impl LawResidual {
+    /// Residual over scale: what a tolerance is compared with. A residual that is not a number is infinite.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        let share = self.value / self.scale;
+        if share.is_nan() { f64::INFINITY } else { share }
+    }
+}
+
+/// Worst residual of each law at one instant; none where nothing is subject to a law.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LawResiduals {
+    worst: [Option<LawResidual>; Law::ALL.len()],
+}
+
+impl LawResiduals {
+    /// Worst residual of a law.
+    #[must_use]
+    pub fn get(&self, law: Law) -> Option<&LawResidual> {
+        self.worst[law as usize].as_ref()
+    }
+
+    /// All laws that something is subject to, with their worst residuals.
+    pub fn iter(&self) -> impl Iterator<Item = (Law, &LawResidual)> {
+        Law::ALL.into_iter().filter_map(|law| Some((law, self.get(law)?)))
+    }
+
+    fn add(&mut self, law: Law, value: f64, scale: f64, kind: ResidualKind, element: LawElement) {
+        let new = LawResidual { value, scale, kind, element };
+        let worst = &mut self.worst[law as usize];
+        if worst.is_none_or(|known| new.relative() > known.relative()) {
+            *worst = Some(new);
+        }
+    }
+}
+
+/// Magnitudes of a state, which residuals are compared with.
+struct Scales {
+    length: f64,
+    speed: f64,
+    linear_speed: f64,
+}
+
+impl Scales {
+    fn of(v: &[f64], scratch: &Scratch<f64>) -> Self {
+        let length = scratch.poses.iter().map(|pose| pose.pos.norm()).fold(1.0, f64::max);
+        let speed = v.iter().fold(1.0_f64, |s, v| s.max(v.abs()));
+        Self { length, speed, linear_speed: speed * length }
+    }
+}
+
+impl Observation<'_> {
+    /// Worst residual of each law in the present state, and the element it belongs to. Nothing is allocated.
+    #[must_use]
+    pub fn law_residuals(&self) -> LawResiduals {
+        let mut found = LawResiduals::default();
+        self.add_finiteness(&mut found);
+        if !self.is_settled && self.state.tick > 0 {
+            return found;
+        }
+        let scales = Scales::of(&self.state.v, self.scratch());
+        if let Some(constraints) = self.mechanism.constraints.as_deref() {
+            self.add_loops(constraints, &scales, &mut found);
+            self.add_distances(constraints, &scales, &mut found);
+            add_forces(self.model(), constraints, &mut found);
+        }
+        if self.is_settled {
+            self.add_drives(&scales, &mut found);
+        }
+        found
+    }
+
+    fn add_finiteness(&self, found: &mut LawResiduals) {
+        let State { q, v, totals, rotors, .. } = self.state;
+        let of_state = [&**q, v, totals, rotors, self.accelerations];
+        let n = of_state.into_iter().flatten().filter(|x| !x.is_finite()).count();
+        let is_finite = |k: usize| v[k].is_finite() && self.accelerations[k].is_finite();
+        let element = (0..v.len()).find(|k| !is_finite(*k)).map_or(LawElement::Mechanism, LawElement::Dof);
+        found.add(Law::Finiteness, n as f64, 1.0, ResidualKind::Dimensionless, element);
+    }
+
+    fn add_loops(&self, c: &Constraints<f64>, scales: &Scales, found: &mut LawResiduals) {
+        let set = self.model().constraints();
+        let mut rows = (0..c.n_free).map(|row| {
+            let rate = c.motions.rate(&c.rows[row], &self.state.v);
+            (c.residual[row].abs(), rate.abs())
+        });
+        for (k, joint) in set.loop_joints.iter().enumerate() {
+            for (i, (g, rate)) in rows.by_ref().take(joint.kind.rows()).enumerate() {
+                let element = LawElement::LoopJoint(k);
+                // three rows of points, then axes
+                if i < 3 {
+                    found.add(Law::LoopPosition, g, scales.length, ResidualKind::Length, element);
+                    found.add(Law::LoopVelocity, rate, scales.linear_speed, ResidualKind::Speed, element);
+                } else {
+                    found.add(Law::LoopPosition, g, 1.0, ResidualKind::Angle, element);
+                    found.add(Law::LoopVelocity, rate, scales.speed, ResidualKind::AngularSpeed, element);
+                }
+            }
+        }
+        for ((k, gear), (g, rate)) in set.gears.iter().enumerate().zip(rows) {
+            let kinds = if is_linear(self.model(), gear.dofs[1]) {
+                [ResidualKind::Length, ResidualKind::Speed]
+            } else {
+                [ResidualKind::Angle, ResidualKind::AngularSpeed]
+            };
+            let scale = gear.coordinates.iter().fold(1.0_f64, |s, k| s.max(self.state.q[*k].abs()));
+            found.add(Law::LoopPosition, g, scale, kinds[0], LawElement::Gear(k));
+            found.add(Law::LoopVelocity, rate, scales.speed, kinds[1], LawElement::Gear(k));
+        }
+    }
+
+    fn add_distances(&self, c: &Constraints<f64>, scales: &Scales, found: &mut LawResiduals) {
+        let (model, set) = (self.model(), self.model().constraints());
+        for (k, limit) in set.limits.iter().enumerate() {
+            let beyond = -limit.sign * (self.state.q[limit.coordinate] - limit.bound);
+            let kind = if is_linear(model, limit.dof) { ResidualKind::Length } else { ResidualKind::Angle };
+            found.add(Law::JointLimit, beyond.max(0.0), limit.bound.abs().max(1.0), kind, LawElement::Limit(k));
+        }
+        for (k, pair) in set.pairs.iter().enumerate().filter(|(_, pair)| !pair.material.stiffness.is_finite()) {
+            for candidate in c.candidates[pair.first..pair.first + pair.slots].iter().flatten() {
+                let depth = -candidate.kinematics(&c.motions.at(self.scratch())).distance;
+                let element = LawElement::Pair(k);
+                found.add(Law::Penetration, depth.max(0.0), scales.length, ResidualKind::Length, element);
+            }
+        }
+    }
+
+    fn add_drives(&self, scales: &Scales, found: &mut LawResiduals) {
+        let (model, modes) = (self.model(), &self.mechanism.drives);
+        let reaction = |dof: usize| self.mechanism.scratch.reaction[dof];
+        let largest = model.drives.iter().map(|drive| reaction(drive.dof).abs()).fold(0.0, f64::max);
+        for (k, drive) in model.drives.iter().enumerate() {
+            let element = LawElement::Drive(k);
+            let kind = if is_linear(model, drive.dof) { ResidualKind::Speed } else { ResidualKind::AngularSpeed };
+            let missing = self.target_velocities[k] - self.state.v[drive.dof];
+            if modes[k] != 0.0 {
+                let passed = (-modes[k].signum() * missing).max(0.0);
+                found.add(Law::DriveMode, passed, scales.speed, kind, element);
+                continue;
+            }
+            found.add(Law::DriveVelocity, missing.abs(), scales.speed, kind, element);
+            let limits = model.drives.iter().zip(modes).filter(|(d, mode)| d.dof == drive.dof && **mode == 0.0);
+            let limit = limits.map(|(d, _)| model.drive_limit(d)).try_fold(0.0, |sum, limit| Some(sum + limit?));
+            let (Some(limit), true) = (limit, self.inputs_are_continuous) else { continue };
+            let excess = (reaction(drive.dof).abs() - limit).max(0.0);
+            let excess = if excess > 0.0 { excess / (limit + largest) } else { excess };
+            found.add(Law::DriveForce, excess, 1.0, ResidualKind::Dimensionless, element);
+        }
+    }
+}
+
+/// Adds normal forces and friction of the problem last solved.
+fn add_forces(model: &Model<f64>, c: &Constraints<f64>, found: &mut LawResiduals) {
+    let set = model.constraints();
+    let force = c.force_scale();
+    for block in &c.blocks {
+        let element = match set.limits.get(block.slot) {
+            Some(_) => LawElement::Limit(block.slot),
+            None => LawElement::Pair(pair_of(set, block.slot - set.limits.len())),
+        };
+        let normal = c.lambda[block.row];
+        found.add(Law::NormalForce, (-normal / force).max(0.0), 1.0, ResidualKind::Dimensionless, element);
+        for group in block.groups.iter().flatten() {
+            let list = &c.lambda[group.row..group.row + group.dim];
+            let size = list.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let excess = (size - group.coefficient * normal.max(0.0)) / force;
+            found.add(Law::FrictionCone, excess.max(0.0), 1.0, ResidualKind::Dimensionless, element);
+        }
+    }
+}
+
+/// Returns true if a degree of freedom is a translation.
+fn is_linear(model: &Model<f64>, dof: usize) -> bool {
+    let stage = model.links.iter().rfind(|link| link.v_idx as usize <= dof);
+    stage.is_some_and(|link| match link.kind {
+        StageKind::Prismatic => true,
+        StageKind::Free => dof - link.v_idx as usize >= 3,
+        _ => false,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,110 @@
+//! Worst residual of each law over a run, with its time and element.
+
+use sincro_dynamics::world::audit::{Law, LawResidual};
+use sincro_dynamics::world::{MethodKind, Observation, World};
+use sincro_scene::experiment::Experiment;
+
+use super::Finding;
+use super::limits::Limits;
+
+/// Accumulator of a run: nothing is allocated while it runs.
+#[derive(Clone, Debug)]
+pub struct LawAudit {
+    /// For each law the worst residual and its time `[s]`.
+    worst: [Option<(LawResidual, f64)>; Law::ALL.len()],
+    /// Constraint problems without convergence: their worst residual, and the time `[s]` after the step that had it.
+    unsolved: (f64, f64),
+    /// Ticks finished at velocity level because of Zeno behaviour, and the time `[s]` after the first.
+    fallback: (u64, f64),
+    /// Largest acceleration [rad/s²], [m/s²].
+    acceleration: f64,
+}
+
+impl Default for LawAudit {
+    fn default() -> Self {
+        Self { worst: [None; Law::ALL.len()], unsolved: (0.0, 0.0), fallback: (0, 0.0), acceleration: 0.0 }
+    }
+}
+
+impl LawAudit {
+    /// Adds the state observed at time `t` `[s]`.
+    pub fn observe(&mut self, seen: &Observation<'_>, t: f64) {
+        self.acceleration = seen.accelerations.iter().fold(self.acceleration, |largest, a| largest.max(a.abs()));
+        for (law, residual) in seen.law_residuals().iter() {
+            let worst = &mut self.worst[law as usize];
+            if worst.is_none_or(|(known, _)| residual.relative() > known.relative()) {
+                *worst = Some((*residual, t));
+            }
+        }
+    }
+
+    /// Adds the solver's statistics after the step that ended at time `t` `[s]`.
+    pub fn tick(&mut self, world: &World, t: f64) {
+        let residual = world.solver_report().map_or(0.0, |report| report.worst_residual);
+        if residual > self.unsolved.0 {
+            self.unsolved = (residual, t);
+        }
+        let ticks = world.statistics().fallback_ticks;
+        self.fallback = (ticks, if self.fallback.0 == 0 { t } else { self.fallback.1 });
+    }
+
+    /// All laws that something was subject to.
+    #[must_use]
+    pub fn close(&self, world: &World, experiment: &Experiment, method: MethodKind) -> Vec<Finding> {
+        let limits = Limits::new(experiment, method);
+        let mut laws = Vec::new();
+        for law in Law::ALL {
+            let Some((residual, time)) = self.worst[law as usize] else { continue };
+            laws.push(Finding {
+                law: word(law).to_owned(),
+                element: residual.element.name(world.model()),
+                time,
+                value: residual.value,
+                limit: limits.of(law, &residual, self.acceleration),
+                unit: residual.kind.unit().to_owned(),
+                help: String::new(),
+            });
+        }
+        laws.extend(world.solver_report().map(|report| Finding {
+            law: "constraint-solver".to_owned(),
+            element: format!("{} of {} problems", report.not_converged, report.solved),
+            time: self.unsolved.1,
+            value: self.unsolved.0,
+            limit: limits.unsolved(),
+            unit: String::new(),
+            help: String::new(),
+        }));
+        laws.extend((self.fallback.0 > 0).then(|| self.velocity_level_steps(world, experiment, &limits)));
+        laws
+    }
+
+    /// Local error of a step that was finished at velocity level: of sixteen steps of first order.
+    fn velocity_level_steps(&self, world: &World, experiment: &Experiment, limits: &Limits) -> Finding {
+        let h = experiment.step / 16.0;
+        Finding {
+            law: "velocity-level-step".to_owned(),
+            element: format!("{} of {} steps", self.fallback.0, world.state.tick),
+            time: self.fallback.1,
+            value: 16.0 * 0.5 * h * h * self.acceleration,
+            limit: limits.local_error(),
+            unit: String::new(),
+            help: String::new(),
+        }
+    }
+}
+
+/// Name of a law in files.
+fn word(law: Law) -> &'static str {
+    match law {
+        Law::Finiteness => "finiteness",
+        Law::LoopPosition => "loop-position",
+        Law::LoopVelocity => "loop-velocity",
+        Law::JointLimit => "joint-limit",
+        Law::Penetration => "penetration",
+        Law::NormalForce => "normal-force",
+        Law::FrictionCone => "friction-cone",
+        Law::DriveVelocity => "drive-velocity",
+        Law::DriveMode => "drive-mode",
+        Law::DriveForce => "drive-force",
+    }
+}
