@@ -8,8 +8,8 @@
 //! | distance | \|pₐ − p_b\| − length | 1 |
 //! | gear (in `mod.rs`) | q₂ − ratio·q₁ − offset | 1 |
 //!
-//! Axes of an end instead of the world's: rows that a planar loop cannot move along stay idle whatever it stands on. The
-//! rows are exact derivatives of the residuals, where the loop is open too.
+//! Axes of an end instead of the world's: rows that a planar loop cannot move along stay idle whatever it stands on.
+//! The rows are exact derivatives of the residuals, where the loop is open too.
 //!
 //! Source: key `featherstone2008`, chapter 8.
 

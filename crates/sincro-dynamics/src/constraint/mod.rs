@@ -231,8 +231,8 @@ impl<R: Real> Constraints<R> {
         self.push(model, scratch, v_dot, has_drives);
     }
 
-    /// Drops loop rows that vanish at a singular position, whose forces would be rounding; returns the smallest square of
-    /// a row relative to its size.
+    /// Drops loop rows that vanish at a singular position, whose forces would be rounding; returns the smallest square
+    /// of a row relative to its size.
     fn drop_vanishing_rows(&mut self) -> f64 {
         let m = self.rows.len();
         let mut smallest = 1.0_f64;

@@ -1,12 +1,12 @@
 //! Rank of the equations of loop joints and gears, and a set of independent ones.
 //!
 //! A closed loop has more equations than it takes away degrees of freedom: a planar four-bar with a hinge has five, of
-//! which two act. The rank is decided on the rows of J M^(−1/2) (the innovations of the articulated-body recursion, whose
-//! products are G) by Gram–Schmidt elimination with pivoting; elimination on G itself would see the square of a
+//! which two act. The rank is decided on the rows of J M^(−1/2) (the innovations of the articulated-body recursion,
+//! whose products are G) by Gram–Schmidt elimination with pivoting; elimination on G itself would see the square of a
 //! remainder. A row counts if its remainder exceeds [`INDEPENDENT`] of its *size*: the norm of the velocities of both
-//! ends of the joint before they are projected on an axis and subtracted, in the same metric. An idle row, perpendicular
-//! to the plane of a loop say, is rounding by that measure, whatever the frame, the units and the masses; by its own
-//! norm it would be as good as any other.
+//! ends of the joint before they are projected on an axis and subtracted, in the same metric. An idle row,
+//! perpendicular to the plane of a loop say, is rounding by that measure, whatever the frame, the units and the masses;
+//! by its own norm it would be as good as any other.
 //!
 //! Source: key `golub2013`, section 5.4 (rank by pivoted orthogonalisation).
 

@@ -1,9 +1,9 @@
 //! Independent equations of the loops of a mechanism, decided once for a run.
 //!
 //! Rank is a property of the mechanism, not of one position: at a singular position, such as a parallelogram folded
-//! flat, fewer equations are independent than next to it, and off the manifold an overconstrained spatial loop has more.
-//! It is therefore decided at the start and at a few nearby configurations that close the loops, and the largest rank
-//! counts.
+//! flat, fewer equations are independent than next to it, and off the manifold an overconstrained spatial loop has
+//! more. It is therefore decided at the start and at a few nearby configurations that close the loops, and the largest
+//! rank counts.
 
 use crate::actuation::DriveKind;
 use crate::constraint::rank::{INDEPENDENT, INDEPENDENT_OPEN};
@@ -137,7 +137,7 @@ impl Mechanism<f64> {
             v[k] += change[k];
             largest = largest.max(v[k].abs() / if self.is_length(k) { extent } else { 1.0 });
         }
-        if !(largest > 1e-6) {
+        if largest.is_nan() || largest <= 1e-6 {
             return false;
         }
         v.iter_mut().for_each(|v| *v *= MOVE / largest);

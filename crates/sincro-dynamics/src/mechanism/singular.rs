@@ -1,7 +1,7 @@
 //! Passage of singular positions of loops.
 //!
-//! On the branch that a mechanism moves along, the motion through a singular position is smooth; only its computation is
-//! 0/0 where the smallest singular value of the loops' rows passes zero. Near such a position
+//! On the branch that a mechanism moves along, the motion through a singular position is smooth; only its computation
+//! is 0/0 where the smallest singular value of the loops' rows passes zero. Near such a position
 //!
 //! - every stage is put on the manifold, positions and velocities, before accelerations are evaluated;
 //! - the local error is measured along the branch: what lies across it, projection takes away;
@@ -139,7 +139,8 @@ impl<R: Real> Mechanism<R> {
         c.keep_loop_joints();
     }
 
-    /// Finds the smallest change of positions that removes the residuals of the loops, or of `v` that removes its rates.
+    /// Finds the smallest change of positions that removes the residuals of the loops, or of `v` that removes its
+    /// rates.
     fn change_loops(&mut self, v: Option<&[R]>) {
         let c = self.constraints.as_deref_mut().expect("near a singular position there are loops");
         c.project_to(STAGE_RANK, &self.model, &mut self.scratch, v, &mut self.singular.change);

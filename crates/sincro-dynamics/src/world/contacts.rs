@@ -117,8 +117,8 @@ impl World {
         Ok(())
     }
 
-    /// Makes one step at velocity level: semi-implicit Euler, over the whole of which a limited drive either ends at its
-    /// target velocity or is saturated, a contact stays closed or opens. Source: key `acary2008`, chapter 10
+    /// Makes one step at velocity level: semi-implicit Euler, over the whole of which a limited drive either ends at
+    /// its target velocity or is saturated, a contact stays closed or opens. Source: key `acary2008`, chapter 10
     /// (Moreau–Jean time-stepping).
     pub(super) fn velocity_level_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,

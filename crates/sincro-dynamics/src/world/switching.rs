@@ -219,8 +219,8 @@ impl World {
             && is_beyond(self.target_velocities[i], self.velocity(self.mechanism.model.drives[i].dof), saturation)
     }
 
-    /// Returns true if a saturated drive is so close to its target velocity, in the state last evaluated, that it reaches
-    /// it within the resolution of time `[s]`: its own limit and what accelerates it now are an impulse then.
+    /// Returns true if a saturated drive is so close to its target velocity, in the state last evaluated, that it
+    /// reaches it within the resolution of time `[s]`: its own limit and what accelerates it now are an impulse then.
     pub(super) fn reaches_target(&self, i: usize, resolution: f64) -> bool {
         let drive = self.mechanism.model.drives[i];
         let (target, v) = (self.target_velocities[i], self.velocity(drive.dof));

@@ -14,7 +14,8 @@ pub struct LawAudit {
     worst: [Option<(LawResidual, f64)>; Law::ALL.len()],
     /// Constraint problems without convergence: their worst residual, and the time `[s]` after the step that had it.
     unsolved: (f64, f64),
-    /// Ticks finished at velocity level because of Zeno behaviour, and the time `[s]` after the first.
+    /// Ticks finished, and steps made, at velocity level because contacts or drives changed without end, decisions
+    /// between modes of drives that did not end, and the time `[s]` after the first.
     fallback: (u64, f64),
     /// Largest acceleration [rad/s²], [m/s²].
     acceleration: f64,
@@ -44,8 +45,9 @@ impl LawAudit {
         if residual > self.unsolved.0 {
             self.unsolved = (residual, t);
         }
-        let ticks = world.statistics().fallback_ticks;
-        self.fallback = (ticks, if self.fallback.0 == 0 { t } else { self.fallback.1 });
+        let done = world.statistics();
+        let steps = done.fallback_ticks + done.fallback_steps + done.undecided_modes;
+        self.fallback = (steps, if self.fallback.0 == 0 { t } else { self.fallback.1 });
     }
 
     /// All laws that something was subject to.
