@@ -32,8 +32,10 @@ pub struct Opened {
     pub controller: Option<ControlDiagram>,
     /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
-    /// Every file that was read: what a hash of the inputs covers.
+    /// Every text file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
+    /// The folder with what was read of it, to be opened again by [`open_in`].
+    pub folder: Arc<Folder>,
 }
 
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its
@@ -49,8 +51,21 @@ pub fn open(
     parser: Option<&'static dyn ScriptParser>,
     with_others: bool,
 ) -> Result<Opened, Diagnostics> {
-    let folder = Folder::new(&find_folder(folder)?);
-    let mut loaded = open_one(&folder, overrides, parser)?;
+    open_in(&Arc::new(Folder::new(&find_folder(folder)?)), overrides, parser, with_others)
+}
+
+/// As [`open`], of a folder whose files are not read again if they were read before.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn open_in(
+    folder: &Arc<Folder>,
+    overrides: &[Override],
+    parser: Option<&'static dyn ScriptParser>,
+    with_others: bool,
+) -> Result<Opened, Diagnostics> {
+    let mut loaded = open_one(folder, overrides, parser)?;
     let mut diagnostics = Diagnostics(std::mem::take(&mut loaded.warnings));
     // a variant was opened with the main run: its own settings must not meet those of the others
     let file = folder.path_of(EXPERIMENT);
@@ -58,7 +73,7 @@ pub fn open(
     let further = if is_variant || !with_others { Vec::new() } else { further_settings(&loaded.experiment) };
     for setting in further {
         let settings = settings_with(overrides, &setting);
-        match open_one(&folder, &settings, parser) {
+        match open_one(folder, &settings, parser) {
             Ok(variant) => diagnostics.merge(Diagnostics(variant.warnings)),
             Err(found) => diagnostics.merge(found),
         }
@@ -152,7 +167,7 @@ fn too_large(experiment: &Experiment) -> Diagnostics {
 
 /// One experiment without its variants.
 fn open_one(
-    folder: &Folder,
+    folder: &Arc<Folder>,
     overrides: &[Override],
     parser: Option<&'static dyn ScriptParser>,
 ) -> Result<Opened, Diagnostics> {
@@ -193,7 +208,14 @@ fn open_one(
     match (experiment, scene) {
         (Some(experiment), Some(scene)) if !diagnostics.any_error() => {
             diagnostics.merge(Diagnostics(scene.warnings.clone()));
-            Ok(Opened { experiment, scene, controller, warnings: diagnostics.0, sources: Vec::new() })
+            Ok(Opened {
+                experiment,
+                scene,
+                controller,
+                warnings: diagnostics.0,
+                sources: Vec::new(),
+                folder: folder.clone(),
+            })
         }
         _ => Err(diagnostics.sorted()),
     }
