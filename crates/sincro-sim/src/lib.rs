@@ -18,6 +18,7 @@ pub mod campaign;
 pub mod check;
 pub mod controller;
 pub mod diagram_controller;
+mod error;
 pub mod file;
 pub mod load;
 pub mod proximity;
