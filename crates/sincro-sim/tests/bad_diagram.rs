@@ -2,13 +2,11 @@
 //!
 //! Each case states a whole diagram file and the whole message.
 
-mod common;
+use sincro_testing::{SceneFolder, scenes};
 
-use common::TestFolder;
-
-/// The folder of `common` with a diagram, and two motors that take commands.
-fn folder(diagram: &str) -> TestFolder {
-    let folder = TestFolder::new();
+/// The sprung arm with a diagram, and two motors that take commands.
+fn folder(diagram: &str) -> SceneFolder {
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "damping = 0.5", "damping = 0.5\nmotor = { mode = \"torque\" }");
     folder.change("experiment.toml", "scene = \"scene.toml\"", "scene = \"scene.toml\"\ndiagram = \"diagram.toml\"");
     folder.write("diagram.toml", diagram);
