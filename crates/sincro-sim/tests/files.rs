@@ -1,8 +1,10 @@
 //! Folders and files that cannot be read.
 
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use sincro_sim::Extensions;
+use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
 use sincro_testing::{SceneFolder, scenes};
 
@@ -114,4 +116,26 @@ fn broken_toml_is_told_line_by_line() {
         said.contains("experiment.toml:1:") && said.contains("experiment.toml:3:1: error: duplicate key"),
         "{said}"
     );
+}
+
+#[test]
+fn variants_and_points_of_a_sweep_read_nothing_again() {
+    let folder = scenes::sprung_arm();
+    folder.write("tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    folder.write(
+        "diagram.toml",
+        "block = [{ name = \"one\", type = \"constant\", value = 1.0 }]\nwires = [\"one -> /shoulder/rod/tip/wrist\"]\n",
+    );
+    folder.change(
+        "scene.toml",
+        "mass = 0.5\ninertia = { xx = 0.001, yy = 0.001, zz = 0.001 }",
+        "density = 100.0\nshape = [{ mesh = { file = \"tetrahedron.obj\", scale = 0.1 } }]",
+    );
+    folder.change("experiment.toml", "\"integrator\" = \"rk4\"", "\"diagram\" = \"diagram.toml\"");
+    let loaded = folder.load(&[]).unwrap_or_else(|message| panic!("{message}"));
+    let path = folder.to_path_buf();
+    drop(folder);
+    assert!(!path.exists());
+    let campaign = run_campaign(&path, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
+    assert_eq!((campaign.variants.len(), campaign.sweep.unwrap().0.values.len()), (1, 3));
 }
