@@ -267,15 +267,26 @@ fn open_diagram(
     parser: Option<&'static dyn ScriptParser>,
     diagnostics: &mut Diagnostics,
 ) -> Option<ControlDiagram> {
+    let objects = scene.map_or(&[][..], |scene| &scene.objects);
     let Some(name) = document.located("/diagram") else {
         for setting in overrides.iter().filter(|s| s.target() == Target::Diagram) {
-            diagnostics.push(setting.without_diagram());
+            diagnostics.push(setting.without_slash(None, objects).unwrap_or_else(|| setting.without_diagram()));
         }
         return None;
     };
     let read = folder.read_named(&name).map_err(Diagnostics::from);
     let document = match read.and_then(|source| Document::parse(&source)) {
-        Ok(document) => prepared(document, Target::Diagram, overrides, diagnostics),
+        Ok(document) => {
+            let mut fitting = overrides.to_vec();
+            fitting.retain(|setting| match setting.without_slash(Some(&document), objects) {
+                Some(found) => {
+                    diagnostics.push(found);
+                    false
+                }
+                None => true,
+            });
+            prepared(document, Target::Diagram, &fitting, diagnostics)
+        }
         Err(found) => {
             diagnostics.merge(found);
             return None;

@@ -861,6 +861,11 @@ const SETTINGS: &[(&str, &str)] = &[
   help: blocks: `pid`"##,
     ),
     (
+        "shoulder.damping=3",
+        r##"--set:1:1: error: `shoulder.damping`: there is no block or key `shoulder`
+  help: did you mean `/shoulder.damping`? the path of an object begins with `/`"##,
+    ),
+    (
         "pid.kq=3",
         r##"--set:1:1: error: block `pid`: `pid` has no parameter `kq`
   help: it has kp, ki, kd, filter_time_constant, lower, upper, anti_windup, tracking_time_constant, output_time_constant, separate, setpoint_weight, derivative_setpoint_weight, feedforward, initial, initial_input"##,

@@ -32,6 +32,11 @@ const REFUSED: &[(&str, &str)] = &[
   help: did you mean `spring`? keys: `spring`, `damping`, `force_sensor`, `rotation_deg`, `quaternion_wxyz`, `kind`, `pitch`, `torque` and 8 more"#,
     ),
     (
+        "wrist.mass=2",
+        r#"--set:1:1: error: `wrist.mass`: there is no block or key `wrist`
+  help: did you mean `/shoulder/rod/tip/wrist.mass`? the path of an object begins with `/`"#,
+    ),
+    (
         "k=3",
         r#"--set:1:1: error: `k`: a scene or experiment has no `k`
   help: did you mean `parameters.k`?"#,
