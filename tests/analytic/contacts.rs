@@ -182,24 +182,34 @@ fn a_row_of_equal_balls_passes_a_blow_on() {
 
 #[test]
 fn the_order_of_the_bodies_does_not_matter() {
+    // the first two meet obliquely, then the third hits one of them: with friction, so that they spin afterwards
     let list = [
         ([0.0, 0.0, 0.0], [1.0, 0.1, 0.0], 0.05),
         ([0.3, 0.03, 0.01], [-0.5, 0.0, 0.2], 0.07),
-        ([0.1, 0.5, 0.0], [0.0, -2.0, 0.0], 0.06),
+        ([0.22, 0.5, 0.05], [0.0, -2.0, 0.0], 0.06),
     ];
     let end = |order: [usize; 3]| {
         let (model, x) = balls(&order.map(|k| list[k]), material(0.3, 0.7));
         let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
         run(&mut world, 0.01, 40);
-        let mut found = [[0.0; 3]; 3];
+        assert_eq!(world.statistics().impacts, 2, "{order:?}");
+        let mut found = [[0.0; 9]; 3];
         for (place, k) in order.into_iter().enumerate() {
-            found[k].copy_from_slice(&world.state.q[7 * place..7 * place + 3]);
+            found[k][..3].copy_from_slice(&world.state.q[7 * place..7 * place + 3]);
+            found[k][3..].copy_from_slice(&world.state.v[6 * place..6 * place + 6]);
         }
         found
     };
-    let (one, two) = (end([0, 1, 2]), end([2, 0, 1]));
-    for (a, b) in one.iter().flatten().zip(two.iter().flatten()) {
-        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    let expected = end([0, 1, 2]);
+    for (ball, (_, before, _)) in expected.iter().zip(&list) {
+        let change: f64 = (0..3).map(|k| (ball[6 + k] - before[k]).abs()).sum();
+        let spin: f64 = ball[3..6].iter().map(|w| w.abs()).sum();
+        assert!(change > 0.1 && spin > 0.1, "every ball is hit: {ball:?}");
+    }
+    for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+        for (a, b) in expected.iter().flatten().zip(end(order).iter().flatten()) {
+            assert!((a - b).abs() < 1e-9, "{order:?}: {a} {b}");
+        }
     }
 }
 

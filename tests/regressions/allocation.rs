@@ -1,7 +1,5 @@
 //! No allocation in a step after the first, whatever the integrator, and none in recording a row.
 
-use std::path::Path;
-
 use sincro_dynamics::world::MethodKind;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
@@ -72,9 +70,7 @@ fn a_step_and_a_row_allocate_nothing() {
         ("four-bar", &[]),
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-        let loaded =
-            load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &set, Extensions::default())
-                .unwrap();
+        let loaded = load(&sincro_testing::repository_scene(name), &set, Extensions::default()).unwrap();
         for method in METHODS {
             let mut lockstep = LockStep::new(&loaded, method, false);
             let signals = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();

@@ -1,7 +1,5 @@
 //! Same scene, same bits: twice, in any number of threads, and across a snapshot.
 
-use std::path::Path;
-
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Extensions;
@@ -12,7 +10,7 @@ use sincro_sim::snapshot::{Snapshot, SnapshotError};
 use sincro_sim::trace::Trace;
 
 fn scene(name: &str) -> sincro_sim::Loaded {
-    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name), &[], Extensions::default()).unwrap()
+    load(&sincro_testing::repository_scene(name), &[], Extensions::default()).unwrap()
 }
 
 /// Advances by `n` ticks.

@@ -1,7 +1,5 @@
 //! The same control law through a diagram and in Rust gives the same bits.
 
-use std::path::Path;
-
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::library::discrete::UnitDelay;
 use sincro_blocks::library::maths::{Gain, Sum};
@@ -18,8 +16,7 @@ const TICKS: u64 = 1600;
 
 fn scene(set: &[(&str, &str)]) -> sincro_sim::Loaded {
     let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position"), &set, Extensions::default())
-        .unwrap()
+    load(&sincro_testing::repository_scene("two-dof-position"), &set, Extensions::default()).unwrap()
 }
 
 /// The hash of a run of the scene with its diagram.

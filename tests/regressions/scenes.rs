@@ -7,7 +7,6 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use sincro_sim::Extensions;
 use sincro_sim::campaign::run_campaign;
 use sincro_sim::load;
 use sincro_sim::results::{CheckReport, RunReport, VerdictReport};
@@ -25,8 +24,8 @@ fn folders() -> Vec<PathBuf> {
 }
 
 fn run(folder: &Path) -> RunReport {
-    let loaded = load(folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let loaded =
+        load(folder, &[], sincro_testing::with_scripts()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     run_campaign(folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap().report
 }
 

@@ -78,12 +78,15 @@ fn parent_commit(root: &Path) -> Option<String> {
     (output.status.success() && hash.len() >= 16).then_some(hash)
 }
 
-/// Folders of the crates that have a library.
+/// Folders of the crates that have a library to be published.
 fn crates(root: &Path) -> Vec<PathBuf> {
     let root = root.canonicalize().unwrap_or_else(|_| root.to_path_buf());
     let all = fs::read_dir(root.join("crates")).map(|all| all.flatten().map(|e| e.path()).collect());
     let mut all: Vec<PathBuf> = all.unwrap_or_default();
-    all.retain(|folder| folder.join("src/lib.rs").is_file());
+    let is_published = |folder: &Path| {
+        fs::read_to_string(folder.join("Cargo.toml")).is_ok_and(|manifest| !manifest.contains("publish = false"))
+    };
+    all.retain(|folder| folder.join("src/lib.rs").is_file() && is_published(folder));
     all.sort();
     all
 }

@@ -39,6 +39,11 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-remote",
         ],
     ),
+    // support of tests: no crate but as a dev-dependency uses it
+    (
+        "sincro-testing",
+        &["sincro-scene", "sincro-sim", "sincro-analysis", "sincro-coppelia", "sincro-lua", "sincro-remote"],
+    ),
     (
         "sincro",
         &[

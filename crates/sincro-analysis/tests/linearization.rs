@@ -1,7 +1,5 @@
 //! Linearisation against closed forms and central differences; trim against statics.
 
-use std::path::Path;
-
 use sincro_analysis::linear::{DMatrix, lqr};
 use sincro_analysis::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
 use sincro_math::elementary::sin_cos;
@@ -12,7 +10,7 @@ use sincro_sim::{Extensions, Loaded, load};
 
 fn scene(name: &str, set: &[(&str, &str)]) -> Loaded {
     let overrides: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
+    let folder = sincro_testing::repository_scene(name);
     load(&folder, &overrides, Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
 }
 
@@ -174,7 +172,7 @@ fn the_gains_of_the_cart_and_pole_are_those_of_its_linearisation() {
     let (_, linear) = at_start(&loaded, &Request::default());
     let q = DMatrix::from_diagonal(&sincro_analysis::linear::DVector::from_column_slice(&[1.0, 10.0, 1.0, 1.0]));
     let design = lqr(&linear.system.a, &linear.system.b, &q, &DMatrix::from_element(1, 1, 0.1)).unwrap();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/cart-pole-lqr/lqr.toml");
+    let folder = sincro_testing::repository_scene("cart-pole-lqr").join("lqr.toml");
     let text = std::fs::read_to_string(folder).unwrap();
     let list = text.split_once("gain = [[").and_then(|(_, rest)| rest.split_once("]]")).unwrap().0;
     let gains: Vec<f64> = list.split(',').map(|x| x.trim().parse().unwrap()).collect();

@@ -84,8 +84,15 @@ fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
     let scene = from_text(ARM).expect("the scene is right");
     let controller = diagram.map(|d| ControlDiagram::new(d, &scene.model, STEP, 0).expect("the diagram is right"));
     let experiment = default_experiment(STEP, 1.0);
-    let loaded =
-        Loaded { experiment, scene, controller, warnings: Vec::new(), sources: Vec::new(), extensions: extensions() };
+    let loaded = Loaded {
+        experiment,
+        scene,
+        controller,
+        warnings: Vec::new(),
+        sources: Vec::new(),
+        folder: std::sync::Arc::default(),
+        extensions: extensions(),
+    };
     let mut run = LockStep::new(&loaded, method, false);
     run.start().expect("finite");
     let start = run.snapshot(sincro_sim::trace::Trace(0));

@@ -99,7 +99,7 @@ impl Files for NoFiles {
     }
 }
 
-/// Ports of one block.
+/// Largest number of ports of one block.
 pub const MAX_PORTS: usize = 10_000;
 
 /// Reads the parameters of one block.
@@ -112,7 +112,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// For the parameters `given` to a block of `kind`; formulas in them know the names of `scope`.
+    /// Creates a reader of the parameters `given` to a block of `kind`; formulas in them know the names of `scope`.
     #[must_use]
     pub fn new(
         kind: &'static Kind,
@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Everything that was wrong.
+    /// Returns everything that was wrong with the parameters, in the order in which it was found; empty if nothing was.
     #[must_use]
     pub fn finish(self) -> Vec<ParameterError> {
         self.faults
@@ -264,7 +264,7 @@ impl<'a> Reader<'a> {
         if is_whole { x as usize } else { 1 }
     }
 
-    /// Number of ports, from 1 to [`MAX_PORTS`]; of those that are possible the nearest to 1000 after an error.
+    /// Number of ports, from 1 to [`MAX_PORTS`] (1 after a fault).
     pub fn positive_port_count(&mut self, key: &str) -> usize {
         let n = self.count(key);
         if n > MAX_PORTS {
@@ -274,7 +274,7 @@ impl<'a> Reader<'a> {
         if n == 0 {
             self.fault(key, format!("`{key}` is 0"), "it must be 1 or more");
         }
-        n.clamp(1, 1000)
+        n.max(1)
     }
 
     /// Number of inputs of a block with as many of them as one likes: from 1 to 1000.

@@ -1,5 +1,7 @@
 //! Routing, logic and sinks over time: inputs are held tables, one number a tick.
 
+mod common;
+
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::instance::DynBlock;
@@ -176,4 +178,14 @@ fn sinks_take_anything_and_change_nothing() {
     let mut simulator = Simulator::new(&d, STEP).unwrap();
     simulator.record("a", 3);
     assert_eq!((simulator.output("a"), simulator.output("b")), (&[1.0][..], &[2.0, 3.0][..]));
+}
+
+#[test]
+fn a_mux_has_as_many_inputs_as_its_parameter_says() {
+    for n in [1, 999, 1001, 10_000] {
+        let mux = common::block("mux", &[("inputs", (n as f64).into())]);
+        assert_eq!(mux.ports().inputs.len(), n);
+    }
+    assert!(common::faults("mux", &[("inputs", 10_001.0.into())]).contains("a block has at most 10000"));
+    assert!(common::faults("mux", &[("inputs", 0.0.into())]).contains("it must be 1 or more"));
 }

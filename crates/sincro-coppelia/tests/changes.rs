@@ -1,12 +1,11 @@
 //! Changes of the model by clients: the run is that of a scene which says so, the balance of energy holds, and nothing
 //! is left behind.
 
-use std::path::Path;
-
 use sincro_coppelia::session::{Phase, Search, Session, Value};
 use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::run::Simulated;
+use sincro_testing::{OpenSession, SceneFolder, last};
 
 const SCENE: &str = r#"
 gravity = [0.0, 0.0, -9.81]
@@ -68,13 +67,9 @@ record = ["/hinge.position", "/loose.position.z", "/loose.position.x", "energy.b
 "#;
 
 /// A session of the scene with settings, in a folder of its own.
-fn session(name: &str, set: &[(&str, &str)]) -> Session {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("changes-{name}"));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
-    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
+fn session(set: &[(&str, &str)]) -> OpenSession {
     let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-    Session::open(&folder, &set, Extensions::default(), None).unwrap_or_else(|problems| panic!("{problems}"))
+    OpenSession::open(SceneFolder::of(SCENE, EXPERIMENT), &set, Extensions::default(), None)
 }
 
 fn call(session: &mut Session, name: &str, object: &str, more: &[Value]) -> Result<Vec<Value>, String> {
@@ -90,13 +85,9 @@ fn run(session: &mut Session) -> Simulated {
     session.take_finished().remove(0).simulated
 }
 
-fn last(run: &Simulated, name: &str) -> f64 {
-    *run.table.column(name).unwrap().values.last().unwrap()
-}
-
 #[test]
 fn a_mass_that_is_set_while_stopped_is_that_of_a_scene_which_has_it() {
-    let mut changed = session("mass", &[]);
+    let mut changed = session(&[]);
     let plain = run(&mut changed).trace;
     call(&mut changed, "sim.setShapeMass", "/arm", &[Value::Real(2.0)]).unwrap();
     call(&mut changed, "sim.computeMassAndInertia", "/bob", &[Value::Real(800.0)]).unwrap();
@@ -108,7 +99,7 @@ fn a_mass_that_is_set_while_stopped_is_that_of_a_scene_which_has_it() {
         ("/hinge/arm.inertia.zz", "0.02"),
         ("/hinge/arm/bob.density", "800.0"),
     ];
-    let wanted = run(&mut session("mass-set", &set));
+    let wanted = run(&mut session(&set));
     for _ in 0..2 {
         let run = run(&mut changed);
         assert_eq!(run.trace, wanted.trace, "it stays for all runs");
@@ -119,13 +110,14 @@ fn a_mass_that_is_set_while_stopped_is_that_of_a_scene_which_has_it() {
     }
     assert_ne!(plain, wanted.trace);
     // and is gone with the scene
-    changed.load("changes-mass").unwrap();
+    let own = changed.folder().file_name().unwrap().to_str().unwrap().to_owned();
+    changed.load(&own).unwrap();
     assert_eq!(run(&mut changed).trace, plain);
 }
 
 #[test]
 fn masses_inertias_and_centres_come_back_as_they_were_given() {
-    let mut session = session("inertia", &[]);
+    let mut session = session(&[]);
     let nine = Value::reals([0.3, 0.01, 0.0, 0.01, 0.2, 0.0, 0.0, 0.0, 0.25]);
     // a quarter turn about z, shifted
     let at = Value::reals([0.0, -1.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.2, 0.0, 0.0, 1.0, 0.3]);
@@ -152,7 +144,7 @@ fn masses_inertias_and_centres_come_back_as_they_were_given() {
 
 #[test]
 fn a_mass_that_changes_in_a_run_is_work_and_is_gone_after_it() {
-    let mut session = session("in-run", &[]);
+    let mut session = session(&[]);
     let plain = run(&mut session).trace;
     session.start().unwrap();
     (0..20).for_each(|_| session.step().unwrap());
@@ -173,7 +165,7 @@ fn a_mass_that_changes_in_a_run_is_work_and_is_gone_after_it() {
 
 #[test]
 fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
-    let mut changed = session("stops", &[]);
+    let mut changed = session(&[]);
     let interval = |low: f64, range: f64| [Value::Bool(false), Value::reals([low, range])];
     call(&mut changed, "sim.setJointInterval", "/hinge", &interval(-0.5, 1.25)).unwrap();
     let got = call(&mut changed, "sim.getJointInterval", "/hinge", &[]).unwrap();
@@ -189,7 +181,7 @@ fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
         ("coupling.0.offset", "0.25"),
         ("/follower.initial.position", "1.75"),
     ];
-    let (run, wanted) = (self::run(&mut changed), self::run(&mut session("stops-set", &set)));
+    let (run, wanted) = (self::run(&mut changed), self::run(&mut session(&set)));
     assert_eq!(run.trace, wanted.trace);
     assert!(last(&run, "/hinge.position") >= -0.5 - 1e-9);
     for (name, object, arguments, why) in [
@@ -210,7 +202,7 @@ fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
 
 #[test]
 fn a_body_may_pass_through_all_others_and_begin_with_a_velocity() {
-    let mut session = session("pass", &[]);
+    let mut session = session(&[]);
     let plain = run(&mut session).trace;
     call(&mut session, "sim.setObjectInt32Param", "/ball", &[Value::Int(3004), Value::Int(0)]).unwrap();
     assert_eq!(call(&mut session, "sim.getObjectInt32Param", "/ball", &[Value::Int(3004)]), Ok(vec![Value::Int(0)]));
@@ -236,7 +228,7 @@ fn a_body_may_pass_through_all_others_and_begin_with_a_velocity() {
 
 #[test]
 fn what_nothing_weighs_is_refused() {
-    let mut session = session("refused", &[]);
+    let mut session = session(&[]);
     let nine = |a: f64, b: f64, c: f64| Value::reals([a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, c]);
     let one = Value::reals([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
     let skew = Value::reals([1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);

@@ -1,73 +1,23 @@
 //! Live sessions: the same motion as a run, and objects as V-REP's clients know them.
 
-use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
-
 use sincro_coppelia::session::{Handle, Phase, Reference, Search, Session, Value};
 use sincro_dynamics::actuation::MotorMode;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
+use sincro_testing::{OpenSession, repository_scene, run, scenes};
 
-const ARM: &str = r#"
-gravity = [0.0, 0.0, -9.81]
-[[joint]]
-name = "joint1"
-kind = "revolute"
-axis = [0.0, -1.0, 0.0]
-motor = { mode = "velocity" }
-[[body]]
-name = "link1"
-parent = "/joint1"
-mass = 1.0
-center_of_mass = [0.25, 0.0, 0.0]
-inertia = { xx = 0.001, yy = 0.02, zz = 0.02 }
-[[joint]]
-name = "joint2"
-parent = "/joint1/link1"
-kind = "revolute"
-axis = [0.0, -1.0, 0.0]
-position = [0.5, 0.0, 0.0]
-motor = { mode = "velocity" }
-[[body]]
-name = "link2"
-parent = "/joint1/link1/joint2"
-mass = 1.0
-center_of_mass = [0.25, 0.0, 0.0]
-inertia = { xx = 0.001, yy = 0.02, zz = 0.02 }
+const TIP: &str = r#"
 [[frame]]
 name = "tip"
 parent = "/joint1/link1/joint2/link2"
 position = [0.5, 0.0, 0.0]
-[[joint]]
-name = "loose"
-kind = "free"
-[[body]]
-name = "ball"
-parent = "/loose"
-density = 1000.0
-shape = [{ sphere = { radius = 0.1 } }]
 "#;
 
-const EXPERIMENT: &str = r#"
-title = "Arm"
-scene = "scene.toml"
-duration = 0.5
-step = 0.005
-record = ["/joint1.position", "/joint1/link1/joint2.position"]
-"#;
-
-fn scenes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
-}
-
-/// A session of the arm in a folder of its own.
-fn arm(name: &str) -> Session {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("session-{name}"));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("scene.toml"), ARM).unwrap();
-    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    Session::open(&folder, &[], Extensions::default(), Some(0.05)).unwrap()
+/// A session of the arm with a tip, clients stepping 50 ms.
+fn arm() -> OpenSession {
+    let folder = scenes::two_link_arm("");
+    folder.write("scene.toml", &format!("{}{TIP}", scenes::TWO_LINK_ARM));
+    folder.session(Extensions::default(), Some(0.05))
 }
 
 fn find(session: &mut Session, name: &str) -> Handle {
@@ -77,10 +27,9 @@ fn find(session: &mut Session, name: &str) -> Handle {
 #[test]
 fn a_session_without_clients_is_the_run_of_its_scene() {
     for (scene, sample) in [("two-dof-open-loop", 0.01), ("pid-tuning", 0.01)] {
-        let folder = scenes().join(scene);
+        let folder = repository_scene(scene);
         let loaded = load(&folder, &[], Extensions::default()).unwrap();
-        let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-        let run = simulate(&loaded, RunOptions::default(), watch).unwrap();
+        let run = run(&loaded);
         let mut session = Session::open(&folder, &[], Extensions::default(), Some(sample)).unwrap();
         for _ in 0..2 {
             session.start().unwrap();
@@ -98,7 +47,7 @@ fn a_session_without_clients_is_the_run_of_its_scene() {
 
 #[test]
 fn an_arm_that_is_held_reports_minus_the_effort_of_its_motors() {
-    let mut arm = arm("held");
+    let mut arm = arm();
     let [joint1, joint2] = ["joint1", "joint2#"].map(|name| find(&mut arm, name));
     assert_eq!(arm.sim().joint_force(joint1).unwrap(), None);
     arm.start().unwrap();
@@ -123,7 +72,7 @@ fn an_arm_that_is_held_reports_minus_the_effort_of_its_motors() {
 
 #[test]
 fn objects_are_found_by_old_names_and_by_paths() {
-    let mut arm = arm("names");
+    let mut arm = arm();
     let joint2 = find(&mut arm, "joint2");
     let names =
         ["joint2#", "/joint2", "/joint1/joint2", "/joint1/link1/joint2", "/joint1[0]//joint2", "/jo?nt2", "/*2"];
@@ -152,7 +101,7 @@ fn objects_are_found_by_old_names_and_by_paths() {
 
 #[test]
 fn poses_follow_the_conventions_of_vrep() {
-    let mut arm = arm("poses");
+    let mut arm = arm();
     let call =
         |arm: &mut Session, name: &str, args: &[Value]| arm.call(name, args).unwrap().remove(0).as_reals().unwrap();
     let [joint1, joint2, tip] = ["joint1", "joint2", "tip"].map(|name| Value::from(find(&mut arm, name)));
@@ -174,7 +123,7 @@ fn poses_follow_the_conventions_of_vrep() {
 
 #[test]
 fn a_push_lasts_one_step_and_does_its_work() {
-    let mut arm = arm("push");
+    let mut arm = arm();
     let ball = find(&mut arm, "ball");
     assert!(arm.sim().add_force_and_torque(ball, [1.0; 3], [0.0; 3]).is_err(), "nothing runs");
     arm.start().unwrap();
@@ -194,7 +143,7 @@ fn a_push_lasts_one_step_and_does_its_work() {
 
 #[test]
 fn a_free_body_can_be_put_anywhere_and_a_link_cannot() {
-    let mut arm = arm("place");
+    let mut arm = arm();
     let [ball, link] = ["ball", "link2"].map(|name| Value::from(find(&mut arm, name)));
     let list = Value::reals([1.0, 2.0, 3.0]);
     arm.call("sim.setObjectPosition", &[ball.clone(), Value::Int(-1), list.clone()]).unwrap();
@@ -216,7 +165,7 @@ fn a_free_body_can_be_put_anywhere_and_a_link_cannot() {
 
 #[test]
 fn modes_and_limits_of_motors_can_be_changed() {
-    let mut arm = arm("modes");
+    let mut arm = arm();
     let joint2 = find(&mut arm, "joint2");
     arm.start().unwrap();
     arm.sim().set_joint_mode(joint2, MotorMode::Free).unwrap();
@@ -240,7 +189,7 @@ fn modes_and_limits_of_motors_can_be_changed() {
 
 #[test]
 fn points_are_made_hung_and_removed() {
-    let mut arm = arm("points");
+    let mut arm = arm();
     let tip = find(&mut arm, "tip");
     let dummy = arm.sim().registry.create_dummy("Dummy").unwrap();
     arm.sim().set_parent(dummy, Some(tip), false).unwrap();
@@ -254,7 +203,7 @@ fn points_are_made_hung_and_removed() {
 
 #[test]
 fn what_means_nothing_is_refused_with_a_reason() {
-    let mut arm = arm("refused");
+    let mut arm = arm();
     let refused = [
         ("sim.noSuch", vec![], "No such function: sim.noSuch"),
         (

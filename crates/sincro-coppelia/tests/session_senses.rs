@@ -1,9 +1,8 @@
 //! Proximity sensors, distances, collections and runtime shapes, called by name as clients do.
 
-use std::path::Path;
-
 use sincro_coppelia::session::{Session, Value};
 use sincro_sim::Extensions;
+use sincro_testing::{OpenSession, SceneFolder};
 
 /// A cart with a sensor before a wall, a box that lies on the ground, a mark.
 const SCENE: &str = r#"
@@ -46,13 +45,8 @@ record = ["/rail.position", "/rail/cart/eye.distance"]
 /// Corners of a tetrahedron and its triangles.
 const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-fn session(name: &str) -> Session {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("senses-{name}"));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
-    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    std::fs::write(folder.join("tetrahedron.obj"), TETRAHEDRON).unwrap();
-    Session::open(&folder, &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{p}"))
+fn session() -> OpenSession {
+    SceneFolder::of(SCENE, EXPERIMENT).with("tetrahedron.obj", TETRAHEDRON).session(Extensions::default(), None)
 }
 
 fn call(session: &mut Session, name: &str, arguments: &[Value]) -> Vec<Value> {
@@ -88,7 +82,7 @@ const ALL: Value = Value::Int(-2);
 
 #[test]
 fn a_reading_is_that_of_the_last_handling() {
-    let mut s = session("readings");
+    let mut s = session();
     let (eye, wall, joint) = (object(&mut s, "/eye"), object(&mut s, "/wall"), object(&mut s, "/rail"));
     assert_eq!(call(&mut s, "sim.getObjectType", std::slice::from_ref(&eye)), [Value::Int(5)]);
     assert_eq!(
@@ -128,7 +122,7 @@ fn a_reading_is_that_of_the_last_handling() {
 
 #[test]
 fn what_is_made_is_seen_by_the_sensors_of_the_scene_and_recorded() {
-    let mut s = session("made");
+    let mut s = session();
     let eye = object(&mut s, "/eye");
     s.start().unwrap();
     let ball = call(&mut s, "sim.createPrimitiveShape", &[Value::Int(4), Value::reals([0.2, 0.2, 0.2])]).remove(0);
@@ -155,7 +149,7 @@ fn what_is_made_is_seen_by_the_sensors_of_the_scene_and_recorded() {
 
 #[test]
 fn distances_are_those_of_the_closest_parts() {
-    let mut s = session("distances");
+    let mut s = session();
     let (cart, wall, mark) = (object(&mut s, "/cart"), object(&mut s, "/wall"), object(&mut s, "/mark"));
     let found = call(&mut s, "sim.checkDistance", &[cart.clone(), wall.clone()]);
     let data = found[1].as_reals().unwrap();
@@ -188,7 +182,7 @@ fn distances_are_those_of_the_closest_parts() {
 
 #[test]
 fn collections_are_looked_up_anew() {
-    let mut s = session("collections");
+    let mut s = session();
     let (rail, cart, wall) = (object(&mut s, "/rail"), object(&mut s, "/cart"), object(&mut s, "/wall"));
     let robot = call(&mut s, "sim.createCollection", &[Value::Int(0)]).remove(0);
     let objects =
@@ -225,7 +219,7 @@ fn collections_are_looked_up_anew() {
 
 #[test]
 fn shapes_are_made_copied_grouped_scaled_and_removed() {
-    let mut s = session("shapes");
+    let mut s = session();
     let mark = object(&mut s, "/mark");
     let make = |s: &mut Session, kind: i64, size: [f64; 3]| {
         call(s, "sim.createPrimitiveShape", &[Value::Int(kind), Value::reals(size)]).remove(0)
@@ -289,7 +283,7 @@ fn shapes_are_made_copied_grouped_scaled_and_removed() {
 
 #[test]
 fn a_sensor_made_at_run_time_looks_at_every_step() {
-    let mut s = session("sensor");
+    let mut s = session();
     let numbers =
         |angle: f64| Value::reals([0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, angle, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let eight = Value::List(vec![Value::Int(0); 8]);
@@ -323,7 +317,7 @@ fn a_sensor_made_at_run_time_looks_at_every_step() {
 
 #[test]
 fn what_cannot_be_made_is_refused_in_words() {
-    let mut s = session("refused");
+    let mut s = session();
     let sizes = |x: f64, y: f64, z: f64| Value::reals([x, y, z]);
     let wall = object(&mut s, "/wall");
     let ints = |list: &[i64]| Value::List(list.iter().copied().map(Value::Int).collect());
@@ -363,7 +357,7 @@ fn what_cannot_be_made_is_refused_in_words() {
 
 #[test]
 fn meshes_without_area_or_in_one_plane_do_no_harm() {
-    let mut s = session("degenerate");
+    let mut s = session();
     let (mark, eye) = (object(&mut s, "/mark"), object(&mut s, "/eye"));
     let flat = Value::reals([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
     for indices in [&[0, 0, 0][..], &[0, 1, 1], &[0, 1, 2, 0, 1, 2], &[0, 1, 2, 1, 0, 2], &[0, 1, 2, 1, 3, 2, 0, 1, 3]]

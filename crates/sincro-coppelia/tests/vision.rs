@@ -1,9 +1,8 @@
 //! Vision sensors in a session: whose pictures they are, of what instant, and that looking changes nothing.
 
-use std::path::{Path, PathBuf};
-
 use sincro_coppelia::session::{Handle, Search, Session, Value};
 use sincro_sim::Extensions;
+use sincro_testing::{OpenSession, SceneFolder, repository_scene};
 
 /// A ball that falls past two eyes, one of them asked for its pictures, and a screen for pictures of clients.
 const SCENE: &str = r##"
@@ -49,16 +48,8 @@ step = 0.005
 record = ["/loose.position.z"]
 "#;
 
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("vision-{name}"));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
-    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    folder
-}
-
-fn open(name: &str) -> Session {
-    Session::open(&folder(name), &[], Extensions::default(), Some(0.05)).unwrap()
+fn open() -> OpenSession {
+    SceneFolder::of(SCENE, EXPERIMENT).session(Extensions::default(), Some(0.05))
 }
 
 fn find(session: &mut Session, name: &str) -> Value {
@@ -89,7 +80,7 @@ fn height(image: &[u8], columns: usize) -> f64 {
 
 #[test]
 fn a_picture_is_that_of_the_last_step_whenever_it_is_read() {
-    let (mut late, mut early) = (open("late"), open("early"));
+    let (mut late, mut early) = (open(), open());
     for session in [&mut late, &mut early] {
         session.start().unwrap();
         session.step().unwrap();
@@ -113,7 +104,7 @@ fn a_picture_is_that_of_the_last_step_whenever_it_is_read() {
 #[test]
 fn what_is_made_at_run_time_is_in_the_pictures_as_it_was_at_their_instant() {
     let blue = |image: &[u8]| image.chunks(3).filter(|p| p[2] > 100 && p[0] == 0 && p[1] == 0).count();
-    let (mut late, mut early) = (open("made-late"), open("made-early"));
+    let (mut late, mut early) = (open(), open());
     let eye = find(&mut late, "/eye");
     let mut shapes = Vec::new();
     for session in [&mut late, &mut early] {
@@ -144,7 +135,7 @@ fn what_is_made_at_run_time_is_in_the_pictures_as_it_was_at_their_instant() {
 #[test]
 fn looking_changes_no_hash() {
     let traces = [false, true].map(|looks| {
-        let mut session = open(if looks { "looks" } else { "blind" });
+        let mut session = open();
         session.start().unwrap();
         for _ in 0..10 {
             session.step().unwrap();
@@ -163,7 +154,7 @@ fn looking_changes_no_hash() {
 
 #[test]
 fn a_sensor_that_was_not_handled_has_nothing_to_tell() {
-    let mut session = open("handled");
+    let mut session = open();
     let (eye, lazy) = (find(&mut session, "/eye"), find(&mut session, "/lazy"));
     let state = |session: &mut Session, sensor: &Value| {
         let results = call(session, "sim.readVisionSensor", std::slice::from_ref(sensor));
@@ -198,7 +189,7 @@ fn a_sensor_that_was_not_handled_has_nothing_to_tell() {
 
 #[test]
 fn packets_and_parts_are_those_of_the_pixels() {
-    let mut session = open("packets");
+    let mut session = open();
     session.start().unwrap();
     session.step().unwrap();
     let eye = find(&mut session, "/eye");
@@ -252,7 +243,7 @@ fn packets_and_parts_are_those_of_the_pixels() {
 
 #[test]
 fn a_sensor_sees_one_object_alone_when_asked() {
-    let mut session = open("alone");
+    let mut session = open();
     let (eye, ball, wall) = (find(&mut session, "/eye"), find(&mut session, "/ball"), find(&mut session, "/wall"));
     let kept = image(&mut session, &eye);
     let seen = |session: &mut Session, what: &Value| {
@@ -274,7 +265,7 @@ fn a_sensor_sees_one_object_alone_when_asked() {
 
 #[test]
 fn clients_write_pictures() {
-    let mut session = open("written");
+    let mut session = open();
     let (eye, screen) = (find(&mut session, "/eye"), find(&mut session, "/screen"));
     assert_eq!(image(&mut session, &screen), [0x10, 0x20, 0x30].repeat(8));
     session.start().unwrap();
@@ -301,7 +292,7 @@ fn clients_write_pictures() {
 
 #[test]
 fn sensors_are_made_moved_and_removed() {
-    let mut session = open("made");
+    let mut session = open();
     let mut floats = vec![0.1, 20.0, 60_f64.to_radians(), 0.05, 0.0, 0.0, 0.2, 0.4, 1.0, 0.0, 0.0];
     let make = |session: &mut Session, options: i64, sides: [i64; 2], floats: &[f64]| {
         let ints = Value::List([sides[0], sides[1], 0, 0].map(Value::Int).to_vec());
@@ -338,7 +329,7 @@ fn sensors_are_made_moved_and_removed() {
 
 #[test]
 fn parameters_of_a_sensor_are_those_of_its_lens_and_come_back_after_a_run() {
-    let mut session = open("parameters");
+    let mut session = open();
     let eye = find(&mut session, "/eye");
     let float = |session: &mut Session, id: i64| {
         call(session, "sim.getObjectFloatParam", &[eye.clone(), Value::Int(id)])[0].as_real().unwrap()
@@ -378,7 +369,7 @@ fn parameters_of_a_sensor_are_those_of_its_lens_and_come_back_after_a_run() {
 
 #[test]
 fn older_functions_give_the_same_pictures() {
-    let mut session = open("older");
+    let mut session = open();
     session.start().unwrap();
     session.step().unwrap();
     let eye = find(&mut session, "/eye");
@@ -404,7 +395,7 @@ fn older_functions_give_the_same_pictures() {
 
 #[test]
 fn pictures_are_turned_scaled_and_packed() {
-    let mut session = open("packed");
+    let mut session = open();
     let bytes = |results: Vec<Value>| results[0].as_bytes().unwrap().to_vec();
     let two = |x: i64, y: i64| Value::List(vec![Value::Int(x), Value::Int(y)]);
     // two columns, two rows: a b / c d
@@ -440,7 +431,7 @@ fn pictures_are_turned_scaled_and_packed() {
 
 #[test]
 fn the_sensor_of_the_example_scene_has_a_handle_that_is_its_own() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/camera-stream");
+    let folder = repository_scene("camera-stream");
     let mut session = Session::open(&folder, &[], Extensions::default(), None).unwrap();
     let handles = ["/VisionSensor", "/PassiveVisionSensor"]
         .map(|name| session.sim().registry.find(name, Search::default()).unwrap());

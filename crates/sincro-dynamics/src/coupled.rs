@@ -28,7 +28,13 @@ pub trait CoupledSystem<R: Real> {
 
     /// Writes the derivatives of `z`, with the accelerations and motor torques that follow from the commands just
     /// given.
-    fn slope(&mut self, state_view: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]);
+    fn slope(
+        &mut self,
+        state_view: &mut StateView<'_, R>,
+        response: MechanismResponse<'_, R>,
+        z: &[R],
+        slope: &mut [R],
+    );
 
     /// Diagonal of −∂f/∂z at the instant of the last [`CoupledSystem::slope`], as far as known [1/s]; implicit methods
     /// evaluate it at the new state.
@@ -56,7 +62,7 @@ pub struct StateView<'a, R> {
 
 /// Response of the mechanism to the commands.
 #[derive(Clone, Copy, Debug)]
-pub struct Response<'a, R> {
+pub struct MechanismResponse<'a, R> {
     /// Accelerations [rad/s²] or [m/s²].
     pub accelerations: &'a [R],
     /// Smooth torque of each motor [N·m] or `[N]`; empty unless totals are tracked.
@@ -78,7 +84,7 @@ impl<R: Real> CoupledSystem<R> for NoCoupling {
     #[inline(always)]
     fn find_commands(&mut self, _: &mut StateView<'_, R>, _: &[R], _: &mut [R]) {}
     #[inline(always)]
-    fn slope(&mut self, _: &mut StateView<'_, R>, _: Response<'_, R>, _: &[R], _: &mut [R]) {}
+    fn slope(&mut self, _: &mut StateView<'_, R>, _: MechanismResponse<'_, R>, _: &[R], _: &mut [R]) {}
     fn negated_jacobian_diagonal(&mut self, _: &mut [R]) {}
 }
 
@@ -114,7 +120,7 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> Coupled<'_, R, A> {
     fn rates(&mut self, t: f64, own: &[R], own_slope: &[R], z: &[R], slope: &mut [R]) {
         let n = self.mechanism.model().n_v();
         let torques = self.mechanism.take_motor_torque();
-        let response = Response { accelerations: &own_slope[n..2 * n], motor_torque: &torques };
+        let response = MechanismResponse { accelerations: &own_slope[n..2 * n], motor_torque: &torques };
         self.system.slope(&mut state_view(self.mechanism, t, own), response, z, slope);
         self.mechanism.put_motor_torque(torques);
     }

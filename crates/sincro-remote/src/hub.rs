@@ -110,7 +110,7 @@ impl Hub {
         })
     }
 
-    /// Locks the session.
+    /// Locks the session; waits while another thread holds it, which is a step at most.
     pub fn enter(&self) -> MutexGuard<'_, SessionGuard> {
         self.waiting.fetch_add(1, Ordering::SeqCst);
         // a panic of another thread is a bug of ours that has been printed; the session is still the best there is

@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, escape};
 use crate::experiment::experiment_schema;
 use crate::overrides::Override;
-use crate::scene::scene_schema;
+use crate::scene::{Object, scene_schema};
 use crate::schema::{alternatives, property, property_names};
 use crate::suggest;
 use crate::tree;
@@ -36,6 +36,19 @@ impl Override {
         } else {
             Target::Experiment
         }
+    }
+
+    /// The finding about a setting that names an object of the scene without the `/` of its path; none if it names a
+    /// block of the diagram, or no object.
+    pub fn without_slash(&self, diagram: Option<&Document>, objects: &[Object]) -> Option<Diagnostic> {
+        let (first, keys) = self.path.value.split_once('.').filter(|_| self.target() == Target::Diagram)?;
+        if diagram.is_some_and(|diagram| names_of_blocks(diagram).iter().any(|name| name == first)) {
+            return None;
+        }
+        let found = objects.iter().find(|object| object.path.rsplit('/').next() == Some(first))?;
+        let diagnostic = self.error(format!("`{}`: there is no block or key `{first}`", self.path.value));
+        let help = format!("did you mean `{}.{keys}`? the path of an object begins with `/`", found.path);
+        Some(diagnostic.with_help(help))
     }
 
     /// The finding about a setting for a diagram that is not there.

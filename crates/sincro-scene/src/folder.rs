@@ -1,10 +1,9 @@
-//! The folder of an experiment: reads the text files in it, each once, with clear words when it cannot.
+//! The folder of an experiment: reads the files in it, each once, with clear words when it cannot.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::diagnostic::{Diagnostic, Located, SourceText};
 use crate::suggest;
@@ -12,17 +11,46 @@ use crate::suggest;
 /// Largest file that is read [bytes]: whatever is larger is not a scene, and would be read into memory whole.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// A folder whose files have been read once at most.
+/// A folder whose files are read once at most: variants and points of a sweep share what was read.
 #[derive(Debug, Default)]
 pub struct Folder {
     path: PathBuf,
-    read: RefCell<BTreeMap<PathBuf, Arc<SourceText>>>,
+    texts: Cache<SourceText>,
+    /// Files that are no texts: meshes.
+    bytes: Cache<Vec<u8>>,
+}
+
+/// Contents of files by their path.
+#[derive(Debug)]
+struct Cache<T>(Mutex<BTreeMap<PathBuf, Arc<T>>>);
+
+impl<T> Default for Cache<T> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<T> Cache<T> {
+    /// The content of a file, read if it is not there yet. Two threads may both read it; they get the same content.
+    fn get(&self, path: &Path, read: impl FnOnce(&Path) -> Result<T, String>) -> Result<Arc<T>, String> {
+        let known = |cache: &Self| cache.all().get(path).cloned();
+        if let Some(known) = known(self) {
+            return Ok(known);
+        }
+        let content = Arc::new(read(path)?);
+        Ok(self.all().entry(path.to_owned()).or_insert(content).clone())
+    }
+
+    fn all(&self) -> std::sync::MutexGuard<'_, BTreeMap<PathBuf, Arc<T>>> {
+        // a reader that panicked has put nothing half-made into the map
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl Folder {
     /// The folder at `path`; nothing is read yet.
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), read: RefCell::default() }
+        Self { path: path.to_owned(), ..Self::default() }
     }
 
     /// Path of a file of the folder as it is shown.
@@ -55,24 +83,18 @@ impl Folder {
         })
     }
 
-    /// Bytes of a file that is named in a file, whatever is in it; not kept.
-    pub fn bytes_named(&self, name: &Located<String>) -> Result<Vec<u8>, Diagnostic> {
-        self.named(name, |path| read_bytes(&self.path_of(path)))
+    /// Bytes of a file that is named in a file, whatever is in it.
+    pub fn bytes_named(&self, name: &Located<String>) -> Result<Arc<Vec<u8>>, Diagnostic> {
+        self.named(name, |path| self.bytes.get(&self.path_of(path), read_bytes))
     }
 
-    /// Every file read so far.
+    /// Every text file read so far.
     pub fn sources(&self) -> Vec<Arc<SourceText>> {
-        self.read.borrow().values().cloned().collect()
+        self.texts.all().values().cloned().collect()
     }
 
     fn text(&self, name: &str) -> Result<Arc<SourceText>, String> {
-        let path = self.path_of(name);
-        if let Some(known) = self.read.borrow().get(&path) {
-            return Ok(known.clone());
-        }
-        let source = Arc::new(SourceText { text: read_text(&path)?, path: path.clone() });
-        self.read.borrow_mut().insert(path, source.clone());
-        Ok(source)
+        self.texts.get(&self.path_of(name), |path| Ok(SourceText { text: read_text(path)?, path: path.to_owned() }))
     }
 
     /// A help that names files of the same kind beside one that is not there.

@@ -3,6 +3,39 @@
 //! [`open::open`] opens a scene folder and reports every problem in it at once; [`scene::from_text`] compiles the text
 //! of a scene file alone. Nothing here advances a world: that is `sincro-sim`.
 //!
+//! ```
+//! use sincro_scene::prelude::*;
+//!
+//! let pendulum = r#"
+//!     [[joint]]
+//!     name = "hinge"
+//!     kind = "revolute"
+//!     axis = [0.0, 1.0, 0.0]
+//!     initial = { position = 0.5 }
+//!
+//!     [[body]]
+//!     name = "rod"
+//!     parent = "/hinge"
+//!     position = [0.0, 0.0, -0.25]
+//!     density = 1000.0
+//!     shape = [{ cylinder = { radius = 0.05, length = 0.5 } }]
+//! "#;
+//! let scene = from_text(pendulum)?;
+//! assert_eq!(scene.initial.q, [0.5]);
+//! let ObjectKind::Body { mass } = scene.object("/hinge/rod").unwrap().kind else { panic!("a rod is a body") };
+//! assert!((mass.mass - 1000.0 * 0.05 * 0.05 * std::f64::consts::PI * 0.5).abs() < 1e-12); // [kg]
+//!
+//! // the signals that a run of it can record, with their units
+//! let signals = catalogue(&scene.model);
+//! assert!(signals.iter().any(|signal| signal.name == "/hinge.velocity" && signal.unit == "rad/s"));
+//!
+//! // everything that is wrong is reported at once, with its place and advice
+//! let wrong = from_text(&pendulum.replace("axis", "axes").replace("density = 1000.0", "density = -1.0")).unwrap_err();
+//! assert!(wrong.to_string().contains("scene.toml:5:5: error: unknown key `axes`"), "{wrong}");
+//! assert!(wrong.to_string().contains("did you mean `axis`?"));
+//! # Ok::<(), Diagnostics>(())
+//! ```
+//!
 //! | modules | hold |
 //! |---|---|
 //! | [`diagnostic`], [`document`], [`folder`], [`tree`], [`series`], [`suggest`] | findings with their place, parsed TOML with its spans, files of a folder, paths of objects, columns of CSV files, near names |
@@ -21,6 +54,7 @@ pub mod experiment;
 pub mod folder;
 pub mod open;
 pub mod overrides;
+pub mod prelude;
 pub mod record;
 pub mod scene;
 pub mod scenery;

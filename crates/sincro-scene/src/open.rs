@@ -32,8 +32,10 @@ pub struct Opened {
     pub controller: Option<ControlDiagram>,
     /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
-    /// Every file that was read: what a hash of the inputs covers.
+    /// Every text file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
+    /// The folder with what was read of it, to be opened again by [`open_in`].
+    pub folder: Arc<Folder>,
 }
 
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its
@@ -49,8 +51,21 @@ pub fn open(
     parser: Option<&'static dyn ScriptParser>,
     with_others: bool,
 ) -> Result<Opened, Diagnostics> {
-    let folder = Folder::new(&find_folder(folder)?);
-    let mut loaded = open_one(&folder, overrides, parser)?;
+    open_in(&Arc::new(Folder::new(&find_folder(folder)?)), overrides, parser, with_others)
+}
+
+/// As [`open`], of a folder whose files are not read again if they were read before.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn open_in(
+    folder: &Arc<Folder>,
+    overrides: &[Override],
+    parser: Option<&'static dyn ScriptParser>,
+    with_others: bool,
+) -> Result<Opened, Diagnostics> {
+    let mut loaded = open_one(folder, overrides, parser)?;
     let mut diagnostics = Diagnostics(std::mem::take(&mut loaded.warnings));
     // a variant was opened with the main run: its own settings must not meet those of the others
     let file = folder.path_of(EXPERIMENT);
@@ -58,7 +73,7 @@ pub fn open(
     let further = if is_variant || !with_others { Vec::new() } else { further_settings(&loaded.experiment) };
     for setting in further {
         let settings = settings_with(overrides, &setting);
-        match open_one(&folder, &settings, parser) {
+        match open_one(folder, &settings, parser) {
             Ok(variant) => diagnostics.merge(Diagnostics(variant.warnings)),
             Err(found) => diagnostics.merge(found),
         }
@@ -152,7 +167,7 @@ fn too_large(experiment: &Experiment) -> Diagnostics {
 
 /// One experiment without its variants.
 fn open_one(
-    folder: &Folder,
+    folder: &Arc<Folder>,
     overrides: &[Override],
     parser: Option<&'static dyn ScriptParser>,
 ) -> Result<Opened, Diagnostics> {
@@ -193,7 +208,14 @@ fn open_one(
     match (experiment, scene) {
         (Some(experiment), Some(scene)) if !diagnostics.any_error() => {
             diagnostics.merge(Diagnostics(scene.warnings.clone()));
-            Ok(Opened { experiment, scene, controller, warnings: diagnostics.0, sources: Vec::new() })
+            Ok(Opened {
+                experiment,
+                scene,
+                controller,
+                warnings: diagnostics.0,
+                sources: Vec::new(),
+                folder: folder.clone(),
+            })
         }
         _ => Err(diagnostics.sorted()),
     }
@@ -245,15 +267,26 @@ fn open_diagram(
     parser: Option<&'static dyn ScriptParser>,
     diagnostics: &mut Diagnostics,
 ) -> Option<ControlDiagram> {
+    let objects = scene.map_or(&[][..], |scene| &scene.objects);
     let Some(name) = document.located("/diagram") else {
         for setting in overrides.iter().filter(|s| s.target() == Target::Diagram) {
-            diagnostics.push(setting.without_diagram());
+            diagnostics.push(setting.without_slash(None, objects).unwrap_or_else(|| setting.without_diagram()));
         }
         return None;
     };
     let read = folder.read_named(&name).map_err(Diagnostics::from);
     let document = match read.and_then(|source| Document::parse(&source)) {
-        Ok(document) => prepared(document, Target::Diagram, overrides, diagnostics),
+        Ok(document) => {
+            let mut fitting = overrides.to_vec();
+            fitting.retain(|setting| match setting.without_slash(Some(&document), objects) {
+                Some(found) => {
+                    diagnostics.push(found);
+                    false
+                }
+                None => true,
+            });
+            prepared(document, Target::Diagram, &fitting, diagnostics)
+        }
         Err(found) => {
             diagnostics.merge(found);
             return None;

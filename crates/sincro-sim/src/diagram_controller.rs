@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use sincro_blocks::instance::Number;
 use sincro_blocks::runner::{Runner, State};
-use sincro_dynamics::coupled::{CoupledSystem, Response, StateView};
+use sincro_dynamics::coupled::{CoupledSystem, MechanismResponse, StateView};
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State as WorldState;
@@ -86,7 +86,7 @@ impl<R: Number> DiagramController<R> {
         }
     }
 
-    fn read_response(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, is_minor: bool) {
+    fn read_response(&mut self, seen: &mut StateView<'_, R>, response: MechanismResponse<'_, R>, is_minor: bool) {
         kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
         let view = View::of(seen);
         for reading in self.wiring.late.iter().filter(|r| r.is_minor || !is_minor) {
@@ -139,7 +139,7 @@ impl<R: Number> DiagramController<R> {
     pub fn slope_whole(
         &mut self,
         seen: &mut StateView<'_, R>,
-        response: Response<'_, R>,
+        response: MechanismResponse<'_, R>,
         slope: &mut [R],
         perturbed: Option<(usize, R)>,
     ) {
@@ -198,7 +198,7 @@ impl DiagramController<f64> {
         self.late_torque.copy_from_slice(torques);
         let (accelerations, torques) =
             (core::mem::take(&mut self.late_accelerations), core::mem::take(&mut self.late_torque));
-        let response = Response { accelerations: &accelerations, motor_torque: &torques };
+        let response = MechanismResponse { accelerations: &accelerations, motor_torque: &torques };
         world.with_state_view(t, |mut seen| self.read_response(&mut seen, response, false));
         (self.late_accelerations, self.late_torque) = (accelerations, torques);
         world.state.commands.copy_from_slice(&self.held);
@@ -316,7 +316,7 @@ impl<R: Number + Real> CoupledSystem<R> for DiagramController<R> {
         self.write_commands(commands, true);
     }
 
-    fn slope(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, z: &[R], slope: &mut [R]) {
+    fn slope(&mut self, seen: &mut StateView<'_, R>, response: MechanismResponse<'_, R>, z: &[R], slope: &mut [R]) {
         if z.is_empty() {
             return;
         }

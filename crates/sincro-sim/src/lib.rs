@@ -4,6 +4,57 @@
 //! variants, sweep, error bars and checks; [`results`] is what is written. [`rollout`] advances many worlds of one
 //! structure on all processors.
 //!
+//! A scene folder is loaded and run, then stepped by hand:
+//!
+//! ```
+//! use std::sync::atomic::AtomicBool;
+//!
+//! use sincro_sim::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = std::env::temp_dir().join(format!("sincro-sim-doc-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder)?;
+//! std::fs::write(folder.join("scene.toml"), r#"
+//!     [[joint]]
+//!     name = "hinge"
+//!     kind = "revolute"
+//!     axis = [0.0, 1.0, 0.0]
+//!     initial = { position = 0.1 }
+//!
+//!     [[body]]
+//!     name = "bob"
+//!     parent = "/hinge"
+//!     mass = 2.0
+//!     center_of_mass = [0.0, 0.0, -1.0]
+//!     inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+//! "#)?;
+//! std::fs::write(folder.join("experiment.toml"), r#"
+//!     title = "Pendulum"
+//!     duration = 2.0
+//!     step = 0.01
+//!     record = ["/hinge.position", "energy.balance"]
+//! "#)?;
+//! let loaded = load(&folder, &[], Extensions::default())?;
+//! let mut monitor = RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
+//! let run = simulate(&loaded, RunOptions::default(), &mut monitor)?;
+//! assert_eq!(run.status, Status::Completed);
+//! let angle = &run.table.column("/hinge.position").unwrap().values; // [rad], 0.01 s apart
+//! assert!(angle.len() == 201 && angle[0] == 0.1);
+//! let balance = &run.table.column("energy.balance").unwrap().values; // [J]
+//! assert!(balance.iter().all(|joules| joules.abs() < 1e-7));
+//!
+//! // the same run step by step, as controllers in Rust want it: the same bits
+//! let mut lockstep = LockStep::new(&loaded, method_for(&loaded).0, false);
+//! lockstep.start()?;
+//! while lockstep.tick() < 200 {
+//!     lockstep.advance()?;
+//! }
+//! assert_eq!(lockstep.state().q[0], angle[200]);
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! | modules | hold |
 //! |---|---|
 //! | [`load`](mod@load) | an opened folder with the parts of the program that it needs: language of scripts, linearisation |
@@ -20,9 +71,11 @@ pub mod campaign;
 pub mod check;
 pub mod controller;
 pub mod diagram_controller;
+mod error;
 pub mod file;
 pub mod load;
 mod number;
+pub mod prelude;
 pub mod proximity;
 pub mod replay;
 pub mod results;

@@ -9,7 +9,8 @@ use crate::controller::Controller;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
-use sincro_scene::open::{Opened, open};
+use sincro_scene::folder::Folder;
+use sincro_scene::open::{Opened, open, open_in};
 use sincro_scene::overrides::Override;
 use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptParser;
@@ -25,8 +26,10 @@ pub struct Loaded {
     pub controller: Option<ControlDiagram>,
     /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
-    /// Every file that was read: what a hash of the inputs covers.
+    /// Every text file that was read: what a hash of the inputs covers.
     pub sources: Vec<Arc<SourceText>>,
+    /// The folder with what was read of it.
+    pub folder: Arc<Folder>,
     /// Extensions that it was loaded with: variants and sweeps are loaded with the same.
     pub extensions: Extensions,
 }
@@ -52,10 +55,16 @@ pub struct Extensions {
     pub fastest_poles: Option<FastestPoles>,
 }
 
+impl Extensions {
+    fn parser(&self) -> Option<&'static dyn ScriptParser> {
+        self.scripts.map(|engine| engine as &dyn ScriptParser)
+    }
+}
+
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
 ///
 /// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run
-/// a variant, load again with its `set` added to `overrides`.
+/// a variant, see [`Loaded::with_overrides`].
 ///
 /// # Errors
 ///
@@ -79,7 +88,25 @@ fn with(
     extensions: Extensions,
     with_others: bool,
 ) -> Result<Loaded, Diagnostics> {
-    let parser = extensions.scripts.map(|engine| engine as &dyn ScriptParser);
-    let Opened { experiment, scene, controller, warnings, sources } = open(folder, overrides, parser, with_others)?;
-    Ok(Loaded { experiment, scene, controller, warnings, sources, extensions })
+    Ok(Loaded::new(open(folder, overrides, extensions.parser(), with_others)?, extensions))
+}
+
+impl Loaded {
+    fn new(opened: Opened, extensions: Extensions) -> Self {
+        let Opened { experiment, scene, controller, warnings, sources, folder } = opened;
+        Self { experiment, scene, controller, warnings, sources, folder, extensions }
+    }
+
+    /// The same experiment with other settings, from the files as they were read: nothing is read twice. `overrides`
+    /// stand in place of those that it was loaded with.
+    ///
+    /// For a variant they are those of [`settings_with`](sincro_scene::open::settings_with).
+    ///
+    /// # Errors
+    ///
+    /// As [`load`].
+    pub fn with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
+        let opened = open_in(&self.folder, overrides, self.extensions.parser(), true)?;
+        Ok(Self::new(opened, self.extensions))
+    }
 }

@@ -1,10 +1,8 @@
 //! Wind and drag in scene files: what is felt, what is recorded and measured, what is refused.
 
-mod common;
-
-use common::TestFolder;
 use sincro_sim::Loaded;
 use sincro_sim::run::{LockStep, method_for};
+use sincro_testing::{SceneFolder, scenes};
 
 const SCENE: &str = r#"gravity = [0.0, 0.0, 0.0]
 air_density = 1.2
@@ -45,11 +43,8 @@ step = 0.01
 record = ["/air.velocity.x", "/air/kite.wind.x", "wind.x", "/air/kite/sail.force.z", "energy.balance"]
 "#;
 
-fn folder() -> TestFolder {
-    let folder = TestFolder::new();
-    folder.write("scene.toml", SCENE);
-    folder.write("experiment.toml", EXPERIMENT);
-    folder
+fn folder() -> SceneFolder {
+    SceneFolder::of(SCENE, EXPERIMENT)
 }
 
 fn ran(loaded: &Loaded, n: u32) -> LockStep {
@@ -78,11 +73,7 @@ fn the_experiments_seed_chooses_the_turbulence() {
 fn a_kite_is_carried_along_and_the_energy_is_balanced() {
     let folder = folder();
     let loaded = folder.load(&["accuracy=1e-11"]).unwrap();
-    let watch = &mut sincro_sim::run::RunMonitor {
-        interrupt: &std::sync::atomic::AtomicBool::new(false),
-        progress: &mut |_| {},
-    };
-    let run = sincro_sim::run::simulate(&loaded, sincro_sim::run::RunOptions::default(), watch).unwrap();
+    let run = sincro_testing::run(&loaded);
     let column = |name: &str| &run.table.columns.iter().find(|c| c.name == name).unwrap().values;
     assert!(column("energy.balance").iter().all(|e| e.abs() < 1e-8));
     assert!(column("/air.velocity.x").last().unwrap() > &0.1);
@@ -227,7 +218,7 @@ fn wrong_air_is_refused_at_its_place() {
 
 #[test]
 fn wind_that_nothing_feels_is_told() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "[[joint]]", "[wind]\nmean = [1.0, 0.0, 0.0]\n\n[[joint]]");
     let loaded = folder.load(&[]).unwrap();
     let said: Vec<String> = loaded.warnings.iter().map(|w| folder.short(&w.to_string())).collect();

@@ -1,16 +1,15 @@
 //! Audit of runs: findings for corrupted results and for inputs above half the step rate, error bars, `run.json`.
 
-mod common;
-
 use std::sync::atomic::AtomicBool;
 
-use common::{TestFolder, refused};
 use serde_json::Value;
 use sincro_scene::overrides::Override;
 use sincro_sim::audit::{AuditReport, Finding, source_findings};
 use sincro_sim::campaign::{Campaign, audit, run_campaign};
 use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::{Extensions, Loaded, load};
+use sincro_testing::SceneFolder;
+use sincro_testing::scenes::{refused, sprung_arm};
 
 /// A short run without checks, variants and sweep.
 const EXPERIMENT: &str = r#"title = "Audited"
@@ -21,16 +20,16 @@ record = ["/shoulder.position", "/wrist.velocity", "energy.total", "energy.balan
 
 const COMMAND: &str = "command = { ramp = { slope = 1.0 } }";
 
-fn folder() -> TestFolder {
-    let folder = TestFolder::new();
+fn folder() -> SceneFolder {
+    let folder = sprung_arm();
     folder.write("experiment.toml", &EXPERIMENT.replace("/wrist", "/shoulder/rod/tip/wrist"));
     folder
 }
 
-fn campaign(folder: &TestFolder, set: &[&str], extensions: Extensions) -> Campaign {
+fn campaign(folder: &SceneFolder, set: &[&str], extensions: Extensions) -> Campaign {
     let set: Vec<Override> = set.iter().map(|text| Override::parse(text).unwrap()).collect();
-    let loaded = load(&folder.path, &set, extensions).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
-    run_campaign(&folder.path, &set, &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
+    let loaded = load(folder, &set, extensions).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    run_campaign(folder, &set, &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
 }
 
 fn simulated(loaded: &Loaded, refined: bool) -> Simulated {
@@ -154,7 +153,7 @@ fn the_bar_of_an_energy_is_never_below_the_balance() {
 #[test]
 fn signals_of_scripts_have_error_bars_where_the_step_of_scripts_can_be_halved() {
     let folder = folder();
-    let scene = std::fs::read_to_string(folder.path.join("scene.toml")).unwrap();
+    let scene = std::fs::read_to_string(folder.join("scene.toml")).unwrap();
     folder.write("scene.toml", &format!("{scene}\n[[script]]\nobject = \"/shoulder/rod\"\nfile = \"a.lua\"\n"));
     folder.write("a.lua", "function sysCall_actuation() end\n");
     let extensions = Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() };

@@ -1,10 +1,8 @@
 //! Contact, stops and closures that cannot be.
 //!
-//! Each case changes one thing in the folder of `common` and states the whole message.
+//! Each case changes one thing in the folder of the sprung arm and states the whole message.
 
-mod common;
-
-use common::refused;
+use sincro_testing::scenes::refused;
 
 /// Replacement of the last body of the scene, and expected message.
 const CASES: &[(&str, &str)] = &[

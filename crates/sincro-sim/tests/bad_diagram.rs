@@ -2,13 +2,11 @@
 //!
 //! Each case states a whole diagram file and the whole message.
 
-mod common;
+use sincro_testing::{SceneFolder, scenes};
 
-use common::TestFolder;
-
-/// The folder of `common` with a diagram, and two motors that take commands.
-fn folder(diagram: &str) -> TestFolder {
-    let folder = TestFolder::new();
+/// The sprung arm with a diagram, and two motors that take commands.
+fn folder(diagram: &str) -> SceneFolder {
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "damping = 0.5", "damping = 0.5\nmotor = { mode = \"torque\" }");
     folder.change("experiment.toml", "scene = \"scene.toml\"", "scene = \"scene.toml\"\ndiagram = \"diagram.toml\"");
     folder.write("diagram.toml", diagram);
@@ -861,6 +859,11 @@ const SETTINGS: &[(&str, &str)] = &[
         "pdi.kp=3",
         r##"--set:1:1: error: `pdi.kp`: the diagram has no block `pdi`
   help: blocks: `pid`"##,
+    ),
+    (
+        "shoulder.damping=3",
+        r##"--set:1:1: error: `shoulder.damping`: there is no block or key `shoulder`
+  help: did you mean `/shoulder.damping`? the path of an object begins with `/`"##,
     ),
     (
         "pid.kq=3",

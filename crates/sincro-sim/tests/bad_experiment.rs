@@ -1,10 +1,8 @@
 //! Times, checks, references, sweeps and variants.
 //!
-//! Each case changes one thing in the folder of `common` and states the whole message.
+//! Each case changes one thing in the folder of the sprung arm and states the whole message.
 
-mod common;
-
-use common::refused;
+use sincro_testing::scenes::refused;
 
 /// File, what is replaced, by what, and what is said.
 const CASES: &[(&str, &str, &str, &str)] = &[

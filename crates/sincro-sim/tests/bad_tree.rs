@@ -1,10 +1,8 @@
 //! Who hangs on whom.
 //!
-//! Each case changes one thing in the folder of `common` and states the whole message.
+//! Each case changes one thing in the folder of the sprung arm and states the whole message.
 
-mod common;
-
-use common::refused;
+use sincro_testing::scenes::refused;
 
 /// File, what is replaced, by what, and what is said.
 const CASES: &[(&str, &str, &str, &str)] = &[

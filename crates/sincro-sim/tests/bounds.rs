@@ -1,14 +1,11 @@
 //! Bounds that end a run, checks that want a divergence, paths as plots: how they come out, and what is refused.
 
-mod common;
-
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use common::TestFolder;
 use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::check::Verdict;
 use sincro_sim::results::{Status, VerdictReport};
+use sincro_testing::{SceneFolder, scenes};
 
 /// A mass on a spring with a negative damper: it swings ever wider.
 const SCENE: &str = r#"
@@ -59,18 +56,17 @@ kind = "path"
 signals = ["/hinge/ball.position"]
 "#;
 
-fn folder() -> TestFolder {
-    let folder = TestFolder::new();
+fn folder() -> SceneFolder {
+    let folder = scenes::sprung_arm();
     folder.write("scene.toml", SCENE);
     folder.write("diagram.toml", DIAGRAM);
     folder.write("experiment.toml", EXPERIMENT);
     folder
 }
 
-fn run(folder: &TestFolder) -> Campaign {
+fn run(folder: &SceneFolder) -> Campaign {
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
-    let path: &Path = &folder.path;
-    run_campaign(path, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
+    run_campaign(folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
 }
 
 /// x = 0.1·e^(t/2)·(cos ωt − sin ωt/2ω), ω² = 9 − 1/4, first passes 0.5 in its fifth half swing.

@@ -1,12 +1,7 @@
 //! Cameras of scenes: where they stand, that they change no run, and what is refused.
 
-mod common;
-
-use std::sync::atomic::AtomicBool;
-
-use common::TestFolder;
 use sincro_sim::replay::SceneView;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
+use sincro_testing::SceneFolder;
 
 const SCENE: &str = r#"
 [[joint]]
@@ -30,9 +25,8 @@ position = [1.0, -2.0, 0.0]
 look_at = [1.0, 0.0, 0.0]
 "#;
 
-fn folder(scene: &str) -> TestFolder {
-    let folder = TestFolder::new();
-    folder.write("scene.toml", scene);
+fn folder(scene: &str) -> SceneFolder {
+    let folder = SceneFolder::new().with("scene.toml", scene);
     folder.write(
         "experiment.toml",
         "title = \"t\"\nscene = \"scene.toml\"\nduration = 0.5\nstep = 0.01\nrecord = [\"/hinge.position\"]\n",
@@ -58,12 +52,10 @@ fn a_camera_rides_on_what_carries_it_and_looks_where_it_is_told() {
 
 #[test]
 fn a_camera_changes_no_run_and_no_model() {
-    let interrupt = AtomicBool::new(false);
     let hash = |scene: &str| {
         let loaded = folder(scene).load(&[]).unwrap();
         let signals = sincro_scene::record::catalogue(&loaded.scene.model).len();
-        let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
-        (simulate(&loaded, RunOptions::default(), &mut watch).unwrap().trace.to_string(), signals)
+        (sincro_testing::run(&loaded).trace.to_string(), signals)
     };
     assert_eq!(hash(SCENE), hash(&format!("{SCENE}{CAMERA}")));
     assert_eq!(hash(SCENE), hash(&format!("{SCENE}{CAMERA}resolution = [320, 240]")));

@@ -1,27 +1,24 @@
 //! Compilation of a scene file: masses, poses, order, initial states, signals.
 
-mod common;
-
-use common::TestFolder;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::signal::Signal;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
+use sincro_testing::{SceneFolder, scenes};
 
 fn with_scene(scene: &str) -> Loaded {
-    let folder = TestFolder::new();
-    folder.write("scene.toml", scene);
+    let folder = SceneFolder::new().with("scene.toml", scene);
     folder.write("experiment.toml", "title = \"T\"\nduration = 1.0\nstep = 0.01\nrecord = [\"energy.total\"]\n");
     folder.load(&[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))
 }
 
 #[test]
 fn the_order_in_the_file_does_not_matter() {
-    let folder = TestFolder::new();
-    let blocks: Vec<&str> = common::SCENE.split("\n\n").collect();
+    let folder = scenes::sprung_arm();
+    let blocks: Vec<&str> = scenes::SPRUNG_ARM.split("\n\n").collect();
     let turned: Vec<&str> = blocks[1..].iter().rev().copied().collect();
     folder.write("scene.toml", &format!("{}\n\n{}\n", blocks[0], turned.join("\n\n")));
-    let (turned, straight) = (folder.load(&[]).unwrap().scene, TestFolder::new().load(&[]).unwrap().scene);
+    let (turned, straight) = (folder.load(&[]).unwrap().scene, scenes::sprung_arm().load(&[]).unwrap().scene);
     let paths = |scene: &sincro_scene::scene::Scene| scene.objects.iter().map(|o| o.path.clone()).collect::<Vec<_>>();
     assert_eq!(paths(&turned), paths(&straight));
     assert_eq!(turned.initial, straight.initial);
@@ -119,7 +116,7 @@ fn signals_are_read() {
         ),
     ];
     for (text, signal) in cases {
-        let folder = TestFolder::new();
+        let folder = scenes::sprung_arm();
         folder.change("scene.toml", "{ ramp = { slope = 1.0 } }", text);
         assert_eq!(folder.load(&[]).unwrap_or_else(|e| panic!("{e}")).scene.commands, [signal], "{text}");
     }
@@ -143,7 +140,7 @@ fn motors_and_commands_are_paired() {
 
 #[test]
 fn shapes_keep_their_colour_and_place() {
-    let scene = TestFolder::new().load(&[]).unwrap().scene;
+    let scene = scenes::sprung_arm().load(&[]).unwrap().scene;
     let shape = &scene.object("/shoulder/rod").unwrap().shapes[0];
     assert_eq!((shape.color, shape.density), (Some([0x8a, 0x5a, 0x2b]), Some(1000.0)));
     assert_eq!(shape.pose.pos.0, [0.0, 0.0, 0.25]);
@@ -151,7 +148,7 @@ fn shapes_keep_their_colour_and_place() {
 
 #[test]
 fn a_nearly_unit_quaternion_is_made_one() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     folder.change(
         "scene.toml",
         "kind = \"revolute\"\nmotor",

@@ -1,14 +1,12 @@
 //! Controllers in lock-step: a closure as one, whose commands win, and what a fork cannot copy.
 
-mod common;
-
-use common::TestFolder;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::controller::{Controller, Instant, Law, Source};
 use sincro_sim::run::LockStep;
+use sincro_testing::scenes;
 
 fn lockstep() -> LockStep {
-    let loaded = TestFolder::new().load(&[]).unwrap();
+    let loaded = scenes::sprung_arm().load(&[]).unwrap();
     LockStep::new(&loaded, MethodKind::SemiImplicitEuler, false)
 }
 

@@ -1,12 +1,10 @@
 //! Diagrams between ticks: late measurements that are held, jumps at a tick after a restore, what is left when a step
 //! fails.
 
-mod common;
-
-use common::TestFolder;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
 use sincro_sim::run::LockStep;
+use sincro_testing::{SceneFolder, scenes};
 
 const METHODS: [MethodKind; 5] = [
     MethodKind::SemiImplicitEuler,
@@ -16,9 +14,9 @@ const METHODS: [MethodKind; 5] = [
     MethodKind::Stiff,
 ];
 
-/// The folder of `common` with a torque motor and a diagram.
-fn load(joint: &str, wires: &str, blocks: &str) -> (TestFolder, Loaded) {
-    let folder = TestFolder::new();
+/// The folder of the sprung arm with a torque motor and a diagram.
+fn load(joint: &str, wires: &str, blocks: &str) -> (SceneFolder, Loaded) {
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "damping = 0.5", &format!("damping = 0.5\nmotor = {{ mode = \"torque\" }}\n{joint}"));
     let experiment = "title = \"T\"\nscene = \"scene.toml\"\ndiagram = \"diagram.toml\"\nduration = 1.0\nstep = 0.01\n\
                       error_bar = \"none\"\nrecord = [\"/shoulder.position\"]\n";

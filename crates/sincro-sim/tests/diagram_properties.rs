@@ -1,12 +1,10 @@
 //! No text makes the readers of diagrams panic, and every problem points into its file.
 
-mod common;
-
-use common::TestFolder;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use sincro_blocks::endpoint::Endpoint;
 use sincro_blocks::unit::Unit;
+use sincro_testing::scenes;
 
 fn config() -> Config {
     Config { cases: 300, rng_seed: RngSeed::Fixed(11), failure_persistence: None, ..Config::default() }
@@ -58,7 +56,7 @@ proptest! {
                 }
             }
         }
-        let folder = TestFolder::new();
+        let folder = scenes::sprung_arm();
         folder.change("experiment.toml", "scene = \"scene.toml\"", "scene = \"scene.toml\"\ndiagram = \"diagram.toml\"");
         folder.write("diagram.toml", &text);
         // what it says does not matter here

@@ -1,16 +1,11 @@
 //! Blocks that stop giving numbers: the run stops, says which block and when, and keeps its rows.
 
-mod common;
-
-use std::sync::atomic::AtomicBool;
-
-use common::TestFolder;
 use sincro_sim::results::Status;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
+use sincro_testing::scenes;
 
-/// Runs the folder of `common` with a diagram; how many rows there are, tick, reason, help.
+/// Runs the sprung arm with a diagram; how many rows there are, tick, reason, help.
 fn stops(wires: &str, blocks: &str, integrator: &str) -> (usize, u64, String, String) {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "damping = 0.5", "damping = 0.5\nmotor = { mode = \"torque\" }");
     let experiment = format!(
         "title = \"T\"\nscene = \"scene.toml\"\ndiagram = \"diagram.toml\"\nduration = 1.0\nstep = 0.01\n\
@@ -19,8 +14,7 @@ fn stops(wires: &str, blocks: &str, integrator: &str) -> (usize, u64, String, St
     folder.write("experiment.toml", &experiment);
     folder.write("diagram.toml", &format!("wires = [{wires}]\n{blocks}"));
     let loaded = folder.load(&[]).unwrap();
-    let mut watch = RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    let run = simulate(&loaded, RunOptions::default(), &mut watch).unwrap();
+    let run = sincro_testing::run(&loaded);
     match run.status {
         Status::Stopped { tick, reason, help, .. } => (run.table.n_rows(), tick, reason, help),
         other => panic!("{other:?}"),

@@ -1,14 +1,12 @@
 //! Diagrams far larger than anyone draws by hand, and such as grow without end: opened fast, or refused.
 
-mod common;
-
 use std::time::Instant;
 
-use common::TestFolder;
+use sincro_testing::scenes;
 
-/// Opens the folder of `common` with a diagram; what is said, and how long it took `[s]`.
+/// Opens the folder of the sprung arm with a diagram; what is said, and how long it took `[s]`.
 fn open(diagram: &str) -> (String, f64) {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     let experiment = "title = \"T\"\nscene = \"scene.toml\"\ndiagram = \"diagram.toml\"\nduration = 1.0\nstep = 0.01\nrecord = [\"/shoulder.position\"]\n";
     folder.write("experiment.toml", experiment);
     folder.write("diagram.toml", diagram);

@@ -1,11 +1,7 @@
 //! Proximity sensors of scenes: what they see, of which bodies, how often and how wrong; and what is refused.
 
-mod common;
-
-use std::sync::atomic::AtomicBool;
-
-use common::TestFolder;
-use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
+use sincro_sim::run::Simulated;
+use sincro_testing::SceneFolder;
 
 /// A sledge that goes 0.5 m/s along x, with an arm that hangs before its sensor; a wall, and a ball that is nearer.
 const SLEDGE: &str = r#"
@@ -43,9 +39,8 @@ shape = [{ sphere = { radius = 0.05 } }]
 
 const SIGNALS: &str = "\"/rail/sledge/eye.detected\", \"/rail/sledge/eye.distance\", \"/rail/sledge/eye.detected_point.y\", \"/rail/sledge/eye.detected_point.z\"";
 
-fn folder(scene: &str, record: &str) -> TestFolder {
-    let folder = TestFolder::new();
-    folder.write("scene.toml", scene);
+fn folder(scene: &str, record: &str) -> SceneFolder {
+    let folder = SceneFolder::new().with("scene.toml", scene);
     let experiment = format!(
         "title = \"seen\"\nscene = \"scene.toml\"\nduration = 1.0\nstep = 0.01\nerror_bar = \"none\"\nrecord = [{record}]\n"
     );
@@ -55,8 +50,7 @@ fn folder(scene: &str, record: &str) -> TestFolder {
 
 fn run(scene: &str) -> Simulated {
     let loaded = folder(scene, SIGNALS).load(&[]).unwrap_or_else(|words| panic!("{words}"));
-    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(&loaded, RunOptions::default(), watch).unwrap()
+    sincro_testing::run(&loaded)
 }
 
 fn column(run: &Simulated, k: usize) -> Vec<f64> {

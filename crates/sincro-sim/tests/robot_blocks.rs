@@ -28,7 +28,7 @@ fn arm() -> Scene {
 }
 
 fn with(scene: Scene, draw: impl FnOnce(&mut Diagram, &Context, usize)) -> LockStep {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/two-dof-position");
+    let folder = sincro_testing::repository_scene("two-dof-position");
     let loaded = load(&folder, &[], Extensions::default()).unwrap();
     let tool = scene.model.names().frames.iter().position(|f| f.name.ends_with("tool")).unwrap();
     let (mut diagram, context) = (Diagram::new(), Context { parser: None, model: scene.model.clone() });

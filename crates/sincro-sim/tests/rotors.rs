@@ -1,15 +1,11 @@
 //! Rotors in scene files: every law, lag, joints; what is measured, what is counted, what stops, what is refused.
 
-mod common;
-
-use std::sync::atomic::AtomicBool;
-
-use common::TestFolder;
 use sincro_analysis::linearize::{Request, linearize};
 use sincro_sim::Loaded;
 use sincro_sim::results::Status;
-use sincro_sim::run::{LockStep, RunMonitor, RunOptions, Simulated, method_for, simulate};
+use sincro_sim::run::{LockStep, Simulated, method_for};
 use sincro_sim::snapshot::Snapshot;
+use sincro_testing::{SceneFolder, scenes};
 
 const BLADE: &str = "{ radius = 0.2, chord = 0.025, n_blades = 4, lift_slope = 5.7, collective_pitch = 0.14, cd0 = 0.0087, k_cd = 0.4 }";
 
@@ -39,8 +35,8 @@ step = 0.01
 record = ["/air.velocity.z", "/air/craft/rotor.speed", "/air/craft/rotor.thrust", "/air/craft/rotor.valid", "energy.balance"]
 "#;
 
-fn folder(law: &str) -> TestFolder {
-    let folder = TestFolder::new();
+fn folder(law: &str) -> SceneFolder {
+    let folder = scenes::sprung_arm();
     folder.write("scene.toml", &SCENE.replace("LAW", law));
     folder.write("experiment.toml", EXPERIMENT);
     folder
@@ -51,8 +47,7 @@ fn blade() -> String {
 }
 
 fn run(loaded: &Loaded) -> Simulated {
-    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(loaded, RunOptions::default(), watch).unwrap()
+    sincro_testing::run(loaded)
 }
 
 fn column<'a>(run: &'a Simulated, name: &str) -> &'a [f64] {

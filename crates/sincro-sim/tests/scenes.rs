@@ -1,15 +1,12 @@
 //! Every scene of the repository loads, with its variants.
 
-use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::path::PathBuf;
 
 use sincro_scene::overrides::Override;
-use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
 fn scenes() -> Vec<PathBuf> {
-    let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let all = sincro_testing::repository_scene("");
     let mut found: Vec<PathBuf> = std::fs::read_dir(all)
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -24,8 +21,8 @@ fn every_scene_loads_without_warnings() {
     let scenes = scenes();
     assert!(scenes.len() >= 10);
     for scene in scenes {
-        let loaded = load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-            .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+        let loaded =
+            load(&scene, &[], sincro_testing::with_scripts()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
         // the thesis's quadrotor has an inertia that no body has, and is warned of, once in each scene file: one has
         // three
         let name = scene.file_name().unwrap().to_string_lossy().into_owned();
@@ -48,9 +45,8 @@ fn every_scene_loads_without_warnings() {
         );
         assert_eq!(loaded.scene.commands.len(), loaded.scene.model.n_commands());
         for variant in &loaded.experiment.variants {
-            let of_variant =
-                load(&scene, &variant.set, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-                    .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+            let of_variant = load(&scene, &variant.set, sincro_testing::with_scripts())
+                .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
             assert_eq!(of_variant.experiment.variants.len(), loaded.experiment.variants.len());
         }
     }
@@ -59,18 +55,16 @@ fn every_scene_loads_without_warnings() {
 /// A row shows the torque of its own instant, not that of the tick before, when the diagram commands it continuously.
 #[test]
 fn continuous_commands_are_seen_as_of_now() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/motor-step");
+    let folder = sincro_testing::repository_scene("motor-step");
     let settings = [
         ("diagram", "velocity-loop.toml"),
         ("/motor.motor", "{ mode = \"torque\" }"),
         ("record", "[\"/motor.motor_torque_now\", \"pi\"]"),
     ];
     let settings = settings.map(|(path, value)| Override::new(path, value));
-    let loaded = load(&folder, &settings, Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
-    let interrupt = AtomicBool::new(false);
-    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
-    let table = simulate(&loaded, RunOptions::default(), &mut watch).unwrap().table;
+    let loaded =
+        load(&folder, &settings, sincro_testing::with_scripts()).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let table = sincro_testing::run(&loaded).table;
     let column = |name: &str| &table.column(name).unwrap().values;
     let (now, pi) = (column("/motor.motor_torque_now"), column("pi"));
     // the row of the step itself shows the torque before it, and what the controller asks for from then on

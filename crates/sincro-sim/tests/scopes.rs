@@ -1,12 +1,10 @@
 //! Signals of a diagram's scopes are recorded and plotted, through bundles and from the world too.
 
-mod common;
-
-use common::TestFolder;
+use sincro_testing::scenes;
 
 #[test]
 fn scopes_record_and_plot_what_their_wires_come_from() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "damping = 0.5", "damping = 0.5\nmotor = { mode = \"torque\" }");
     folder.write(
         "experiment.toml",

@@ -1,11 +1,7 @@
 //! Sensors against closed forms, their noise against its statistics, their rates, snapshots, and what is refused.
 
-mod common;
-
-use std::sync::atomic::AtomicBool;
-
-use common::TestFolder;
-use sincro_sim::run::{LockStep, RunMonitor, RunOptions, Simulated, method_for, simulate};
+use sincro_sim::run::{LockStep, Simulated, method_for};
+use sincro_testing::SceneFolder;
 
 /// A turntable with an arm: an IMU 0.4 m from the axis, mounted on its side.
 const TURNTABLE: &str = r#"
@@ -69,18 +65,16 @@ parent = "/air/brick"
 position = [0.1, 0.0, 0.0]
 "#;
 
-fn folder(scene: &str, record: &str, duration: f64) -> TestFolder {
-    let folder = TestFolder::new();
-    folder.write("scene.toml", scene);
+fn folder(scene: &str, record: &str, duration: f64) -> SceneFolder {
+    let folder = SceneFolder::new().with("scene.toml", scene);
     let head = format!("title = \"Sensors\"\nduration = {duration:?}\nstep = 0.01\naccuracy = 1e-11\n");
     folder.write("experiment.toml", &format!("{head}error_bar = \"none\"\nseed = 3\nrecord = [{record}]\n"));
     folder
 }
 
-fn ran(folder: &TestFolder) -> Simulated {
+fn ran(folder: &SceneFolder) -> Simulated {
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
-    let interrupt = AtomicBool::new(false);
-    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    sincro_testing::run(&loaded)
 }
 
 fn quoted(names: &[String]) -> String {

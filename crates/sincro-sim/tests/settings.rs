@@ -1,15 +1,13 @@
 //! `--set PATH=VALUE`: what it reaches, and what is said when it does not.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::TestFolder;
 use sincro_dynamics::signal::Signal;
 use sincro_scene::overrides::Override;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::Extensions;
 use sincro_sim::load;
+use sincro_testing::scenes;
 
 /// Setting, and what is said.
 const REFUSED: &[(&str, &str)] = &[
@@ -32,6 +30,11 @@ const REFUSED: &[(&str, &str)] = &[
         "/shoulder.sprng.stiffness=2",
         r#"--set:1:1: error: `/shoulder.sprng.stiffness`: `/shoulder` has no `sprng`
   help: did you mean `spring`? keys: `spring`, `damping`, `force_sensor`, `rotation_deg`, `quaternion_wxyz`, `kind`, `pitch`, `torque` and 8 more"#,
+    ),
+    (
+        "wrist.mass=2",
+        r#"--set:1:1: error: `wrist.mass`: there is no block or key `wrist`
+  help: did you mean `/shoulder/rod/tip/wrist.mass`? the path of an object begins with `/`"#,
     ),
     (
         "k=3",
@@ -137,7 +140,7 @@ const REFUSED: &[(&str, &str)] = &[
 
 #[test]
 fn settings_that_reach_nothing_are_refused() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     for (setting, said) in REFUSED {
         assert_eq!(folder.load(&[setting]).expect_err(setting), *said, "{setting}");
     }
@@ -145,7 +148,7 @@ fn settings_that_reach_nothing_are_refused() {
 
 #[test]
 fn settings_reach_scene_and_experiment() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     let settings = [
         "/shoulder.spring.stiffness=12.5",
         "/shoulder.axis[1]=-1",
@@ -179,7 +182,7 @@ fn settings_reach_scene_and_experiment() {
 
 #[test]
 fn what_the_file_leaves_out_can_be_set() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     folder.change("scene.toml", "gravity = [0.0, 0.0, -9.81]\n", "");
     let loaded = folder.load(&["gravity.2=-3.7", "/shoulder/rod/tip.position.0=0.1"]).unwrap();
     assert_eq!(loaded.scene.model.gravity().0, [0.0, 0.0, -3.7]);
@@ -188,58 +191,58 @@ fn what_the_file_leaves_out_can_be_set() {
 
 #[test]
 fn the_last_setting_wins() {
-    let loaded = TestFolder::new().load(&["/shoulder.damping=1", "/shoulder.damping=2"]).unwrap();
+    let loaded = scenes::sprung_arm().load(&["/shoulder.damping=1", "/shoulder.damping=2"]).unwrap();
     assert_eq!(loaded.scene.model.dofs()[0].damping, 2.0);
 }
 
 #[test]
 fn a_variant_is_the_experiment_with_its_settings() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     let variant = folder.load(&[]).unwrap().experiment.variants[0].clone();
-    let loaded = load(&folder.path, &variant.set, Extensions::default()).unwrap();
+    let loaded = load(&folder, &variant.set, Extensions::default()).unwrap();
     assert_eq!(loaded.scene.model.dofs()[0].stiffness, 10.0);
     assert_eq!(loaded.experiment.integrator.word(), "rk4");
 }
 
 #[test]
 fn a_sweep_sets_its_parameter() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     let sweep = folder.load(&[]).unwrap().experiment.sweep.unwrap();
     assert_eq!(sweep.values, [10.0, 20.0, 30.0]);
-    let loaded = load(&folder.path, &sweep.settings(1e-7).collect::<Vec<_>>(), Extensions::default()).unwrap();
+    let loaded = load(&folder, &sweep.settings(1e-7).collect::<Vec<_>>(), Extensions::default()).unwrap();
     assert_eq!(loaded.scene.model.dofs()[0].stiffness, 1e-7);
 }
 
 /// Who shortens a run to look at it has made no mistake; the checks of the rest cannot be made.
 #[test]
 fn a_shorter_run_loads_although_checks_look_beyond_it() {
-    let loaded = TestFolder::new().load(&["duration=0.1"]).unwrap();
+    let loaded = scenes::sprung_arm().load(&["duration=0.1"]).unwrap();
     assert_eq!(loaded.experiment.n_steps, 10);
 }
 
 #[test]
 fn another_scene_can_be_set() {
-    let folder = TestFolder::new();
-    folder.write("other.toml", &common::SCENE.replace("damping = 0.5", "damping = 0.25"));
+    let folder = scenes::sprung_arm();
+    folder.write("other.toml", &scenes::SPRUNG_ARM.replace("damping = 0.5", "damping = 0.25"));
     assert_eq!(folder.load(&["scene=other.toml"]).unwrap().scene.model.dofs()[0].damping, 0.25);
 }
 
 #[test]
 fn nothing_pasted_makes_it_fall_over() {
-    let folder = TestFolder::new();
+    let folder = scenes::sprung_arm();
     let paths =
         ["/", "//", "/.", ".", "..", "[", "]", "[[0]]", "/shoulder[", "/shoulder..", "é", "record.0.x", "check.0.x.y"];
     let deep = "{ a = ".repeat(500) + "1" + &" }".repeat(500);
     for path in paths.into_iter().chain(["/shoulder.axis", "parameters", "check", "joint", "joint.0", "body.0.shape"]) {
         for value in ["1", "[]", "{}", "inf", "\"", "é", "[[1]]", "{ a = 1 }", &deep] {
-            let _ = load(&folder.path, &[Override::new(path, value)], Extensions::default());
+            let _ = load(&folder, &[Override::new(path, value)], Extensions::default());
         }
     }
 }
 
 #[test]
 fn sources_are_all_files_that_were_read() {
-    let loaded = TestFolder::new().load(&[]).unwrap();
+    let loaded = scenes::sprung_arm().load(&[]).unwrap();
     let names: Vec<_> = loaded.sources.iter().map(|s| s.path.file_name().unwrap().to_str().unwrap()).collect();
     assert_eq!(names, ["experiment.toml", "reference.csv", "scene.toml"]);
     assert!(Arc::strong_count(&loaded.sources[0]) >= 1);

@@ -1,11 +1,7 @@
 //! Contact sensors and force sensors in joints against closed forms.
 
-mod common;
-
-use std::sync::atomic::AtomicBool;
-
-use common::TestFolder;
-use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
+use sincro_sim::run::Simulated;
+use sincro_testing::SceneFolder;
 
 const G: f64 = 9.81;
 
@@ -94,19 +90,17 @@ center_of_mass = [0.0, 0.0, -0.2]
 inertia = { xx = 0.02, yy = 0.01, zz = 0.03 }
 "#;
 
-fn folder(scene: &str, record: &[String], duration: f64) -> TestFolder {
-    let folder = TestFolder::new();
-    folder.write("scene.toml", scene);
+fn folder(scene: &str, record: &[String], duration: f64) -> SceneFolder {
+    let folder = SceneFolder::new().with("scene.toml", scene);
     let names = record.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(", ");
     let head = format!("title = \"Touch\"\nduration = {duration:?}\nstep = 0.01\naccuracy = 1e-11\n");
     folder.write("experiment.toml", &format!("{head}error_bar = \"none\"\nseed = 3\nrecord = [{names}]\n"));
     folder
 }
 
-fn ran(folder: &TestFolder) -> Simulated {
+fn ran(folder: &SceneFolder) -> Simulated {
     let loaded = folder.load(&[]).unwrap_or_else(|e| panic!("{e}"));
-    let interrupt = AtomicBool::new(false);
-    simulate(&loaded, RunOptions::default(), &mut RunMonitor { interrupt: &interrupt, progress: &mut |_| {} }).unwrap()
+    sincro_testing::run(&loaded)
 }
 
 fn six(stem: &str, force: &str, torque: &str) -> Vec<String> {

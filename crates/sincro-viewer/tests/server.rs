@@ -2,21 +2,21 @@
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
+use sincro_testing::SceneFolder;
 use sincro_viewer::live::{Board, Command, Engine, Source};
 use sincro_viewer::server::{Server, Show};
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Message, WebSocket};
 
 fn scene(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
+    sincro_testing::repository_scene(name)
 }
 
 fn engine(name: &str) -> (Arc<Board>, SyncSender<Command>) {
@@ -107,9 +107,7 @@ fn send(commands: &SyncSender<Command>, text: &str) {
 
 fn hash_of(name: &str) -> String {
     let loaded = load(&scene(name), &[], Extensions::default()).unwrap();
-    let interrupt = std::sync::atomic::AtomicBool::new(false);
-    let mut watch = RunMonitor { interrupt: &interrupt, progress: &mut |_| {} };
-    simulate(&loaded, RunOptions::default(), &mut watch).unwrap().trace.to_string()
+    sincro_testing::run(&loaded).trace.to_string()
 }
 
 #[test]
@@ -359,7 +357,7 @@ fn a_changed_number_makes_another_run_and_the_first_one_stays() {
 
 #[test]
 fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
-    let top = std::env::temp_dir().join(format!("sincro-save-{}", std::process::id()));
+    let top = SceneFolder::new();
     let copy = top.join("quadrotor");
     std::fs::create_dir_all(&copy).unwrap();
     for file in std::fs::read_dir(scene("quadrotor-open-loop")).unwrap().flatten() {
@@ -393,7 +391,6 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
     assert!(second.contains("duration = 2 ") && second.contains("# Ts [s] [T]"), "{second}");
     assert!(!top.join("quadrotor-edited-3").exists(), "what is no number is refused");
     assert!(board.read().words[2].1.contains("refused"));
-    std::fs::remove_dir_all(&top).unwrap();
 }
 
 /// A signal of a run at its frames.

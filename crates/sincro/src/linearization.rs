@@ -187,57 +187,11 @@ fn channel_name(analysis: &Analysis, channel: &Channel) -> String {
 
 #[cfg(test)]
 mod tests {
-    use sincro_analysis::linear::StateSpace;
     use sincro_figures::linear::text;
+    use sincro_testing::SceneFolder;
+    use sincro_testing::systems::{flexible, sampled, servo};
 
     use super::*;
-
-    /// `k / (s (s + 1) (s + 5))` as motor and load.
-    fn servo() -> StateSpace {
-        let a = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, 0.0, -1.0, 2.0, 0.0, 0.0, -5.0]);
-        let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 5.0]);
-        let c = DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
-        StateSpace {
-            a,
-            b,
-            c,
-            d: DMatrix::zeros(2, 1),
-            states: vec![
-                Axis::new("/arm/hinge.position", "rad"),
-                Axis::new("/arm/hinge.velocity", "rad/s"),
-                Axis::new("/motor.current", "A"),
-            ],
-            inputs: vec![Axis::new("/motor.voltage", "V")],
-            outputs: vec![Axis::new("/arm/hinge.position", "rad"), Axis::new("/arm/hinge.velocity", "rad/s")],
-            t: 0.5,
-            sample_time: None,
-        }
-    }
-
-    /// A flexible joint with three swings, hardly damped.
-    fn flexible() -> StateSpace {
-        let mut a = DMatrix::zeros(6, 6);
-        for (k, (w, zeta)) in [(3.0, 0.3), (8.0, 0.05), (20.0, 0.12)].into_iter().enumerate() {
-            a[(2 * k, 2 * k + 1)] = 1.0;
-            a[(2 * k + 1, 2 * k)] = -w * w;
-            a[(2 * k + 1, 2 * k + 1)] = -2.0 * zeta * w;
-        }
-        let b = DMatrix::from_row_slice(6, 1, &[0.0, 9.0, 0.0, 12.0, 0.0, 40.0]);
-        let c = DMatrix::from_row_slice(1, 6, &[1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
-        let mut system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
-        system.outputs[0] = Axis::new("/tip.position", "mm");
-        system.inputs[0] = Axis::new("/shaker.force", "N");
-        system
-    }
-
-    /// A lag behind two ticks of delay, sampled at 20 Hz.
-    fn sampled() -> StateSpace {
-        let a = DMatrix::from_row_slice(3, 3, &[0.9, 0.1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
-        let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 1.0]);
-        let c = DMatrix::from_row_slice(1, 3, &[1.0, 0.0, 0.0]);
-        let system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
-        StateSpace { sample_time: Some(0.05), ..system }
-    }
 
     #[test]
     fn the_json_reads_back() {
@@ -252,9 +206,9 @@ mod tests {
 
     #[test]
     fn the_folder_holds_every_file() {
-        let out = std::env::temp_dir().join(format!("sincro-linear-{}", std::process::id()));
+        let temporary = SceneFolder::new();
         // a folder to look at, if one is named
-        let out = std::env::var_os("SINCRO_LOOK").map_or(out, std::path::PathBuf::from);
+        let out = std::env::var_os("SINCRO_LOOK").map_or(temporary.to_path_buf(), std::path::PathBuf::from);
         for (name, system) in [("servo", servo()), ("flexible", flexible()), ("sampled", sampled())] {
             let folder = out.join(name);
             std::fs::create_dir_all(&folder).unwrap();

@@ -2,53 +2,20 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
-/// A folder of its own for one test, taken away at the end.
-struct Folder(PathBuf);
+use sincro_testing::scenes::ROD_PENDULUM;
+use sincro_testing::{CommandLine, Exit, SceneFolder};
 
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("sincro-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
+const SINCRO: CommandLine = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-
-    /// A pendulum; `experiment` and `scene` are put behind what is always there.
-    fn pendulum(&self, experiment: &str, scene: &str) -> PathBuf {
-        let folder = self.path("pendulum");
-        fs::create_dir_all(&folder).unwrap();
-        fs::write(folder.join("experiment.toml"), format!("{EXPERIMENT}{experiment}")).unwrap();
-        fs::write(folder.join("scene.toml"), format!("{SCENE}{scene}")).unwrap();
-        folder
-    }
+/// Puts the folder `pendulum` into a folder; `experiment` and `scene` are put behind what is always there.
+fn pendulum(folder: &SceneFolder, experiment: &str, scene: &str) -> PathBuf {
+    std::fs::create_dir_all(folder.join("pendulum")).unwrap();
+    folder.write("pendulum/experiment.toml", &format!("{EXPERIMENT}{experiment}"));
+    folder.write("pendulum/scene.toml", &format!("{ROD_PENDULUM}{scene}"));
+    folder.join("pendulum")
 }
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-const SCENE: &str = r#"
-[[joint]]
-name = "hinge"
-kind = "revolute"
-axis = [0.0, 1.0, 0.0]
-initial = { position = 1.0 }
-
-[[body]]
-name = "rod"
-parent = "/hinge"
-position = [0.0, 0.0, -0.25]
-density = 1000.0
-shape = [{ cylinder = { radius = 0.05, length = 0.5 } }]
-"#;
 
 const EXPERIMENT: &str = r#"
 title = "A <pendulum> & more"
@@ -64,30 +31,16 @@ value = 0.0
 tolerance = 1e-7
 "#;
 
-fn sincro(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_sincro")).args(arguments).output().unwrap()
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
 /// Runs a scene into `out`; standard output, standard error, exit status.
 fn run(scene: &Path, out: &Path, more: &[&str]) -> (String, String, i32) {
-    let mut arguments = vec!["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
-    arguments.extend(more);
-    let output = sincro(&arguments);
-    (text(&output.stdout), text(&output.stderr), status(&output))
+    let Exit { stdout, stderr, status } = SINCRO.run(scene, out, more);
+    (stdout, stderr, status)
 }
 
 #[test]
 fn a_run_writes_what_the_contract_says() {
-    let folder = Folder::new("contract");
-    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let folder = SceneFolder::new();
+    let (scene, out) = (pendulum(&folder, "", ""), folder.join("out"));
     let (stdout, stderr, exit) = run(&scene, &out, &[]);
     assert_eq!(exit, 0, "{stdout}{stderr}");
     assert!(stdout.contains("the check holds"), "{stdout}");
@@ -108,10 +61,10 @@ fn a_run_writes_what_the_contract_says() {
 
 #[test]
 fn signals_of_different_units_do_not_share_an_axis() {
-    let folder = Folder::new("units");
+    let folder = SceneFolder::new();
     let plot = "\n[[plot]]\ntitle = \"Both\"\nsignals = [\"/hinge.position\", \"/hinge/rod.position.z\"]\n";
-    let scene = folder.pendulum(plot, "");
-    let out = folder.path("out");
+    let scene = pendulum(&folder, plot, "");
+    let out = folder.join("out");
     assert_eq!(run(&scene, &out, &[]).2, 0);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     let from = page.find(">Both<").expect("the plot is there");
@@ -121,34 +74,36 @@ fn signals_of_different_units_do_not_share_an_axis() {
 
 #[test]
 fn the_same_run_gives_the_same_bytes() {
-    let folder = Folder::new("bytes");
-    let scene = folder.pendulum("", "");
+    let folder = SceneFolder::new();
+    let scene = pendulum(&folder, "", "");
     let signals = |name: &str| {
-        run(&scene, &folder.path(name), &[]);
-        fs::read(folder.path(name).join("signals.csv")).unwrap()
+        run(&scene, &folder.join(name), &[]);
+        fs::read(folder.join(name).join("signals.csv")).unwrap()
     };
     assert_eq!(signals("one"), signals("two"));
 }
 
 #[test]
 fn a_check_that_fails_is_status_one() {
-    let folder = Folder::new("fails");
-    let scene = folder.pendulum(
+    let folder = SceneFolder::new();
+    let scene = pendulum(
+        &folder,
         "[[check]]\nname = \"wrong\"\nsignal = \"/hinge.position\"\nat = 0.5\nvalue = 7.0\ntolerance = 0.1\n",
         "",
     );
-    let (stdout, _, exit) = run(&scene, &folder.path("out"), &[]);
+    let (stdout, _, exit) = run(&scene, &folder.join("out"), &[]);
     assert_eq!(exit, 1);
     assert!(stdout.contains("FAIL  wrong") && stdout.contains("expected 7.0000000"), "{stdout}");
 }
 
 #[test]
 fn findings_of_the_audit_are_status_one_and_no_green_banner() {
-    let folder = Folder::new("audit");
+    let folder = SceneFolder::new();
     let motor = "motor = { mode = \"velocity\", command = { sine = { amplitude = 1.0, frequency_hz = 400.0 } } }\n";
-    let scene = folder.pendulum("", "");
-    fs::write(scene.join("scene.toml"), SCENE.replacen("\n\n[[body]]", &format!("\n{motor}\n[[body]]"), 1)).unwrap();
-    let out = folder.path("out");
+    let scene = pendulum(&folder, "", "");
+    fs::write(scene.join("scene.toml"), ROD_PENDULUM.replacen("\n\n[[body]]", &format!("\n{motor}\n[[body]]"), 1))
+        .unwrap();
+    let out = folder.join("out");
     let (stdout, stderr, exit) = run(&scene, &out, &[]);
     assert_eq!(exit, 1, "{stdout}{stderr}");
     assert!(
@@ -166,29 +121,29 @@ fn findings_of_the_audit_are_status_one_and_no_green_banner() {
         "{json}"
     );
     // known before a run
-    let output = sincro(&["check", scene.to_str().unwrap()]);
-    assert_eq!((status(&output), text(&output.stdout).contains("audit: source frequency")), (1, true));
-    assert_eq!(run(&scene, &folder.path("fine"), &["--step", "0.001"]).2, 0);
+    let checked = SINCRO.call(&["check", scene.to_str().unwrap()]);
+    assert_eq!((checked.status, checked.stdout.contains("audit: source frequency")), (1, true));
+    assert_eq!(run(&scene, &folder.join("fine"), &["--step", "0.001"]).2, 0);
 }
 
 #[test]
 fn settings_reach_scene_and_experiment() {
-    let folder = Folder::new("set");
-    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let folder = SceneFolder::new();
+    let (scene, out) = (pendulum(&folder, "", ""), folder.join("out"));
     let set = ["--set", "/hinge.initial.position=0.5", "--until", "0.2", "--step", "0.02", "--integrator", "rk4"];
     let (_, stderr, exit) = run(&scene, &out, &set);
     assert!(exit <= 1, "{stderr}");
     let csv = fs::read_to_string(out.join("signals.csv")).unwrap();
     assert_eq!(csv.lines().nth(1).unwrap().split(',').nth(1), Some("0.5"));
     assert_eq!(csv.lines().count(), 12);
-    let json = text(&sincro(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap(), "--json"]).stdout);
+    let json = SINCRO.call(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap(), "--json"]).stdout;
     assert!(json.trim_start().starts_with('{') && json.contains("\"dormand-prince\""));
 }
 
 #[test]
 fn bad_input_is_status_two_and_writes_nothing() {
-    let folder = Folder::new("bad");
-    let out = folder.path("out");
+    let folder = SceneFolder::new();
+    let out = folder.join("out");
     let cases: [(&str, &str, &[&str], &str); 13] = [
         ("", "[[body]]\nname = \"x\"\nmasss = 1.0\n", &[], "masss"),
         (
@@ -210,38 +165,38 @@ fn bad_input_is_status_two_and_writes_nothing() {
         ("", "", &["--set", "record=[\"/hinge.positon\"]"], "positon"),
     ];
     for (experiment, scene, more, named) in cases {
-        let folder = folder.pendulum("", "");
+        let folder = pendulum(&folder, "", "");
         let with = |file: &str, base: &str, text: &str| {
             // top-level keys must stand before the tables
             let whole = if text.starts_with('[') { format!("{base}{text}") } else { format!("{text}{base}") };
             fs::write(folder.join(file), whole).unwrap();
         };
         with("experiment.toml", EXPERIMENT, experiment);
-        with("scene.toml", SCENE, scene);
+        with("scene.toml", ROD_PENDULUM, scene);
         let (stdout, stderr, exit) = run(&folder, &out, more);
         assert_eq!(exit, 2, "{experiment}{scene}{more:?}: {stdout}{stderr}");
         assert!(stderr.contains("error") && stderr.contains(named), "{named}: {stderr}");
         assert!(!out.exists(), "{named}: something was written");
     }
-    let (_, stderr, exit) = run(&folder.path("nowhere"), &out, &[]);
+    let (_, stderr, exit) = run(&folder.join("nowhere"), &out, &[]);
     assert!(exit == 2 && stderr.contains("nowhere"), "{stderr}");
 }
 
 #[test]
 fn results_that_cannot_be_written_are_refused_before_the_run() {
-    let folder = Folder::new("unwritable");
-    let scene = folder.pendulum("", "");
-    fs::write(folder.path("file"), "in the way").unwrap();
-    let (_, stderr, exit) = run(&scene, &folder.path("file/below"), &[]);
+    let folder = SceneFolder::new();
+    let scene = pendulum(&folder, "", "");
+    fs::write(folder.join("file"), "in the way").unwrap();
+    let (_, stderr, exit) = run(&scene, &folder.join("file/below"), &[]);
     assert!(exit == 2 && stderr.contains("file") && stderr.contains("--out"), "{stderr}");
 }
 
 #[test]
 fn a_run_that_blows_up_is_status_three_and_keeps_its_rows() {
-    let folder = Folder::new("stops");
+    let folder = SceneFolder::new();
     let joint = "[[joint]]\nname = \"stiff\"\nparent = \"/hinge/rod\"\nkind = \"revolute\"\ndamping = 1e6\n";
     let body = "[[body]]\nname = \"tip\"\nparent = \"/hinge/rod/stiff\"\nposition = [0.1, 0.0, 0.0]\ndensity = 1000.0\nshape = [{ sphere = { radius = 0.05 } }]\n";
-    let (scene, out) = (folder.pendulum("", &format!("{joint}{body}")), folder.path("out"));
+    let (scene, out) = (pendulum(&folder, "", &format!("{joint}{body}")), folder.join("out"));
     let (stdout, _, exit) = run(&scene, &out, &["--integrator", "rk4", "--set", "/hinge/rod/stiff.initial.velocity=1"]);
     assert_eq!(exit, 3, "{stdout}");
     // announced before it diverges, then explained
@@ -259,8 +214,8 @@ fn a_run_that_blows_up_is_status_three_and_keeps_its_rows() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_was_recorded() {
-    let folder = Folder::new("interrupt");
-    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let folder = SceneFolder::new();
+    let (scene, out) = (pendulum(&folder, "", ""), folder.join("out"));
     let mut child = Command::new(env!("CARGO_BIN_EXE_sincro"))
         .args(["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()])
         .args(["--until", "50000", "--set", "record_every=1000"])
@@ -275,40 +230,40 @@ fn an_interrupt_keeps_what_was_recorded() {
     assert!(sent.success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(3));
-    assert!(text(&output.stdout).contains("interrupted at t ="));
+    assert!(String::from_utf8(output.stdout).unwrap().contains("interrupted at t ="));
     let json = fs::read_to_string(out.join("run.json")).unwrap();
     assert!(json.contains("\"interrupted\"") && out.join("signals.csv").is_file());
 }
 
 #[test]
 fn check_looks_a_scene_over_and_writes_nothing() {
-    let folder = Folder::new("check");
-    let scene = folder.pendulum("", "");
-    let output = sincro(&["check", scene.to_str().unwrap(), "--signals"]);
-    let stdout = text(&output.stdout);
-    assert_eq!(status(&output), 0, "{stdout}");
+    let folder = SceneFolder::new();
+    let scene = pendulum(&folder, "", "");
+    let output = SINCRO.call(&["check", scene.to_str().unwrap(), "--signals"]);
+    let stdout = output.stdout;
+    assert_eq!(output.status, 0, "{stdout}");
     for words in ["revolute joint", "1 degree of freedom", "/hinge.position", "dormand-prince"] {
         assert!(stdout.contains(words), "{words}: {stdout}");
     }
-    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
 #[test]
 fn reproduce_makes_one_page_of_all_scenes() {
-    let folder = Folder::new("reproduce");
-    folder.pendulum("", "");
-    let out = folder.path("out");
-    let scenes = folder.0.to_str().unwrap();
-    let output = sincro(&["reproduce", "--scenes", scenes, "--out", out.to_str().unwrap()]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let folder = SceneFolder::new();
+    pendulum(&folder, "", "");
+    let out = folder.join("out");
+    let scenes = folder.to_str().unwrap();
+    let output = SINCRO.call(&["reproduce", "--scenes", scenes, "--out", out.to_str().unwrap()]);
+    assert_eq!(output.status, 0, "{}", output.stderr);
     let index = fs::read_to_string(out.join("index.html")).unwrap();
     assert!(index.contains("pendulum/report.html") && out.join("pendulum/report.html").is_file());
 }
 
 #[test]
 fn a_bad_diagram_is_status_two_and_writes_nothing() {
-    let folder = Folder::new("bad-diagram");
-    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let folder = SceneFolder::new();
+    let (scene, out) = (pendulum(&folder, "", ""), folder.join("out"));
     fs::write(scene.join("experiment.toml"), format!("diagram = \"d.toml\"\n{EXPERIMENT}")).unwrap();
     fs::write(scene.join("d.toml"), "wires = [\"/hinge.position -> pdi\"]\n").unwrap();
     let (_, stderr, exit) = run(&scene, &out, &[]);
@@ -318,8 +273,8 @@ fn a_bad_diagram_is_status_two_and_writes_nothing() {
 
 #[test]
 fn a_block_that_stops_the_run_is_status_three_and_keeps_its_rows() {
-    let folder = Folder::new("stopped-diagram");
-    let (scene, out) = (folder.pendulum("", ""), folder.path("out"));
+    let folder = SceneFolder::new();
+    let (scene, out) = (pendulum(&folder, "", ""), folder.join("out"));
     fs::write(scene.join("experiment.toml"), format!("diagram = \"d.toml\"\n{EXPERIMENT}")).unwrap();
     let root = "[[block]]\nname = \"root\"\ntype = \"expression\"\ninputs = [\"u\"]\nexpression = \"sqrt(0.1 - u)\"\nsample_time = 0.01\n";
     let clock = "[[block]]\nname = \"clock\"\ntype = \"clock\"\n";
@@ -333,28 +288,28 @@ fn a_block_that_stops_the_run_is_status_three_and_keeps_its_rows() {
 
 #[test]
 fn blocks_lists_the_library_and_shows_one() {
-    let all = sincro(&["blocks"]);
-    assert!(status(&all) == 0 && text(&all.stdout).contains("transfer-function"));
-    let one = text(&sincro(&["blocks", "low-pass"]).stdout);
+    let all = SINCRO.call(&["blocks"]);
+    assert!(all.status == 0 && all.stdout.contains("transfer-function"));
+    let one = SINCRO.call(&["blocks", "low-pass"]).stdout;
     assert!(one.contains("type = \"low-pass\"") && one.contains("time_constant = 1.0"), "{one}");
-    let none = sincro(&["blocks", "gian"]);
-    assert!(status(&none) == 2 && text(&none.stderr).contains("did you mean `gain`?"));
+    let none = SINCRO.call(&["blocks", "gian"]);
+    assert!(none.status == 2 && none.stderr.contains("did you mean `gain`?"));
 }
 
 #[test]
 fn runs_are_compared_to_the_bit() {
-    let folder = Folder::new("diff");
-    let scene = folder.pendulum("", "");
-    let [a, b, c] = ["a", "b", "c"].map(|name| folder.path(name));
+    let folder = SceneFolder::new();
+    let scene = pendulum(&folder, "", "");
+    let [a, b, c] = ["a", "b", "c"].map(|name| folder.join(name));
     run(&scene, &a, &["--mcap"]);
     run(&scene, &b, &[]);
     run(&scene, &c, &["--set", "/hinge.initial.position=1.1"]);
     assert!(fs::read(a.join("run.mcap")).unwrap().starts_with(b"\x89MCAP0\r\n") && !b.join("run.mcap").exists());
-    let page = folder.path("diff.html");
+    let page = folder.join("diff.html");
     let diff = |first: &Path, second: &Path| {
         let words = [first, second, &page].map(|path| path.to_str().unwrap());
-        let output = sincro(&["diff", words[0], words[1], "--out", words[2]]);
-        (text(&output.stdout), text(&output.stderr), status(&output))
+        let output = SINCRO.call(&["diff", words[0], words[1], "--out", words[2]]);
+        (output.stdout, output.stderr, output.status)
     };
     let (stdout, _, exit) = diff(&a, &b);
     assert!(exit == 0 && stdout.contains("the same, bit for bit"), "{stdout}");
@@ -362,30 +317,26 @@ fn runs_are_compared_to_the_bit() {
     assert!(exit == 1 && stdout.contains("they part in tick 0") && stdout.contains("/hinge.position"), "{stdout}");
     let html = fs::read_to_string(&page).unwrap();
     assert!(html.contains("id=\"sincro-film\"") && html.contains("/hinge.initial.position = 1.1"));
-    let (_, stderr, exit) = diff(&a, &folder.path("nothing"));
+    let (_, stderr, exit) = diff(&a, &folder.join("nothing"));
     assert!(exit != 0 && stderr.contains("cannot read"), "{stderr}");
 }
 
 #[test]
 fn a_folder_that_is_no_run_is_not_shown() {
-    let folder = Folder::new("replay");
-    let output = sincro(&["replay", folder.0.to_str().unwrap(), "--no-browser"]);
-    assert!(status(&output) == 2 && text(&output.stderr).contains("replay.json"), "{}", text(&output.stderr));
-    fs::write(folder.path("replay.json"), "{}").unwrap();
-    let output = sincro(&["view", folder.0.to_str().unwrap(), "--no-browser"]);
-    assert!(
-        status(&output) == 2 && text(&output.stderr).contains("is no replay that this version"),
-        "{}",
-        text(&output.stderr)
-    );
+    let folder = SceneFolder::new();
+    let output = SINCRO.call(&["replay", folder.to_str().unwrap(), "--no-browser"]);
+    assert!(output.status == 2 && output.stderr.contains("replay.json"), "{}", output.stderr);
+    fs::write(folder.join("replay.json"), "{}").unwrap();
+    let output = SINCRO.call(&["view", folder.to_str().unwrap(), "--no-browser"]);
+    assert!(output.status == 2 && output.stderr.contains("is no replay that this version"), "{}", output.stderr);
 }
 
 #[test]
 fn a_camera_of_the_scene_takes_the_pictures_of_a_run() {
-    let folder = Folder::new("camera");
+    let folder = SceneFolder::new();
     let lens = "[[camera]]\nname = \"side\"\nposition = [0.0, -2.0, 0.0]\nlook_at = [0.0, 0.0, 0.0]\n";
     let eye = lens.replace("side", "eye").replace("-2.0", "-1.5") + "resolution = [40, 30]\n";
-    let (scene, out) = (folder.pendulum("", &format!("{lens}{eye}")), folder.path("out"));
+    let (scene, out) = (pendulum(&folder, "", &format!("{lens}{eye}")), folder.join("out"));
     let (_, stderr, _) = run(&scene, &out, &["--frames", "--camera", "eye"]);
     let pictures: Vec<Vec<u8>> = (1..=16).map(|k| fs::read(out.join(format!("frames/{k:04}.png"))).unwrap()).collect();
     assert!(!out.join("frames/0017.png").exists(), "30 a second, half a second: {stderr}");
@@ -396,9 +347,9 @@ fn a_camera_of_the_scene_takes_the_pictures_of_a_run() {
     // one that is no vision sensor has the size of the other pictures
     run(&scene, &out, &["--frames", "--camera", "/side"]);
     assert_eq!(fs::read(out.join("frames/0001.png")).unwrap()[16..24], [0, 0, 3, 192, 0, 0, 2, 28]);
-    let (_, stderr, exit) = run(&scene, &folder.path("none"), &["--frames", "--camera", "eve"]);
+    let (_, stderr, exit) = run(&scene, &folder.join("none"), &["--frames", "--camera", "eve"]);
     assert!(exit == 2 && stderr.contains("there is no camera `eve`"), "{stderr}");
-    assert!(stderr.contains("cameras here: /side, /eye") && !folder.path("none").exists(), "{stderr}");
+    assert!(stderr.contains("cameras here: /side, /eye") && !folder.join("none").exists(), "{stderr}");
     let (_, stderr, exit) = run(&scene, &out, &["--camera", "eye"]);
     assert!(exit == 2 && stderr.contains("--frames"), "{stderr}");
 }

@@ -3,26 +3,15 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use sincro_testing::scenes::ROD_PENDULUM;
+use sincro_testing::{CommandLine, Exit, SceneFolder};
 use tungstenite::{Message, WebSocket};
 
-const SCENE: &str = r#"
-[[joint]]
-name = "hinge"
-kind = "revolute"
-axis = [0.0, 1.0, 0.0]
-initial = { position = 1.0 }
-
-[[body]]
-name = "rod"
-parent = "/hinge"
-position = [0.0, 0.0, -0.25]
-density = 1000.0
-shape = [{ cylinder = { radius = 0.05, length = 0.5 } }]
-"#;
+const SINCRO: CommandLine = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
 
 const EXPERIMENT: &str = r#"
 title = "A pendulum for clients"
@@ -43,24 +32,9 @@ function sysCall_actuation() while sim.getInt32Signal('stuck') == 1 do end end
 '''
 "#;
 
-/// A folder of its own for one test, taken away at the end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str, more: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("sincro-serve-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        fs::write(path.join("scene.toml"), format!("{SCENE}{more}")).unwrap();
-        fs::write(path.join("experiment.toml"), EXPERIMENT).unwrap();
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
+/// Folder of the pendulum; `more` is put behind its scene.
+fn pendulum(more: &str) -> SceneFolder {
+    SceneFolder::of(&format!("{ROD_PENDULUM}{more}"), EXPERIMENT)
 }
 
 /// The program, served on free ports, with a client that has the token.
@@ -70,9 +44,9 @@ struct Served {
 }
 
 impl Served {
-    fn start(folder: &Folder, more: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_sincro"))
-            .args(["serve", folder.0.to_str().unwrap(), "--no-legacy", "--no-zmq", "--ws-port", "0"])
+    fn start(folder: &Path, more: &[&str]) -> Self {
+        let mut child = SINCRO
+            .command(&["serve", folder.to_str().unwrap(), "--no-legacy", "--no-zmq", "--ws-port", "0"])
             .args(more)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -137,23 +111,18 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 fn refused(arguments: &[&str]) -> String {
-    let folder = Folder::new("flags", "");
-    let Output { status, stderr, .. } = Command::new(env!("CARGO_BIN_EXE_sincro"))
-        .args(["serve", folder.0.to_str().unwrap()])
-        .args(arguments)
-        .output()
-        .unwrap();
-    let said = String::from_utf8(stderr).unwrap();
-    assert_eq!(status.code(), Some(2), "{arguments:?}: {said}");
-    said
+    let folder = pendulum("");
+    let Exit { stderr, status, .. } = SINCRO.call(&[&["serve", folder.to_str().unwrap()], arguments].concat());
+    assert_eq!(status, 2, "{arguments:?}: {stderr}");
+    stderr
 }
 
 #[cfg(unix)]
 #[test]
 fn runs_take_as_much_disk_as_was_asked_for() {
-    let folder = Folder::new("disk", "");
+    let folder = pendulum("");
     for (record, n_files) in [("none", 0), ("signals", 2), ("full", 4)] {
-        let out = folder.0.join(record);
+        let out = folder.join(record);
         let mut served = Served::start(&folder, &["--record", record, "--keep", "3", "--out", out.to_str().unwrap()]);
         served.runs(5);
         assert_eq!(served.interrupt().0, Some(0));
@@ -169,15 +138,15 @@ fn runs_take_as_much_disk_as_was_asked_for() {
         // ten rows: the program that shows replays stands once beside the runs
         assert!(size(&run) < 100_000, "{record}: {} bytes, {:?}", size(&run), names(&run));
     }
-    let report = fs::read_to_string(folder.0.join("full/run-5/report.html")).unwrap();
-    assert!(report.contains("src=\"../viewer.js\"") && folder.0.join("full/viewer.js").is_file());
+    let report = fs::read_to_string(folder.join("full/run-5/report.html")).unwrap();
+    assert!(report.contains("src=\"../viewer.js\"") && folder.join("full/viewer.js").is_file());
 }
 
 #[cfg(unix)]
 #[test]
 fn folders_that_were_there_are_left_as_they_are() {
-    let folder = Folder::new("foreign", "");
-    let (out, outside) = (folder.0.join("out"), folder.0.join("outside"));
+    let folder = pendulum("");
+    let (out, outside) = (folder.join("out"), folder.join("outside"));
     for path in [out.join("run-1"), outside.clone()] {
         fs::create_dir_all(path).unwrap();
     }
@@ -213,8 +182,8 @@ fn ports_without_password_stay_on_loopback_unless_that_is_asked_for() {
 #[cfg(unix)]
 #[test]
 fn the_first_interrupt_ends_the_server_while_a_script_does_not_return() {
-    let folder = Folder::new("stuck", SCRIPT);
-    let out = folder.0.join("out");
+    let folder = pendulum(SCRIPT);
+    let out = folder.join("out");
     let mut served = Served::start(&folder, &["--out", out.to_str().unwrap()]);
     served.call("setStepping", "true");
     served.call("sim.startSimulation", "");

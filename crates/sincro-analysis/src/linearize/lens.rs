@@ -1,7 +1,7 @@
 //! The equations of motion as one function, on any numbers: (x, u) → (ẋ, y).
 
 use sincro_blocks::instance::Number;
-use sincro_dynamics::coupled::{Coupled, CoupledSystem, Response, StateView};
+use sincro_dynamics::coupled::{Coupled, CoupledSystem, MechanismResponse, StateView};
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::mechanism::Mechanism;
@@ -257,7 +257,7 @@ impl<R: Number> CoupledSystem<R> for LoopSystem<R> {
         }
     }
 
-    fn slope(&mut self, seen: &mut StateView<'_, R>, response: Response<'_, R>, _: &[R], slope: &mut [R]) {
+    fn slope(&mut self, seen: &mut StateView<'_, R>, response: MechanismResponse<'_, R>, _: &[R], slope: &mut [R]) {
         if let Some(control) = &mut self.control {
             control.slope_whole(seen, response, slope, self.perturbed);
         }

@@ -50,11 +50,12 @@ impl Scripts {
         done
     }
 
-    /// Calls a function of the script on an object.
+    /// Calls a function, by its name, of the script on an object (`kind`: of that kind only, none: of any); `t` is the
+    /// time at `tick` `[s]`. Returns the results of the function in their order.
     ///
     /// # Errors
     ///
-    /// There is no script or no such function, or it failed.
+    /// The simulation has not begun, there is no script or no such function, or it failed.
     pub fn call_function(
         &mut self,
         (object, kind): (Handle, Option<Kind>),

@@ -195,9 +195,10 @@ const CONSTANTS: &[(&str, i64)] = &[
     ("objintparam_visibility_layer", 10),
 ];
 
-/// Added to a first handle: the pose is against a joint's frame on its parent's side.
+/// Flag that a client adds to the first handle of a call about poses: the reference is the joint's frame on the side of
+/// its parent.
 pub const HANDLE_JOINT_BASE: i32 = 0x0040_0000;
-/// Added to a first handle: quaternions are w, x, y, z.
+/// Flag that a client adds to the first handle of a call about poses: quaternions are in the order w, x, y, z.
 pub const HANDLE_WXYZ: i32 = 0x0100_0000;
-/// Handles themselves are smaller than this.
+/// Bound of handles: all bits from it on are flags.
 pub const HANDLE_FLAGS: i32 = 0x0010_0000;

@@ -236,7 +236,8 @@ impl SimApi<'_> {
         })
     }
 
-    /// Dependency of a joint: the other joint, offset and factor, if the scene couples them.
+    /// Dependency of a joint on another: the other joint, offset `[rad]` or `[m]`, and factor. Its position is
+    /// offset + factor · position of the other. None if no gear of the scene drives it.
     ///
     /// # Errors
     ///

@@ -32,19 +32,19 @@ impl SimApi<'_> {
     /// There is no such object, it is no proximity sensor, or the entity was removed.
     pub fn look_at(&mut self, handle: Handle, entity: Entity, most: f64) -> Result<Option<Detection>, ApiError> {
         let entry = self.proximity_entry(handle)?;
-        let (eye, blind_below) = (entry.eye.clone(), entry.blind_below);
+        let (sensor, blind_below) = (entry.sensor.clone(), entry.blind_below);
         let at = self.registry.entry(handle)?.frame;
         let x_we = self.place(&at);
         let members = if entity == Entity::All { Vec::new() } else { self.members(entity)? };
         let (senses, t) = (&self.registry.senses, self.t);
         let pieces = senses.pieces().filter(|piece| {
             if entity == Entity::All {
-                eye.admits(&at, piece)
+                sensor.admits(&at, piece)
             } else {
                 members.binary_search(&handle_of(piece)).is_ok()
             }
         });
-        let saw = self.world.with_state_view(t, |seen| eye.detect(&x_we, pieces, seen.scratch, most));
+        let saw = self.world.with_state_view(t, |seen| sensor.detect(&x_we, pieces, seen.scratch, most));
         Ok(saw.filter(|saw| saw.distance >= blind_below))
     }
 
@@ -136,11 +136,11 @@ impl SimApi<'_> {
         blind_below: f64,
     ) -> Result<Handle, ApiError> {
         let handle = self.registry.create("ProximitySensor", Kind::Proximity, WORLD)?;
-        let eye = ProximitySensor { field, with: Vec::new(), carrier: None };
+        let sensor = ProximitySensor { field, with: Vec::new(), carrier: None };
         self.registry
             .senses
             .proximity
-            .insert(handle, ProximityEntry { eye, is_explicit, is_of_scene: false, blind_below, saw: None });
+            .insert(handle, ProximityEntry { sensor, is_explicit, is_of_scene: false, blind_below, saw: None });
         Ok(handle)
     }
 }

@@ -282,8 +282,8 @@ impl ObjectRegistry {
                     (if proximity { Kind::Proximity } else { Kind::Frame }, at, at)
                 }
                 ObjectKind::Camera { sensor, .. } => {
-                    let eye = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
-                    (eye.unwrap_or(Kind::Frame), beside, beside)
+                    let kind = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
+                    (kind.unwrap_or(Kind::Frame), beside, beside)
                 }
                 ObjectKind::Fixture => {
                     let at = of_frame().unwrap_or(beside);

@@ -37,7 +37,7 @@ pub(super) struct Senses {
 /// A proximity sensor and what it saw last.
 #[derive(Clone, Debug)]
 pub(super) struct ProximityEntry {
-    pub eye: ProximitySensor,
+    pub sensor: ProximitySensor,
     /// True if it is handled explicitly.
     pub is_explicit: bool,
     /// True if it belongs to the scene, which samples it.
@@ -54,10 +54,10 @@ impl Senses {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
         let mut proximity = BTreeMap::new();
         for spec in &scene.sensors {
-            let (Some(eye), Some(own)) = (ProximitySensor::of(spec, scene), object_of(&spec.path)) else { continue };
+            let (Some(sensor), Some(own)) = (ProximitySensor::of(spec, scene), object_of(&spec.path)) else { continue };
             proximity.insert(
                 Handle(own as i32 + 1),
-                ProximityEntry { eye, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },
+                ProximityEntry { sensor, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },
             );
         }
         Self { scenery: scene.scenery().clone(), proximity, ..Self::default() }

@@ -1,41 +1,11 @@
 //! Claims about what is shown of a linear system.
 
-use sincro_analysis::linear::{Axis, DMatrix, StateSpace};
+use sincro_analysis::linear::{DMatrix, StateSpace};
+use sincro_testing::systems::{sampled, servo};
 
 use super::text::text;
 use super::*;
 use crate::plot::{Size, svg};
-
-/// `k / (s (s + 1) (s + 5))` as motor and load.
-fn servo() -> StateSpace {
-    let a = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, 0.0, -1.0, 2.0, 0.0, 0.0, -5.0]);
-    let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 5.0]);
-    let c = DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
-    StateSpace {
-        a,
-        b,
-        c,
-        d: DMatrix::zeros(2, 1),
-        states: vec![
-            Axis::new("/arm/hinge.position", "rad"),
-            Axis::new("/arm/hinge.velocity", "rad/s"),
-            Axis::new("/motor.current", "A"),
-        ],
-        inputs: vec![Axis::new("/motor.voltage", "V")],
-        outputs: vec![Axis::new("/arm/hinge.position", "rad"), Axis::new("/arm/hinge.velocity", "rad/s")],
-        t: 0.5,
-        sample_time: None,
-    }
-}
-
-/// A lag behind two ticks of delay, sampled at 20 Hz.
-fn sampled() -> StateSpace {
-    let a = DMatrix::from_row_slice(3, 3, &[0.9, 0.1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
-    let b = DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 1.0]);
-    let c = DMatrix::from_row_slice(1, 3, &[1.0, 0.0, 0.0]);
-    let system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1)).unwrap();
-    StateSpace { sample_time: Some(0.05), ..system }
-}
 
 #[test]
 fn a_sampled_system_is_mapped_on_the_unit_circle() {

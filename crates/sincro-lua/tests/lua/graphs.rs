@@ -1,9 +1,9 @@
 //! Values of graphs that scripts set are recorded with the run.
 
-use sincro_coppelia::session::{Session, Value};
-use sincro_sim::Extensions;
+use sincro_coppelia::session::Value;
 use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::table::Table;
+use sincro_testing::with_scripts;
 
 use super::world::{EXPERIMENT, PENDULUM, folder, run, said, with_script};
 
@@ -57,7 +57,6 @@ fn they_are_in_the_file_too_and_a_graph_that_is_reset_forgets() {
     let read = Table::read_csv(&path).unwrap();
     assert_eq!(read.columns.last().unwrap().name, "/hinge/arm/tip.x");
     assert_eq!(read.n_rows(), 6);
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
@@ -91,9 +90,7 @@ fn what_is_wrong_with_a_stream_is_told() {
 fn a_client_makes_streams_that_stay_and_scripts_make_theirs_anew() {
     let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\n");
     let folder = folder(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", CODE)]);
-    let mut session =
-        Session::open(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }, None)
-            .unwrap();
+    let mut session = folder.session(with_scripts(), None);
     let graph = session.call("sim.getObject", &[Value::from("/hinge")]).unwrap().remove(0);
     let stream = session.call("sim.addGraphStream", &[graph.clone(), Value::from("u"), Value::from("N·m")]).unwrap();
     for _ in 0..2 {
@@ -106,5 +103,4 @@ fn a_client_makes_streams_that_stay_and_scripts_make_theirs_anew() {
         assert_eq!(values(&run, "/hinge.u"), ["NaN", "NaN", "3"]);
         assert_eq!(values(&run, "/hinge/arm/tip.height (tip)"), ["NaN", "0", "0.01"]);
     }
-    std::fs::remove_dir_all(folder).unwrap();
 }

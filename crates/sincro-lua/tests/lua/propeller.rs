@@ -1,7 +1,5 @@
 //! The thesis's propeller script against a reference of its formulas in Rust, NaN included.
 
-use std::path::Path;
-
 use sincro_coppelia::api_controller::ApiController;
 use sincro_coppelia::session::{Reference, Search};
 use sincro_dynamics::aero::rotor::{Drag, RotorSpec, Spin, printed};
@@ -68,7 +66,7 @@ fn agree(script: f64, reference: f64) -> bool {
 
 #[test]
 fn the_printed_script_gives_what_its_formulas_give() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/propeller-lua/propeller.lua");
+    let path = sincro_testing::repository_scene("propeller-lua").join("propeller.lua");
     let text = std::fs::read_to_string(path).unwrap();
     let experiment = EXPERIMENT.replace("\"/hinge.position\", \"/hinge.motor_torque_now\"", "\"/air.position.z\"");
     let files = [("scene.toml", AIR), ("experiment.toml", experiment.as_str()), ("propeller.lua", text.as_str())];

@@ -1,10 +1,8 @@
 //! Proximity sensors and distances in scripts: the law of `stop-at-wall` in Lua gives the bits of its diagram.
 
-use std::path::PathBuf;
-
-use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_sim::results::Status;
+use sincro_testing::{repository_scene, with_scripts};
 
 use super::world::{folder, run};
 
@@ -38,11 +36,8 @@ end
 
 #[test]
 fn the_cart_stops_before_the_wall_by_a_script_with_the_same_bits() {
-    let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/stop-at-wall");
-    let by_diagram =
-        run(&load(&scene, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-            .unwrap_or_else(|p| panic!("{p}")))
-        .trace;
+    let scene = repository_scene("stop-at-wall");
+    let by_diagram = run(&load(&scene, &[], with_scripts()).unwrap_or_else(|p| panic!("{p}"))).trace;
     let read = |name: &str| std::fs::read_to_string(scene.join(name)).unwrap();
     let with_script = format!("{}\n[[script]]\nobject = \"/rail/cart\"\ncode = '''{LAW}'''\n", read("scene.toml"));
     // a script wins over the diagram: one that drives backwards
@@ -55,10 +50,7 @@ fn the_cart_stops_before_the_wall_by_a_script_with_the_same_bits() {
         ("reference.csv", reference.as_str()),
     ];
     let folder = folder(&files);
-    let scripted =
-        run(&load(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-            .unwrap_or_else(|p| panic!("{p}")));
-    std::fs::remove_dir_all(&folder).unwrap();
+    let scripted = run(&load(&folder, &[], with_scripts()).unwrap_or_else(|p| panic!("{p}")));
     assert_eq!(scripted.status, Status::Completed, "{:?}", scripted.messages);
     assert_eq!(scripted.trace, by_diagram);
 }

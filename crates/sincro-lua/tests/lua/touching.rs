@@ -3,75 +3,19 @@
 
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
+use sincro_testing::scenes::TOUCHING;
 
 use super::world::{EXPERIMENT, PENDULUM, open, run, said, with_script};
 
-const SCENE: &str = r#"
-[[body]]
-name = "floor"
-shape = [{ plane = {} }]
-contact = { friction = 0.5 }
-
-[[joint]]
-name = "loose"
-kind = "free"
-initial = { position = [0.0, 0.0, 0.05, 1.0, 0.0, 0.0, 0.0] }
-[[body]]
-name = "box"
-parent = "/loose"
-density = 1000.0
-shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
-contact = { friction = 0.5 }
-
-[[joint]]
-name = "scale"
-kind = "fixed"
-position = [1.0, 0.0, 1.0]
-force_sensor = true
-[[body]]
-name = "load"
-parent = "/scale"
-mass = 2.0
-inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-
-[[joint]]
-name = "first"
-kind = "prismatic"
-axis = [1.0, 0.0, 0.0]
-position = [-1.0, 0.0, 1.0]
-limits = { lower = -0.5, upper = 1.0 }
-motor = { mode = "velocity" }
-[[body]]
-name = "slide"
-parent = "/first"
-mass = 1.0
-inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-
-[[joint]]
-name = "second"
-kind = "revolute"
-axis = [0.0, 0.0, 1.0]
-position = [-2.0, 0.0, 1.0]
-[[body]]
-name = "wheel"
-parent = "/second"
-mass = 1.0
-inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-
-[[coupling]]
-name = "gear"
-joints = ["/first", "/second"]
-ratio = 4.0
-
-[[script]]
-object = "/loose/box"
-file = "a.lua"
-"#;
+/// [`TOUCHING`] with a script on its box.
+fn scene() -> String {
+    format!("{TOUCHING}\n[[script]]\nobject = \"/loose/box\"\nfile = \"a.lua\"\n")
+}
 
 /// Runs a script on the box, with `more` at the end of the scene file.
 fn with_box(code: &str, record: &str, more: &str) -> Simulated {
     let experiment = EXPERIMENT.replace("record = [\"/hinge.position\", \"/hinge.motor_torque_now\"]", record);
-    let scene = format!("{SCENE}{more}");
+    let scene = scene() + more;
     let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("a.lua", code), ("b.lua", JOINT)]);
     run(&loaded.unwrap_or_else(|problems| panic!("{problems}")))
 }
@@ -131,7 +75,7 @@ fn a_script_on_a_joint_says_how_fast_its_motor_is() {
     }
     let old = "function sysCall_jointCallback(joint) return 100, 0.3 end
         function sysCall_cleanup() print(sim.getJointTargetForce(joint or sim.getObject('.')), sim.getJointTargetVelocity(sim.getObject('.'))) end";
-    let scene = format!("{SCENE}{more}");
+    let scene = scene() + more;
     let experiment = EXPERIMENT.replace("/hinge.position\", \"/hinge.motor_torque_now", "/first.position");
     let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("a.lua", "x = 1"), ("b.lua", old)]);
     assert_eq!(texts(&super::world::run(&loaded.unwrap())), ["100.0\t0.3"], "force, then velocity");

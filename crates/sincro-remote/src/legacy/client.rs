@@ -7,22 +7,14 @@ use std::time::{Duration, Instant};
 
 use sincro_coppelia::session::{ApiError, Phase};
 
-use super::functions::{self, Call};
+use super::commands::{self, FINISH, GET_HANDLE, LAST_ERRORS, SYNCHRONOUS_OFF, SYNCHRONOUS_ON, TAKE_STRING, TRIGGER};
+use super::functions::Call;
 use super::message::{self, Command, Head, Mode, ReplyHead};
 use crate::hub::{ClientId, Hub, SessionGuard};
 use crate::limits;
 
 /// Errors that are kept for `simxGetLastErrors`.
 const MAX_ERRORS: usize = 50;
-/// Enabling, disabling and triggering of synchronous steps; closing.
-const SYNCHRONOUS_ON: u16 = 0x0001;
-const SYNCHRONOUS_OFF: u16 = 0x0002;
-const TRIGGER: u16 = 0x0003;
-const LAST_ERRORS: u16 = 0x0004;
-const FINISH: u16 = 0x000a;
-/// `simxGetAndClearStringSignal`: its stream ends with what it was waiting for.
-const TAKE_STRING: u16 = 0x3017;
-
 /// Function and identification: commands that have both the same are the same command.
 type Key = (u16, Vec<u8>);
 
@@ -265,7 +257,7 @@ impl Client {
             LAST_ERRORS => Ok(self.take_errors()),
             // a trigger that is streamed or split would step without being asked
             TRIGGER => Err(ApiError::new("a trigger is sent once, not streamed")),
-            _ => functions::run(guard, &Call { function, ident, data }),
+            _ => commands::run(guard, &Call { function, ident, data }),
         };
         self.judged(result, function)
     }
@@ -277,9 +269,9 @@ impl Client {
                 if self.errors.len() == MAX_ERRORS {
                     self.errors.pop_front();
                 }
-                self.errors.push_back(format!("{message} (command 0x{function:04x})"));
+                self.errors.push_back(format!("{message} ({})", commands::shown(function)));
                 // a getter of a handle answers −1 to those that do not look at the status
-                let data = if function == functions::GET_HANDLE { (-1_i32).to_le_bytes().to_vec() } else { Vec::new() };
+                let data = if function == GET_HANDLE { (-1_i32).to_le_bytes().to_vec() } else { Vec::new() };
                 Answer { failed: true, data }
             }
         }

@@ -181,19 +181,19 @@ pub fn write_reply(head: &ReplyHead, ident: &[u8], data: &[u8], out: &mut Vec<u8
     out.extend(data);
 }
 
-/// The whole number at a place.
+/// The 32-bit whole number at byte `at`, little endian; none if the bytes end before it does.
 #[must_use]
 pub fn int(bytes: &[u8], at: usize) -> Option<i32> {
     Some(i32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?))
 }
 
-/// The number at a place, as the double it stands for.
+/// The 32-bit float at byte `at`, little endian, as a double; none if the bytes end before it does.
 #[must_use]
 pub fn float(bytes: &[u8], at: usize) -> Option<f64> {
     Some(f32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?).into())
 }
 
-/// `N` numbers from a place on.
+/// `N` floats from byte `at` on, as [`float`] reads each.
 #[must_use]
 pub fn floats<const N: usize>(bytes: &[u8], at: usize) -> Option<[f64; N]> {
     let mut out = [0.0; N];
@@ -203,7 +203,8 @@ pub fn floats<const N: usize>(bytes: &[u8], at: usize) -> Option<[f64; N]> {
     Some(out)
 }
 
-/// A text that ends with a zero, and how many bytes it takes; it may also end with the bytes.
+/// The text that the bytes begin with, up to a zero or their end, and the bytes that it takes with its zero; none if it
+/// is not UTF-8.
 #[must_use]
 pub fn text(bytes: &[u8]) -> Option<(&str, usize)> {
     let end = bytes.iter().position(|b| *b == 0);

@@ -5,21 +5,27 @@
 //! | `packet.rs` | messages cut into packets and put together |
 //! | `message.rs` | headers, commands, replies |
 //! | `client.rs` | operation modes: streaming, splitting, discontinuing |
-//! | `functions.rs`, `objects.rs`, `group.rs`, `sensing.rs`, `seeing.rs`, `files.rs`, `script.rs` | what each command does |
+//! | `commands.rs` | table of the commands: number, name, function |
+//! | `functions.rs` | arguments of a call, data of its reply |
+//! | `joints.rs`, `objects.rs`, `signals.rs`, `parameters.rs`, `group.rs`, `sensing.rs`, `seeing.rs`, `files.rs`, `script.rs` | functions by subject |
 //!
 //! Everything in a message is executed before it is answered, the trigger of a synchronous step last, and what is
 //! streamed after that: values read with a trigger are those after the step.
 
 mod client;
+mod commands;
 mod files;
 mod functions;
 mod group;
+mod joints;
 pub mod message;
 mod objects;
 pub mod packet;
+mod parameters;
 mod script;
 mod seeing;
 mod sensing;
+mod signals;
 
 use std::sync::Arc;
 

@@ -1,51 +1,95 @@
 //! Commands of the legacy API: objects, their poses and their tree.
 
 use sincro_coppelia::session::convention::{euler_of, quaternion_of, rotation_of_euler, rotation_of_quaternion};
-use sincro_coppelia::session::{ApiError, Handle, Reference, SimApi};
+use sincro_coppelia::session::{ApiError, Handle, Reference, Search, SimApi};
 use sincro_coppelia::session::{Pose, Vec3};
 
-use super::functions::{Call, GET_HANDLE, Reply, counted, done, find, ints, reals};
+use super::functions::{Call, Reply, after, counted, done, ints, reals};
 
-/// Runs a function.
-pub(super) fn run(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    match call.function {
-        GET_HANDLE => ints([find(sim, call.name()?)?.0]),
-        // a collection by name, or an int signal of that name
-        0x3019 => {
-            let name = call.name()?;
-            let known = sim.registry.collection_named(name.strip_suffix('#').unwrap_or(name)).map(|h| h.0);
-            let known = known.or_else(|| sim.registry.integers.get(name).map(|n| *n as i32));
-            ints([known.ok_or_else(|| ApiError::new("there is no such collection"))?])
-        }
-        0x0006 => counted(&[]),
-        0x102f => done(),
-        0x0009 => ints([sim.registry.create_dummy("Dummy")?.0]),
-        0x1028 | 0x1037 => sim.remove(call.handle()?).and_then(|()| done()),
-        0x1012 => ints([sim.registry.entry(call.handle()?)?.parent.map_or(-1, |h| h.0)]),
-        0x200b => child(sim, call),
-        0x101c => {
-            let parent = call.int(0)?;
-            let keep = call.data.get(4).is_none_or(|b| *b != 0);
-            sim.set_parent(call.handle()?, (parent != -1).then_some(Handle(parent)), keep)?;
-            done()
-        }
-        0x102a => counted(&sim.objects_of_type(call.ident_int(0)?.into())),
-        0x1034 => sim.registry.entry(call.handle()?).and_then(|_| ints([0])),
-        0x2007 => reals([sim.object_float(call.handle()?, call.ident_int(1)?.into())?]),
-        0x2009 => sim.set_object_float(call.handle()?, call.ident_int(1)?.into(), call.float(0)?).and_then(|()| done()),
-        0x2008 => ints([sim.object_int(call.handle()?, call.ident_int(1)?.into())? as i32]),
-        0x200a => {
-            sim.set_object_int(call.handle()?, call.ident_int(1)?.into(), call.int(0)?.into())?;
-            done()
-        }
-        0x1036 => {
-            let (linear, angular) = sim.velocity(call.handle()?)?;
-            reals(linear.into_iter().chain(angular))
-        }
-        0x200d | 0x200e | 0x2801 | 0x1018 | 0x1019 => pose(sim, call),
-        0x101a | 0x101b | 0x1801 => set_pose(sim, call),
-        other => Err(ApiError(format!("command 0x{other:04x} is not offered here"))),
-    }
+pub(super) fn handle(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    ints([sim.registry.find(call.name()?, Search::default())?.0])
+}
+
+/// A collection by name, or an int signal of that name.
+pub(super) fn collection(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let name = call.name()?;
+    let known = sim.registry.collection_named(name.strip_suffix('#').unwrap_or(name)).map(|h| h.0);
+    let known = known.or_else(|| sim.registry.integers.get(name).map(|n| *n as i32));
+    ints([known.ok_or_else(|| ApiError::new("there is no such collection"))?])
+}
+
+/// Objects of a type.
+pub(super) fn of_type(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    counted(&sim.objects_of_type(call.ident_int(0)?.into()))
+}
+
+/// Nothing is ever selected.
+pub(super) fn selection(_: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
+    counted(&[])
+}
+
+/// Takes a selection, without effect.
+pub(super) fn select(_: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
+    done()
+}
+
+pub(super) fn create_dummy(sim: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
+    ints([sim.registry.create_dummy("Dummy")?.0])
+}
+
+/// Copies of runtime objects.
+pub(super) fn copies(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let handles = (0..call.data.len() / 4).map(|k| call.int(4 * k).map(Handle)).collect::<Result<Vec<_>, _>>()?;
+    let copies = handles.into_iter().map(|handle| sim.copy(handle)).collect::<Result<Vec<_>, _>>()?;
+    counted(&copies)
+}
+
+pub(super) fn remove(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.remove(call.handle()?))
+}
+
+pub(super) fn parent(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    ints([sim.registry.entry(call.handle()?)?.parent.map_or(-1, |h| h.0)])
+}
+
+pub(super) fn set_parent(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let parent = call.int(0)?;
+    let keep = call.data.get(4).is_none_or(|b| *b != 0);
+    after(sim.set_parent(call.handle()?, (parent != -1).then_some(Handle(parent)), keep))
+}
+
+pub(super) fn child(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let (parent, index) = (call.handle()?, call.ident_int(1)?);
+    sim.registry.entry(parent)?;
+    let index = usize::try_from(index).map_err(|_| ApiError::new("the index is negative"))?;
+    ints([sim.registry.children(Some(parent)).nth(index).map_or(-1, |e| e.handle.0)])
+}
+
+/// No object has one.
+pub(super) fn model_property(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    sim.registry.entry(call.handle()?)?;
+    ints([0])
+}
+
+pub(super) fn float(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals([sim.object_float(call.handle()?, call.ident_int(1)?.into())?])
+}
+
+pub(super) fn set_float(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_object_float(call.handle()?, call.ident_int(1)?.into(), call.float(0)?))
+}
+
+pub(super) fn int(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    ints([sim.object_int(call.handle()?, call.ident_int(1)?.into())? as i32])
+}
+
+pub(super) fn set_int(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_object_int(call.handle()?, call.ident_int(1)?.into(), call.int(0)?.into()))
+}
+
+pub(super) fn velocity(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let (linear, angular) = sim.velocity(call.handle()?)?;
+    reals(linear.into_iter().chain(angular))
 }
 
 /// Reference frame of −1, −11 or a handle.
@@ -57,35 +101,60 @@ pub(super) fn reference(number: i32) -> Reference {
     }
 }
 
-fn child(sim: &SimApi<'_>, call: &Call<'_>) -> Reply {
-    let (parent, index) = (call.handle()?, call.ident_int(1)?);
-    sim.registry.entry(parent)?;
-    let index = usize::try_from(index).map_err(|_| ApiError::new("the index is negative"))?;
-    ints([sim.registry.children(Some(parent)).nth(index).map_or(-1, |e| e.handle.0)])
+/// Pose with the reference frame in the identification.
+fn pose(sim: &mut SimApi<'_>, call: &Call<'_>) -> Result<Pose<f64>, ApiError> {
+    let against = call.ident_int(1)?;
+    sim.pose(call.handle()?, reference(against))
 }
 
-fn pose(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    let old = matches!(call.function, 0x1018 | 0x1019);
-    let against = if old { call.int(0)? } else { call.ident_int(1)? };
-    let pose = sim.pose(call.handle()?, reference(against))?;
-    match call.function {
-        0x200e | 0x1019 => reals(pose.pos.0),
-        0x200d | 0x1018 => reals(euler_of(&pose.rot)),
-        _ => reals(quaternion_of(&pose.rot)),
-    }
+/// Pose with the reference frame in the data, as older clients ask for it.
+fn old_pose(sim: &mut SimApi<'_>, call: &Call<'_>) -> Result<Pose<f64>, ApiError> {
+    let against = call.int(0)?;
+    sim.pose(call.handle()?, reference(against))
 }
 
-fn set_pose(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+pub(super) fn position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals(pose(sim, call)?.pos.0)
+}
+
+pub(super) fn old_position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals(old_pose(sim, call)?.pos.0)
+}
+
+pub(super) fn orientation(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals(euler_of(&pose(sim, call)?.rot))
+}
+
+pub(super) fn old_orientation(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals(euler_of(&old_pose(sim, call)?.rot))
+}
+
+pub(super) fn quaternion(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals(quaternion_of(&pose(sim, call)?.rot))
+}
+
+pub(super) fn set_position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    set_pose(sim, call, |before| Ok(Pose { pos: Vec3(call.floats(4)?), ..before }))
+}
+
+pub(super) fn set_orientation(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    set_pose(sim, call, |before| Ok(Pose { rot: rotation_of_euler(call.floats(4)?), ..before }))
+}
+
+pub(super) fn set_quaternion(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    set_pose(sim, call, |before| {
+        let rot = rotation_of_quaternion(call.floats(4)?);
+        Ok(Pose { rot: rot.ok_or_else(|| ApiError::new("the quaternion has no direction"))?, ..before })
+    })
+}
+
+/// Changes a pose in the reference frame that the data begins with.
+fn set_pose(
+    sim: &mut SimApi<'_>,
+    call: &Call<'_>,
+    change: impl FnOnce(Pose<f64>) -> Result<Pose<f64>, ApiError>,
+) -> Reply {
     let (object, against) = (call.handle()?, reference(call.int(0)?));
-    let before = sim.pose(object, against)?;
-    let pose = match call.function {
-        0x101b => Pose { pos: Vec3(call.floats(4)?), ..before },
-        0x101a => Pose { rot: rotation_of_euler(call.floats(4)?), ..before },
-        _ => {
-            let rot = rotation_of_quaternion(call.floats(4)?);
-            Pose { rot: rot.ok_or_else(|| ApiError::new("the quaternion has no direction"))?, ..before }
-        }
-    };
-    sim.set_pose(object, &pose, against)?;
-    done()
+    let pose = change(sim.pose(object, against)?)?;
+    after(sim.set_pose(object, &pose, against))
 }

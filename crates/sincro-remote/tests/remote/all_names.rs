@@ -4,13 +4,13 @@
 use sincro_coppelia::session::Value;
 
 use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, fitting};
-use super::legacy_client::{Client as Legacy, Command, ONCE, floats, ints, text};
 use super::scene::serve;
-use super::zmq_client::{Client as Zmq, field};
+use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, floats, ints, text};
+use sincro_testing::clients::zmq::{Client as Zmq, field};
 
 #[test]
 fn every_listed_name_answers_any_arguments() {
-    let server = serve("all-names");
+    let server = serve();
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("all"));
     let info = client.call("zmqRemoteApi.info", &[Value::from("sim")]).unwrap().remove(0);
     let Value::Map(members) = &info else { panic!("{info:?}") };
@@ -61,7 +61,7 @@ fn every_listed_name_answers_any_arguments() {
 
 #[test]
 fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
-    let server = serve("all-ik");
+    let server = serve();
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("ik"));
     let info = client.call("zmqRemoteApi.info", &[Value::from("simIK")]).unwrap().remove(0);
     let Value::Map(members) = &info else { panic!("{info:?}") };
@@ -95,7 +95,7 @@ fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
 
 #[test]
 fn every_command_number_answers_any_data() {
-    let server = serve("all-numbers");
+    let server = serve();
     let mut client = Legacy::connect(server.ports().legacy[0]);
     let (joint, ball) = (client.handle("joint1"), client.handle("ball"));
     client.start();

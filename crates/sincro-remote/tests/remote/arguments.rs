@@ -2,7 +2,7 @@
 
 use sincro_coppelia::session::Value;
 
-use super::zmq_client::map;
+use sincro_testing::clients::zmq::map;
 
 /// Functions that start and stop runs; other tests call them, because here one run continues.
 pub const ELSEWHERE: [&str; 5] = ["startSimulation", "stopSimulation", "closeScene", "loadScene", "pauseSimulation"];

@@ -7,12 +7,10 @@ use std::net::TcpListener;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use sincro_coppelia::session::Session;
 use sincro_remote::{Options, Server};
-use sincro_sim::Extensions;
 
-use super::legacy_client::{Client, Command, DISCONTINUE, ONCE, SPLIT, STREAM, floats, ints, text};
-use super::scene::{finished, folder, options, serve, serve_with};
+use super::scene::{finished, options, serve, serve_with, session};
+use sincro_testing::clients::legacy::{Client, Command, DISCONTINUE, ONCE, SPLIT, STREAM, floats, ints, text};
 
 fn client(server: &Server) -> Client {
     Client::connect(server.ports().legacy[0])
@@ -20,7 +18,7 @@ fn client(server: &Server) -> Client {
 
 #[test]
 fn a_client_is_answered_with_the_version_and_its_own_number() {
-    let server = serve("version");
+    let server = serve();
     let mut client = client(&server);
     assert!(client.exchange(&[]).is_empty());
     assert_eq!((client.version, client.ping(), client.reply_id), (11, 40501, 1));
@@ -53,7 +51,7 @@ fn thesis_loop(client: &mut Client, steps: i32) -> Vec<(f32, i32)> {
 
 #[test]
 fn the_loop_of_the_thesis_sees_values_after_the_step_and_the_same_bits_twice() {
-    let server = serve("thesis");
+    let server = serve();
     let mut client = client(&server);
     let seen = thesis_loop(&mut client, 1000);
     let mut q = 0.0;
@@ -73,7 +71,7 @@ fn the_loop_of_the_thesis_sees_values_after_the_step_and_the_same_bits_twice() {
 
 #[test]
 fn what_was_measured_on_the_original_is_measured_here() {
-    let server = serve("cross");
+    let server = serve();
     let mut client = client(&server);
     let handles: Vec<i32> = ["joint1", "joint1#", "/joint1"].map(|name| client.handle(name)).to_vec();
     assert!(handles.iter().all(|h| *h == handles[0]));
@@ -102,7 +100,7 @@ fn what_was_measured_on_the_original_is_measured_here() {
 
 #[test]
 fn every_function_of_the_protocol_is_answered() {
-    let server = serve("functions");
+    let server = serve();
     let mut client = client(&server);
     let [joint, ball] = ["joint2", "ball"].map(|name| client.handle(name));
     let at = ints(&[ball, -1]);
@@ -166,7 +164,7 @@ fn every_function_of_the_protocol_is_answered() {
 
 #[test]
 fn signals_pass_between_clients() {
-    let server = serve("signals");
+    let server = serve();
     let (mut a, mut b) = (client(&server), client(&server));
     a.call(0x3013, &text("f"), &floats(&[1.5])).unwrap();
     a.call(0x3014, &text("i"), &ints(&[-7])).unwrap();
@@ -186,7 +184,7 @@ fn signals_pass_between_clients() {
 
 #[test]
 fn a_stored_request_for_a_string_ends_with_its_delivery() {
-    let server = serve("take");
+    let server = serve();
     let (mut a, mut b) = (client(&server), client(&server));
     let key = text("s");
     assert!(a.exchange(&[Command::new(0x3017, STREAM, &key, &[])])[0].1.failed);
@@ -197,7 +195,7 @@ fn a_stored_request_for_a_string_ends_with_its_delivery() {
 
 #[test]
 fn a_blocking_call_does_not_end_a_stream_of_the_same() {
-    let server = serve("streams");
+    let server = serve();
     let mut client = client(&server);
     let key = ints(&[1]);
     assert_eq!(client.exchange(&[Command::new(0x1001, STREAM, &key, &[])]).len(), 1);
@@ -217,7 +215,7 @@ fn a_blocking_call_does_not_end_a_stream_of_the_same() {
 
 #[test]
 fn large_messages_travel_in_packets_and_large_data_in_pieces() {
-    let server = serve("large");
+    let server = serve();
     let mut client = client(&server);
     let big: Vec<u8> = (0..200_000_u32).map(|k| ((k * 7919) >> 3) as u8).collect();
     client.call(0x3015, &text("big"), &big).unwrap();
@@ -250,7 +248,7 @@ fn large_messages_travel_in_packets_and_large_data_in_pieces() {
 
 #[test]
 fn time_advances_when_all_synchronous_clients_have_triggered() {
-    let server = serve("both");
+    let server = serve();
     let (mut a, mut b) = (client(&server), client(&server));
     a.call(0x0001, &[], &[]).unwrap();
     b.start();
@@ -273,7 +271,7 @@ fn time_advances_when_all_synchronous_clients_have_triggered() {
 #[test]
 fn a_client_that_is_silent_for_too_long_is_let_go() {
     let options = Options { client_timeout: Duration::from_millis(300), ..options() };
-    let server = serve_with("silent", &options);
+    let server = serve_with(&options);
     let (mut a, mut b) = (client(&server), client(&server));
     a.call(0x0001, &[], &[]).unwrap();
     b.start();
@@ -290,7 +288,7 @@ fn a_client_that_is_silent_for_too_long_is_let_go() {
 
 #[test]
 fn without_synchronous_clients_it_runs_by_itself_pauses_and_stops() {
-    let server = serve("free");
+    let server = serve();
     let mut client = client(&server);
     client.simulation(0);
     let time = |client: &mut Client| client.call(0x1021, &ints(&[1]), &[]).unwrap().time;
@@ -315,8 +313,7 @@ fn without_synchronous_clients_it_runs_by_itself_pauses_and_stops() {
 fn a_port_in_use_is_named_with_its_flag() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port();
-    let session = Session::open(&folder("taken", ""), &[], Extensions::default(), None).unwrap();
-    let error = Server::start(session, &Options { legacy: vec![port], ..options() }).err().unwrap().to_string();
+    let error = session().try_serve(&Options { legacy: vec![port], ..options() }).err().unwrap().to_string();
     assert!(
         error.contains(&format!("port {port} is in use on 127.0.0.1")) && error.contains("--legacy-port"),
         "{error}"
@@ -325,19 +322,18 @@ fn a_port_in_use_is_named_with_its_flag() {
 
 #[test]
 fn a_port_can_be_had_again_at_once() {
-    let server = serve("again");
+    let server = serve();
     let port = server.ports().legacy[0].port();
     let mut client = client(&server);
     client.ping();
     drop(server);
     drop(client);
-    let session = Session::open(&folder("again", ""), &[], Extensions::default(), None).unwrap();
-    drop(Server::start(session, &Options { legacy: vec![port], ..options() }).unwrap());
+    drop(session().serve(&Options { legacy: vec![port], ..options() }));
 }
 
 #[test]
 fn what_is_no_message_ends_its_connection_alone() {
-    let server = serve("garbage");
+    let server = serve();
     let mut good = client(&server);
     good.start();
     for bytes in [&b"GET / HTTP/1.1\r\n\r\n"[..], &[1, 0, 4, 0, 0, 0, 9, 9, 9, 9], &[1, 0, 0xff, 0xff, 0, 0]] {

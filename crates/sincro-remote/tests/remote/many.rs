@@ -2,13 +2,13 @@
 
 use sincro_coppelia::session::Value;
 
-use super::legacy_client::Client as Legacy;
 use super::scene::{finished, serve};
-use super::zmq_client::Client as Zmq;
+use sincro_testing::clients::legacy::Client as Legacy;
+use sincro_testing::clients::zmq::Client as Zmq;
 
 #[test]
 fn fifty_clients_step_together_and_one_that_goes_holds_nobody() {
-    let server = serve("fifty");
+    let server = serve();
     let address = server.ports().zmq.unwrap();
     let mut clients: Vec<Zmq> = (0..50).map(|k| Zmq::connect(address, Some(&format!("client {k}")))).collect();
     for client in &mut clients {
@@ -58,7 +58,7 @@ fn a_long_run_of_a_client_takes_no_more_memory() {
     if !is_alone("many::a_long_run_of_a_client_takes_no_more_memory") {
         return;
     }
-    let server = serve("long");
+    let server = serve();
     let mut client = Legacy::connect(server.ports().legacy[0]);
     client.start();
     let mut steps = |n: usize| {

@@ -4,13 +4,12 @@
 use std::time::Duration;
 
 use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
-use sincro_coppelia::session::{Handle, Session, Value, api};
+use sincro_coppelia::session::{Handle, Value, api};
 use sincro_remote::Server;
-use sincro_sim::Extensions;
 use sincro_sim::trace::Trace;
 
-use super::scene::{finished, folder, options, serve};
-use super::zmq_client::{Client, field, map};
+use super::scene::{finished, serve, session};
+use sincro_testing::clients::zmq::{Client, field, map};
 
 /// Duration of the motion of `parameters` `[s]`.
 fn duration() -> f64 {
@@ -70,7 +69,7 @@ fn with_callbacks(client: &mut Client, first: Value, mut act: impl FnMut(&mut Cl
 
 /// The steps of the function itself, in process.
 fn in_rust() -> Trace {
-    let mut session = Session::open(&folder("moving-rust", ""), &[], Extensions::default(), None).unwrap();
+    let mut session = session();
     session.start().unwrap();
     let handles = ["/joint1", "/joint2"].map(|path| session.registry().find(path, Default::default()).unwrap());
     let given = parameters(&handles.map(Value::from), &[]);
@@ -90,7 +89,7 @@ fn in_rust() -> Trace {
 #[test]
 fn a_motion_is_the_same_through_every_door() {
     let expected = in_rust();
-    let server = serve("moving-protocols");
+    let server = serve();
     let mut client = Client::connect(server.ports().zmq.unwrap(), Some("moving"));
     let both = joints(&mut client);
     start(&mut client);
@@ -141,7 +140,7 @@ fn a_motion_is_the_same_through_every_door() {
 #[test]
 fn a_client_that_does_not_step_does_while_its_motion_lasts() {
     let expected = in_rust();
-    let server = serve("moving-free");
+    let server = serve();
     let mut client = Client::connect(server.ports().zmq.unwrap(), Some("free"));
     let mut other = Client::connect(server.ports().zmq.unwrap(), Some("other"));
     let both = joints(&mut client);
@@ -162,7 +161,7 @@ fn a_client_that_does_not_step_does_while_its_motion_lasts() {
 
 #[test]
 fn a_callback_can_stop_a_motion_and_call_while_it_runs() {
-    let server = serve("moving-callback");
+    let server = serve();
     let mut client = Client::connect(server.ports().zmq.unwrap(), Some("callback"));
     let both = joints(&mut client);
     start(&mut client);
@@ -210,7 +209,7 @@ fn a_callback_can_stop_a_motion_and_call_while_it_runs() {
 
 #[test]
 fn a_client_that_is_gone_or_a_stop_ends_its_motion() {
-    let server = serve("moving-gone");
+    let server = serve();
     let mut client = Client::connect(server.ports().zmq.unwrap(), Some("goes"));
     let mut other = Client::connect(server.ports().zmq.unwrap(), Some("stays"));
     let both = joints(&mut client);
@@ -249,7 +248,7 @@ fn a_client_that_is_gone_or_a_stop_ends_its_motion() {
 
 #[test]
 fn what_cannot_be_done_is_refused() {
-    let server = serve("moving-refused");
+    let server = serve();
     let mut client = Client::connect(server.ports().zmq.unwrap(), Some("refused"));
     let both = joints(&mut client);
     start(&mut client);
@@ -277,8 +276,8 @@ fn what_cannot_be_done_is_refused() {
 
 #[test]
 fn a_browser_moves_things_without_callbacks() {
-    let server = serve("moving-ws");
-    let mut client = super::ws_client::Client::connect(server.ports().ws.unwrap());
+    let server = serve();
+    let mut client = sincro_testing::clients::ws::Client::connect(server.ports().ws.unwrap());
     let mut call = |text: String| {
         client.send_text(&text);
         client.text()
@@ -301,11 +300,7 @@ fn a_browser_moves_things_without_callbacks() {
 
 #[test]
 fn three_clients_move_at_once() {
-    let server = Server::start(
-        Session::open(&folder("moving-three", ""), &[], Extensions::default(), None).unwrap(),
-        &options(),
-    )
-    .unwrap();
+    let server = serve();
     let runs: Vec<Vec<f64>> = (0..2)
         .map(|_| {
             let mut first = Client::connect(server.ports().zmq.unwrap(), Some("first"));

@@ -2,9 +2,9 @@
 
 use sincro_coppelia::session::Value;
 
-use super::legacy_client::{Client as Legacy, Command, ONCE, ints, text};
 use super::scene::serve;
-use super::zmq_client::{Client as Zmq, field};
+use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, ints, text};
+use sincro_testing::clients::zmq::{Client as Zmq, field};
 
 /// Functions that only scripts have: of a thread, of a Lua state.
 const OF_SCRIPTS: [&str; 11] = [
@@ -23,7 +23,7 @@ const OF_SCRIPTS: [&str; 11] = [
 
 #[test]
 fn every_function_of_the_api_is_listed_or_refused_with_a_reason() {
-    let server = serve("names");
+    let server = serve();
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("names"));
     let info = client.call("zmqRemoteApi.info", &[Value::from("sim")]).unwrap().remove(0);
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/third-party/data/v-rep-functions.txt");
@@ -55,7 +55,7 @@ const COMMANDS: [i32; 97] = [
 
 #[test]
 fn every_command_of_the_legacy_api_is_done_or_refused_with_a_reason() {
-    let server = serve("numbers");
+    let server = serve();
     let mut client = Legacy::connect(server.ports().legacy[0]);
     let mut unknown = Vec::new();
     for number in COMMANDS {

@@ -4,19 +4,14 @@
 //! wire has single precision. It is computed 20 times a second by a block diagram, in Rust, by a legacy client and by a
 //! ZeroMQ client.
 
-use std::path::Path;
-use std::sync::atomic::AtomicBool;
-
-use sincro_coppelia::session::{Search, Session, Value};
+use sincro_coppelia::session::{Search, Value};
 use sincro_remote::Server;
-use sincro_sim::Extensions;
-use sincro_sim::load;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::trace::Trace;
 
-use super::legacy_client::Client as Legacy;
-use super::scene::{finished, folder, options};
-use super::zmq_client::Client as Zmq;
+use super::scene::{finished, serve, session};
+use sincro_testing::clients::legacy::Client as Legacy;
+use sincro_testing::clients::zmq::Client as Zmq;
+use sincro_testing::{run, scenes};
 
 const DIAGRAM: &str = r#"
 sample_time = 0.05
@@ -38,19 +33,12 @@ fn law(q: f64) -> f64 {
 }
 
 fn by_diagram() -> Trace {
-    let folder = folder("parity-diagram", "diagram = \"diagram.toml\"\n");
-    std::fs::write(folder.join("diagram.toml"), DIAGRAM).unwrap();
-    let loaded = load(&folder, &[], Extensions::default()).unwrap_or_else(|p| panic!("{:?}", p.0));
-    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(&loaded, RunOptions::default(), watch).unwrap().trace
+    let folder = scenes::two_link_arm("diagram = \"diagram.toml\"\n").with("diagram.toml", DIAGRAM);
+    run(&folder.load(&[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"))).trace
 }
 
-fn session(folder: &Path) -> Session {
-    Session::open(folder, &[], Extensions::default(), None).unwrap()
-}
-
-fn in_rust(folder: &Path) -> Trace {
-    let mut session = session(folder);
+fn in_rust() -> Trace {
+    let mut session = session();
     let joint = session.sim().registry.find("joint1", Search::default()).unwrap();
     session.start().unwrap();
     for _ in 0..STEPS {
@@ -90,10 +78,9 @@ fn by_zmq(server: &Server) -> Trace {
 
 #[test]
 fn the_same_law_through_every_door_gives_the_same_hash() {
-    let folder = folder("parity", "");
-    let in_rust = in_rust(&folder);
+    let in_rust = in_rust();
     assert_eq!(by_diagram(), in_rust, "diagram");
-    let server = Server::start(session(&folder), &options()).unwrap();
+    let server = serve();
     for _ in 0..2 {
         assert_eq!(by_legacy(&server), in_rust, "legacy remote API");
         assert_eq!(by_zmq(&server), in_rust, "ZeroMQ remote API");

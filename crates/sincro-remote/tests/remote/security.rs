@@ -6,15 +6,13 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use sincro_coppelia::session::Session;
 use sincro_remote::limits::{Deadlines, PER_ADDRESS};
 use sincro_remote::{Options, Server};
-use sincro_sim::Extensions;
 
-use super::legacy_client::Client as Legacy;
-use super::scene::{finished, folder, options, serve, serve_with};
-use super::ws_client::Client as Ws;
-use super::zmq_client::Client as Zmq;
+use super::scene::{finished, options, serve, serve_with, session};
+use sincro_testing::clients::legacy::Client as Legacy;
+use sincro_testing::clients::ws::Client as Ws;
+use sincro_testing::clients::zmq::Client as Zmq;
 
 /// Deadlines that a test can wait for.
 const SHORT: Deadlines = Deadlines {
@@ -77,7 +75,7 @@ fn drip(address: SocketAddr, start: &[u8], drop: u8) -> Duration {
 
 #[test]
 fn a_page_without_the_token_is_refused() {
-    let server = serve("security-origin");
+    let server = serve();
     let address = server.ports().ws.unwrap();
     let query = server.ws_link().unwrap().split_once('/').unwrap().1.split_once("/?").unwrap().1.to_owned();
     let host = address.to_string();
@@ -112,7 +110,7 @@ fn a_page_without_the_token_is_refused() {
 
 #[test]
 fn a_name_that_was_pointed_at_this_machine_is_refused_even_with_the_token() {
-    let server = serve("security-host");
+    let server = serve();
     let address = server.ports().ws.unwrap();
     let link = server.ws_link().unwrap();
     let query = link.split_once("/?").unwrap().1;
@@ -134,7 +132,7 @@ fn a_name_that_was_pointed_at_this_machine_is_refused_even_with_the_token() {
 
 #[test]
 fn cross_site_requests_to_the_other_ports_do_nothing() {
-    let server = serve("security-forms");
+    let server = serve();
     let ports = server.ports().clone();
     let body = "func=sim.startSimulation";
     for address in [ports.legacy[0], ports.zmq.unwrap(), ports.zmq_steps.unwrap(), ports.ws.unwrap()] {
@@ -155,21 +153,20 @@ fn cross_site_requests_to_the_other_ports_do_nothing() {
 
 #[test]
 fn beyond_loopback_the_ports_without_password_want_a_flag() {
-    let session = || Session::open(&folder("security-bind", ""), &[], Extensions::default(), None).unwrap();
     let all: IpAddr = Ipv4Addr::UNSPECIFIED.into();
     for options in [
         Options { bind: all, zmq: None, ..options() },
         Options { bind: all, legacy: Vec::new(), ..options() },
         Options { bind: all, ..options() },
     ] {
-        let error = Server::start(session(), &options).err().expect("it is refused");
+        let error = session().try_serve(&options).err().expect("it is refused");
         assert!(error.message.contains("have no password") && error.help.contains("--unauthenticated"), "{error}");
     }
-    let open = Server::start(session(), &Options { bind: all, unauthenticated: true, ..options() }).unwrap();
+    let open = session().serve(&Options { bind: all, unauthenticated: true, ..options() });
     let port = open.ports().ws.unwrap().port();
     drop(open);
     let options = Options { bind: all, legacy: Vec::new(), zmq: None, ws: Some(port), ..options() };
-    let server = Server::start(session(), &options).unwrap();
+    let server = session().serve(&options);
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, server.ports().ws.unwrap().port()));
     let link = server.ws_link().unwrap();
     assert!(Ws::connect_to(address, &format!("ws://{address}/")).is_err(), "a program without the token");
@@ -179,7 +176,7 @@ fn beyond_loopback_the_ports_without_password_want_a_flag() {
 
 #[test]
 fn a_byte_now_and_then_puts_no_deadline_off() {
-    let server = serve_with("security-drip", &Options { deadlines: SHORT, ..options() });
+    let server = serve_with(&Options { deadlines: SHORT, ..options() });
     let ports = server.ports().clone();
     let [ws, zmq, steps, legacy] = [ports.ws.unwrap(), ports.zmq.unwrap(), ports.zmq_steps.unwrap(), ports.legacy[0]];
     let long_head = format!("GET / HTTP/1.1\r\nHost: {ws}\r\nX: ");
@@ -213,19 +210,19 @@ fn a_byte_now_and_then_puts_no_deadline_off() {
 
 #[test]
 fn pings_put_off_no_deadline_of_a_message() {
-    let server = serve_with("security-pings", &Options { deadlines: SHORT, ..options() });
+    let server = serve_with(&Options { deadlines: SHORT, ..options() });
     let mut client = Ws::connect(server.ports().ws.unwrap());
     // pings alone keep a connection: it is in use
-    let ping = super::ws_client::frame(0x89, b"");
+    let ping = sincro_testing::clients::ws::frame(0x89, b"");
     let begin = Instant::now();
     while begin.elapsed() < 2 * SHORT.idle {
         client.throw(&ping);
         std::thread::sleep(Duration::from_millis(100));
     }
     // a message in pieces of a byte, a ping between any two
-    client.throw(&super::ws_client::frame(0x02, b"x"));
+    client.throw(&sincro_testing::clients::ws::frame(0x02, b"x"));
     let begin = Instant::now();
-    let piece = [ping, super::ws_client::frame(0x00, b"x")].concat();
+    let piece = [ping, sincro_testing::clients::ws::frame(0x00, b"x")].concat();
     while client.stream().write_all(&piece).is_ok() {
         assert!(begin.elapsed() < Duration::from_secs(10), "the message never ends");
         std::thread::sleep(Duration::from_millis(100));
@@ -244,7 +241,7 @@ fn wait_until(mut holds: impl FnMut() -> bool) {
 
 #[test]
 fn idle_connections_are_closed_and_used_ones_are_not() {
-    let server = serve_with("security-idle", &Options { deadlines: SHORT, ..options() });
+    let server = serve_with(&Options { deadlines: SHORT, ..options() });
     let ports = server.ports().clone();
     let mut used = Zmq::connect(ports.zmq.unwrap(), Some("used"));
     let mut idle = Zmq::connect(ports.zmq.unwrap(), Some("idle"));
@@ -269,17 +266,17 @@ fn idle_connections_are_closed_and_used_ones_are_not() {
 
 #[test]
 fn a_subscriber_is_kept_while_it_is_sent_to() {
-    let server = serve_with("security-steps", &Options { deadlines: SHORT, ..options() });
+    let server = serve_with(&Options { deadlines: SHORT, ..options() });
     let mut listener = TcpStream::connect(server.ports().zmq_steps.unwrap()).unwrap();
-    super::zmq_client::shake_hands(&mut listener, "SUB");
+    sincro_testing::clients::zmq::shake_hands(&mut listener, "SUB");
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("steps"));
     client.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     let begin = Instant::now();
-    let mut told = super::zmq_client::frame(&mut listener).1;
+    let mut told = sincro_testing::clients::zmq::frame(&mut listener).1;
     while begin.elapsed() < 3 * SHORT.idle {
         client.call("sim.step", &[]).unwrap();
-        told = super::zmq_client::frame(&mut listener).1;
+        told = sincro_testing::clients::zmq::frame(&mut listener).1;
         std::thread::sleep(Duration::from_millis(100));
     }
     assert!(told[0] > 5, "{told:?}");
@@ -289,7 +286,7 @@ fn a_subscriber_is_kept_while_it_is_sent_to() {
 
 #[test]
 fn a_client_that_takes_no_answers_is_closed() {
-    let server = serve_with("security-reader", &Options { deadlines: SHORT, ..options() });
+    let server = serve_with(&Options { deadlines: SHORT, ..options() });
     let mut client = Ws::connect(server.ports().ws.unwrap());
     let request = r#"{"func":"wsRemoteApi.info","args":["sim"]}"#;
     // answers of some 20 kB, far more together than the system keeps for a connection
@@ -302,7 +299,7 @@ fn a_client_that_takes_no_answers_is_closed() {
 
 #[test]
 fn connections_that_say_nothing_keep_nobody_out() {
-    let server = serve("security-slots");
+    let server = serve();
     let ports = server.ports().clone();
     let mut good = Zmq::connect(ports.zmq.unwrap(), Some("good"));
     good.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
@@ -335,8 +332,8 @@ fn stepped(server: &Server) -> String {
 
 #[test]
 fn a_client_that_steps_has_the_same_trace_while_all_attacks_run() {
-    let quiet = stepped(&serve("security-quiet"));
-    let server = serve_with("security-attacked", &Options { deadlines: SHORT, ..options() });
+    let quiet = stepped(&serve());
+    let server = serve_with(&Options { deadlines: SHORT, ..options() });
     let ports = server.ports().clone();
     let is_over = AtomicBool::new(false);
     let attacked = std::thread::scope(|scope| {

@@ -1,15 +1,14 @@
 //! Pictures over the wires: the same bytes by every protocol, whole and in pieces, in the step that they belong to.
 
-use sincro_coppelia::session::{Search, Session, Value};
-use sincro_sim::Extensions;
+use sincro_coppelia::session::{Search, Value};
 
-use super::legacy_client::{Client, Command, ONCE, SPLIT, STREAM, ints};
-use super::scene::{folder, options, serve};
-use super::zmq_client::Client as Zmq;
+use super::scene::{serve, session};
+use sincro_testing::clients::legacy::{Client, Command, ONCE, SPLIT, STREAM, ints};
+use sincro_testing::clients::zmq::Client as Zmq;
 
 /// Image of the scene's vision sensor after `steps` steps.
-fn expected(name: &str, steps: usize) -> Vec<u8> {
-    let mut session = Session::open(&folder(name, ""), &[], Extensions::default(), None).unwrap();
+fn expected(steps: usize) -> Vec<u8> {
+    let mut session = session();
     let eye = session.sim().registry.find("/eye", Search::default()).unwrap();
     session.start().unwrap();
     for _ in 0..steps {
@@ -20,8 +19,8 @@ fn expected(name: &str, steps: usize) -> Vec<u8> {
 
 #[test]
 fn pictures_are_those_after_the_step_by_every_door() {
-    let server = serve("pictures");
-    let expected = expected("pictures-expected", 3);
+    let server = serve();
+    let expected = expected(3);
     let mut zmq = Zmq::connect(server.ports().zmq.unwrap(), Some("eye"));
     let eye = zmq.object("/eye");
     zmq.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
@@ -54,7 +53,7 @@ fn pictures_are_those_after_the_step_by_every_door() {
 
 #[test]
 fn a_picture_in_pieces_is_the_whole_one() {
-    let server = serve("pieces");
+    let server = serve();
     let mut client = Client::connect(server.ports().legacy[0]);
     let handle = ints(&[client.handle("eye")]);
     client.start();
@@ -80,7 +79,7 @@ fn a_picture_in_pieces_is_the_whole_one() {
 
 #[test]
 fn a_picture_of_a_client_is_shown_and_a_wrong_one_refused() {
-    let server = super::scene::serve_with("shown", &options());
+    let server = serve();
     let mut client = Client::connect(server.ports().legacy[0]);
     let handle = ints(&[client.handle("eye")]);
     let bytes: Vec<u8> = (0..3 * 16 * 12).map(|k| (k % 251) as u8).collect();

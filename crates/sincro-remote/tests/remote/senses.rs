@@ -2,28 +2,24 @@
 //! legacy client gives the bits of its diagram.
 
 use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
 
 use sincro_coppelia::session::{Session, Value};
 use sincro_remote::Server;
 use sincro_sim::Extensions;
 use sincro_sim::load;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 
-use super::legacy_client::{Client as Legacy, Reply, floats, ints, text};
 use super::scene::{finished, options};
-use super::zmq_client::Client as Zmq;
+use sincro_testing::clients::legacy::{Client as Legacy, Reply, floats, ints, text};
+use sincro_testing::clients::zmq::Client as Zmq;
+use sincro_testing::{repository_scene, run};
 
 fn folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenes/stop-at-wall")
+    repository_scene("stop-at-wall")
 }
 
 fn serve() -> Server {
-    Server::start(
-        Session::open(&folder(), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{p}")),
-        &options(),
-    )
-    .unwrap()
+    let session = Session::open(&folder(), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{p}"));
+    Server::start(session, &options()).unwrap()
 }
 
 /// State, point, object and normal: not aligned.
@@ -37,8 +33,7 @@ fn reading(reply: &Reply) -> (u8, [f32; 3], i32, [f32; 3]) {
 #[test]
 fn the_cart_stops_before_the_wall_through_the_legacy_door_with_the_same_bits() {
     let loaded = load(&folder(), &[], Extensions::default()).unwrap_or_else(|p| panic!("{p}"));
-    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    let by_diagram = simulate(&loaded, RunOptions::default(), watch).unwrap().trace;
+    let by_diagram = run(&loaded).trace;
     let server = serve();
     for _ in 0..2 {
         let mut client = Legacy::connect(server.ports().legacy[0]);

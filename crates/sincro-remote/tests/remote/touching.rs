@@ -1,57 +1,13 @@
 //! Contacts, force sensors, stops, files: a box on a floor, a load on a force sensor, an arm between stops.
 
-use std::path::PathBuf;
-
 use sincro_coppelia::session::{Files, Grants, Search, Session, Value};
-use sincro_remote::Server;
 use sincro_sim::Extensions;
 
-use super::legacy_client::{Client, ints, text};
 use super::scene::options;
-use super::zmq_client::Client as Zmq;
-
-const SCENE: &str = r#"
-[[body]]
-name = "floor"
-shape = [{ plane = {} }]
-contact = { friction = 0.5 }
-
-[[joint]]
-name = "loose"
-kind = "free"
-initial = { position = [0.0, 0.0, 0.05, 1.0, 0.0, 0.0, 0.0] }
-[[body]]
-name = "box"
-parent = "/loose"
-density = 1000.0
-shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
-contact = { friction = 0.5 }
-
-[[joint]]
-name = "scale"
-kind = "fixed"
-position = [1.0, 0.0, 1.0]
-force_sensor = true
-[[body]]
-name = "load"
-parent = "/scale"
-mass = 2.0
-center_of_mass = [0.1, 0.0, 0.0]
-inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-
-[[joint]]
-name = "arm"
-kind = "revolute"
-axis = [0.0, 0.0, 1.0]
-position = [-1.0, 0.0, 1.0]
-limits = { lower = -0.5, upper = 1.0 }
-motor = { mode = "velocity" }
-[[body]]
-name = "bar"
-parent = "/arm"
-mass = 1.0
-inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-"#;
+use sincro_testing::clients::legacy::{Client, ints, text};
+use sincro_testing::clients::zmq::Client as Zmq;
+use sincro_testing::scenes::TOUCHING;
+use sincro_testing::{OpenSession, SceneFolder, ServedSession};
 
 const EXPERIMENT: &str = r#"
 title = "Touching"
@@ -60,19 +16,14 @@ step = 0.005
 record = ["/loose.position.z", "float_signal.thrust"]
 "#;
 
-fn folder(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("touching-{name}"));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
-    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    folder
+fn session() -> OpenSession {
+    SceneFolder::of(TOUCHING, EXPERIMENT).session(Extensions::default(), None)
 }
 
-fn serve(name: &str, grants: Grants) -> Server {
-    let mut session =
-        Session::open(&folder(name), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{:?}", p.0));
+fn serve(grants: Grants) -> ServedSession {
+    let mut session = session();
     session.grant(grants);
-    Server::start(session, &options()).unwrap()
+    session.serve(&options())
 }
 
 /// The whole weight of the box [N].
@@ -80,7 +31,7 @@ const WEIGHT: f64 = 9.81;
 
 #[test]
 fn what_touches_is_told_to_clients() {
-    let server = serve("zmq", Grants::default());
+    let server = serve(Grants::default());
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("touch"));
     let [floor, box_, scale, arm, load] = ["/floor", "/box", "/scale", "/arm", "/load"].map(|p| client.object(p));
     client.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
@@ -131,7 +82,7 @@ fn what_touches_is_told_to_clients() {
 
 #[test]
 fn what_touches_is_told_to_legacy_clients() {
-    let server = serve("legacy", Grants::default());
+    let server = serve(Grants::default());
     let mut client = Client::connect(server.ports().legacy[0]);
     let [floor, box_, scale, load] = ["floor", "box", "scale", "load"].map(|name| client.handle(name));
     client.start();
@@ -202,10 +153,10 @@ fn what_touches_is_told_to_legacy_clients() {
 
 #[test]
 fn files_are_sent_where_that_is_granted_and_nowhere_else() {
-    let received = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("touching-received");
-    let _ = std::fs::remove_dir_all(&received);
+    let around = SceneFolder::new();
+    let received = around.join("received");
     let grants = Grants { files: Some(Files::new(received.clone())), evaluation: false };
-    let server = serve("files", grants);
+    let server = serve(grants);
     let mut client = Client::connect(server.ports().legacy[0]);
     client.call(0x3004, &text("notes.txt"), b"hello").unwrap();
     assert_eq!(std::fs::read(received.join("notes.txt")).unwrap(), b"hello");
@@ -231,9 +182,9 @@ fn files_are_sent_where_that_is_granted_and_nowhere_else() {
         std::fs::remove_file(received.join(name)).unwrap();
     }
     // a scene that names a file outside is refused before anything of that file could be told
-    std::fs::write(received.with_file_name("touching-secret.toml"), "API_KEY = sk-12345").unwrap();
-    client.call(0x3004, &text("scene.toml"), SCENE.as_bytes()).unwrap();
-    for diagram in ["../touching-secret.toml", "./\\u002e./touching-secret.toml", "a/../../touching-secret.toml"] {
+    around.write("secret.toml", "API_KEY = sk-12345");
+    client.call(0x3004, &text("scene.toml"), TOUCHING.as_bytes()).unwrap();
+    for diagram in ["../secret.toml", "./\\u002e./secret.toml", "a/../../secret.toml"] {
         let experiment = format!("diagram = \"{diagram}\"\n{EXPERIMENT}");
         client.call(0x3004, &text("experiment.toml"), experiment.as_bytes()).unwrap();
         assert!(client.call(0x3002, &text("experiment.toml"), &[]).is_err(), "{diagram}");
@@ -243,11 +194,12 @@ fn files_are_sent_where_that_is_granted_and_nowhere_else() {
     }
 
     // a scene that was sent is loaded; one that takes what was not sent is not, nor one of V-REP
-    client.call(0x3004, &text("scene.toml"), SCENE.replace("arm", "leg").as_bytes()).unwrap();
+    client.call(0x3004, &text("scene.toml"), TOUCHING.replace("arm", "leg").as_bytes()).unwrap();
     client.call(0x3004, &text("experiment.toml"), EXPERIMENT.as_bytes()).unwrap();
     client.call(0x3002, &text("experiment.toml"), &[]).unwrap();
     client.handle("leg");
-    let outside = EXPERIMENT.replace("title", "scene = \"../touching-files/scene.toml\"\ntitle");
+    let served = server.folder().file_name().unwrap().to_str().unwrap();
+    let outside = format!("scene = \"../../{served}/scene.toml\"\n{EXPERIMENT}");
     client.call(0x3004, &text("experiment.toml"), outside.as_bytes()).unwrap();
     assert!(client.call(0x3002, &text("experiment.toml"), &[]).is_err());
     client.call(0x3004, &text("REMOTE_API_TEMPFILE_0001.ttt"), b"VREP\0\x01binary").unwrap();
@@ -264,8 +216,7 @@ fn files_are_sent_where_that_is_granted_and_nowhere_else() {
 #[test]
 fn looking_at_contacts_and_force_sensors_changes_nothing() {
     let trace = |looks: bool| {
-        let mut session =
-            Session::open(&folder("looks"), &[], Extensions::default(), None).unwrap_or_else(|p| panic!("{:?}", p.0));
+        let mut session = session();
         let find = |session: &mut Session, name: &str| session.registry().find(name, Search::default()).unwrap();
         let [body, scale] = ["/box", "/scale"].map(|name| find(&mut session, name));
         session.start().unwrap();

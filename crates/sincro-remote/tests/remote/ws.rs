@@ -3,11 +3,11 @@
 use tungstenite::{Bytes, Message};
 
 use super::scene::serve;
-use super::ws_client::Client;
+use sincro_testing::clients::ws::Client;
 
 #[test]
 fn a_browser_steps_the_simulation_in_json_and_cbor() {
-    let server = serve("ws");
+    let server = serve();
     let mut client = Client::connect(server.ports().ws.unwrap());
     let mut call = |text: &str| {
         client.send_text(text);

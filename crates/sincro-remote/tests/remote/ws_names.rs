@@ -9,8 +9,8 @@ use sincro_coppelia::session::Value;
 
 use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, fitting};
 use super::scene::serve;
-use super::ws_client::{Client, frame};
-use super::zmq_client::field;
+use sincro_testing::clients::ws::{Client, frame};
+use sincro_testing::clients::zmq::field;
 
 /// Objects that are created for each name.
 fn made(client: &mut Client) -> Made {
@@ -23,7 +23,7 @@ fn made(client: &mut Client) -> Made {
 
 #[test]
 fn every_name_answers_any_arguments_in_json_and_cbor() {
-    let server = serve("ws-names");
+    let server = serve();
     let mut client = Client::connect(server.ports().ws.unwrap());
     let told = client.cbor("wsRemoteApi.info", &[Value::from("sim")]);
     let Some(Value::List(info)) = field(&told, "ret") else { panic!("{told:?}") };
@@ -89,7 +89,7 @@ fn every_name_answers_any_arguments_in_json_and_cbor() {
 
 #[test]
 fn frames_of_any_bytes_end_their_connection_at_most() {
-    let server = serve("ws-fuzz");
+    let server = serve();
     let address = server.ports().ws.unwrap();
     let mut good = Client::connect(address);
     good.json("setStepping", &[Value::Bool(true)]);
@@ -126,7 +126,7 @@ fn frames_of_any_bytes_end_their_connection_at_most() {
 
 #[test]
 fn lengths_that_are_made_up_end_the_connection() {
-    let server = serve("ws-lengths");
+    let server = serve();
     let address = server.ports().ws.unwrap();
     let long = |n: u64| [&[0x82, 0xff][..], &n.to_be_bytes(), &[0; 4]].concat();
     // a frame of nearly 2⁶⁴ bytes, one just above the limit, pieces that are too long together, one that is not masked

@@ -100,14 +100,14 @@ impl Optics {
         }
     }
 
-    /// The same, with an angle over the longer side `[rad]`.
+    /// These optics in perspective, with an angle over the longer side of the picture of `angle` `[rad]` (at most 3.1).
     #[must_use]
     pub fn with_view_angle(self, angle: f64) -> Self {
         let tall = elementary::tan(0.5 * angle.clamp(0.0, 3.1)).0 / self.longer();
         Self { lens: Lens::Perspective(2.0 * elementary::atan(tall).0), ..self }
     }
 
-    /// The same, orthographic, with a longer side `[m]`.
+    /// These optics in orthographic projection, with `size` as the longer side of the picture `[m]`.
     #[must_use]
     pub fn with_view_size(self, size: f64) -> Self {
         Self { lens: Lens::Orthographic(size / self.longer()), ..self }

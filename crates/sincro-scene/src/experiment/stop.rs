@@ -31,7 +31,7 @@ pub enum Side {
 }
 
 impl StopWhen {
-    /// Returns true if a value lies where the run ends.
+    /// Returns true if the run ends at a value `x` of the signal, in the unit in which it is recorded.
     #[must_use]
     pub fn is_reached(&self, x: f64) -> bool {
         match self.side {

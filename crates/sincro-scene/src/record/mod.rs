@@ -10,7 +10,7 @@ pub mod probe;
 pub use catalogue::{Entry, catalogue};
 pub use contact::ContactQuantity;
 
-use sincro_dynamics::coupled::Response;
+use sincro_dynamics::coupled::MechanismResponse;
 use sincro_dynamics::energy::Energy;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
@@ -223,7 +223,8 @@ impl Recorder {
             Probe::Reaction(k) => seen.scratch().reaction()[k],
             probe => {
                 let view = View::observed(seen, t);
-                let response = Response { accelerations: seen.accelerations, motor_torque: seen.motor_torque() };
+                let response =
+                    MechanismResponse { accelerations: seen.accelerations, motor_torque: seen.motor_torque() };
                 let value = probe::of_state(&view, probe).or_else(|| probe::of_response(&view, response, probe));
                 value.expect("what is neither of the state nor of its response is read above")
             }

@@ -3,7 +3,7 @@
 
 use sincro_dynamics::actuation::{damper, spring};
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
-use sincro_dynamics::coupled::{Response, StateView};
+use sincro_dynamics::coupled::{MechanismResponse, StateView};
 use sincro_dynamics::energy::{energy, momentum};
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
@@ -85,7 +85,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
 }
 
 /// A measurement that depends on the commands; after kinematics with the accelerations.
-pub fn of_response<R: Real>(at: &View<'_, R>, response: Response<'_, R>, probe: Probe) -> Option<R> {
+pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>, probe: Probe) -> Option<R> {
     Some(match probe {
         Probe::Acceleration(k) => response.accelerations[k],
         Probe::MotorTorqueNow(m) => response.motor_torque[m],

@@ -14,7 +14,7 @@ pub use audit::audit;
 use crate::audit::AuditReport;
 use crate::check::{Outcome, evaluate, evaluate_sweep};
 use crate::controller::{Change, Message};
-use crate::load::{Loaded, load};
+use crate::load::Loaded;
 use crate::replay::SceneView;
 use crate::results::{
     ChangeReport, CheckReport, ColumnReport, MessageReport, Override as Setting, RunReport, Settings, Status,
@@ -92,7 +92,7 @@ pub fn run_campaign(
             break;
         }
         let settings = settings_with(overrides, &variant.set);
-        let other = load(folder, &settings, loaded.extensions)?;
+        let other = loaded.with_overrides(&settings)?;
         let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
         if let Some(dir) = &dir {
             crate::file::prepare(dir)?;
@@ -107,7 +107,7 @@ pub fn run_campaign(
         variants.push((variant.clone(), done));
     }
     let sweep = match &loaded.experiment.sweep {
-        Some(plan) if !interrupted(&main) => Some(run_sweep(folder, overrides, loaded, plan, interrupt, progress)?),
+        Some(plan) if !interrupted(&main) => Some(run_sweep(overrides, loaded, plan, interrupt, progress)?),
         _ => None,
     };
     let report = report(folder, loaded, &main, &variants, sweep.as_ref());
@@ -192,7 +192,6 @@ fn settings(experiment: &Experiment, run: &Simulated) -> Settings {
 
 /// The runs of a sweep on all processors; results in the order of the values.
 fn run_sweep(
-    folder: &Path,
     overrides: &[Override],
     loaded: &Loaded,
     plan: &SweepPlan,
@@ -203,7 +202,7 @@ fn run_sweep(
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
     let point = |value: f64| -> Result<(Simulated, AuditReport), RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
-        let at = load(folder, &settings, loaded.extensions)?;
+        let at = loaded.with_overrides(&settings)?;
         let run = simulate(&at, RunOptions::default(), &mut RunMonitor { interrupt, progress: &mut |_| {} })?;
         let audit = audit(&at, &run, None);
         Ok((run, audit))

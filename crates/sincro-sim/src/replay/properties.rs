@@ -116,9 +116,9 @@ fn of_scene(document: &Document, found: &mut Vec<Property>) {
             continue;
         };
         let prefix = format!("{}.", object.path);
-        let slides = table.get("kind").and_then(Value::as_str) == Some("prismatic");
+        let is_prismatic = table.get("kind").and_then(Value::as_str) == Some("prismatic");
         let mut walk =
-            Walk { document, root: schema, owner: &object.path, prefix: &prefix, second_unit: slides, found };
+            Walk { document, root: schema, owner: &object.path, prefix: &prefix, second_unit: is_prismatic, found };
         for (key, value) in table {
             walk.value(value, property_of(schema, items, key), key, &format!("{}/{}", object.pointer, escape(key)));
         }

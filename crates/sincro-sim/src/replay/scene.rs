@@ -57,7 +57,7 @@ pub struct ObjectView {
     pub parent: Option<usize>,
     /// Link that carries it; none if it is fixed in the world. For a joint, its moving side.
     pub mover: Option<usize>,
-    /// Its frame in that of its mover, or in the world.
+    /// Its frame in that of its mover, or in the world: position `[m]`, quaternion w, x, y, z.
     pub pose: [f64; 7],
     /// Shapes.
     pub shapes: Vec<ShapeView>,
@@ -74,7 +74,7 @@ pub struct ObjectView {
     /// Camera data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraView>,
-    /// Link index and pose of the other end of a closure.
+    /// Link index (none: the world) and pose of the other end of a loop joint, as `pose`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_end: Option<(Option<usize>, [f64; 7])>,
 }
@@ -99,18 +99,19 @@ pub struct ShapeView {
     /// Its triangles, counter-clockwise seen from outside.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub triangles: Vec<[u32; 3]>,
-    /// Its place.
+    /// Its frame in that of its body: position `[m]`, quaternion w, x, y, z.
     pub pose: [f64; 7],
-    /// `#rrggbb`.
+    /// Colour as `#rrggbb`; none: the viewer's own.
     pub color: Option<String>,
 }
 
-/// Kind of motion of a joint.
+/// Motion of a joint: its frame on the fixed side, axes and coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointView {
     /// Link that carries it; none for the world.
     pub base_mover: Option<usize>,
-    /// Its frame in that of what carries it: the fixed side.
+    /// Frame of the joint on the fixed side, in that of the link that carries it: position `[m]`, quaternion w, x, y,
+    /// z.
     pub base_pose: [f64; 7],
     /// Axes in the joint's frame: none for fixed, ball and free joints, two for universal ones.
     pub axes: Vec<[f64; 3]>,

@@ -7,7 +7,7 @@ use crate::vector::{V, cross, dot, origin, rotate, scale, sub, unit};
 /// From where the page's own first camera stands, seen from what it looks at.
 const FAR: [f64; 3] = [0.55, -1.0, 0.42];
 
-/// An eye: its axes, and for a camera where it stands and what height a metre before it shows.
+/// Axes of the view; for a camera its position, and the height of its picture at a distance of one metre.
 pub(super) struct Viewpoint {
     right: V,
     up: V,
@@ -50,7 +50,7 @@ impl Viewpoint {
         (ahead > 1e-3).then(|| (dot(d, self.right) / ahead, -dot(d, self.up) / ahead))
     }
 
-    /// Grows towards the eye.
+    /// Increases towards the viewpoint.
     pub fn depth(&self, p: V) -> f64 {
         match self.camera {
             None => dot(p, self.back),
@@ -58,7 +58,7 @@ impl Viewpoint {
         }
     }
 
-    /// From a point to the eye, of length one.
+    /// Unit vector from a point to the viewpoint.
     pub fn towards(&self, p: V) -> V {
         match self.camera {
             None => self.back,

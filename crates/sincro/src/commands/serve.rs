@@ -19,8 +19,8 @@ use super::console;
 use super::run::{interrupt, parse_settings};
 use crate::{Exit, diagnostics};
 
-/// Interval at which the server looks for an interrupt and for new clients.
-const GLANCE: Duration = Duration::from_millis(250);
+/// Interval at which interrupts and new clients are polled.
+const POLL_INTERVAL: Duration = Duration::from_millis(250);
 /// Time that a script has to return when the server is ended.
 const LAST_CALL: Duration = Duration::from_secs(5);
 /// Interval at which the speed is printed on a terminal.
@@ -140,9 +140,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let recorder = Recorder::new(out, arguments.record.into(), arguments.keep);
     let mut watch = Watch { recorder, clients: 0, told: Instant::now(), step: 0 };
     while !interrupt.load(Ordering::Relaxed) {
-        match server.events().recv_timeout(GLANCE) {
+        match server.events().recv_timeout(POLL_INTERVAL) {
             Ok(event) => watch.event(event),
-            Err(RecvTimeoutError::Timeout) => watch.glance(&server),
+            Err(RecvTimeoutError::Timeout) => watch.poll(&server),
             Err(RecvTimeoutError::Disconnected) => break,
         }
     }
@@ -233,10 +233,10 @@ impl Watch {
         }
     }
 
-    /// Who is attached, and how fast it goes.
-    fn glance(&mut self, server: &Server) {
+    /// Prints changes of the number of clients, and the speed.
+    fn poll(&mut self, server: &Server) {
         // a script may hold it: then there is nothing new to tell
-        let Some(mut guard) = server.hub().try_enter(GLANCE) else { return };
+        let Some(mut guard) = server.hub().try_enter(POLL_INTERVAL) else { return };
         let (clients, step, t) = (guard.n_clients(), guard.steps(), guard.session.t());
         let runs = guard.session.phase() != sincro_coppelia::session::Phase::Stopped;
         drop(guard);

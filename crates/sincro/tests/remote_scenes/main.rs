@@ -5,68 +5,38 @@
 //! gives.
 
 mod arm;
-#[path = "../../../sincro-remote/tests/remote/legacy_client.rs"]
-#[allow(dead_code)]
-mod legacy_client;
 mod movement;
 mod quadrotor;
 mod scripts;
-#[path = "../../../sincro-remote/tests/remote/zmq_client.rs"]
-#[allow(dead_code)]
-mod zmq_client;
-
-use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
 use sincro_coppelia::session::{Session, Value};
-use sincro_remote::hub::Event;
-use sincro_remote::{Options, Server};
-use sincro_sim::Extensions;
+use sincro_remote::Server;
 use sincro_sim::load;
-use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::trace::Trace;
-
-use legacy_client::{Client as Legacy, Command, ONCE, STREAM, floats, ints};
-use zmq_client::Client as Zmq;
+use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, STREAM, floats, ints};
+use sincro_testing::clients::zmq::Client as Zmq;
+use sincro_testing::{options, repository_scene, run, with_scripts};
 
 /// A number in the precision of the legacy wire.
 fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
-fn scene(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
-}
-
 /// The hash of the scene's own run, its law as a diagram.
 fn in_process(name: &str) -> Trace {
-    let loaded = load(&scene(name), &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() })
-        .unwrap_or_else(|p| panic!("{:?}", p.0));
-    let watch = &mut RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
-    simulate(&loaded, RunOptions::default(), watch).unwrap().trace
+    let loaded = load(&repository_scene(name), &[], with_scripts()).unwrap_or_else(|p| panic!("{p}"));
+    run(&loaded).trace
 }
 
 fn serve(name: &str) -> Server {
-    let session = Session::open(
-        &scene(name),
-        &[],
-        Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() },
-        None,
-    )
-    .unwrap_or_else(|p| panic!("{:?}", p.0));
-    let client_timeout = Duration::from_secs(600);
-    Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, client_timeout, ..Options::default() })
-        .unwrap()
+    let session = Session::open(&repository_scene(name), &[], with_scripts(), None).unwrap_or_else(|p| panic!("{p}"));
+    Server::start(session, &options()).unwrap()
 }
 
 /// The hash of the next run that ends, and its steps.
 fn finished(server: &Server) -> (Trace, u64) {
-    loop {
-        if let Event::Finished(run) = server.events().recv_timeout(Duration::from_secs(60)).unwrap() {
-            return (run.simulated.trace, run.steps);
-        }
-    }
+    let run = sincro_testing::finished(server);
+    (run.simulated.trace, run.steps)
 }
 
 /// A legacy client that streams what it reads, and sets and triggers in one message, as with `simxPauseCommunication`.

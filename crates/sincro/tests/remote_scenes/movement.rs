@@ -3,8 +3,8 @@
 
 use sincro_coppelia::session::Value;
 
-use super::zmq_client::{Client as Zmq, map};
 use super::{finished, in_process, serve};
+use sincro_testing::clients::zmq::{Client as Zmq, map};
 
 /// 15 s.
 const STEPS: i64 = 1_500;

@@ -1,15 +1,10 @@
 //! Clients and the scripts of a scene: functions that are called, texts that are run where that is granted, inverse
 //! kinematics.
 
-use std::path::PathBuf;
-use std::time::Duration;
-
-use sincro_coppelia::session::{Files, Grants, Session, Value};
-use sincro_remote::hub::Event;
-use sincro_remote::{Options, Server};
-use sincro_sim::Extensions;
-
-use super::zmq_client::Client as Zmq;
+use sincro_coppelia::session::{Files, Grants, Value};
+use sincro_remote::Server;
+use sincro_testing::clients::zmq::Client as Zmq;
+use sincro_testing::{OpenSession, SceneFolder, ServedSession, finished, options, with_scripts};
 
 const SCENE: &str = r#"
 [[joint]]
@@ -57,18 +52,14 @@ step = 0.01
 record = ["/first.position", "float_signal.angle"]
 "#;
 
-fn serve(name: &str, evaluation: bool) -> Server {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("scripts-{name}"));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
-    std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-    let mut session =
-        Session::open(&folder, &[], Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }, None)
-            .unwrap_or_else(|p| panic!("{:?}", p.0));
+fn session() -> OpenSession {
+    SceneFolder::of(SCENE, EXPERIMENT).session(with_scripts(), None)
+}
+
+fn serve(evaluation: bool) -> ServedSession {
+    let mut session = session();
     session.grant(Grants { files: None, evaluation });
-    let client_timeout = Duration::from_secs(600);
-    Server::start(session, &Options { legacy: vec![0], zmq: Some(0), ws: None, client_timeout, ..Options::default() })
-        .unwrap()
+    session.serve(&options())
 }
 
 fn client(server: &Server) -> Zmq {
@@ -80,13 +71,13 @@ fn client(server: &Server) -> Zmq {
 
 #[test]
 fn texts_of_clients_are_run_only_where_that_is_granted() {
-    let server = serve("refused", false);
+    let server = serve(false);
     let mut other = client(&server);
     let arm = other.object("/arm");
     let refused = other.call("sim.executeScriptString", &[Value::from("return secret"), arm]).unwrap_err();
     assert!(refused.contains("--grant scripts"), "{refused}");
 
-    let server = serve("granted", true);
+    let server = serve(true);
     let mut client = client(&server);
     let arm = client.object("/arm");
     let mut run = |text: &str| client.call("sim.executeScriptString", &[Value::from(text), arm.clone()]);
@@ -115,11 +106,7 @@ fn texts_of_clients_are_run_only_where_that_is_granted() {
     assert!(client.call("sim.callScriptFunction", &endless).unwrap_err().contains("instructions"));
     client.call("sim.step", &[Value::Int(3)]).unwrap();
     client.call("sim.stopSimulation", &[]).unwrap();
-    let run = loop {
-        if let Event::Finished(run) = server.events().recv_timeout(Duration::from_secs(20)).unwrap() {
-            break run.simulated;
-        }
-    };
+    let run = finished(&server).simulated;
     assert!(run.messages.iter().any(|m| m.object == "/first/arm" && m.text == "from outside"), "{:?}", run.messages);
     let (joint, signal) =
         (&run.table.column("/first.position").unwrap().values, &run.table.column("float_signal.angle").unwrap().values);
@@ -128,7 +115,6 @@ fn texts_of_clients_are_run_only_where_that_is_granted() {
 
 #[test]
 fn a_sent_scene_has_scripts_only_where_these_are_granted_and_within_the_limits_of_the_server() {
-    let sent = std::env::temp_dir().join(format!("sincro-sent-{}", std::process::id()));
     let script =
         |more: &str| format!("[[script]]\nobject = \"/first\"\n{more}\ncode = \"function sysCall_init() end\"\n");
     let plain = SCENE.split("[[script]]").next().unwrap();
@@ -138,14 +124,9 @@ fn a_sent_scene_has_scripts_only_where_these_are_granted_and_within_the_limits_o
         (true, "max_instructions = 9000000000000000000", Some("asks for too much")),
         (true, "max_memory_mib = 1000000", Some("asks for too much")),
     ] {
-        let _ = std::fs::remove_dir_all(&sent);
-        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("scripts-refused");
-        std::fs::create_dir_all(&folder).unwrap();
-        std::fs::write(folder.join("scene.toml"), SCENE).unwrap();
-        std::fs::write(folder.join("experiment.toml"), EXPERIMENT).unwrap();
-        let extensions = Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() };
-        let mut session = Session::open(&folder, &[], extensions, None).unwrap_or_else(|p| panic!("{:?}", p.0));
-        session.grant(Grants { files: Some(Files::new(sent.clone())), evaluation });
+        let around = SceneFolder::new();
+        let mut session = session();
+        session.grant(Grants { files: Some(Files::new(around.join("sent"))), evaluation });
         session.files().unwrap().put("scene.toml", format!("{plain}{}", script(more)).as_bytes()).unwrap();
         session.files().unwrap().put("experiment.toml", EXPERIMENT.as_bytes()).unwrap();
         let loaded = session.load("experiment.toml");
@@ -154,12 +135,11 @@ fn a_sent_scene_has_scripts_only_where_these_are_granted_and_within_the_limits_o
             Some(words) => assert!(loaded.unwrap_err().0.contains(words), "{more}"),
         }
     }
-    std::fs::remove_dir_all(&sent).unwrap();
 }
 
 #[test]
 fn a_client_solves_inverse_kinematics() {
-    let server = serve("ik", false);
+    let server = serve(false);
     let mut client = client(&server);
     client.call("zmqRemoteApi.require", &[Value::from("simIK")]).unwrap();
     let info = client.call("zmqRemoteApi.info", &[Value::from("simIK")]).unwrap();

@@ -9,9 +9,9 @@ pub struct Extremum<const IS_MAX: bool> {
     pub inputs: usize,
 }
 
-/// Least of its inputs: `y = min(u1, u2, …); of one input y = min uᵢ`.
+/// Least of its inputs, `y = min(u1, u2, …)`; of a single input its least component, `y = min uᵢ`.
 pub type Min = Extremum<false>;
-/// Greatest of its inputs: `y = max(u1, u2, …); of one input y = max uᵢ`.
+/// Greatest of its inputs, `y = max(u1, u2, …)`; of a single input its greatest component, `y = max uᵢ`.
 pub type Max = Extremum<true>;
 
 const INPUTS: &[Parameter] = &[Parameter::optional("inputs", Takes::Count, "number of inputs", "2")];

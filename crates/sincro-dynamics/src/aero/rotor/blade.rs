@@ -63,12 +63,12 @@ pub struct RotorSpec {
     pub spin: Spin,
 }
 
-/// Range of validity in which a load was computed.
+/// Validity of the rotor's theory at a load: it holds, or the reason for which it does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Validity {
-    /// It does.
+    /// The theory holds.
     Valid,
-    /// The rotor stands still: only finiteness is promised.
+    /// The rotor does not turn: the load is finite, but not accurate.
     Standing,
     /// Descent faster than half the induced velocity with little forward speed: towards the vortex ring, where the flow
     /// has no steady tube that momentum theory could balance.
@@ -79,7 +79,7 @@ pub enum Validity {
     HighAdvance,
     /// The advance ratio is outside the table that was measured: the coefficients are those of its end.
     OutsideTable,
-    /// The law gave what is not a number.
+    /// The law gave a load that is not a number.
     NotANumber,
 }
 

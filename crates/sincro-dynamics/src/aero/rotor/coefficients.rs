@@ -100,7 +100,8 @@ impl CoefficientTable {
         self.spin
     }
 
-    /// Range of validity: outside the table where the advance ratio was not measured; only the first lane is examined.
+    /// Validity at a rotor `speed` [rad/s] and a `velocity` of the hub in the air [m/s], in rotor axes (z along the
+    /// thrust): [`Validity::OutsideTable`] where the advance ratio was not measured. Only the first lane is examined.
     #[must_use]
     pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Validity {
         let by_turn = speed.lane(0) * (self.diameter / TAU);

@@ -11,16 +11,23 @@ use tungstenite::protocol::frame::coding::{Data, OpCode};
 use tungstenite::protocol::frame::{Frame, FrameHeader};
 use tungstenite::{Message, WebSocket};
 
+/// A connection.
 pub struct Client {
+    /// The WebSocket.
     pub socket: WebSocket<TcpStream>,
 }
 
 impl Client {
+    /// Connects without a token.
     pub fn connect(address: SocketAddr) -> Self {
         Self::connect_to(address, &format!("ws://{address}/")).unwrap()
     }
 
     /// Connects to an address with a link, whose host goes into the handshake.
+    ///
+    /// # Errors
+    ///
+    /// The handshake is refused.
     pub fn connect_to(address: SocketAddr, link: &str) -> Result<Self, String> {
         let stream = TcpStream::connect(address).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
@@ -33,14 +40,17 @@ impl Client {
         self.socket.get_mut()
     }
 
+    /// Sends a text message.
     pub fn send_text(&mut self, text: &str) {
         self.socket.send(Message::text(text)).unwrap();
     }
 
+    /// Sends a binary message.
     pub fn send_bytes(&mut self, bytes: &[u8]) {
         self.socket.send(Message::binary(bytes.to_vec())).unwrap();
     }
 
+    /// Receives a text message.
     pub fn text(&mut self) -> String {
         match self.socket.read().unwrap() {
             Message::Text(text) => text.to_string(),
@@ -48,6 +58,7 @@ impl Client {
         }
     }
 
+    /// Receives a binary message.
     pub fn bytes(&mut self) -> Vec<u8> {
         match self.socket.read().unwrap() {
             Message::Binary(bytes) => bytes.to_vec(),

@@ -7,7 +7,9 @@ use std::time::Duration;
 use sincro_coppelia::session::Value;
 use sincro_remote::cbor;
 
+/// A connection.
 pub struct Client {
+    /// The socket, for bytes that are no calls.
     pub stream: TcpStream,
     uuid: Option<String>,
 }
@@ -50,10 +52,12 @@ pub fn frame(stream: &mut TcpStream) -> (u8, Vec<u8>) {
     (head[0], body)
 }
 
+/// A map of fields.
 pub fn map(fields: &[(&str, Value)]) -> Value {
     Value::Map(fields.iter().map(|(k, v)| ((*k).to_owned(), v.clone())).collect())
 }
 
+/// A field of a map.
 pub fn field<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     let Value::Map(map) = value else { panic!("{value:?} is no map") };
     map.iter().find(|(key, _)| key == name).map(|(_, value)| value)
@@ -67,6 +71,7 @@ impl Client {
         Self { stream, uuid: uuid.map(str::to_owned) }
     }
 
+    /// Sends a request with a body.
     pub fn send_bytes(&mut self, body: &[u8]) {
         let mut out = vec![1, 0];
         match u8::try_from(body.len()) {
@@ -80,6 +85,7 @@ impl Client {
         self.stream.write_all(&out).unwrap();
     }
 
+    /// Receives an answer.
     pub fn receive(&mut self) -> Value {
         assert_eq!(frame(&mut self.stream), (1, vec![]), "an empty frame comes first");
         let (flags, body) = frame(&mut self.stream);
@@ -87,6 +93,7 @@ impl Client {
         cbor::decode(&body).unwrap()
     }
 
+    /// Sends a call.
     pub fn send(&mut self, name: &str, args: &[Value]) {
         let mut fields = vec![("func", Value::from(name)), ("args", Value::List(args.to_vec()))];
         if let Some(uuid) = &self.uuid {
@@ -101,11 +108,17 @@ impl Client {
         self.send_bytes(&body);
     }
 
+    /// Calls a function; the whole answer.
     pub fn exchange(&mut self, name: &str, args: &[Value]) -> Value {
         self.send(name, args);
         self.receive()
     }
 
+    /// Calls a function; its results.
+    ///
+    /// # Errors
+    ///
+    /// The text of the error that the server reports.
     pub fn call(&mut self, name: &str, args: &[Value]) -> Result<Vec<Value>, String> {
         let answer = self.exchange(name, args);
         let error = field(&answer, "err").or(field(&answer, "error"));
@@ -116,6 +129,7 @@ impl Client {
         }
     }
 
+    /// Calls a function whose result is one float.
     pub fn real(&mut self, name: &str, args: &[Value]) -> f64 {
         match self.call(name, args).unwrap()[..] {
             [Value::Real(x)] => x,
@@ -123,6 +137,7 @@ impl Client {
         }
     }
 
+    /// Handle of an object by its path.
     pub fn object(&mut self, path: &str) -> Value {
         self.call("sim.getObject", &[Value::from(path)]).unwrap().remove(0)
     }

@@ -1,0 +1,39 @@
+//! Commands of the legacy API: joints.
+
+use sincro_coppelia::session::convention::matrix_of;
+use sincro_coppelia::session::{ApiError, SimApi};
+
+use super::functions::{Call, Reply, after, reals};
+
+pub(super) fn position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals([sim.joint_position(call.handle()?)?])
+}
+
+pub(super) fn set_position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_joint_position(call.handle()?, call.float(0)?))
+}
+
+pub(super) fn set_target_velocity(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_target_velocity(call.handle()?, call.float(0)?))
+}
+
+pub(super) fn set_target_position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_target_position(call.handle()?, call.float(0)?))
+}
+
+pub(super) fn force(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let force = sim.joint_force(call.handle()?)?;
+    reals([force.ok_or_else(|| ApiError::new("there is no force before the first step, nor without a motor"))?])
+}
+
+pub(super) fn target_force(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals([sim.target_force(call.handle()?)?])
+}
+
+pub(super) fn set_target_force(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_target_force(call.handle()?, call.float(0)?, false))
+}
+
+pub(super) fn matrix(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    reals(matrix_of(&sim.joint_pose(call.handle()?)?))
+}
