@@ -15,7 +15,7 @@ use crate::spatial::{Pose, Vec3};
 /// Speed below which a contact neither slides nor approaches [m/s] or [rad/s].
 pub(crate) const ZERO_SPEED: f64 = 1e-8;
 
-/// Projection tolerance of positions and rates `[m]`, [m/s].
+/// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
 const PROJECTED: f64 = 1e-12;
 
 /// Projection tolerance after steps at velocity level, which are of first order.
@@ -150,7 +150,7 @@ impl Mechanism<f64> {
     /// of all closed constraints vanish, then that of rates. The closed constraints are those of the last evaluation.
     pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
         let n = self.model.n_v();
-        let enough = if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
+        let enough = self.projection_scale * if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
         let mut last = f64::INFINITY;
         for k in 0..MAX_PROJECTIONS {
             if !self.prepare(y, k == 0) {
@@ -185,7 +185,7 @@ impl Mechanism<f64> {
             // at velocity level restitution has set the rates already
             c.keep_loop_joints();
         }
-        if c.worst(&y[n..2 * n]).1 <= PROJECTED {
+        if c.worst(&y[n..2 * n]).1 <= PROJECTED * self.projection_scale {
             return;
         }
         self.factor(true);

@@ -36,6 +36,7 @@ impl Mechanism<f64> {
         self.base.copy_from_slice(q);
         kinematics::poses(&self.model, &self.base, &mut self.scratch);
         let extent = self.extent();
+        self.projection_scale = extent.min(1.0);
         self.constraints.as_deref_mut().expect("checked").use_all_rows();
         let (mut best, mut found): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
         let mut sizes = Vec::new();

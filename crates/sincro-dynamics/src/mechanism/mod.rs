@@ -65,6 +65,8 @@ pub struct Mechanism<R> {
     pub(crate) constraints: Option<Box<Constraints<R>>>,
     /// Working memory of projections and impacts.
     pub(crate) constraint_change: Vec<R>,
+    /// Factor on the tolerance of projections: extent of a mechanism with loops that is smaller than 1 m, else 1.
+    projection_scale: f64,
     /// Passage of a singular position of the loops.
     singular: SingularPassage<R>,
     /// Laws of limited drives at the stages of a step.
@@ -95,6 +97,7 @@ impl<R: Real> Mechanism<R> {
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
+            projection_scale: 1.0,
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
             // constraints branch, which lanes cannot

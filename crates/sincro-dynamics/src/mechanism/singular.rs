@@ -28,7 +28,7 @@ const STAGE_RANK: f64 = 1e-11;
 /// Iterations that put the positions of a stage on the manifold.
 const MAX_ITERATIONS: usize = 4;
 
-/// Residual at which they are there `[m]` or `[rad]`.
+/// Residual at which they are there `[m]` or `[rad]`, of a mechanism of 1 m or more.
 const ON_MANIFOLD: f64 = 1e-14;
 
 /// Passage of a singular position: conditioning of the loops in the last evaluations.
@@ -81,7 +81,7 @@ impl<R: Real> Mechanism<R> {
             for _ in 0..MAX_ITERATIONS {
                 this.place_loops(v);
                 let c = this.constraints.as_deref().expect("near a singular position there are loops");
-                if c.residual.iter().all(|x| x.lane(0).abs() <= ON_MANIFOLD) {
+                if c.residual.iter().all(|x| x.lane(0).abs() <= this.projection_scale * ON_MANIFOLD) {
                     break;
                 }
                 this.change_loops(None);

@@ -102,7 +102,9 @@ impl Endpoint {
     fn step_once(&self, motion: &mut ClientMotion) -> Result<(), ApiError> {
         let name = format!("sim.{}_step", motion.this.stem());
         let given = [motion.data.clone(), Value::Bool(motion.callback.is_some())];
-        let mut results = self.session(&name, &given)?;
+        // with the run its motions end: whoever stops it may come between two steps
+        let ended = |error| if self.phase().0 == Phase::Stopped { stopped_early() } else { error };
+        let mut results = self.session(&name, &given).map_err(ended)?;
         motion.data = results.pop().unwrap_or_default();
         motion.result = results.first().and_then(Value::as_int).unwrap_or(0);
         Ok(())
@@ -162,7 +164,7 @@ impl Endpoint {
         loop {
             let (phase, before) = self.phase();
             if phase == Phase::Stopped || self.hub.is_closing() {
-                return Err(ApiError::new("the simulation was stopped before the motion had ended"));
+                return Err(stopped_early());
             }
             self.hub.step(self.id)?;
             if self.phase().1 != before {
@@ -171,6 +173,10 @@ impl Endpoint {
             std::thread::sleep(POLL_INTERVAL);
         }
     }
+}
+
+fn stopped_early() -> ApiError {
+    ApiError::new("the simulation was stopped before the motion had ended")
 }
 
 /// The name of the function that the client has given.
