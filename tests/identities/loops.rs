@@ -174,3 +174,24 @@ fn a_welded_loop_that_cannot_move_rests() {
         assert!(q.iter().all(|q| q.abs() < 1e-12), "{q:?}");
     }
 }
+
+#[test]
+fn a_loop_joint_between_fixed_frames_takes_nothing_away() {
+    for with_joint in [false, true] {
+        let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+        let frames = ["a", "b"].map(|name| b.frame(name, NodeId::WORLD, Pose::identity()));
+        if with_joint {
+            let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+            let hinge = b.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+            let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+            b.body("ball", hinge, Pose::identity(), BodySpec { mass });
+        }
+        let poses = [Pose::identity(), Pose::identity()];
+        b.loop_joint("pin", LoopJointSpec { kind: LoopJointKind::Weld, ends: frames, poses });
+        let model = b.build().unwrap().0;
+        let found = initial::mobility(&model, &State::new(&model));
+        assert_eq!((found.equations, found.dofs()), (6, usize::from(with_joint)));
+        let mut world = World::builder(model).build().unwrap();
+        world.step().unwrap();
+    }
+}

@@ -156,7 +156,10 @@ impl<R: Real> Delassus<R> {
         let values = self.factors(model, scratch, columns, rows);
         a.clear();
         a.resize(m * m, R::zero());
-        R::run_hot(Products { m, values, a });
+        // loops that join nothing that moves leave no rows
+        if m > 0 {
+            R::run_hot(Products { m, values, a });
+        }
     }
 
     /// Rows of J M^(−1/2): for each degree of freedom one number a row.

@@ -134,7 +134,7 @@ impl Mechanism<f64> {
     /// freedom are those marked; the scratch has their impulses as reactions.
     pub(crate) fn apply_impact(&mut self, v: &mut [f64]) -> f64 {
         self.detect_contacts(v, ActivationRule::All);
-        self.factor(true);
+        self.factor();
         let Some(c) = self.constraints.as_deref_mut() else { return 0.0 };
         kinematics::chain_poses(&self.model, &mut self.scratch);
         c.motions.place(&self.model, &self.scratch, v);
@@ -165,7 +165,7 @@ impl Mechanism<f64> {
                 break;
             }
             last = worst;
-            self.factor(true);
+            self.factor();
             let mut change = core::mem::take(&mut self.constraint_change);
             let c = self.constraints.as_deref_mut().expect("prepared");
             c.project(&self.model, &mut self.scratch, None, &mut change);
@@ -188,7 +188,7 @@ impl Mechanism<f64> {
         if c.worst(&y[n..2 * n]).1 <= PROJECTED * self.projection_scale {
             return;
         }
-        self.factor(true);
+        self.factor();
         let mut change = core::mem::take(&mut self.constraint_change);
         let c = self.constraints.as_deref_mut().expect("prepared");
         c.project(&self.model, &mut self.scratch, Some(&y[n..2 * n]), &mut change);
@@ -227,9 +227,9 @@ impl Mechanism<f64> {
 }
 
 impl<R: Real> Mechanism<R> {
-    /// Factors the mass matrix for impulses: forward dynamics at rest without forces, prescribed degrees of freedom as
-    /// marked.
-    pub(super) fn factor(&mut self, q_is_base: bool) {
+    /// Factors the mass matrix at the chart's origin for impulses: forward dynamics at rest without forces, prescribed
+    /// degrees of freedom as marked.
+    pub(super) fn factor(&mut self) {
         self.torque.fill(R::zero());
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
@@ -237,9 +237,8 @@ impl<R: Real> Mechanism<R> {
         self.prescribed_acceleration.fill(R::zero());
         let prescribed = (!self.drives.is_empty())
             .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
-        let q = if q_is_base { &self.base } else { &self.q };
         let input = aba::Input {
-            q,
+            q: &self.base,
             v: &self.torque,
             torque: &self.torque,
             diagonal: &self.diagonal,
@@ -250,6 +249,18 @@ impl<R: Real> Mechanism<R> {
         let mut change = core::mem::take(&mut self.constraint_change);
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, &mut change);
         self.constraint_change = change;
+    }
+
+    /// Assembles the rows of the loops, and nothing else, at the chart's origin for velocities `v`; the mass matrix is
+    /// factored.
+    pub(super) fn place_loops(&mut self, v: &[R]) {
+        kinematics::poses(&self.model, &self.base, &mut self.scratch);
+        self.factor();
+        kinematics::chain_poses(&self.model, &mut self.scratch);
+        let c = self.constraints.as_deref_mut().expect("there are loops");
+        c.motions.place(&self.model, &self.scratch, v);
+        c.assemble_loops(&self.model, &self.base, &self.scratch);
+        c.keep_loop_joints();
     }
 }
 

@@ -10,6 +10,7 @@ use crate::constraint::rank::{INDEPENDENT, INDEPENDENT_OPEN};
 use crate::joint::StageKind;
 use crate::mechanism::Mechanism;
 use crate::recursions::kinematics;
+use crate::spatial::Vec3;
 use crate::state::displace;
 
 /// Nearby configurations tried.
@@ -80,12 +81,8 @@ impl Mechanism<f64> {
     /// Assembles the rows of the loops at the chart's origin, factors the mass matrix, and finds the independent ones.
     fn find_rows(&mut self, least: f64, independent: &mut Vec<usize>) {
         let zero = vec![0.0; self.model.n_v()];
-        kinematics::poses(&self.model, &self.base, &mut self.scratch);
-        self.factor(true);
-        kinematics::chain_poses(&self.model, &mut self.scratch);
+        self.place_loops(&zero);
         let c = self.constraints.as_deref_mut().expect("there are loops");
-        c.motions.place(&self.model, &self.scratch, &zero);
-        c.assemble_loops(&self.model, &self.base, &self.scratch);
         c.find_independent_rows(&self.model, &self.scratch, least, independent);
     }
 
@@ -165,8 +162,8 @@ impl Mechanism<f64> {
 
     /// Largest distance between the origins of links, at the poses last found `[m]`; 1 if all are at one point.
     fn extent(&self) -> f64 {
-        let first = self.scratch.poses[0].pos;
-        let largest = self.scratch.poses.iter().map(|pose| (pose.pos - first).norm()).fold(0.0, f64::max);
+        let origin = self.scratch.poses.first().map_or(Vec3::zero(), |pose| pose.pos);
+        let largest = self.scratch.poses.iter().map(|pose| (pose.pos - origin).norm()).fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     }
 }

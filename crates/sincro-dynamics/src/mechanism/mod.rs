@@ -527,7 +527,7 @@ impl<R: Real> System<R> for Mechanism<R> {
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
         let rotors = &y[self.rotor_states()];
-        let projected = if R::LANES == 1 && self.singular.is_near { self.project_stage(v) } else { None };
+        let projected = (R::LANES == 1 && self.singular.is_near).then(|| self.project_stage(v));
         let v = projected.as_deref().unwrap_or(v);
         self.chart_rate(delta, v, rate);
         self.accelerations(t, v, rotors, None, &mut rest[..n]);

@@ -15,7 +15,6 @@ use sincro_math::Real;
 use super::Mechanism;
 use crate::constraint::SINGULAR;
 use crate::integrate::SingularStages;
-use crate::recursions::kinematics;
 use crate::state::displace;
 
 /// Conditioning of the loops' rows below which a position counts as near a singular one: about the square of the
@@ -73,7 +72,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Puts the coordinates `self.q` on the manifold of the loops, and returns velocities on it.
     #[inline(never)]
-    pub(super) fn project_stage(&mut self, v: &[R]) -> Option<Vec<R>> {
+    pub(super) fn project_stage(&mut self, v: &[R]) -> Vec<R> {
         let mut on_manifold = core::mem::take(&mut self.singular.v);
         on_manifold.clear();
         on_manifold.extend_from_slice(v);
@@ -85,9 +84,8 @@ impl<R: Real> Mechanism<R> {
                     break;
                 }
                 this.change_loops(None);
-                let mut moved = core::mem::take(&mut this.q);
-                displace(&this.model, &this.base, &this.singular.change, &mut moved);
-                this.q = core::mem::replace(&mut this.base, moved);
+                displace(&this.model, &this.base, &this.singular.change, &mut this.q);
+                core::mem::swap(&mut this.base, &mut this.q);
             }
             this.place_loops(v);
             this.change_loops(Some(v));
@@ -95,7 +93,7 @@ impl<R: Real> Mechanism<R> {
         for (v, change) in on_manifold.iter_mut().zip(&self.singular.change) {
             *v += *change;
         }
-        Some(on_manifold)
+        on_manifold
     }
 
     /// Removes from the error of positions and velocities at `y` what lies across the loops.
@@ -104,11 +102,10 @@ impl<R: Real> Mechanism<R> {
         let n = self.model.n_v();
         displace(&self.model, &self.base, &y[..n], &mut self.q);
         self.with_stage_as_base(|this| {
-            for part in [0..n, n..2 * n] {
-                let rates = error[part.clone()].to_vec();
-                this.place_loops(&rates);
-                this.change_loops(Some(&rates));
-                for (e, change) in error[part].iter_mut().zip(&this.singular.change) {
+            for part in error[..2 * n].chunks_exact_mut(n) {
+                this.place_loops(part);
+                this.change_loops(Some(part));
+                for (e, change) in part.iter_mut().zip(&this.singular.change) {
                     *e += *change;
                 }
             }
@@ -126,17 +123,6 @@ impl<R: Real> Mechanism<R> {
         self.q.copy_from_slice(&self.base);
         self.base.copy_from_slice(&base);
         self.singular.base = base;
-    }
-
-    /// Assembles the loops at the chart's origin for velocities `v`, the mass matrix factored.
-    fn place_loops(&mut self, v: &[R]) {
-        kinematics::poses(&self.model, &self.base, &mut self.scratch);
-        self.factor(true);
-        kinematics::chain_poses(&self.model, &mut self.scratch);
-        let c = self.constraints.as_deref_mut().expect("near a singular position there are loops");
-        c.motions.place(&self.model, &self.scratch, v);
-        c.assemble_loops(&self.model, &self.base, &self.scratch);
-        c.keep_loop_joints();
     }
 
     /// Finds the smallest change of positions that removes the residuals of the loops, or of `v` that removes its

@@ -5,7 +5,7 @@ use super::{Stop, World};
 use crate::actuation::DriveKind;
 use crate::constraint::warm_start::ZenoFallback;
 use crate::coupled::{Coupled, CoupledSystem};
-use crate::integrate::{Failure, FixedStep, System};
+use crate::integrate::{Failure, FixedStep, SemiImplicitEuler, System};
 use crate::mechanism::constraints::ActivationRule;
 
 /// Maximum number of successive impacts at one instant (propagation through a stack); the rest counts as inelastic.
@@ -126,7 +126,8 @@ impl World {
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        let Some(mut method) = self.time_stepping.take() else { return Ok(()) };
+        // a motor that a client has made a drive may be the first of its world
+        let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
         self.statistics.steps += 1;
         let n = self.model().n_v();
         self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
