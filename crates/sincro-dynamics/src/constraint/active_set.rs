@@ -159,6 +159,9 @@ impl<R: Real> ActiveSet<R> {
                 let compliance = group.compliance.unwrap_or(R::zero());
                 dense.add(j, j, compliance);
                 rest += compliance * across(group, lambda);
+                if let Some(rate) = group.sliding_rate(lambda[blocks[k].row].lane(0)) {
+                    rest -= group.direction[1] * R::splat(rate);
+                }
             }
             dense.rhs[j] = -rest;
         }
@@ -214,13 +217,18 @@ impl<R: Real> ActiveSet<R> {
         match unknown {
             Unknown::Row(row) => rates[row],
             Unknown::Normal(k) => rates[blocks[k].row],
-            Unknown::Across(k, g) => across(group(blocks, k, g), rates),
+            Unknown::Across(k, g) => turning_rate(group(blocks, k, g), rates),
         }
     }
 }
 
 fn group<R>(blocks: &[UnilateralConstraint<R>], k: usize, g: usize) -> &FrictionGroup<R> {
     blocks[k].groups[g].as_ref().expect("it was listed")
+}
+
+/// Rate that turns the direction of a group: across it; of one that slides, of its component across the velocity.
+fn turning_rate<R: Real>(group: &FrictionGroup<R>, rates: &[R]) -> R {
+    if group.slides { group.direction[0] * rates[group.row + 1] } else { across(group, rates) }
 }
 
 /// Component across the direction of a group.

@@ -23,14 +23,43 @@ pub(crate) struct FrictionGroup<R> {
     pub mode: ContactMode,
     /// Direction of its force if it slips.
     pub direction: [R; 2],
-    /// Compliance across its direction, rate over force, where the direction can turn. Of a group that slides so slowly
-    /// that friction could turn its velocity within the step: the force is then that of the end of the step, since
-    /// friction that turns with a small velocity would be stiff without bound. And of a group whose direction follows
-    /// from the solution ([`super::active_set`]).
+    /// Compliance across its direction, rate over force, where the direction can turn: of a group whose direction
+    /// follows from the solution ([`super::active_set`]), and of one that slides slowly
+    /// ([`FrictionGroup::sliding_rate`]).
     pub compliance: Option<R>,
+    /// Sliding at the start of the step, along the first row.
+    pub slow_sliding: SlowSliding,
 }
 
+/// Sliding of a group that friction may turn within the step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SlowSliding {
+    /// Speed [m/s] or [rad/s].
+    pub speed: f64,
+    /// Length of the step `[s]`.
+    pub h: f64,
+    /// Entry of G across the sliding direction.
+    pub mobility: f64,
+}
+
+/// Distance of the speed from that which friction could not turn, relative to it, where the sliding rate ends.
+const SLOWEST_RISE: f64 = 1e-6;
+
 impl<R: Real> FrictionGroup<R> {
+    /// Sliding velocity over the length of the step, for a `normal` force by which friction could turn it within the
+    /// step. With the rate of the problem across it, it gives the direction at the end of the step, which the force then
+    /// opposes: friction that turns with a small velocity would be stiff without bound. The rate grows without bound
+    /// where the velocity comes near that which friction could not turn, so that the force is smooth there.
+    pub fn sliding_rate(&self, normal: f64) -> Option<f64> {
+        let SlowSliding { speed, h, mobility } = self.slow_sliding;
+        let reach = h * self.coefficient * normal * mobility;
+        let is_slow = self.slides && normal > 0.0 && speed < reach * (1.0 - SLOWEST_RISE);
+        is_slow.then(|| {
+            let share = 1.0 - (speed / reach) * (speed / reach);
+            speed / (h * share * share)
+        })
+    }
+
     /// Sets the group to stick.
     pub fn stick(&mut self) {
         (self.mode, self.compliance) = (ContactMode::Stick, None);
@@ -50,8 +79,10 @@ pub(crate) struct UnilateralConstraint<R> {
     pub row: usize,
     /// True if it is open (no force).
     pub open: bool,
-    /// Prescribed normal force of a compliant contact.
+    /// Prescribed normal force: of a compliant contact, or impulse of an impact.
     pub given: Option<R>,
+    /// True for a compliant contact.
+    pub is_compliant: bool,
     pub groups: [Option<FrictionGroup<R>>; 3],
     /// Observable change: bit 0, the constraint opens; bits 1 to 3, a group starts to slip. One of several redundant
     /// contacts may carry no force and yet neither open nor slip.

@@ -8,48 +8,136 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Vec3;
 
+/// Law of restitution of an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum RestitutionLaw {
+    Newton,
+    Poisson,
+    None,
+}
+
+/// Rounding of the energy lost, relative to the works that it is the difference of.
+const ROUNDING: f64 = 1e-12;
+
+/// Returns true if the energy does not rise.
+fn is_loss((lost, works): (f64, f64)) -> bool {
+    lost >= -ROUNDING * works
+}
+
 impl Constraints<f64> {
-    /// Solves an impact (Newton restitution on approaching contacts, loop joints and closed contacts kept) and adds the
-    /// velocity changes to `v`. `scratch` has the factors of the mass matrix. Returns the energy lost `[J]`.
+    /// Solves an impact (loop joints and closed contacts kept) and adds the velocity changes to `v`. `scratch` has the
+    /// factors of the mass matrix. Returns the energy lost `[J]`.
+    ///
+    /// Restitution is Newton's, of approaching velocities. Where friction lets that raise the energy, or redundant rows
+    /// leave no such velocities, it is Poisson's, of the impulses that stop the approach; where that raises the energy
+    /// too, there is none. Source: key `brogliato2016` (chapter 4).
     pub fn impact(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) -> f64 {
         let n = model.n_v();
-        // forces of the motion before have no meaning here
-        self.lambda.fill(0.0);
-        self.blocks.iter_mut().for_each(|b| b.open = false);
-        for block in &mut self.blocks {
-            for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.mode, group.compliance) = (false, ContactMode::Stick, None);
-            }
-            // a compliant contact transmits no impulse
-            if block.given.is_some() {
-                block.given = Some(0.0);
-            }
-        }
         self.assemble_delassus(model, scratch);
-        self.b.clear();
-        self.b.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
-        self.before.clone_from(&self.b);
-        for k in 0..self.blocks.len() {
-            let block = &self.blocks[k];
-            if self.b[block.row] < -model.constraints.rest_speed && block.given.is_none() {
-                self.b[block.row] += restitution(model, block.slot) * self.before[block.row];
+        self.before.clear();
+        self.before.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
+        let report = self.solver.report;
+        let mut lost = self.solve_impact(model, RestitutionLaw::Newton);
+        if !lost.is_ok_and(is_loss) && self.restores(model) {
+            self.solver.report.discard(&report);
+            lost = self.solve_impact(model, RestitutionLaw::Poisson);
+            if !lost.is_ok_and(is_loss) {
+                self.solver.report.discard(&report);
+                lost = self.solve_impact(model, RestitutionLaw::None);
             }
         }
-        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
         let mut change = core::mem::take(&mut self.velocity_change);
         change.fill(0.0);
         self.push(model, scratch, &mut change, has_drives);
-        let mut lost = 0.0;
-        for i in 0..self.rows.len() {
-            let row = &self.jacobian[i * n..(i + 1) * n];
-            lost -= self.lambda[i] * (self.before[i] + 0.5 * dot(row, &change));
-        }
         for (v, change) in v.iter_mut().zip(&change) {
             *v += *change;
         }
         self.velocity_change = change;
+        let (Ok((lost, _)) | Err((lost, _))) = lost;
         lost
+    }
+
+    /// Returns true if a contact that approaches has restitution.
+    fn restores(&self, model: &Model<f64>) -> bool {
+        self.blocks.iter().any(|block| self.coefficient(model, block) > 0.0)
+    }
+
+    /// Coefficient of restitution of a constraint in this impact: zero if it does not approach.
+    fn coefficient(&self, model: &Model<f64>, block: &UnilateralConstraint<f64>) -> f64 {
+        let approaches = self.before[block.row] < -model.constraints.rest_speed && !block.is_compliant;
+        if approaches { restitution(model, block.slot) } else { 0.0 }
+    }
+
+    /// Finds the impulses under a law of restitution. Returns the energy lost and the sum of the works that it is the
+    /// difference of `[J]`; as an error if the problem has no solution.
+    fn solve_impact(&mut self, model: &Model<f64>, law: RestitutionLaw) -> Result<(f64, f64), (f64, f64)> {
+        self.reset_impact();
+        self.b.clone_from(&self.before);
+        if law == RestitutionLaw::Newton {
+            for k in 0..self.blocks.len() {
+                let (row, e) = (self.blocks[k].row, self.coefficient(model, &self.blocks[k]));
+                if e > 0.0 {
+                    self.b[row] += e * self.before[row];
+                }
+            }
+        }
+        let failures = self.solver.report.not_converged;
+        self.solve_impulses();
+        if law == RestitutionLaw::Poisson {
+            for k in 0..self.blocks.len() {
+                let e = self.coefficient(model, &self.blocks[k]);
+                if e > 0.0 && !self.blocks[k].open {
+                    self.blocks[k].given = Some((1.0 + e) * self.lambda[self.blocks[k].row]);
+                }
+            }
+            self.solve_impulses();
+            self.block_approach();
+        }
+        let m = self.rows.len();
+        let (mut lost, mut works) = (0.0, 0.0);
+        for i in 0..m {
+            let change = dot(&self.a[i * m..(i + 1) * m], &self.lambda);
+            lost -= self.lambda[i] * (self.before[i] + 0.5 * change);
+            works += (self.lambda[i] * self.before[i]).abs() + (self.lambda[i] * change).abs();
+        }
+        if self.solver.report.not_converged > failures { Err((lost, works)) } else { Ok((lost, works)) }
+    }
+
+    /// Takes back prescribed impulses under which a contact still approaches.
+    fn block_approach(&mut self) {
+        let m = self.rows.len();
+        for _ in 0..self.blocks.len() {
+            let mut taken_back = false;
+            for block in self.blocks.iter_mut().filter(|block| !block.is_compliant && block.given.is_some()) {
+                let rate = self.b[block.row] + dot(&self.a[block.row * m..(block.row + 1) * m], &self.lambda);
+                if rate < 0.0 {
+                    block.given = None;
+                    taken_back = true;
+                }
+            }
+            if !taken_back {
+                return;
+            }
+            self.solve_impulses();
+        }
+    }
+
+    fn solve_impulses(&mut self) {
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+    }
+
+    /// Puts multipliers and modes to the start of an impact: forces of the motion before have no meaning in it.
+    fn reset_impact(&mut self) {
+        self.lambda.fill(0.0);
+        for block in &mut self.blocks {
+            block.open = false;
+            for group in block.groups.iter_mut().flatten() {
+                (group.slides, group.mode, group.compliance) = (false, ContactMode::Stick, None);
+            }
+            // a compliant contact transmits no impulse
+            block.given = block.is_compliant.then_some(0.0);
+        }
     }
 
     /// Torque of the joint limits on a degree of freedom, as of the last evaluation.

@@ -58,7 +58,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use active_set::ContactProblem;
-use cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
 use warm_start::WarmStart;
@@ -296,6 +296,7 @@ impl<R: Real> Constraints<R> {
                     row,
                     open: false,
                     given: None,
+                    is_compliant: false,
                     groups: [None; 3],
                     effect: 0,
                 });
@@ -387,6 +388,7 @@ impl<R: Real> Constraints<R> {
                 mode: ContactMode::Stick,
                 direction: [R::zero(); 2],
                 compliance: None,
+                slow_sliding: SlowSliding::default(),
             };
             if slides {
                 group.mode = ContactMode::Slip;
@@ -398,7 +400,15 @@ impl<R: Real> Constraints<R> {
             }
             groups[g] = Some(group);
         }
-        self.blocks.push(UnilateralConstraint { slot, row, open: false, given, groups, effect: 0 });
+        self.blocks.push(UnilateralConstraint {
+            slot,
+            row,
+            open: false,
+            given,
+            is_compliant: given.is_some(),
+            groups,
+            effect: 0,
+        });
     }
 
     fn add(&mut self, row: Row<R>, residual: R) {
@@ -431,20 +441,18 @@ impl<R: Real> Constraints<R> {
         group.compliance = Some(speed);
     }
 
-    /// Compliance across the sliding direction of groups that slide so slowly that friction can turn their velocity
-    /// within the step.
+    /// Sliding rate and compliance of groups that slide so slowly that friction can turn their velocity within the step.
     fn find_slow_sliding(&mut self) {
         let m = self.rows.len();
         let h = self.sub_step;
         for block in &mut self.blocks {
-            let normal = self.lambda[block.row];
+            let normal = self.lambda[block.row].lane(0);
             for group in block.groups.iter_mut().flatten() {
-                let Some(speed) = group.compliance else { continue };
-                let limit = R::splat(group.coefficient) * normal;
+                let Some(speed) = group.compliance.take() else { continue };
                 let across = group.row + 1;
-                let reach = R::splat(h) * limit * self.a[across * m + across];
-                let slow = normal.lane(0) > 0.0 && speed.lane(0) < reach.lane(0);
-                group.compliance = slow.then(|| speed / (R::splat(h) * limit));
+                group.slow_sliding =
+                    SlowSliding { speed: speed.lane(0), h, mobility: self.a[across * m + across].lane(0) };
+                group.compliance = group.sliding_rate(normal).map(|rate| R::splat(rate / (group.coefficient * normal)));
             }
         }
     }

@@ -41,6 +41,17 @@ impl Constraints<f64> {
         self.kept = keep;
     }
 
+    /// Work of the forces of contacts and limits that have closed since it was last asked over their distances `[J]`.
+    pub fn closing_work(&mut self) -> f64 {
+        let mut work = 0.0;
+        for block in &self.blocks {
+            if !block.open && block.given.is_none() && self.memory.take_new(block.slot) {
+                work += (self.lambda[block.row] * self.residual[block.row]).abs();
+            }
+        }
+        work
+    }
+
     /// Largest residual and largest rate of the rows, for joint rates `v`.
     pub fn worst(&self, v: &[f64]) -> (f64, f64) {
         let distance = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
@@ -49,7 +60,7 @@ impl Constraints<f64> {
     }
 
     /// Smallest change, in the metric of the mass matrix, of positions that removes the residuals, or of velocities
-    /// that removes the rates.
+    /// that removes the rates; the scratch then has the impulses of locked degrees of freedom as reactions.
     pub fn project(&mut self, model: &Model<f64>, scratch: &mut Scratch<f64>, v: Option<&[f64]>, out: &mut [f64]) {
         self.project_to(PROJECTION_RANK, model, scratch, v, out);
     }
@@ -84,6 +95,7 @@ impl<R: Real> Constraints<R> {
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         self.solver.correct(&problem, &[], &mut self.lambda);
         out.fill(R::zero());
-        self.push(model, scratch, out, false);
+        scratch.reaction.fill(R::zero());
+        self.push(model, scratch, out, v.is_some() && !model.drives.is_empty());
     }
 }

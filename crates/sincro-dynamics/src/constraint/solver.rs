@@ -11,7 +11,7 @@ use sincro_math::Real;
 
 use super::active_set::{ActiveSet, ContactProblem};
 use super::admm::{Admm, activate_all};
-use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use super::dense::{Dense, RANK};
 
 /// Complementarity tolerance, relative to the largest force or rate.
@@ -27,6 +27,12 @@ const REFINED: f64 = 1e-12;
 /// Maximum number of mode updates before ADMM is used.
 const MAX_MODE_UPDATES: usize = 8;
 
+/// Maximum number of contacts whose sets of closed ones are enumerated.
+const MAX_ENUMERATED: usize = 5;
+
+/// Maximum number of turns of slow sliding friction.
+const MAX_TURNS: usize = 20;
+
 /// Iterations of ADMM before its active set is tried the first time; doubled after each trial.
 const FIRST_ITERATIONS: usize = 25;
 
@@ -37,10 +43,18 @@ pub struct SolverReport {
     pub solved: u64,
     /// Problems solved by ADMM.
     pub split: u64,
-    /// Problems whose complementarity residual exceeds 1e-9.
+    /// Problems of accepted steps whose complementarity residual exceeds 1e-9.
     pub not_converged: u64,
     /// Largest complementarity residual among those, relative to the largest force or rate (dimensionless).
     pub worst_residual: f64,
+}
+
+impl SolverReport {
+    /// Takes back the failures since `before`, of steps that were not accepted.
+    pub(crate) fn discard(&mut self, before: &Self) {
+        self.not_converged = before.not_converged;
+        self.worst_residual = before.worst_residual;
+    }
 }
 
 /// Working memory; grows to the largest problem it has seen.
@@ -53,6 +67,8 @@ pub(crate) struct Solver<R> {
     all_active: Vec<UnilateralConstraint<R>>,
     start: Vec<R>,
     pub report: SolverReport,
+    /// Report at the start of the trial step that is being made, none outside of one.
+    trial: Option<SolverReport>,
     /// Rank tolerance of corrections.
     pub rank: f64,
     /// Smallest scaled pivot of the last linear system.
@@ -69,6 +85,19 @@ impl<R: Real> Solver<R> {
             list.reserve(more(list.len()));
         }
         self.all_active.reserve(more(self.all_active.len()));
+    }
+
+    /// Begins a trial step: one that was begun before and not accepted does not count.
+    pub fn begin_trial(&mut self) {
+        if let Some(before) = self.trial {
+            self.report.discard(&before);
+        }
+        self.trial = Some(self.report);
+    }
+
+    /// Accepts the trial step.
+    pub fn accept_trial(&mut self) {
+        self.trial = None;
     }
 
     /// Finds λ, which holds the warm start (or zeros) before, and the contact modes.
@@ -103,6 +132,11 @@ impl<R: Real> Solver<R> {
                 break;
             }
             if done {
+                if self.enumerate(problem, (&all_active, false), blocks, lambda)
+                    || self.enumerate(problem, (&all_active, true), blocks, lambda)
+                {
+                    break;
+                }
                 // feasible, only not exact
                 lambda.copy_from_slice(&self.start);
                 blocks.copy_from_slice(&all_active);
@@ -116,6 +150,34 @@ impl<R: Real> Solver<R> {
         self.all_active = all_active;
     }
 
+    /// Active-set iteration from every set of closed contacts, of small problems; returns true on convergence. Sliding
+    /// friction couples forces one way, so that neither the iteration nor ADMM need find the solution there is. With
+    /// `explicit` friction that slides slowly is that of its velocity now.
+    fn enumerate(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        (all_active, explicit): (&[UnilateralConstraint<R>], bool),
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        let free = blocks.iter().filter(|block| block.given.is_none()).count();
+        if free > MAX_ENUMERATED {
+            return false;
+        }
+        // most contacts closed first
+        (0..1_u32 << free).rev().any(|closed| {
+            blocks.copy_from_slice(all_active);
+            if explicit {
+                blocks.iter_mut().for_each(fix_slow_sliding);
+            }
+            for (k, block) in blocks.iter_mut().filter(|block| block.given.is_none()).enumerate() {
+                block.open = closed >> k & 1 == 0;
+            }
+            lambda.fill(R::zero());
+            self.iterate_active_set(problem, blocks, lambda)
+        })
+    }
+
     /// Active-set iteration: corrects the multipliers and updates violated modes; returns true on convergence.
     fn iterate_active_set(
         &mut self,
@@ -123,13 +185,19 @@ impl<R: Real> Solver<R> {
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
-        for _ in 0..MAX_MODE_UPDATES {
+        let (mut updates, mut turns) = (0, 0);
+        while updates < MAX_MODE_UPDATES {
             self.correct(problem, blocks, lambda);
             if blocks.is_empty() {
                 return true;
             }
             self.active_set.find_rates(problem, lambda);
-            if !update_modes(problem, &self.active_set.rates, blocks, lambda) {
+            let rates = &self.active_set.rates;
+            if update_modes(problem, rates, blocks, lambda) {
+                updates += 1;
+            } else if turns < MAX_TURNS && turn_slow_sliding(rates, blocks, lambda) {
+                turns += 1;
+            } else {
                 self.refine(problem, blocks, lambda);
                 return true;
             }
@@ -262,6 +330,46 @@ fn update_modes<R: Real>(
     changed
 }
 
+/// Fixes the friction of the groups of a constraint that slide slowly to their velocity now.
+fn fix_slow_sliding<R: Real>(block: &mut UnilateralConstraint<R>) {
+    for group in block.groups.iter_mut().flatten().filter(|g| g.slow_sliding.h > 0.0) {
+        group.slow_sliding = SlowSliding::default();
+        group.slip([-R::one(), R::zero()], None);
+    }
+}
+
+/// Turns the friction of all groups that slide slowly; returns true if any was not turned yet.
+fn turn_slow_sliding<R: Real>(rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> bool {
+    let mut turned = false;
+    for block in blocks.iter_mut().filter(|block| !block.open) {
+        let normal = lambda[block.row].lane(0);
+        for group in block.groups.iter_mut().flatten() {
+            turned |= turn_slow_friction(group, normal, rates, lambda);
+        }
+    }
+    turned
+}
+
+/// Turns the friction of a group that slides slowly against its velocity at the end of the step; returns true if it was
+/// not turned so yet.
+fn turn_slow_friction<R: Real>(group: &mut FrictionGroup<R>, normal: f64, rates: &[R], lambda: &[R]) -> bool {
+    let Some(sliding) = group.sliding_rate(normal) else {
+        let was_turned = group.slides && group.compliance.is_some();
+        if was_turned {
+            group.slip([-R::one(), R::zero()], None);
+        }
+        return was_turned;
+    };
+    let (limit, force, rate) = (group.coefficient * normal, pair(group, lambda), pair(group, rates));
+    let size = norm(force);
+    let d = if size > 0.0 { force.map(|x| x / size) } else { group.direction.map(|x| x.lane(0)) };
+    let velocity = [sliding, rate[1]];
+    let across = d[0] * velocity[1] - d[1] * velocity[0];
+    let is_turned = size <= limit * (1.0 + SLACK) && across.abs() <= SLACK * norm(velocity);
+    group.slip(d.map(R::splat), Some(R::splat(norm(velocity) / limit)));
+    !is_turned
+}
+
 fn update_friction_mode<R: Real>(
     group: &mut FrictionGroup<R>,
     normal: f64,
@@ -296,11 +404,12 @@ fn update_friction_mode<R: Real>(
     }
     // turn the force against the impending slip
     let turned = norm([rate[0] + speed * d[0], rate[1] + speed * d[1]]);
-    if turned <= SLACK * speed {
+    let compliance = Some(speed / limit).filter(|c| c.is_finite());
+    // without a normal force nothing tells how contacts share the load: that is left to ADMM
+    if compliance.is_some() && turned <= SLACK * speed {
         return false;
     }
-    let compliance = R::splat(speed / limit.max(f64::MIN_POSITIVE));
-    group.slip(rate.map(|x| R::splat(-x / speed)), Some(compliance));
+    group.slip(rate.map(|x| R::splat(-x / speed)), compliance.map(R::splat));
     true
 }
 

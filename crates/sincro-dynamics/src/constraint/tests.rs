@@ -1,7 +1,7 @@
 //! The laws of contact, checked on the solver's results for random problems of every kind.
 
 use super::active_set::ContactProblem;
-use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use super::solver::Solver;
 
 /// Numbers between −1 and 1, always the same.
@@ -30,6 +30,7 @@ fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstra
         mode: ContactMode::Stick,
         direction: [0.0; 2],
         compliance: None,
+        slow_sliding: SlowSliding::default(),
     };
     let block = |k: usize| {
         let row = n_free + 3 * k;
@@ -38,6 +39,7 @@ fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstra
             row,
             open: false,
             given: None,
+            is_compliant: false,
             groups: [Some(tangents(row + 1)), None, None],
             effect: 0,
         }

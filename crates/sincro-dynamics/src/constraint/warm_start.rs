@@ -38,6 +38,8 @@ pub(crate) struct WarmStart<R> {
     /// Multipliers and codes, as in the state.
     pub numbers: Vec<R>,
     closed: Vec<bool>,
+    /// Slots that have closed since they were last asked for.
+    is_new: Vec<bool>,
     slides: Vec<[bool; 3]>,
     directions: Vec<[[R; 2]; 3]>,
     /// Codes at the start of a sub-step; a change of the observable part is an event.
@@ -52,6 +54,7 @@ impl<R: Real> WarmStart<R> {
         Self {
             numbers: vec![R::zero(); warm_start_len(n_slots)],
             closed: vec![false; n_slots],
+            is_new: vec![false; n_slots],
             slides: vec![[false; 3]; n_slots],
             directions: vec![[[R::zero(); 2]; 3]; n_slots],
             start: vec![0.0; n_slots],
@@ -75,6 +78,11 @@ impl<R: Real> WarmStart<R> {
         self.closed[slot]
     }
 
+    /// Returns true once after a slot has closed.
+    pub fn take_new(&mut self, slot: usize) -> bool {
+        core::mem::take(&mut self.is_new[slot])
+    }
+
     pub fn slides(&self, slot: usize, group: usize) -> bool {
         self.slides[slot][group]
     }
@@ -96,6 +104,7 @@ impl<R: Real> WarmStart<R> {
 
     /// Classifies a slot; the warm start of one that is not closed is cleared.
     pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
+        self.is_new[slot] = closed && (self.is_new[slot] || !self.closed[slot]);
         self.closed[slot] = closed;
         self.slides[slot] = slides;
         self.start_directions[slot] = [[R::zero(); 2]; 3];

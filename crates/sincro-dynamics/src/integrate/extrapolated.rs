@@ -99,6 +99,7 @@ impl Extrapolated<f64> {
     ) -> Result<f64, Failure> {
         loop {
             let h = self.control.h.min(h_max);
+            system.begin_step();
             let (rows, share) = self.attempt(system, t, h, y);
             if share <= 1.0 {
                 self.propose(h, rows, share);

@@ -31,6 +31,16 @@ pub(crate) struct ContactStatus {
     pub has_impact: bool,
 }
 
+/// Result of a projection.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Projected {
+    /// Work of the forces of contacts that have closed since the last projection over the distances that this one
+    /// removed `[J]`.
+    pub closing_work: f64,
+    /// True if velocities were changed; the scratch then has the impulses of locked drives as reactions.
+    pub has_impulses: bool,
+}
+
 /// Rule by which a contact or limit counts as closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ActivationRule {
@@ -148,15 +158,18 @@ impl Mechanism<f64> {
 
     /// Projection: removes the drift of positions (`y` begins with the chart's zero displacement) until the residuals
     /// of all closed constraints vanish, then that of rates. The closed constraints are those of the last evaluation.
-    pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) {
+    pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) -> Projected {
         let n = self.model.n_v();
         let enough = self.projection_scale * if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
-        let mut last = f64::INFINITY;
+        let (mut last, mut projected) = (f64::INFINITY, Projected::default());
         for k in 0..MAX_PROJECTIONS {
             if !self.prepare(y, k == 0) {
-                return;
+                return projected;
             }
             let c = self.constraints.as_deref_mut().expect("prepared");
+            if k == 0 {
+                projected.closing_work = c.closing_work();
+            }
             // a sticking contact has no position to keep, only a zero rate
             c.keep_equations(false, !sticking);
             let worst = c.worst(&y[n..2 * n]).0;
@@ -175,7 +188,7 @@ impl Mechanism<f64> {
         }
         let set = &self.model.constraints;
         if !sticking && set.loop_joints.is_empty() && set.gears.is_empty() {
-            return;
+            return projected;
         }
         self.prepare(y, false);
         let c = self.constraints.as_deref_mut().expect("prepared");
@@ -186,7 +199,7 @@ impl Mechanism<f64> {
             c.keep_loop_joints();
         }
         if c.worst(&y[n..2 * n]).1 <= PROJECTED * self.projection_scale {
-            return;
+            return projected;
         }
         self.factor();
         let mut change = core::mem::take(&mut self.constraint_change);
@@ -196,6 +209,8 @@ impl Mechanism<f64> {
             y[n + k] += change[k];
         }
         self.constraint_change = change;
+        projected.has_impulses = !self.drives.is_empty();
+        projected
     }
 
     /// Assembles the rows at the chart's origin; returns false if there are none.

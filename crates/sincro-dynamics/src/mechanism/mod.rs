@@ -548,6 +548,9 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     fn begin_step(&mut self) {
         self.singular.begin_step();
+        if let Some(c) = &mut self.constraints {
+            c.solver.begin_trial();
+        }
     }
 
     fn singular_stages(&self) -> SingularStages {
@@ -596,6 +599,9 @@ impl<R: Real> System<R> for Mechanism<R> {
     #[inline(always)]
     fn rechart(&mut self, y: &mut [R]) {
         let n = self.model.n_v();
+        if let Some(c) = &mut self.constraints {
+            c.solver.accept_trial();
+        }
         displace(&self.model, &self.base, &y[..n], &mut self.q);
         core::mem::swap(&mut self.base, &mut self.q);
         y[..n].fill(R::zero());

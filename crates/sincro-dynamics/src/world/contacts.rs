@@ -67,15 +67,7 @@ impl World {
             return;
         }
         self.y[2 * n + 1] += lost;
-        for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
-            let DriveKind::Motor(motor) = drive.kind else { continue };
-            let motor = motor.index();
-            if self.is_unlimited(i) {
-                let impulse = self.mechanism.scratch.reaction[drive.dof];
-                self.y[2 * n] += impulse * self.y[n + drive.dof];
-                self.y[2 * n + 2 + motor] += impulse;
-            }
-        }
+        self.add_motor_impulses(Self::is_unlimited);
     }
 
     /// Evaluates constraint forces at the start of a sub-step, after classification, and records the contact modes.
@@ -98,7 +90,24 @@ impl World {
     pub(super) fn project(&mut self) {
         if self.is_constrained() {
             self.mechanism.mark_locked();
-            self.mechanism.project(&mut self.y, true);
+            let projected = self.mechanism.project(&mut self.y, true);
+            self.statistics.closing_work += projected.closing_work;
+            if projected.has_impulses && self.mechanism.tracks_totals() {
+                self.add_motor_impulses(|world, drive| world.mechanism.drives[drive] == 0.0);
+            }
+        }
+    }
+
+    /// Adds work and impulses of the motors chosen, whose velocities an impulse has left as they are, to the totals.
+    fn add_motor_impulses(&mut self, is_chosen: impl Fn(&Self, usize) -> bool) {
+        let n = self.model().n_v();
+        for i in 0..self.target_velocities.len() {
+            let drive = self.mechanism.model.drives[i];
+            if let (DriveKind::Motor(motor), true) = (drive.kind, is_chosen(self, i)) {
+                let impulse = self.mechanism.scratch.reaction[drive.dof];
+                self.y[2 * n] += impulse * self.y[n + drive.dof];
+                self.y[2 * n + 2 + motor.index()] += impulse;
+            }
         }
     }
 

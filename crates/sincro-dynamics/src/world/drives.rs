@@ -31,31 +31,32 @@ impl World {
         if self.mechanism.drives.is_empty() {
             return;
         }
-        self.reach_target_velocities();
-        if self.is_constrained() {
-            // the jump propagates through loop joints and contacts too
+        let jump = self.reach_target_velocities();
+        if jump && self.is_constrained() {
+            // it propagates through loop joints and contacts too
             self.apply_impact();
             self.resolve_impacts();
         }
         self.resolve_actuator_modes(t, h, system);
     }
 
-    /// Brings unlimited motors to their target velocity at once.
-    fn reach_target_velocities(&mut self) {
+    /// Brings unlimited motors to their target velocity at once; returns true if a velocity has jumped.
+    fn reach_target_velocities(&mut self) -> bool {
         for i in 0..self.target_velocities.len() {
             self.jumps[i] = self.is_unlimited(i);
         }
-        self.apply_impulse();
+        let jump = self.apply_impulse();
         for i in 0..self.target_velocities.len() {
             if self.jumps[i] {
                 self.mechanism.drives[i] = 0.0;
             }
         }
+        jump
     }
 
     /// Brings the drives marked in `jumps` to their target velocity by an impulse that leaves every other generalised
-    /// momentum unchanged; unlimited motors keep their velocity.
-    fn apply_impulse(&mut self) {
+    /// momentum unchanged; unlimited motors keep their velocity. Returns true if there was an impulse.
+    fn apply_impulse(&mut self) -> bool {
         let n = self.model().n_v();
         let mut needed = false;
         self.mechanism.locked_mask.fill(0.0);
@@ -81,6 +82,7 @@ impl World {
                 self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
             }
         }
+        needed
     }
 
     /// Adds work and impulses of a velocity jump to the totals: ΔT = Σ λ·(mean of the velocities before and after).
@@ -187,7 +189,10 @@ impl World {
             if self.has_event(t + middle, system) { bad = middle } else { good = middle }
         }
         self.repeat_step(t, bad, control, system)?;
+        // beyond the event the modes of the sub-step may fit no forces; those after it are found below
+        let report = self.solver_report();
         self.evaluate_slope(t + bad, system);
+        report.into_iter().for_each(|before| self.discard_failures(&before));
         // saturated drives that have just passed their target velocity, or reach it at the same instant, are brought to
         // it and locked ones kept there, momentum and impulses consistent
         let mut reached = false;
@@ -196,6 +201,8 @@ impl World {
             reached |= self.jumps[i];
             self.jumps[i] |= self.mechanism.drives[i] == 0.0;
         }
+        // under the modes of the sub-step: a contact that slid until now need not slip on when a drive has locked
+        self.project();
         if reached {
             self.apply_impulse();
         }

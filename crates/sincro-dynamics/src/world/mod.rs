@@ -50,7 +50,7 @@ const MAX_IDLE_EVENTS: usize = 20;
 /// Time between events, relative to the tick, that counts as none.
 const IDLE: f64 = 1e-12;
 
-/// Length of the step at velocity level after too many of them, relative to the tick.
+/// Length of the first step at velocity level after too many of them, relative to the tick.
 const IDLE_STEP: f64 = 1e-3;
 
 /// Maximum number of constraint problems without convergence in a run.
@@ -102,7 +102,7 @@ pub enum Stop {
 }
 
 /// Step statistics since the world was made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepStatistics {
     /// Sub-steps accepted.
     pub steps: u64,
@@ -116,6 +116,9 @@ pub struct StepStatistics {
     pub fallback_steps: u64,
     /// Decisions between modes of drives that did not end.
     pub undecided_modes: u64,
+    /// Work of the contact forces over the distances at which contacts counted as closed `[J]`, which projection
+    /// removes: an uncertainty of the energy balance that no finer step reduces.
+    pub closing_work: f64,
 }
 
 /// A mechanism, its state and a method.
@@ -128,6 +131,7 @@ pub struct World {
     y: Vec<f64>,
     before: Vec<f64>,
     base_before: Vec<f64>,
+    report_before: SolverReport,
     target_velocities: Vec<f64>,
     jumps: Vec<bool>,
     /// Limited drives whose modes are being decided, and the kink of each drive among them.
@@ -295,6 +299,7 @@ impl World {
             step_size: control.h,
             time_stepping,
             base_before,
+            report_before: SolverReport::default(),
             target_velocities: vec![0.0; n_drives],
             jumps: vec![false; n_drives],
             kinks: Vec::with_capacity(n_drives),
@@ -562,6 +567,7 @@ impl World {
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
         let (mut t, end, mut events, mut idle) = (start, start + span, 0, 0);
+        let mut share = IDLE_STEP;
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
             self.set_patience(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
@@ -584,7 +590,14 @@ impl World {
             if self.is_constrained() {
                 self.resolve_impacts();
                 self.resolve_actuator_modes(t, h_max, system);
+                let before = self.solver_report().unwrap_or_default();
                 self.resolve_contact_modes(t, system);
+                if self.solver_report().is_some_and(|r| r.not_converged > before.not_converged) {
+                    // no finite forces keep the laws here (Painlevé): impulses do
+                    self.discard_failures(&before);
+                    t = self.fallback_step(t, span, (&mut share, end), system)?;
+                    continue;
+                }
                 if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
                     return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
                 }
@@ -597,47 +610,87 @@ impl World {
             if self.has_limited_drives() {
                 self.mechanism.drive_monitor.begin(&self.target_velocities);
             }
-            let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)));
-            let violated = self.mechanism.drive_monitor.end() - t;
-            let h = h?;
-            if !self.y.iter().all(|x| x.is_finite()) {
-                // the coupled system has last seen a trial state: its own is the saved one
-                let own = self.mechanism.dim();
-                self.mechanism.load(&self.state, &mut self.y);
-                self.y[own..].copy_from_slice(&self.attached_before);
-                return Err((start, Stop::Integration(Failure::NotFinite { t })));
-            }
-            self.statistics.steps += 1;
-            let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
-            let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
-            if let Some(bad) = event {
-                let before = t;
-                t = self.locate_event(t, (bad, h), control, system)?;
-                idle = if t - before > IDLE * span { 0 } else { idle + 1 };
+            let (reached, is_event) = match self.sub_step(t, (h_max, corner), limited, system) {
+                Err((_, Stop::Integration(_))) if limited && self.before.iter().all(|x| x.is_finite()) => {
+                    // laws without a continuous solution here: no step is small enough
+                    self.restore();
+                    control.into_iter().for_each(|control| self.set_control(control));
+                    t = self.fallback_step(t, span, (&mut share, end), system)?;
+                    continue;
+                }
+                Err((t, Stop::Integration(Failure::NotFinite { .. }))) if !self.y.iter().all(|x| x.is_finite()) => {
+                    // the coupled system has last seen a trial state: its own is the saved one
+                    let own = self.mechanism.dim();
+                    self.mechanism.load(&self.state, &mut self.y);
+                    self.y[own..].copy_from_slice(&self.attached_before);
+                    return Err((start, Stop::Integration(Failure::NotFinite { t })));
+                }
+                made => made?,
+            };
+            if is_event {
+                idle = if reached - t > IDLE * span { 0 } else { idle + 1 };
                 events += 1;
                 self.statistics.events += 1;
                 if events > MAX_EVENTS {
-                    return Err((t, Stop::Chatter { t }));
+                    return Err((reached, Stop::Chatter { t: reached }));
                 }
-                self.project();
                 if self.is_constrained() && events > MAX_CONTACT_EVENTS {
                     self.set_patience(zeno_fallback.lost());
-                    return self.finish_at_velocity_level(t, end - t, system);
+                    return self.finish_at_velocity_level(reached, end - reached, system);
                 }
             } else {
-                self.project();
-                (t, idle) = (reached, 0);
+                idle = 0;
             }
+            t = reached;
             if idle > MAX_IDLE_EVENTS {
                 // whatever alternates here is decided over a short step as a whole
-                let h = (IDLE_STEP * span).min(end - t);
-                self.statistics.fallback_steps += 1;
-                self.velocity_level_step(t, h, system)?;
-                (t, idle) = (if h < end - t { t + h } else { end }, 0);
+                t = self.fallback_step(t, span, (&mut share, end), system)?;
+                idle = 0;
             }
         }
         self.set_patience(ZenoFallback::default());
         Ok(())
+    }
+
+    /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`. Returns the time reached, and true
+    /// if it ends at an event.
+    fn sub_step<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (h_max, corner): (f64, f64),
+        limited: bool,
+        system: &mut A,
+    ) -> Result<(f64, bool), (f64, Stop)> {
+        let control = if limited { self.control() } else { None };
+        let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)));
+        let violated = self.mechanism.drive_monitor.end() - t;
+        let h = h?;
+        if !self.y.iter().all(|x| x.is_finite()) {
+            return Err((t, Stop::Integration(Failure::NotFinite { t })));
+        }
+        self.statistics.steps += 1;
+        let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
+        let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
+        if let Some(bad) = event {
+            return Ok((self.locate_event(t, (bad, h), control, system)?, true));
+        }
+        self.project();
+        Ok((reached, false))
+    }
+
+    /// Makes a step at velocity level from `t` over a `share` of the tick, which doubles each time.
+    fn fallback_step<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        span: f64,
+        (share, end): (&mut f64, f64),
+        system: &mut A,
+    ) -> Result<f64, (f64, Stop)> {
+        let h = (*share * span).min(end - t);
+        *share *= 2.0;
+        self.statistics.fallback_steps += 1;
+        self.velocity_level_step(t, h, system)?;
+        Ok(if h < end - t { t + h } else { end })
     }
 
     /// Longest step within a tick of `span`, for methods with error control too: a finer run must not end up the same.
@@ -676,11 +729,21 @@ impl World {
     fn save_step_start(&mut self) {
         self.before.copy_from_slice(&self.y);
         self.base_before.copy_from_slice(self.mechanism.base());
+        self.report_before = self.solver_report().unwrap_or_default();
     }
 
     fn restore(&mut self) {
         self.y.copy_from_slice(&self.before);
         self.mechanism.set_base(&self.base_before);
+        let before = self.report_before;
+        self.discard_failures(&before);
+    }
+
+    /// Takes back the failures of the constraint solver since `before`, of evaluations that nothing came of.
+    fn discard_failures(&mut self, before: &SolverReport) {
+        if let Some(constraints) = &mut self.mechanism.constraints {
+            constraints.solver.report.discard(before);
+        }
     }
 
     /// Repeats the integration from the saved start of the sub-step, exactly `h` further.

@@ -67,6 +67,13 @@ impl World {
             self.mechanism.mark_locked();
             return;
         }
+        let report = self.solver_report();
+        self.decide_modes(t, h, system);
+        // there may be no forces that fit modes which were tried
+        report.into_iter().for_each(|before| self.discard_failures(&before));
+    }
+
+    fn decide_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
         let unchanged = self.collect_kinks();
         self.mechanism.mark_locked();
         if self.kinks.is_empty() {

@@ -194,7 +194,7 @@ fn check_row(check: &CheckReport, run: &str) -> CheckRow {
 }
 
 fn settings(campaign: &Campaign) -> Vec<(String, String)> {
-    let (report, effort) = (&campaign.report, campaign.main.simulated.effort);
+    let (report, statistics) = (&campaign.report, campaign.main.simulated.statistics);
     let s = &report.settings;
     let number = |x: f64| number::short(x, 6);
     let mut rows = vec![
@@ -208,7 +208,7 @@ fn settings(campaign: &Campaign) -> Vec<(String, String)> {
     }
     rows.extend([
         ("duration".to_owned(), format!("{} s", number(s.duration))),
-        ("steps of the integrator".to_owned(), effort.steps.to_string()),
+        ("steps of the integrator".to_owned(), statistics.steps.to_string()),
         ("seed".to_owned(), s.seed.to_string()),
     ]);
     for setting in &s.overrides {

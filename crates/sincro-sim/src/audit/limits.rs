@@ -1,7 +1,7 @@
 //! Limits of the audit: the residual of each law that a run may show. `docs/accuracy.md` explains them.
 
-use sincro_dynamics::world::MethodKind;
 use sincro_dynamics::world::audit::{Law, LawResidual};
+use sincro_dynamics::world::{MethodKind, StepStatistics};
 use sincro_scene::experiment::Experiment;
 
 /// Accuracy that stands for a method without error control: the default of the experiment file. Projection closes the
@@ -68,8 +68,9 @@ impl Limits {
 }
 
 /// Largest energy balance `[J]` that an error bar allows: of the balance itself, between the run and the finer one;
-/// `scale` is the largest energy that entered, `n_steps` the number of steps. Beyond a third of that energy no digit of
-/// the energies is known, whatever the bar.
-pub(crate) fn energy_limit(bar: f64, scale: f64, n_steps: u64) -> f64 {
-    (BARS * bar).min(scale / 3.0) + ROUNDING * scale * (n_steps.max(1) as f64).sqrt()
+/// `scale` is the largest energy that entered. Beyond a third of that energy no digit of the energies is known, whatever
+/// the bar.
+pub(crate) fn energy_limit(bar: f64, scale: f64, statistics: &StepStatistics) -> f64 {
+    let uncertain = (BARS * (bar + statistics.closing_work)).min(scale / 3.0);
+    uncertain + ROUNDING * scale * (statistics.steps.max(1) as f64).sqrt()
 }

@@ -47,7 +47,7 @@ fn energy_balance(run: &Simulated, finer: &Simulated, factor: f64) -> Finding {
         element: "energy.balance".to_owned(),
         time: times.get(worst).copied().unwrap_or(0.0),
         value: balances.get(worst).map_or(0.0, |x| x.abs()),
-        limit: energy_limit(factor * difference, run.energy_scale, run.effort.steps),
+        limit: energy_limit(factor * difference, run.energy_scale, &run.statistics),
         unit: "J".to_owned(),
         help: String::new(),
     }

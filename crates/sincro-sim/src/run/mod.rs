@@ -69,7 +69,7 @@ pub struct Simulated {
     /// Largest energy that entered the balance `[J]`.
     pub energy_scale: f64,
     /// Sub-steps and events.
-    pub effort: StepStatistics,
+    pub statistics: StepStatistics,
     /// Rotors outside the validity of their theory.
     pub outside: Vec<Outside>,
     /// Warnings about the accuracy of the numbers.

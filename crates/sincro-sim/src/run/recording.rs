@@ -157,7 +157,7 @@ impl Recording {
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
         let world = lockstep.world();
-        let (energy, effort) = (ledger.close(world), world.statistics());
+        let (energy, statistics) = (ledger.close(world), world.statistics());
         let laws = audit.close(world, &experiment, method);
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
@@ -177,7 +177,7 @@ impl Recording {
             laws,
             balances: ledger.balances,
             energy_scale: ledger.scale,
-            effort,
+            statistics,
             outside,
             warnings,
             messages,
