@@ -24,6 +24,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-access", &[]),
     ("sincro-remote", &["sincro-access", "sincro-scene", "sincro-sim", "sincro-coppelia"]),
     ("sincro-viewer", &["sincro-access", "sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
+    ("sincro-fmu", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
+    ("sincro-fmi", &["sincro-sim", "sincro-fmu", "sincro-lua"]),
     ("sincro-figures", &["sincro-math", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-analysis"]),
     (
         "sincro-bench",
@@ -54,6 +56,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-analysis",
             "sincro-coppelia",
             "sincro-access",
+            "sincro-fmu",
             "sincro-lua",
             "sincro-remote",
             "sincro-viewer",

@@ -97,6 +97,16 @@ impl Loaded {
         Self { experiment, scene, controller, warnings, sources, folder, extensions }
     }
 
+    /// As [`Loaded::with_overrides`], without opening variants and sweep.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`].
+    pub fn alone_with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
+        let opened = open_in(&self.folder, overrides, self.extensions.parser(), false)?;
+        Ok(Self::new(opened, self.extensions))
+    }
+
     /// The same experiment with other settings, from the files as they were read: nothing is read twice. `overrides`
     /// stand in place of those that it was loaded with.
     ///

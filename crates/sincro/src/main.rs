@@ -39,6 +39,8 @@ enum Command {
     Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
+    /// Export a scene for other programs: as an FMU
+    Export(commands::export::Arguments),
     /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
     Serve(commands::serve::Arguments),
     /// Run every experiment of the thesis and show measured and expected values on one page
@@ -92,6 +94,7 @@ fn main() -> ExitCode {
         Command::Replay(arguments) => commands::view::replay(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
+        Command::Export(arguments) => commands::export::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match sincro_bench::run(&options) {

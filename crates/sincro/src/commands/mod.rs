@@ -13,6 +13,7 @@ pub(crate) mod check;
 pub(crate) mod console;
 pub(crate) mod diff;
 pub(crate) mod draw;
+pub(crate) mod export;
 pub(crate) mod linearize;
 pub(crate) mod reproduce;
 pub(crate) mod run;
