@@ -145,11 +145,11 @@ fn parameters_and_inputs_act_as_settings_do() {
     let loaded = load(&folder, &[], with_scripts()).unwrap();
     let fmu = Fmu::of(loaded, CS);
     let position = fmu.reference("hinge.position");
-    let c = fmu.started(&[("bob.mass", 3.0), ("hinge.command", 0.25)]);
+    let c = fmu.started(&[("hinge.bob.mass", 3.0), ("hinge.command", 0.25)]);
     for k in 0..100 {
         assert_eq!(step(c, f64::from(k) * 0.01, 0.01).0, Status::Ok);
     }
-    let settings = [("/bob.mass", "3.0"), ("/hinge.motor.command", "0.25")];
+    let settings = [("/hinge/bob.mass", "3.0"), ("/hinge.motor.command", "0.25")];
     let settings = settings.map(|(path, value)| sincro_scene::overrides::Override::new(path, value));
     let expected = run(&fmu.loaded.with_overrides(&settings).unwrap());
     let column = &expected.table.column("/hinge.position").unwrap().values;
@@ -158,7 +158,7 @@ fn parameters_and_inputs_act_as_settings_do() {
     // a tunable parameter acts from the next step on, a fixed one is refused
     assert_eq!(set(c, fmu.reference("gravity.'2'"), -1.0), Status::Ok, "{}", last_message());
     assert_eq!(step(c, 1.0, 0.01).0, Status::Ok);
-    assert_eq!(set(c, fmu.reference("bob.mass"), -1.0), Status::Error);
+    assert_eq!(set(c, fmu.reference("hinge.bob.mass"), -1.0), Status::Error);
     assert!(last_message().contains("not positive"), "{}", last_message());
     let fixed = fmu.catalogue.variables.iter().position(|v| matches!(v.role, sincro_fmu::variables::Role::Fixed(_)));
     assert_eq!(set(c, u32::try_from(fixed.unwrap()).unwrap(), 1.0), Status::Error);
@@ -167,7 +167,7 @@ fn parameters_and_inputs_act_as_settings_do() {
     assert_eq!(set(c, fmu.reference("hinge.command"), f64::NAN), Status::Error);
     // after a reset everything is as it was exported
     assert_eq!(fmi3Reset(c), Status::Ok);
-    assert_eq!(get(c, fmu.reference("bob.mass")), 2.0);
+    assert_eq!(get(c, fmu.reference("hinge.bob.mass")), 2.0);
     fmi3FreeInstance(c);
 }
 
