@@ -56,7 +56,11 @@ const STRIDE: usize = 16;
 impl Component {
     /// Loads the scene in the resources; `token` was read in the model description.
     pub(crate) fn new(kind: Kind, token: &str, resources: &Path, logger: Logger) -> Result<Self, String> {
-        let extensions = Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() };
+        let extensions = Extensions {
+            scripts: Some(sincro_lua::engine()),
+            fmus: Some(sincro_fmu::import::loader()),
+            ..Extensions::default()
+        };
         let instance = Instance::new(resources, token, extensions)?;
         if kind == Kind::ModelExchange && !instance.has_model_exchange() {
             return Err("this FMU was exported for co-simulation: export it with --kind me or --kind both".into());

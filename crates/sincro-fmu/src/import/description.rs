@@ -20,6 +20,8 @@ pub struct ForeignDescription {
     pub co_simulation: Option<String>,
     /// True if its state can be got and set.
     pub can_save: bool,
+    /// True unless it says that no output depends on an input at the same instant.
+    pub has_feedthrough: bool,
     /// Communication step that it proposes `[s]`.
     pub step_size: Option<f64>,
     /// Its variables.
@@ -33,8 +35,8 @@ pub struct ForeignVariable {
     pub name: String,
     /// Value reference.
     pub reference: u32,
-    /// Type, such as `Real` or `Float64`.
-    pub kind: String,
+    /// Type, if it is one of numbers.
+    pub kind: Option<NumberKind>,
     /// Causality; `local` if none is given.
     pub causality: String,
     /// Unit, if one is given.
@@ -43,11 +45,54 @@ pub struct ForeignVariable {
     pub is_array: bool,
 }
 
+/// Type of a number. Integers beyond 2⁵³ lose digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum NumberKind {
+    Float64,
+    Float32,
+    Int8,
+    UInt8,
+    Int16,
+    UInt16,
+    Int32,
+    UInt32,
+    Int64,
+    UInt64,
+    Boolean,
+}
+
+impl NumberKind {
+    /// Type of an element of a model description.
+    fn of(name: &str, version: FmiVersion) -> Option<Self> {
+        Some(match (name, version) {
+            ("Real", FmiVersion::V2) | ("Float64", FmiVersion::V3) => Self::Float64,
+            ("Integer" | "Enumeration", FmiVersion::V2) | ("Int32", FmiVersion::V3) => Self::Int32,
+            ("Boolean", _) => Self::Boolean,
+            ("Float32", FmiVersion::V3) => Self::Float32,
+            ("Int8", FmiVersion::V3) => Self::Int8,
+            ("UInt8", FmiVersion::V3) => Self::UInt8,
+            ("Int16", FmiVersion::V3) => Self::Int16,
+            ("UInt16", FmiVersion::V3) => Self::UInt16,
+            ("UInt32", FmiVersion::V3) => Self::UInt32,
+            ("Int64" | "Enumeration", FmiVersion::V3) => Self::Int64,
+            ("UInt64", FmiVersion::V3) => Self::UInt64,
+            _ => return None,
+        })
+    }
+}
+
 impl ForeignVariable {
+    /// Type, if it is one number and no array.
+    #[must_use]
+    pub fn number(&self) -> Option<NumberKind> {
+        self.kind.filter(|_| !self.is_array)
+    }
+
     /// Returns true if it is one real number.
     #[must_use]
     pub fn is_real(&self) -> bool {
-        matches!(&*self.kind, "Real" | "Float64") && !self.is_array
+        self.number() == Some(NumberKind::Float64)
     }
 }
 
@@ -85,6 +130,7 @@ impl ForeignDescription {
                 .to_owned(),
             co_simulation: co_simulation.and_then(|node| node.attribute("modelIdentifier")).map(str::to_owned),
             can_save: co_simulation.is_some_and(|node| is_true(node.attribute(save_key))),
+            has_feedthrough: has_feedthrough(root, version),
             step_size: step_size.and_then(|text| text.trim().parse().ok()).filter(|h: &f64| *h > 0.0),
             variables: variables.collect::<Result<_, _>>()?,
         })
@@ -101,6 +147,17 @@ fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'inp
     node.children().find(|child| child.tag_name().name() == name)
 }
 
+/// Returns true unless all outputs say that they depend on nothing.
+fn has_feedthrough(root: Node<'_, '_>, version: FmiVersion) -> bool {
+    let Some(structure) = child(root, "ModelStructure") else { return true };
+    let outputs = match version {
+        FmiVersion::V2 => child(structure, "Outputs").map(|list| list.children().collect::<Vec<_>>()),
+        FmiVersion::V3 => Some(structure.children().filter(|node| node.tag_name().name() == "Output").collect()),
+    };
+    let is_free = |node: &Node<'_, '_>| node.attribute("dependencies").is_some_and(|list| list.trim().is_empty());
+    !outputs.unwrap_or_default().iter().filter(|node| node.is_element()).all(is_free)
+}
+
 fn is_true(text: Option<&str>) -> bool {
     matches!(text.map(str::trim), Some("true" | "1"))
 }
@@ -115,7 +172,7 @@ fn variable(node: Node<'_, '_>, version: FmiVersion) -> Result<ForeignVariable, 
     Ok(ForeignVariable {
         name: name.to_owned(),
         reference,
-        kind: typed.tag_name().name().to_owned(),
+        kind: NumberKind::of(typed.tag_name().name(), version),
         causality: node.attribute("causality").unwrap_or("local").to_owned(),
         unit: typed.attribute("unit").map(str::to_owned),
         is_array: version == FmiVersion::V3 && child(node, "Dimension").is_some(),
@@ -143,6 +200,7 @@ mod tests {
         assert_eq!((read.co_simulation.as_deref(), read.can_save, read.step_size), (Some("gain"), true, Some(0.01)));
         assert_eq!(read.real("u").unwrap().unit.as_deref(), Some("m"));
         assert_eq!(read.real("on"), None);
+        assert_eq!(read.variables[1].number(), Some(NumberKind::Boolean));
     }
 
     #[test]
@@ -171,7 +229,7 @@ mod tests {
             for _ in 0..1 + draw(6) {
                 let at = draw(bytes.len());
                 match draw(4) {
-                    0 => bytes[at] = b"<>/=\"'&;! \0\xffa9"[draw(15)],
+                    0 => bytes[at] = b"<>/=\"'&;! \0\xffa9"[draw(14)],
                     1 => drop(bytes.remove(at)),
                     2 => bytes.truncate(at.max(1)),
                     _ => {

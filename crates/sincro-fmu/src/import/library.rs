@@ -10,6 +10,7 @@ use std::path::Path;
 
 use libloading::{Library, Symbol};
 
+use super::description::NumberKind;
 use crate::description::FmiVersion;
 
 type Handle = *mut c_void;
@@ -218,6 +219,110 @@ impl Functions {
                 // SAFETY: as many values as references
                 Self::check("SetFloat64", unsafe { self.find::<Set>("SetFloat64")?(c.0, r, n, v, n) })
             }
+        }
+    }
+
+    /// Value of one number that is not of the type Float64.
+    pub(super) fn get_number(&self, c: Component, kind: NumberKind, reference: u32) -> Result<f64, String> {
+        let name = self.name_of(kind, "Get");
+        macro_rules! get {
+            ($($kind:ident: $number:ty),*) => {
+                match kind {
+                    $(NumberKind::$kind => {
+                        let mut value = <$number>::default();
+                        let status = match self.version {
+                            FmiVersion::V2 => {
+                                type Get = unsafe extern "C" fn(Handle, *const u32, usize, *mut $number) -> Status;
+                                // SAFETY: one reference, one place
+                                unsafe { self.find::<Get>(&name)?(c.0, &raw const reference, 1, &raw mut value) }
+                            }
+                            FmiVersion::V3 => {
+                                type Get = unsafe extern "C" fn(Handle, *const u32, usize, *mut $number, usize) -> Status;
+                                // SAFETY: one reference, one place
+                                unsafe { self.find::<Get>(&name)?(c.0, &raw const reference, 1, &raw mut value, 1) }
+                            }
+                        };
+                        Self::check(&name, status).map(|()| value as f64)
+                    })*
+                    NumberKind::Boolean => self.get_truth(c, reference, &name),
+                }
+            };
+        }
+        get!(Float64: f64, Float32: f32, Int8: i8, UInt8: u8, Int16: i16, UInt16: u16, Int32: i32, UInt32: u32, Int64: i64, UInt64: u64)
+    }
+
+    fn get_truth(&self, c: Component, reference: u32, name: &str) -> Result<f64, String> {
+        let (mut wide, mut narrow) = (0_i32, 0_u8);
+        let status = match self.version {
+            FmiVersion::V2 => {
+                type Get = unsafe extern "C" fn(Handle, *const u32, usize, *mut i32) -> Status;
+                // SAFETY: one reference, one place
+                unsafe { self.find::<Get>(name)?(c.0, &raw const reference, 1, &raw mut wide) }
+            }
+            FmiVersion::V3 => {
+                type Get = unsafe extern "C" fn(Handle, *const u32, usize, *mut u8, usize) -> Status;
+                // SAFETY: one reference, one place of the size of a truth value
+                unsafe { self.find::<Get>(name)?(c.0, &raw const reference, 1, &raw mut narrow, 1) }
+            }
+        };
+        Self::check(name, status).map(|()| f64::from(u8::from(wide != 0 || narrow != 0)))
+    }
+
+    /// Sets one number that is not of the type Float64: rounded, and cut off at the bounds of its type.
+    pub(super) fn set_number(&self, c: Component, kind: NumberKind, reference: u32, x: f64) -> Result<(), String> {
+        let name = self.name_of(kind, "Set");
+        macro_rules! set {
+            ($($kind:ident: $number:ty = $value:expr),*) => {
+                match kind {
+                    $(NumberKind::$kind => {
+                        let value: $number = $value;
+                        let status = match self.version {
+                            FmiVersion::V2 => {
+                                type Set = unsafe extern "C" fn(Handle, *const u32, usize, *const $number) -> Status;
+                                // SAFETY: one reference, one value
+                                unsafe { self.find::<Set>(&name)?(c.0, &raw const reference, 1, &raw const value) }
+                            }
+                            FmiVersion::V3 => {
+                                type Set = unsafe extern "C" fn(Handle, *const u32, usize, *const $number, usize) -> Status;
+                                // SAFETY: one reference, one value
+                                unsafe { self.find::<Set>(&name)?(c.0, &raw const reference, 1, &raw const value, 1) }
+                            }
+                        };
+                        Self::check(&name, status)
+                    })*
+                    NumberKind::Boolean => self.set_truth(c, reference, x != 0.0, &name),
+                }
+            };
+        }
+        let r = x.round();
+        set!(Float64: f64 = x, Float32: f32 = x as f32, Int8: i8 = r as i8, UInt8: u8 = r as u8, Int16: i16 = r as i16,
+            UInt16: u16 = r as u16, Int32: i32 = r as i32, UInt32: u32 = r as u32, Int64: i64 = r as i64, UInt64: u64 = r as u64)
+    }
+
+    fn set_truth(&self, c: Component, reference: u32, truth: bool, name: &str) -> Result<(), String> {
+        let (wide, narrow) = (i32::from(truth), u8::from(truth));
+        let status = match self.version {
+            FmiVersion::V2 => {
+                type Set = unsafe extern "C" fn(Handle, *const u32, usize, *const i32) -> Status;
+                // SAFETY: one reference, one value
+                unsafe { self.find::<Set>(name)?(c.0, &raw const reference, 1, &raw const wide) }
+            }
+            FmiVersion::V3 => {
+                type Set = unsafe extern "C" fn(Handle, *const u32, usize, *const u8, usize) -> Status;
+                // SAFETY: one reference, one value of the size of a truth value
+                unsafe { self.find::<Set>(name)?(c.0, &raw const reference, 1, &raw const narrow, 1) }
+            }
+        };
+        Self::check(name, status)
+    }
+
+    /// Name of the function for a type, without its prefix.
+    fn name_of(&self, kind: NumberKind, verb: &str) -> String {
+        match (self.version, kind) {
+            (_, NumberKind::Boolean) => format!("{verb}Boolean"),
+            (FmiVersion::V2, NumberKind::Float64 | NumberKind::Float32) => format!("{verb}Real"),
+            (FmiVersion::V2, _) => format!("{verb}Integer"),
+            (FmiVersion::V3, kind) => format!("{verb}{kind:?}"),
         }
     }
 

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::ForeignFmu;
-use super::library::{Component, SavedState};
+use super::description::NumberKind;
+use super::library::{Component, Functions, SavedState};
 
 /// An instance of a foreign FMU in co-simulation.
 #[derive(Debug)]
@@ -22,8 +23,14 @@ impl Slave {
     ///
     /// The FMU refuses.
     pub fn new(fmu: &Arc<ForeignFmu>, name: &str) -> Result<Self, String> {
-        let component = fmu.functions.instantiate(name, &fmu.description.token, &fmu.resources())?;
+        let opened = fmu.opened()?;
+        let resources = opened.resources(fmu.description.version);
+        let component = opened.functions.instantiate(name, &fmu.description.token, &resources)?;
         Ok(Self { fmu: fmu.clone(), component, saved: None, is_started: false, has_failed: false })
+    }
+
+    fn functions(&self) -> &Functions {
+        &self.fmu.opened().expect("an instance was made with them").functions
     }
 
     /// The FMU that it is an instance of.
@@ -32,17 +39,17 @@ impl Slave {
         &self.fmu
     }
 
-    /// Starts it at a time `[s]`, with parameters by their value references.
+    /// Starts it at a time `[s]`, with parameters by their types and value references.
     ///
     /// # Errors
     ///
     /// A call fails.
-    pub fn start(&mut self, t: f64, parameters: &[(u32, f64)]) -> Result<(), String> {
-        for (reference, value) in parameters {
-            self.set(&[*reference], &[*value])?;
+    pub fn start(&mut self, t: f64, parameters: &[(NumberKind, u32, f64)]) -> Result<(), String> {
+        for (kind, reference, value) in parameters {
+            self.set_number(*kind, *reference, *value)?;
         }
-        self.fmu.functions.enter_initialization(self.component, t)?;
-        self.fmu.functions.call("ExitInitializationMode", self.component)?;
+        self.functions().enter_initialization(self.component, t)?;
+        self.functions().call("ExitInitializationMode", self.component)?;
         self.is_started = true;
         Ok(())
     }
@@ -56,7 +63,7 @@ impl Slave {
         if references.len() != values.len() {
             return Err("there are not as many places as variables".into());
         }
-        self.fmu.functions.get(self.component, references, values)
+        self.functions().get(self.component, references, values)
     }
 
     /// Sets real variables.
@@ -68,7 +75,25 @@ impl Slave {
         if references.len() != values.len() {
             return Err("there are not as many values as variables".into());
         }
-        self.fmu.functions.set(self.component, references, values)
+        self.functions().set(self.component, references, values)
+    }
+
+    /// Value of a number of any type.
+    ///
+    /// # Errors
+    ///
+    /// The call fails.
+    pub fn get_number(&mut self, kind: NumberKind, reference: u32) -> Result<f64, String> {
+        self.functions().get_number(self.component, kind, reference)
+    }
+
+    /// Sets a number of any type: rounded, and cut off at the bounds of its type.
+    ///
+    /// # Errors
+    ///
+    /// The call fails.
+    pub fn set_number(&mut self, kind: NumberKind, reference: u32, value: f64) -> Result<(), String> {
+        self.functions().set_number(self.component, kind, reference, value)
     }
 
     /// Makes a step from `t` by `h` `[s]`; returns false if the FMU ended the simulation.
@@ -77,7 +102,7 @@ impl Slave {
     ///
     /// The step fails.
     pub fn step(&mut self, t: f64, h: f64) -> Result<bool, String> {
-        let stepped = self.fmu.functions.step(self.component, t, h);
+        let stepped = self.functions().step(self.component, t, h);
         self.has_failed |= stepped.is_err();
         stepped
     }
@@ -91,9 +116,9 @@ impl Slave {
         if !self.fmu.description.can_save {
             return Err(format!("the FMU `{}` cannot save its state", self.fmu.description.name));
         }
-        let state = self.fmu.functions.save(self.component)?;
+        let state = self.functions().save(self.component)?;
         if let Some(old) = self.saved.replace(state) {
-            self.fmu.functions.free_state(self.component, old);
+            self.functions().free_state(self.component, old);
         }
         Ok(())
     }
@@ -105,18 +130,18 @@ impl Slave {
     /// None was kept, or the call fails.
     pub fn restore(&mut self) -> Result<(), String> {
         let state = self.saved.ok_or("no state was kept")?;
-        self.fmu.functions.restore(self.component, state)
+        self.functions().restore(self.component, state)
     }
 }
 
 impl Drop for Slave {
     fn drop(&mut self) {
         if let Some(state) = self.saved.take() {
-            self.fmu.functions.free_state(self.component, state);
+            self.functions().free_state(self.component, state);
         }
         if self.is_started && !self.has_failed {
-            let _ = self.fmu.functions.call("Terminate", self.component);
+            let _ = self.functions().call("Terminate", self.component);
         }
-        self.fmu.functions.free(self.component);
+        self.functions().free(self.component);
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! The states are q, v, the speeds of rotors with a lag, and those of continuous blocks. Quaternions are four states
 //! with q̇ = ½ q ω; whatever their length, the pose is that of the unit quaternion. At a tick, which is an event in
-//! time where anything is sampled, the diagram measures, commands are latched and memory is updated, as in the lock-step.
+//! time where anything is sampled, the diagram measures, commands are latched and memory is updated, as in the
+//! lock-step.
 
 use sincro_blocks::program::Rate;
 use sincro_dynamics::coupled::{Coupled, CoupledSystem, NoCoupling};
