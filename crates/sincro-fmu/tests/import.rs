@@ -121,7 +121,8 @@ fn going_back_to_the_middle_of_a_run_is_refused_by_name() {
     }
     lockstep.restore(&snapshot);
     let stopped = format!("{:?}", lockstep.advance().unwrap_err());
-    assert!(stopped.contains("the FMU `plant`: its state after 5 steps is not part of what was saved"), "{stopped}");
+    assert!(stopped.contains("the FMU `plant`: its state after"), "{stopped}");
+    assert!(stopped.contains("is not part of what was saved or copied"), "{stopped}");
     let mut copy = LockStep::new(&loaded, method_for(&loaded).0, false).fork().lockstep;
     copy.start().unwrap();
     copy.advance().unwrap();

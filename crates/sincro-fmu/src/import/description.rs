@@ -227,6 +227,9 @@ mod tests {
         for _ in 0..n {
             let mut bytes = XML.as_bytes().to_vec();
             for _ in 0..1 + draw(6) {
+                if bytes.is_empty() {
+                    break;
+                }
                 let at = draw(bytes.len());
                 match draw(4) {
                     0 => bytes[at] = b"<>/=\"'&;! \0\xffa9"[draw(14)],

@@ -94,9 +94,13 @@ impl FmuBlock {
         new
     }
 
-    fn note<T>(&self, result: Result<T, String>) -> Option<T> {
+    /// The result; an error is noted, unless the step before has failed: its reason is the one that counts.
+    fn note<T>(&self, steps: f64, result: Result<T, String>) -> Option<T> {
         result
             .map_err(|message| {
+                if steps.is_nan() {
+                    return;
+                }
                 let name = self.model.as_ref().map_or("", |model| model.name());
                 let message = format!("the FMU `{name}`: {message}");
                 *self.fault.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
@@ -228,7 +232,7 @@ impl Block for FmuBlock {
             instance.get(&places, &mut values)?;
             Ok(values)
         };
-        let values = self.note(evaluate());
+        let values = self.note(steps, evaluate());
         for (k, y) in y.iter_mut().enumerate() {
             *y = R::splat(values.as_ref().map_or(f64::NAN, |values| values[k]));
         }
@@ -241,7 +245,7 @@ impl Block for FmuBlock {
             self.set_inputs(at, instance)?;
             instance.step(at.t, at.node.period())
         };
-        let made = self.note(step());
+        let made = self.note(steps, step());
         work.steps = steps + 1.0;
         memory[0] = R::splat(if made.is_some() { steps + 1.0 } else { f64::NAN });
     }
