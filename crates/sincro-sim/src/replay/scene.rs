@@ -17,7 +17,7 @@ use sincro_dynamics::state::State;
 
 use super::surface::{self, Triangles};
 use super::trajectory::Layout;
-use sincro_scene::scene::{Object, ObjectKind, Scene, ShapeInstance};
+use sincro_scene::scene::{Object, ObjectKind, Scene, ShownSurface};
 
 /// Everything of a scene that a picture needs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -221,7 +221,7 @@ impl Maker<'_> {
             parent: object.parent,
             mover,
             pose: self.on(mover, &x_wo),
-            shapes: object.shapes.iter().map(shape_view).chain(surfaces(object)).collect(),
+            shapes: object.shown().map(|shown| shown_view(&shown)).collect(),
             mass: match &object.kind {
                 ObjectKind::Body { mass } => Some((mass.mass, mass.center_of_mass, mass.inertia)),
                 _ => None,
@@ -322,36 +322,28 @@ fn axes(kind: &JointKind) -> Vec<[f64; 3]> {
     }
 }
 
-fn shape_view(instance: &ShapeInstance) -> ShapeView {
-    let (kind, size) = match instance.shape {
+fn shown_view(shown: &ShownSurface) -> ShapeView {
+    let view = match &shown.surface {
+        Surface::Solid(shape) => solid_view(*shape),
+        Surface::HalfSpace => made_of("plane", Triangles::default()),
+        Surface::Hull(points) => made_of("mesh", surface::of_hull(points)),
+        Surface::Mesh(points, triangles) => made_of("mesh", surface::of_mesh(points, triangles)),
+        Surface::HeightField { columns, heights, size } => {
+            made_of("mesh", surface::of_heights(*columns, heights, *size))
+        }
+    };
+    ShapeView { pose: seven(&shown.pose), color: shown.color.map(hex), ..view }
+}
+
+fn solid_view(shape: Shape) -> ShapeView {
+    let (kind, size) = match shape {
         Shape::Cuboid { size } => ("cuboid", size.to_vec()),
         Shape::Sphere { radius } => ("sphere", vec![radius, 0.0]),
         Shape::Cylinder { radius, length } => ("cylinder", vec![radius, length]),
         Shape::Capsule { radius, length } => ("capsule", vec![radius, length]),
         Shape::Cone { radius, length } => ("cone", vec![radius, length]),
     };
-    let (vertices, triangles) = Triangles::default();
-    ShapeView { kind, size, vertices, triangles, pose: seven(&instance.pose), color: instance.color.map(hex) }
-}
-
-/// Surfaces of an object beside its solids: planes and triangle meshes.
-fn surfaces(object: &Object) -> impl Iterator<Item = ShapeView> {
-    object.surfaces.iter().enumerate().map(|(k, (surface, pose))| {
-        let mut view = match surface {
-            Surface::Solid(shape) => {
-                shape_view(&ShapeInstance { shape: *shape, pose: *pose, density: None, color: None })
-            }
-            Surface::HalfSpace => made_of("plane", Triangles::default()),
-            Surface::Hull(points) => made_of("mesh", surface::of_hull(points)),
-            Surface::Mesh(points, triangles) => made_of("mesh", surface::of_mesh(points, triangles)),
-            Surface::HeightField { columns, heights, size } => {
-                made_of("mesh", surface::of_heights(*columns, heights, *size))
-            }
-        };
-        view.pose = seven(pose);
-        view.color = object.surface_colors.get(k).copied().flatten().map(hex);
-        view
-    })
+    ShapeView { size, ..made_of(kind, Triangles::default()) }
 }
 
 fn made_of(kind: &'static str, (vertices, triangles): Triangles) -> ShapeView {
