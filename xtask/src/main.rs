@@ -4,10 +4,12 @@
 //! - `tidy`: the checks of `check` that need no compiler: tree, arrows, words, manifests.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
 //! - `dist`: builds the program as it is given away (profile `dist`); fails if it is too large.
+//! - `judge NAME`: compares with other programs and public files, and writes the page of it.
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
 mod dist;
 mod glossary;
+mod judge;
 mod modules;
 mod package;
 mod sample;
@@ -25,9 +27,10 @@ fn main() -> ExitCode {
         Some("dist") => {
             exit(runs(&mut cargo(&["build", "--profile", "dist", "--package", "sincro"])) && dist::size_holds(&root()))
         }
+        Some("judge") => exit(judge::run(&root(), std::env::args().nth(2).as_deref())),
         Some("api-sample") => exit(sample::print(&root())),
         _ => {
-            eprintln!("usage: cargo xtask check | tidy | bless | dist | api-sample");
+            eprintln!("usage: cargo xtask check | tidy | bless | dist | judge NAME | api-sample");
             ExitCode::from(2)
         }
     }

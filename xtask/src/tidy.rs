@@ -24,6 +24,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-access", &[]),
     ("sincro-remote", &["sincro-access", "sincro-scene", "sincro-sim", "sincro-coppelia"]),
     ("sincro-viewer", &["sincro-access", "sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
+    ("sincro-import", &["sincro-math", "sincro-dynamics", "sincro-scene"]),
     ("sincro-figures", &["sincro-math", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-analysis"]),
     (
         "sincro-bench",
@@ -58,6 +59,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-remote",
             "sincro-viewer",
             "sincro-figures",
+            "sincro-import",
             "sincro-bench",
         ],
     ),

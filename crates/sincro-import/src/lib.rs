@@ -13,6 +13,7 @@
 //! | `mesh`, `resolve` | meshes, and where they are |
 //! | `writer` | the scene folder |
 //! | [`report`] | the import report |
+//! | [`export`] | scenes as URDF, MJCF and SDF |
 //!
 //! ```
 //! # let folder = std::env::temp_dir().join(format!("sincro-import-doc-{}", std::process::id()));
@@ -33,6 +34,7 @@
 //! ```
 
 mod color;
+pub mod export;
 mod findings;
 mod mesh;
 mod mjcf;
@@ -121,6 +123,8 @@ pub struct Imported {
     scene: String,
     experiment: String,
     files: BTreeMap<String, Content>,
+    /// The scene as it was verified: its files are moved rather than written again.
+    verified: Option<verify::Temporary>,
 }
 
 /// Returns true for a file that [`import`] reads, judged by its name.
@@ -192,8 +196,14 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
         missing_collision_meshes: written.missing_collisions.clone(),
         elements,
     };
-    let mut imported =
-        Imported { report, warnings, scene: written.scene, experiment: written.experiment, files: written.files };
+    let mut imported = Imported {
+        report,
+        warnings,
+        scene: written.scene,
+        experiment: written.experiment,
+        files: written.files,
+        verified: None,
+    };
     verify::compare(&mut imported, &source_robot, &written.link_paths, options)?;
     Ok(imported)
 }
@@ -224,6 +234,10 @@ impl Imported {
         for (name, content) in &self.files {
             let path = folder.join(name);
             std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+            let moved = self.verified.as_ref().map(|from| std::fs::rename(from.0.join(name), &path));
+            if moved.is_some_and(|moved| moved.is_ok()) {
+                continue;
+            }
             match content {
                 Content::Bytes(bytes) => std::fs::write(path, bytes)?,
                 Content::Copy(from) => std::fs::copy(from, path).map(|_| ())?,

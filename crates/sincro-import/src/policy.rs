@@ -6,6 +6,7 @@
 //! | a moving link has mass and no inertia | warning | `min-inertia` |
 //! | a principal moment is negative | error (warning if the link cannot move) | `positive-inertia` |
 //! | the triangle inequality does not hold | warning: the dynamics is right for the matrix given | none |
+//! | an inertia of rounding noise | warning: taken as zero | none |
 //! | mass 0 with an inertia | warning: 1e-15 kg | none |
 //!
 //! A missing mass is never made up from shapes and a density.
@@ -26,6 +27,8 @@ const MIN_MASS: f64 = 1e-3;
 const MIN_MOMENT: f64 = 1e-6;
 /// Share of the largest moment that `positive-inertia` leaves at least.
 const MIN_SHARE: f64 = 1e-6;
+/// Inertia a kilogram that no figure of a robot can mean [m²].
+const ROUNDING: f64 = 1e-20;
 /// Relative excess over the triangle inequality that is put down to rounding.
 const TRIANGLE_SLACK: f64 = 1e-9;
 
@@ -81,6 +84,11 @@ pub(crate) fn check(robot: &mut Robot, options: &Options, findings: &mut Finding
                 Diagnostic::error(&link.at, message)
                     .with_help("bodies of the scene have mass; this one changes no digit"),
             );
+        }
+        if inertial.inertia != [0.0; 6] && inertial.inertia.iter().all(|i| i.abs() < ROUNDING * inertial.mass) {
+            inertial.inertia = [0.0; 6];
+            let message = format!("the inertia of link `{name}` is rounding noise: it is taken as zero");
+            findings.warn(Diagnostic::error(&link.at, message).with_help("its entries are below 1e-20 times the mass"));
         }
         let properties = properties(inertial);
         let moments = properties.principal_moments();

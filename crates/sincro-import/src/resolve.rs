@@ -6,7 +6,7 @@
 //! | `rest` | the folder of the file |
 //!
 //! A name cannot lead out of its package, nor a relative or absolute path out of the folders that belong to the robot:
-//! that of the package (with a `package.xml`), or the second one above the file.
+//! that of the package (with a `package.xml`, or the uppermost one with an `__init__.py`), or the second one above the file.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -85,6 +85,9 @@ impl Resolver {
     /// Folders that relative and absolute paths may lead into.
     fn allowed(&self) -> Vec<PathBuf> {
         let package = self.folder.ancestors().take(MAX_ABOVE).find(|p| p.join("package.xml").is_file());
+        // a Python package keeps its models in folders that name each other
+        let python = |p: &&Path| p.join("__init__.py").is_file();
+        let package = package.or_else(|| self.folder.ancestors().take(MAX_ABOVE).filter(python).last());
         let second = self.folder.ancestors().take(3).filter(|p| p.components().count() > 1).last();
         let own = package.or(second).unwrap_or(&self.folder);
         let absolute = |p: &PathBuf| normalized(&std::path::absolute(p).unwrap_or_else(|_| p.clone()));

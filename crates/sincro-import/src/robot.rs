@@ -68,7 +68,7 @@ impl Placement {
     pub fn is_identity(&self) -> bool {
         let turned = match self.rotation {
             Rotation::RollPitchYaw(rpy) => rpy != [0.0; 3],
-            Rotation::Quaternion(q) => q[0].abs() != 1.0,
+            Rotation::Quaternion(q) => q[1..] != [0.0; 3],
         };
         self.position == [0.0; 3] && !turned
     }
@@ -309,8 +309,12 @@ pub(crate) struct Loop {
     pub name: String,
     /// Place in the source.
     pub at: Location,
+    /// Element in the ledger's documents.
+    pub element: (usize, u32),
     /// Kind: `point`, `hinge`, `weld`, and its axis for a hinge.
     pub kind: LoopKind,
+    /// True if the source holds it by a soft constraint, which may be open.
+    pub is_soft: bool,
     /// Links (none: the world) and the frame in each.
     pub ends: [(Option<usize>, Placement); 2],
 }
@@ -392,6 +396,8 @@ pub(crate) enum SensorKind {
 pub(crate) struct Keyframe {
     /// Name in the source.
     pub name: String,
+    /// Element in the ledger's documents.
+    pub element: (usize, u32),
     /// Index of a joint and its coordinates.
     pub positions: Vec<(usize, Vec<f64>)>,
 }
@@ -419,7 +425,40 @@ impl Joint {
     }
 }
 
+impl Joint {
+    /// Pose of its moving frame at the start; `q` is the coordinate of a joint with one degree of freedom.
+    fn motion(&self, q: f64) -> Pose<f64> {
+        let axis = Vec3(self.axis);
+        let unit = axis.scale(1.0 / axis.norm());
+        match (self.kind, self.initial.as_deref()) {
+            (JointKind::Revolute, _) => Pose { rot: Quat::exp(unit.scale(q)).matrix(), pos: Vec3::zero() },
+            (JointKind::Prismatic, _) => Pose::translation(unit.scale(q)),
+            (JointKind::Screw(pitch), _) => Pose { rot: Quat::exp(unit.scale(q)).matrix(), pos: unit.scale(pitch * q) },
+            (JointKind::Free, Some(&[x, y, z, a, b, c, d])) => {
+                Placement { position: [x, y, z], rotation: Rotation::Quaternion([a, b, c, d]) }.pose()
+            }
+            _ => Pose::identity(),
+        }
+    }
+}
+
 impl Robot {
+    /// Pose of a link in the world (none: the world itself); `starts` has the coordinates of the joints with one degree
+    /// of freedom, zero where it is too short.
+    pub fn link_pose(&self, link: Option<usize>, starts: &[f64]) -> Pose<f64> {
+        let mut pose = Pose::identity();
+        let mut at = link;
+        for _ in 0..=self.links.len() {
+            let Some(link) = at else { break };
+            pose = self.links[link].pose.pose().compose(&pose);
+            let Some(k) = self.joint_of(link) else { break };
+            let joint = &self.joints[k];
+            pose = joint.pose.pose().compose(&joint.motion(starts.get(k).copied().unwrap_or(0.0))).compose(&pose);
+            at = joint.parent;
+        }
+        pose
+    }
+
     /// The joint that carries a link.
     pub fn joint_of(&self, link: usize) -> Option<usize> {
         self.joints.iter().position(|joint| joint.child == link)

@@ -32,12 +32,7 @@ pub(crate) fn compare(
         Comparison::new("total mass", "kg", before, after),
         Comparison::new("degrees of freedom", "", dofs as f64, scene.model.n_v() as f64),
         Comparison::new("reach", "m", source_reach(source), scene_reach(scene, link_paths)),
-        Comparison::new(
-            "links",
-            "",
-            named(source),
-            link_paths.iter().flatten().filter(|p| scene.object(p).is_some()).count() as f64,
-        ),
+        Comparison::new("links", "", named(source), written_links(source, link_paths, scene)),
     ];
     for (link, path) in source.links.iter().zip(link_paths).filter(|(link, _)| !link.is_virtual) {
         let before = link.inertial.map(|i| (i.mass, policy::properties(&i).principal_moments()));
@@ -45,6 +40,7 @@ pub(crate) fn compare(
         let after = path.as_ref().and_then(|path| scene.object(path)).and_then(mass_of);
         report.links.push(LinkComparison::new(&link.name, &link.at, before, after));
     }
+    imported.verified = Some(folder);
     Ok(())
 }
 
@@ -69,6 +65,11 @@ fn refused(found: Diagnostics) -> Diagnostics {
 
 fn named(source: &Robot) -> f64 {
     source.links.iter().filter(|l| !l.is_virtual).count() as f64
+}
+
+fn written_links(source: &Robot, paths: &[Option<String>], scene: &Scene) -> f64 {
+    let all = source.links.iter().zip(paths).filter(|(link, _)| !link.is_virtual);
+    all.filter(|(_, path)| path.as_ref().is_some_and(|path| scene.object(path).is_some())).count() as f64
 }
 
 fn mass_of(object: &Object) -> Option<(f64, [f64; 3])> {
@@ -127,7 +128,8 @@ fn norm([x, y, z]: [f64; 3]) -> f64 {
 }
 
 /// A folder that is removed when it is let go.
-struct Temporary(std::path::PathBuf);
+#[derive(Debug)]
+pub(crate) struct Temporary(pub std::path::PathBuf);
 
 impl Temporary {
     fn new() -> std::io::Result<Self> {

@@ -3,6 +3,7 @@
 //! | source | visual | collision |
 //! |---|---|---|
 //! | STL, OBJ | a copy | a copy if its hull has few corners, else its hull |
+//! | MSH of MuJoCo | STL | its hull |
 //! | COLLADA | one STL for each colour, in metres, z up | its hull |
 //! | any, with a mirrored scale | converted, triangles turned | its hull |
 
@@ -131,8 +132,11 @@ impl Meshes {
             self.files.insert(file.clone(), Content::Bytes(stl(part, signs)));
             uses.push(MeshUse { file, scale: scale.map(f64::abs), color: part.color });
         }
-        let mut change =
-            if is_native(path) { String::from("STL") } else { String::from("converted to STL, z up, in metres") };
+        let mut change = if extension(path) != "dae" {
+            String::from("converted to STL")
+        } else {
+            String::from("converted to STL, z up, in metres")
+        };
         if mirrored {
             change = format!("mirrored, its triangles turned; {change}");
         }
@@ -228,12 +232,37 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Part>, String> {
             let text = std::fs::read(path).map_err(|e| e.to_string())?;
             dae::read(std::str::from_utf8(&text).map_err(|_| "it is not UTF-8 text")?)
         }
-        other => Err(format!("meshes `.{other}` are not read: STL, OBJ and DAE are")),
+        "msh" => {
+            let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
+            if size > MAX_BYTES {
+                return Err(format!("a file of {} MiB is larger than {} MiB", size >> 20, MAX_BYTES >> 20));
+            }
+            msh(&std::fs::read(path).map_err(|e| e.to_string())?).ok_or("it is no mesh of MuJoCo".into())
+        }
+        other => Err(format!("meshes `.{other}` are not read: STL, OBJ, DAE and MSH are")),
     }
 }
 
+/// MuJoCo's older binary format: numbers of corners, normals, texture coordinates and faces, then their values.
+fn msh(bytes: &[u8]) -> Option<Vec<Part>> {
+    let word = |k: usize| -> Option<[u8; 4]> { bytes.get(4 * k..4 * k + 4)?.try_into().ok() };
+    let count = |k: usize| usize::try_from(i32::from_le_bytes(word(k)?)).ok();
+    let (n, normals, coordinates, faces) = (count(0)?, count(1)?, count(2)?, count(3)?);
+    let first_face = 4 + 3 * n + 3 * normals + 2 * coordinates;
+    if bytes.len() != 4 * (first_face + 3 * faces) || faces == 0 {
+        return None;
+    }
+    let float = |k: usize| Some(f64::from(f32::from_le_bytes(word(k)?))).filter(|x| x.is_finite());
+    let corner = |k: usize| Some([float(4 + 3 * k)?, float(5 + 3 * k)?, float(6 + 3 * k)?]);
+    let index = |k: usize| Some(u32::from_le_bytes(word(first_face + k)?)).filter(|i| (*i as usize) < n);
+    let triangle = |k: usize| Some([index(3 * k)?, index(3 * k + 1)?, index(3 * k + 2)?]);
+    let corners = (0..n).map(corner).collect::<Option<Vec<_>>>()?;
+    let triangles = (0..faces).map(triangle).collect::<Option<Vec<_>>>()?;
+    Some(vec![Part { corners, triangles, color: None }])
+}
+
 /// Binary STL of a part, its axes turned over where a sign is negative.
-fn stl(part: &Part, signs: [f64; 3]) -> Vec<u8> {
+pub(crate) fn stl(part: &Part, signs: [f64; 3]) -> Vec<u8> {
     let flips = signs.iter().filter(|s| **s < 0.0).count() % 2 == 1;
     let mut bytes = vec![0_u8; 80];
     bytes[..6].copy_from_slice(b"sincro");

@@ -124,6 +124,9 @@ impl<'d> Reader<'d> {
             None => inertial.is_none(),
         };
         link.inertial = if from_geoms { super::geom::sum(&masses) } else { inertial };
+        if link.inertial.is_none() && self.settings.bound_mass > 0.0 {
+            link.inertial = Some(Inertial { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] });
+        }
         if let Some(inertial) = &mut link.inertial {
             inertial.mass = inertial.mass.max(self.settings.bound_mass);
             for k in [0, 3, 5] {

@@ -82,7 +82,7 @@ impl<'d> Reader<'d> {
             [self.end(e, "body1")?, self.end(e, "body2")?]
         };
         let anchor = Placement::new(self.defaults.vector(e, "main", "anchor")?.unwrap_or_default(), [0.0; 3]);
-        let [x_wa, x_wb] = ends.map(|end| link_pose(robot, end));
+        let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
         let point = x_wb.inverse().point(x_wa.point(Vec3(anchor.position)));
         let other = if by_sites { Placement::default() } else { Placement::new(point.0, [0.0; 3]) };
         e.change("a hard ball joint that closes a loop: a [[closure]]");
@@ -90,7 +90,9 @@ impl<'d> Reader<'d> {
         robot.loops.push(Loop {
             name,
             at: e.location(),
+            element: e.id(),
             kind: LoopKind::Point,
+            is_soft: true,
             ends: [(ends[0], anchor), (ends[1], other)],
         });
         Ok(())
@@ -103,7 +105,7 @@ impl<'d> Reader<'d> {
         } else {
             [self.end(e, "body1")?, self.end(e, "body2")?]
         };
-        let [x_wa, x_wb] = ends.map(|end| link_pose(robot, end));
+        let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
         let actual = x_wa.inverse().compose(&x_wb);
         let relative = match self.defaults.numbers(e, "main", "relpose")?.as_deref() {
             Some(&[x, y, z, w, i, j, k]) if !by_sites && w * w + i * i + j * j + k * k > 0.0 => {
@@ -127,7 +129,9 @@ impl<'d> Reader<'d> {
         robot.loops.push(Loop {
             name,
             at: e.location(),
+            element: e.id(),
             kind: LoopKind::Weld,
+            is_soft: true,
             ends: [(ends[0], first), (ends[1], Placement::default())],
         });
         Ok(())
@@ -159,22 +163,4 @@ impl<'d> Reader<'d> {
         robot.gears.push(Gear { name, at: e.location(), joints: [second, first], ratio: get(1), offset: get(0) });
         Ok(())
     }
-}
-
-/// Pose of a link in the world at the start of the model.
-fn link_pose(robot: &Robot, link: Option<usize>) -> Pose<f64> {
-    let mut pose = Pose::identity();
-    let mut at = link;
-    for _ in 0..=robot.links.len() {
-        let Some(link) = at else { break };
-        pose = robot.links[link].pose.pose().compose(&pose);
-        let Some(joint) = robot.joint_of(link).map(|j| &robot.joints[j]) else { break };
-        if let (crate::robot::JointKind::Free, Some(q)) = (joint.kind, &joint.initial) {
-            let rotation = crate::robot::Rotation::Quaternion([q[3], q[4], q[5], q[6]]);
-            pose = Placement { position: [q[0], q[1], q[2]], rotation }.pose().compose(&pose);
-        }
-        pose = joint.pose.pose().compose(&pose);
-        at = joint.parent;
-    }
-    pose
 }

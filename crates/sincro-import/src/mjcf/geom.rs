@@ -25,6 +25,20 @@ pub(super) struct MeshAsset {
     scale: [f64; 3],
     /// Reference frame that is taken off.
     reference: Placement,
+    inertia: MeshInertia,
+}
+
+/// Rules by which a mesh gives mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum MeshInertia {
+    /// Of the volume that it encloses.
+    Exact,
+    /// Of its convex hull.
+    Convex,
+    /// Of its triangles, as thin as paper: the density is that of an area.
+    Shell,
+    /// Of all tetrahedra between its triangles and a centre, each counted as positive.
+    Legacy,
 }
 
 impl<'d> Reader<'d> {
@@ -73,7 +87,14 @@ impl<'d> Reader<'d> {
             Some(&[w, x, y, z]) => Rotation::Quaternion([w, x, y, z]),
             _ => Rotation::RollPitchYaw([0.0; 3]),
         };
-        Ok((name, MeshAsset { file, scale, reference: Placement { position, rotation } }))
+        let inertia = match self.defaults.text(e, "main", "inertia") {
+            None | Some("legacy") => MeshInertia::Legacy,
+            Some("exact") => MeshInertia::Exact,
+            Some("convex") => MeshInertia::Convex,
+            Some("shell") => MeshInertia::Shell,
+            Some(other) => return Err(e.error(format!("the inertia `{other}` of a mesh is not computed"))),
+        };
+        Ok((name, MeshAsset { file, scale, reference: Placement { position, rotation }, inertia }))
     }
 
     /// Adds a geom to a link; returns the mass it gives the body.
@@ -236,11 +257,22 @@ impl<'d> Reader<'d> {
             e.error(format!("the mesh `{uri}` gives its body mass, and it is missing: {why}"))
                 .with_help("give the body an `inertial`")
         })?;
+        let asset = self.meshes.values().find(|m| m.file.as_deref() == Some(uri) && m.scale == scale);
+        let rule = asset.map_or(MeshInertia::Legacy, |m| m.inertia);
         let mut all = Vec::new();
         for part in &parts {
             let corners: Vec<[f64; 3]> =
                 part.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c])).collect();
-            all.push(polyhedron::mass_properties(&corners, &part.triangles, 1.0));
+            all.push(match rule {
+                MeshInertia::Exact => polyhedron::mass_properties(&corners, &part.triangles, 1.0),
+                MeshInertia::Legacy => legacy(&corners, &part.triangles),
+                MeshInertia::Shell => shell(&corners, &part.triangles),
+                MeshInertia::Convex => {
+                    let (corners, triangles) = polyhedron::convex_hull(&corners)
+                        .ok_or_else(|| e.error(format!("the mesh `{uri}` has no convex hull")))?;
+                    polyhedron::mass_properties(&corners, &triangles, 1.0)
+                }
+            });
         }
         let sum = MassProperties::sum(&all);
         let flipped = if sum.mass < 0.0 { -1.0 } else { 1.0 };
@@ -251,6 +283,67 @@ impl<'d> Reader<'d> {
             Err(e.error(format!("the mesh `{uri}` has no volume")))
         }
     }
+}
+
+/// Mass properties at density 1 by MuJoCo's older rule: tetrahedra from a centre to the triangles, each counted as
+/// positive; the centre is first the mean of the faces, then the centre of mass that this gives.
+fn legacy(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> MassProperties {
+    let at = |k: u32| Vec3(corners[k as usize]);
+    let face = |t: &[u32; 3]| {
+        let (a, b, c) = (at(t[0]), at(t[1]), at(t[2]));
+        let normal = (b - a).cross(c - a);
+        (a, b, c, normal, (a + b + c).scale(1.0 / 3.0))
+    };
+    let (mut area, mut centre) = (0.0, Vec3::zero());
+    for (.., normal, middle) in triangles.iter().map(face) {
+        area += normal.norm();
+        centre = centre + middle.scale(normal.norm());
+    }
+    let centre = centre.scale(1.0 / area);
+    let (mut volume, mut com) = (0.0, Vec3::zero());
+    for (.., normal, middle) in triangles.iter().map(face) {
+        let part = (normal.dot(middle - centre) / 6.0).abs();
+        volume += part;
+        com = com + (middle.scale(0.75) + centre.scale(0.25)).scale(part);
+    }
+    let com = com.scale(1.0 / volume);
+    let parts = triangles.iter().map(face).map(|(a, b, c, normal, middle)| {
+        let part = (normal.dot(middle - com) / 6.0).abs();
+        (part, part / 20.0, [a - com, b - com, c - com])
+    });
+    gathered(parts, com)
+}
+
+/// Mass properties of the triangles of a mesh as a thin shell of density 1 kg/m².
+fn shell(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> MassProperties {
+    let face = |t: &[u32; 3]| t.map(|k| Vec3(corners[k as usize]));
+    let area = |[a, b, c]: [Vec3<f64>; 3]| 0.5 * (b - a).cross(c - a).norm();
+    let total: f64 = triangles.iter().map(|t| area(face(t))).sum();
+    let weighted = triangles.iter().map(|t| {
+        let [a, b, c] = face(t);
+        (a + b + c).scale(area([a, b, c]) / 3.0)
+    });
+    let com = weighted.fold(Vec3::zero(), |sum, x| sum + x).scale(1.0 / total);
+    let parts = triangles.iter().map(|t| (area(face(t)), area(face(t)) / 12.0, face(t).map(|v| v - com)));
+    gathered(parts, com)
+}
+
+/// Mass properties of simplices about a centre: the mass of each, the factor of its second moments, and the corners that
+/// are not the centre.
+fn gathered(parts: impl Iterator<Item = (f64, f64, [Vec3<f64>; 3])>, com: Vec3<f64>) -> MassProperties {
+    let (mut mass, mut p) = (0.0, [[0.0; 3]; 3]);
+    for (part, factor, corners) in parts {
+        mass += part;
+        let sum = corners[0] + corners[1] + corners[2];
+        for (i, row) in p.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let squares: f64 = corners.iter().map(|v| v[i] * v[j]).sum();
+                *entry += factor * (squares + sum[i] * sum[j]);
+            }
+        }
+    }
+    let inertia = [p[1][1] + p[2][2], -p[0][1], -p[0][2], p[0][0] + p[2][2], -p[1][2], p[0][0] + p[1][1]];
+    MassProperties { mass, center_of_mass: com.0, inertia }
 }
 
 /// Placement and length of a geom between two points, its z axis along them.

@@ -58,7 +58,7 @@ impl<'d> Reader<'d> {
                 positions.push((*joint, own));
             }
             key.change("a variant of the experiment");
-            robot.keyframes.push(Keyframe { name, positions });
+            robot.keyframes.push(Keyframe { name, element: key.id(), positions });
         }
     }
 }

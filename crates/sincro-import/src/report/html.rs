@@ -31,22 +31,22 @@ pub(super) fn page(report: &Report) -> String {
                 r.repair,
                 escaped(&r.link),
                 r.line,
-                escaped(&r.what)
+                words(&r.what)
             )
         }),
     );
-    list(&mut out, "Collision meshes that are missing", report.missing_collision_meshes.iter().map(|m| escaped(m)));
+    list(&mut out, "Collision meshes that are missing", report.missing_collision_meshes.iter().map(|m| words(m)));
     list(
         &mut out,
         "Warnings",
         report.warnings.iter().map(|w| {
             let line = w.line.map_or_else(String::new, |line| format!("line {line}: "));
             let help =
-                w.help.as_ref().map_or_else(String::new, |h| format!(" <span class=\"help\">{}</span>", escaped(h)));
-            format!("{line}{}{help}", escaped(&w.message))
+                w.help.as_ref().map_or_else(String::new, |h| format!(" <span class=\"help\">{}</span>", words(h)));
+            format!("{line}{}{help}", words(&w.message))
         }),
     );
-    list(&mut out, "Choices that the source leaves open", report.choices.iter().map(|c| escaped(c)));
+    list(&mut out, "Choices that the source leaves open", report.choices.iter().map(|c| words(c)));
     links(&mut out, report);
     elements(&mut out, report);
     out += "</main></body></html>\n";
@@ -151,7 +151,7 @@ fn elements(out: &mut String, report: &Report) {
             "<tr class=\"{class}{inside}\"><td class=\"n\">{}</td><td><code>{}</code></td><td><span class=\"{class}\">{word}</span></td><td>{}</td></tr>\n",
             entry.line,
             escaped(&entry.element),
-            escaped(&entry.words)
+            words(&entry.words)
         );
     }
     *out += "</table></div>\n";
@@ -159,6 +159,13 @@ fn elements(out: &mut String, report: &Report) {
         let more = report.elements.len() - MAX_ROWS;
         *out += &format!("<p class=\"help\">{more} more are in import-report.json.</p>\n");
     }
+}
+
+/// A message: names between backticks in their own type.
+fn words(text: &str) -> String {
+    let parts = escaped(text);
+    let parts = parts.split('`').enumerate();
+    parts.map(|(k, part)| if k % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() }).collect()
 }
 
 fn escaped(text: &str) -> String {

@@ -126,7 +126,14 @@ fn joint(
         element.change("spring, damping and limits of a joint that closes a loop are left out");
     }
     let ends = [(parent, made.pose), (Some(child), Placement::of_pose(&x_wc.inverse().compose(&x_wj)))];
-    Ok(Made::Loop(Loop { name: name.to_owned(), at: element.location(), kind, ends }))
+    Ok(Made::Loop(Loop {
+        name: name.to_owned(),
+        at: element.location(),
+        element: element.id(),
+        kind,
+        is_soft: false,
+        ends,
+    }))
 }
 
 /// True if `from` carries `to` by joints already read.

@@ -16,9 +16,12 @@ use crate::mesh::{Content, Meshes};
 use crate::number::{list, name, number, quoted};
 use crate::policy;
 use crate::resolve::Resolver;
-use crate::robot::{JointKind, LoopKind, Placement, Robot, Rotation, SensorKind};
+use crate::robot::{JointKind, Loop, LoopKind, Placement, Robot, Rotation, SensorKind};
 use crate::source::{Fate, Ledger};
 use crate::{Motors, Options};
+
+/// A soft loop joint that is open by more than this at the start is left out `[m]`, `[rad]`.
+const OPEN: f64 = 1e-7;
 
 /// A scene folder in memory.
 #[derive(Debug)]
@@ -270,8 +273,26 @@ impl Writer<'_> {
         }
     }
 
+    /// Distance and angle (a measure of it) by which a loop joint is open at the start.
+    fn opening(&self, closure: &Loop, starts: &[f64]) -> f64 {
+        let place = |k: usize| {
+            let (link, placement) = &closure.ends[k];
+            self.robot.link_pose(*link, starts).compose(&placement.pose())
+        };
+        let gap = place(0).inverse().compose(&place(1));
+        let turned = (0..3).map(|k| 1.0 - gap.rot.0[k][k]).sum::<f64>().abs().sqrt();
+        if closure.kind == LoopKind::Weld { gap.pos.norm().max(turned) } else { gap.pos.norm() }
+    }
+
     fn loops(&mut self) {
         for closure in &self.robot.loops {
+            let open = self.opening(closure, &self.starts);
+            if closure.is_soft && open > OPEN {
+                let words = format!("it is soft and open at the start by {open:.3e}: nothing hard can stand for it");
+                self.context.ledger.judge_place(closure.element, Fate::Dropped, &words);
+                self.written.warnings.push((closure.at.clone(), format!("`{}` is left out: {words}", closure.name)));
+                continue;
+            }
             let base = name(&closure.name);
             let mut ends = Vec::new();
             for (k, (link, placement)) in closure.ends.iter().enumerate() {

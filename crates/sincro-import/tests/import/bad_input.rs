@@ -58,9 +58,18 @@ fn large_meshes_are_not_read() {
 #[test]
 fn changed_bytes_never_panic() {
     let seeds = [
-        ("r.urdf", "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial><collision><geometry><box size=\"1 1 1\"/></geometry></collision></link><joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\"/></joint></robot>"),
-        ("r.sdf", "<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"><inertial><mass>1</mass></inertial></link><link name=\"b\"><pose>1 0 0 0 0 0</pose><inertial><mass>1</mass></inertial></link><joint name=\"j\" type=\"ball\"><parent>a</parent><child>b</child></joint></model></sdf>"),
-        ("r.xml", "<mujoco><default><joint damping=\"1\"/></default><worldbody><body name=\"a\"><joint name=\"j\" axis=\"0 1 0\" range=\"-1 1\"/><geom size=\"0.1 0.1\" type=\"capsule\"/></body></worldbody><actuator><position joint=\"j\" kp=\"2\"/></actuator></mujoco>"),
+        (
+            "r.urdf",
+            "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial><collision><geometry><box size=\"1 1 1\"/></geometry></collision></link><joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\"/></joint></robot>",
+        ),
+        (
+            "r.sdf",
+            "<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"><inertial><mass>1</mass></inertial></link><link name=\"b\"><pose>1 0 0 0 0 0</pose><inertial><mass>1</mass></inertial></link><joint name=\"j\" type=\"ball\"><parent>a</parent><child>b</child></joint></model></sdf>",
+        ),
+        (
+            "r.xml",
+            "<mujoco><default><joint damping=\"1\"/></default><worldbody><body name=\"a\"><joint name=\"j\" axis=\"0 1 0\" range=\"-1 1\"/><geom size=\"0.1 0.1\" type=\"capsule\"/></body></worldbody><actuator><position joint=\"j\" kp=\"2\"/></actuator></mujoco>",
+        ),
     ];
     let folder = Folder::new();
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;
@@ -70,7 +79,8 @@ fn changed_bytes_never_panic() {
         random ^= random << 17;
         (random % n as u64) as usize
     };
-    let pieces: [&[u8]; 12] = [b"<", b">", b"\"", b"/", b"-1", b"1e308", b"nan", b"0", b"name", b"\xff", b"&lt;", b"   "];
+    let pieces: [&[u8]; 12] =
+        [b"<", b">", b"\"", b"/", b"-1", b"1e308", b"nan", b"0", b"name", b"\xff", b"&lt;", b"   "];
     for (name, seed) in seeds {
         for _ in 0..150 {
             let mut bytes = seed.as_bytes().to_vec();

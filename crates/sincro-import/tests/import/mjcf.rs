@@ -93,11 +93,17 @@ fn features_without_counterpart_are_refused_by_name() {
     for (feature, part, words) in [
         ("<option density=\"1.2\"/>", "", "fluid forces"),
         ("<extension><plugin plugin=\"x\"/></extension>", "", "plugins"),
-        ("<tendon><fixed name=\"t\" stiffness=\"3\"><joint joint=\"knee\" coef=\"1\"/></fixed></tendon>", "", "tendon `t` acts"),
+        (
+            "<tendon><fixed name=\"t\" stiffness=\"3\"><joint joint=\"knee\" coef=\"1\"/></fixed></tendon>",
+            "",
+            "tendon `t` acts",
+        ),
         ("<equality><joint joint1=\"knee\" joint2=\"pitch\" polycoef=\"0 1 2 0 0\"/></equality>", "", "polynomial"),
         ("", "<flexcomp name=\"f\"/>", "flexcomp"),
     ] {
-        let text = HOPPER.replace("</mujoco>", &format!("{feature}</mujoco>")).replace("<body name=\"shin\"", &format!("{part}<body name=\"shin\""));
+        let text = HOPPER
+            .replace("</mujoco>", &format!("{feature}</mujoco>"))
+            .replace("<body name=\"shin\"", &format!("{part}<body name=\"shin\""));
         let refused = folder.import("hopper.xml", &text).unwrap_err().to_string();
         assert!(refused.contains(words), "{words}: {refused}");
     }

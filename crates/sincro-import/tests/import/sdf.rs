@@ -30,7 +30,8 @@ fn a_second_joint_closes_a_loop() {
 #[test]
 fn models_move_freely_unless_something_holds_them() {
     let folder = Folder::new();
-    let free = FOUR_BAR.replace(r#"<joint name="hold" type="fixed"><parent>world</parent><child>ground</child></joint>"#, "");
+    let free =
+        FOUR_BAR.replace(r#"<joint name="hold" type="fixed"><parent>world</parent><child>ground</child></joint>"#, "");
     let n_v = |text: &str| folder.open(&folder.import("bars.sdf", text).unwrap()).scene.model.n_v();
     assert_eq!(n_v(&free), 9);
     assert_eq!(n_v(&free.replace("<model name=\"bars\">", "<model name=\"bars\"><static>true</static>")), 3);

@@ -76,7 +76,10 @@ fn nothing_that_is_not_read_stays_untold() {
     folder.file("arm/meshes/t.stl", tetrahedron());
     let imported = folder.import("arm/urdf/arm.urdf", &text).unwrap();
     assert_eq!(entry(&imported, "link[base]/aura").fate, Fate::Dropped);
-    let text = text.replace("<aura strength=\"3\"/>", "").replace("k_velocity", "x").replace("damping=", "viscosity=\"1\" damping=");
+    let text = text
+        .replace("<aura strength=\"3\"/>", "")
+        .replace("k_velocity", "x")
+        .replace("damping=", "viscosity=\"1\" damping=");
     let imported = folder.import("arm/urdf/arm.urdf", &text).unwrap();
     assert_eq!(entry(&imported, "dynamics/@viscosity").fate, Fate::Dropped);
 }
@@ -106,11 +109,15 @@ fn missing_meshes_are_left_out_and_named() {
 
 #[test]
 fn a_moving_link_without_mass_is_refused_and_repaired_by_name_only() {
-    let text = ARM.replace(r#"<inertial><mass value="0.5"/><inertia ixx="0.001" iyy="0.001" izz="0.001"/></inertial>"#, "");
+    let text =
+        ARM.replace(r#"<inertial><mass value="0.5"/><inertia ixx="0.001" iyy="0.001" izz="0.001"/></inertial>"#, "");
     let folder = Folder::new();
     let refused = folder.import("arm.urdf", &text).unwrap_err();
     let error = refused.0.iter().find(|d| d.is_error()).unwrap();
-    assert!(error.message.contains("joint `wrist` moves link `hand`") && error.help.as_ref().unwrap().contains("--repair min-inertia"));
+    assert!(
+        error.message.contains("joint `wrist` moves link `hand`")
+            && error.help.as_ref().unwrap().contains("--repair min-inertia")
+    );
     assert_eq!(error.line_column().unwrap().0, 11);
     let options = Options { repairs: vec![Repair::MinInertia], ..Options::default() };
     let imported = folder.import_with("arm.urdf", &text, &options).unwrap();
@@ -127,7 +134,9 @@ fn inertias_are_judged_by_their_moments() {
     assert!(flat.report.differences().is_empty());
     let negative = with(r#"ixx="0.001" iyy="0.001" izz="-0.005""#);
     let refused = folder.import("arm.urdf", &negative).unwrap_err();
-    assert!(refused.to_string().contains("is not positive") && refused.to_string().contains("--repair positive-inertia"));
+    assert!(
+        refused.to_string().contains("is not positive") && refused.to_string().contains("--repair positive-inertia")
+    );
     let options = Options { repairs: vec![Repair::PositiveInertia], ..Options::default() };
     assert_eq!(folder.import_with("arm.urdf", &negative, &options).unwrap().report.repairs[0].link, "hand");
 }
@@ -136,7 +145,10 @@ fn inertias_are_judged_by_their_moments() {
 fn a_base_may_be_free_and_motors_absent() {
     let folder = Folder::new();
     folder.file("arm/meshes/t.stl", tetrahedron());
-    let text = ARM.replace("<link name=\"base\"/>", "<link name=\"base\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial></link>");
+    let text = ARM.replace(
+        "<link name=\"base\"/>",
+        "<link name=\"base\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial></link>",
+    );
     let options = Options { free_base: true, motors: Motors::None, ..Options::default() };
     let imported = folder.import_with("arm/urdf/arm.urdf", &text, &options).unwrap();
     let scene = folder.open(&imported).scene;

@@ -148,8 +148,14 @@ impl SceneView {
         let model = &*scene.model;
         let mut scratch = Scratch::new(model);
         kinematics::poses(model, &State::new(model).q, &mut scratch);
-        let mut maker =
-            Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new(), n_forces: 0 };
+        let mut maker = Maker {
+            model,
+            links: Layout::new(model).links().to_vec(),
+            scratch,
+            placed: Vec::new(),
+            n_forces: 0,
+            has_visuals: scene.objects.iter().any(|o| !o.visuals.is_empty()),
+        };
         let mut objects: Vec<ObjectView> = scene.objects.iter().map(|object| maker.object(object)).collect();
         let place = |path: &str| scene.objects.iter().position(|o| o.path == path);
         maker.closures(&mut objects);
@@ -203,6 +209,8 @@ struct Maker<'a> {
     placed: Vec<(Option<usize>, Pose<f64>)>,
     /// External forces so far; those on what is fixed in the world are not in the model.
     n_forces: usize,
+    /// True if the scene says what shows: bodies without geometry then show nothing, not the box of their inertia.
+    has_visuals: bool,
 }
 
 impl Maker<'_> {
@@ -214,6 +222,8 @@ impl Maker<'_> {
         self.placed.push((mover, x_wo));
         let force = (matches!(object.kind, ObjectKind::Force) && mover.is_some()).then_some(self.n_forces);
         self.n_forces += usize::from(force.is_some());
+        let shapes: Vec<ShapeView> = object.shown().map(|shown| shown_view(&shown)).collect();
+        let hidden = self.has_visuals && shapes.is_empty();
         ObjectView {
             path: object.path.clone(),
             name: object.name.clone(),
@@ -221,9 +231,9 @@ impl Maker<'_> {
             parent: object.parent,
             mover,
             pose: self.on(mover, &x_wo),
-            shapes: object.shown().map(|shown| shown_view(&shown)).collect(),
+            shapes,
             mass: match &object.kind {
-                ObjectKind::Body { mass } => Some((mass.mass, mass.center_of_mass, mass.inertia)),
+                ObjectKind::Body { mass } if !hidden => Some((mass.mass, mass.center_of_mass, mass.inertia)),
                 _ => None,
             },
             joint: joint.map(|k| self.joint(k, base_mover, &x_wo)),

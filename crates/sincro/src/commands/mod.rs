@@ -14,6 +14,8 @@ pub(crate) mod console;
 pub(crate) mod diff;
 pub(crate) mod draw;
 pub(crate) mod dynamics;
+pub(crate) mod export;
+pub(crate) mod export_robot;
 pub(crate) mod import;
 pub(crate) mod linearize;
 pub(crate) mod reproduce;
