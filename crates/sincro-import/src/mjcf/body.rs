@@ -139,7 +139,7 @@ impl<'d> Reader<'d> {
             element.change("a mocap body: fixed in the world");
         }
         let joints: Vec<_> = children.iter().filter(|(c, ..)| matches!(c.name(), "joint" | "freejoint")).collect();
-        let index = self.chain(element, &joints, pose, parent, link, robot, findings);
+        let index = self.chain(element, &joints, (pose, parent.link), link, robot, findings);
         self.bodies.insert(name, index);
         self.add_sites(&children, index, robot, findings);
         let inner = Parent { link: Some(index), depth: parent.depth + 1 };
@@ -150,13 +150,12 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Adds a link with its joints as a chain; several joints of a body have links without mass between them.
+    /// Adds a link with its joints as a chain, its frame in the link that carries it; several joints of a body have links without mass between them.
     fn chain(
         &mut self,
         element: Element<'d>,
         joints: &[&(Element<'d>, Placement, String)],
-        pose: Placement,
-        parent: Parent,
+        (pose, carrier): (Placement, Option<usize>),
         mut link: Link,
         robot: &mut Robot,
         findings: &mut Findings,
@@ -175,7 +174,7 @@ impl<'d> Reader<'d> {
         }
         if made.is_empty() {
             link.pose = pose;
-            let Some(carrier) = parent.link else {
+            let Some(carrier) = carrier else {
                 robot.links.push(link);
                 return robot.links.len() - 1;
             };
@@ -193,7 +192,7 @@ impl<'d> Reader<'d> {
         if made.len() > 1 {
             element.change(&format!("its {} joints are a chain", made.len()));
         }
-        let (mut carrier, n) = (parent.link, made.len());
+        let (mut carrier, n) = (carrier, made.len());
         let mut before = [0.0; 3];
         for (k, (made, wanted)) in made.into_iter().enumerate() {
             let JointRead { mut joint, position, reference } = made;

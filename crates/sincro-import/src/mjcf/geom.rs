@@ -297,14 +297,14 @@ fn legacy(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> MassProperties {
     let (mut area, mut centre) = (0.0, Vec3::zero());
     for (.., normal, middle) in triangles.iter().map(face) {
         area += normal.norm();
-        centre = centre + middle.scale(normal.norm());
+        centre += middle.scale(normal.norm());
     }
     let centre = centre.scale(1.0 / area);
     let (mut volume, mut com) = (0.0, Vec3::zero());
     for (.., normal, middle) in triangles.iter().map(face) {
         let part = (normal.dot(middle - centre) / 6.0).abs();
         volume += part;
-        com = com + (middle.scale(0.75) + centre.scale(0.25)).scale(part);
+        com += (middle.scale(0.75) + centre.scale(0.25)).scale(part);
     }
     let com = com.scale(1.0 / volume);
     let parts = triangles.iter().map(face).map(|(a, b, c, normal, middle)| {

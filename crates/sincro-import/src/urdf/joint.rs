@@ -134,6 +134,9 @@ fn limits(element: Element<'_>, word: &str, joint: &mut Joint) -> Result<(), Dia
     let Some(given) = element.child("limit") else { return Ok(()) };
     let (lower, upper) = (given.number_or_infinite("lower")?, given.number_or_infinite("upper")?);
     joint.effort = given.number_or_infinite("effort")?.filter(|x| x.is_finite());
+    if joint.effort == Some(0.0) && joint.kind != JointKind::Fixed {
+        given.change("an effort of 0 is taken as none given: the motor has no limit");
+    }
     joint.speed = given.number_or_infinite("velocity")?.filter(|x| x.is_finite() && *x > 0.0);
     if word == "continuous" {
         if lower.is_some() || upper.is_some() {

@@ -10,6 +10,9 @@ use crate::source::Fate;
 /// Friction coefficient where the source gives none.
 pub(super) const FRICTION: f64 = 1.0;
 
+/// Inline table of a shape, and the colour of its material.
+type Form = (String, Option<[u8; 3]>);
+
 /// Gives collision geometry of moving links without mass to the bodies they are fixed to: what touches is a body.
 pub(super) fn gather_collisions(robot: &mut Robot, fixed: &[bool], context: &Context<'_>) {
     for link in 0..robot.links.len() {
@@ -173,7 +176,7 @@ impl Writer<'_> {
     }
 
     /// The shapes that a geometry becomes, with the colours of their materials; the reason if there is none.
-    fn forms(&mut self, piece: &Geometry, shows: bool) -> Result<Vec<(String, Option<[u8; 3]>)>, String> {
+    fn forms(&mut self, piece: &Geometry, shows: bool) -> Result<Vec<Form>, String> {
         let positive = |all: &[f64]| all.iter().all(|x| x.is_finite() && *x > 0.0);
         let solid = |sizes: &[f64], text: String| {
             if positive(sizes) { Ok(vec![(text, None)]) } else { Err(format!("its size {sizes:?} is not positive")) }

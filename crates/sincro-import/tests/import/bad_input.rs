@@ -71,6 +71,8 @@ fn changed_bytes_never_panic() {
             "<mujoco><default><joint damping=\"1\"/></default><worldbody><body name=\"a\"><joint name=\"j\" axis=\"0 1 0\" range=\"-1 1\"/><geom size=\"0.1 0.1\" type=\"capsule\"/></body></worldbody><actuator><position joint=\"j\" kp=\"2\"/></actuator></mujoco>",
         ),
     ];
+    // 7000 rounds are ten million bytes
+    let rounds = std::env::var("SINCRO_FUZZ_ROUNDS").ok().and_then(|n| n.parse().ok()).unwrap_or(150);
     let folder = Folder::new();
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;
     let mut next = move |n: usize| {
@@ -82,7 +84,7 @@ fn changed_bytes_never_panic() {
     let pieces: [&[u8]; 12] =
         [b"<", b">", b"\"", b"/", b"-1", b"1e308", b"nan", b"0", b"name", b"\xff", b"&lt;", b"   "];
     for (name, seed) in seeds {
-        for _ in 0..150 {
+        for _ in 0..rounds {
             let mut bytes = seed.as_bytes().to_vec();
             for _ in 0..=next(4) {
                 let (at, piece) = (next(bytes.len()), pieces[next(pieces.len())]);
