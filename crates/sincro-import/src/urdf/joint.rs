@@ -10,6 +10,9 @@ use crate::findings::Findings;
 use crate::robot::{Gear, Joint, JointKind, Placement, Robot};
 use crate::source::Element;
 
+/// A limit this far away is none `[m]`, `[rad]`: prismatic joints of URDF must have limits.
+const FAR: f64 = 1e9;
+
 /// Reads all joints of the robot.
 pub(super) fn joints(root: Element<'_>, links: &BTreeMap<&str, usize>, robot: &mut Robot, findings: &mut Findings) {
     let mut names = BTreeMap::new();
@@ -153,7 +156,9 @@ fn limits(element: Element<'_>, word: &str, joint: &mut Joint) -> Result<(), Dia
         (None, None) => {}
         (lower, upper) => {
             let (lower, upper) = (lower.unwrap_or(0.0), upper.unwrap_or(0.0));
-            if lower < upper {
+            if lower <= -FAR && upper >= FAR {
+                given.change("limits that nothing reaches are none");
+            } else if lower < upper {
                 joint.limits = Some([lower, upper]);
             } else {
                 given.change(&format!("limits from {lower} to {upper} leave no room: the joint moves without them"));
