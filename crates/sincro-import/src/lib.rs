@@ -65,6 +65,9 @@ use report::{Counts, Warning};
 use resolve::Resolver;
 use source::{Element, Ledger, SourceFile};
 
+/// Most links, joints and geoms of a file: what is larger is no robot.
+const MAX_LINKS: usize = 20_000;
+
 /// Drives of joints where the source names no actuators.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Motors {
@@ -147,6 +150,13 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
     };
     let files = if main.parse()?.root_element().has_tag_name("mujoco") { mjcf::load(main)? } else { vec![main] };
     let documents = files.iter().map(SourceFile::parse).collect::<Result<Vec<_>, _>>()?;
+    for (document, file) in documents.iter().zip(&files) {
+        let is_link = |n: &roxmltree::Node<'_, '_>| matches!(n.tag_name().name(), "link" | "body" | "joint" | "geom");
+        if let Some(one) = document.descendants().filter(is_link).nth(MAX_LINKS) {
+            let message = format!("more than {MAX_LINKS} links and joints");
+            return Err(Diagnostic::error(&file.location(one.range().start..one.range().start + 1), message).into());
+        }
+    }
     let ledger = Ledger::default();
     let mut findings = Findings::default();
     let root = Element::root(&documents[0], 0, &files[0], &ledger);

@@ -35,11 +35,12 @@ const TRIANGLE_SLACK: f64 = 1e-9;
 /// Links that are fixed in the world.
 pub(crate) fn fixed_in_world(robot: &Robot, free_base: bool) -> Vec<bool> {
     let mut fixed = vec![false; robot.links.len()];
+    let carriers = robot.carriers();
     // a chain is as long as there are links at most
     for _ in 0..robot.links.len() {
         let mut changed = false;
         for link in 0..robot.links.len() {
-            let now = match robot.joint_of(link) {
+            let now = match carriers[link] {
                 None => !free_base,
                 Some(j) => {
                     let joint = &robot.joints[j];
@@ -129,6 +130,7 @@ fn massless_joints(robot: &mut Robot, options: &Options, findings: &mut Findings
     let children: Vec<Vec<usize>> = (0..robot.links.len())
         .map(|link| robot.joints.iter().filter(|j| j.parent == Some(link)).map(|j| j.child).collect())
         .collect();
+    let carriers = robot.carriers();
     for k in 0..robot.joints.len() {
         if robot.joints[k].kind == JointKind::Fixed {
             continue;
@@ -136,9 +138,8 @@ fn massless_joints(robot: &mut Robot, options: &Options, findings: &mut Findings
         let (mut stack, mut has_mass, mut moving_beyond) = (vec![robot.joints[k].child], false, false);
         while let Some(link) = stack.pop() {
             has_mass |= robot.links[link].inertial.is_some();
-            moving_beyond |= children[link]
-                .iter()
-                .any(|c| robot.joint_of(*c).is_some_and(|j| robot.joints[j].kind != JointKind::Fixed));
+            let moves = |c: &usize| carriers[*c].is_some_and(|j| robot.joints[j].kind != JointKind::Fixed);
+            moving_beyond |= children[link].iter().any(moves);
             stack.extend(&children[link]);
         }
         if has_mass {

@@ -459,6 +459,13 @@ impl Robot {
         pose
     }
 
+    /// The joint that carries each link.
+    pub fn carriers(&self) -> Vec<Option<usize>> {
+        let mut list = vec![None; self.links.len()];
+        self.joints.iter().enumerate().for_each(|(k, joint)| list[joint.child] = Some(k));
+        list
+    }
+
     /// The joint that carries a link.
     pub fn joint_of(&self, link: usize) -> Option<usize> {
         self.joints.iter().position(|joint| joint.child == link)

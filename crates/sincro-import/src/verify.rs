@@ -82,11 +82,7 @@ fn mass_of(object: &Object) -> Option<(f64, [f64; 3])> {
 /// Longest sum of the distances between the frames of a chain, at zero coordinates `[m]`.
 fn source_reach(source: &Robot) -> f64 {
     let mut reach = vec![f64::NAN; source.links.len()];
-    let joint_of: Vec<Option<usize>> = {
-        let mut list = vec![None; source.links.len()];
-        source.joints.iter().enumerate().for_each(|(k, j)| list[j.child] = Some(k));
-        list
-    };
+    let joint_of = source.carriers();
     for start in 0..source.links.len() {
         let mut chain = vec![start];
         while let Some(parent) = joint_of[*chain.last().unwrap_or(&start)].and_then(|j| source.joints[j].parent) {

@@ -39,7 +39,7 @@ pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
     if !tree.meshes.is_empty() {
         out += "  <asset>\n";
         for file in tree.meshes.keys() {
-            out += &format!("    <mesh name=\"{0}\" file=\"{0}\" inertia=\"exact\"/>\n", escaped(file));
+            out += &format!("    <mesh name=\"{0}\" file=\"{0}\"/>\n", escaped(file));
         }
         out += "  </asset>\n";
     }

@@ -106,6 +106,7 @@ fn model<'d>(
     }
     let is_static = element.child("static").is_some_and(|s| matches!(s.text(), "1" | "true"));
     for frame in element.children("frame") {
+        frame.change("poses may refer to it; it is no object of the scene");
         let name = frame.attribute("name").unwrap_or("frame");
         let base = frame.attribute("attached_to").filter(|b| !b.is_empty());
         let base = base.map_or_else(|| own_frame.clone(), |b| format!("{prefix}{b}"));

@@ -12,12 +12,14 @@ const HOLDING_GAIN: f64 = 10.0;
 /// Coordinates at the start: zero where the limits allow it, else the middle of the range; gears as they are coupled.
 pub(super) fn starts(robot: &mut Robot, context: &Context<'_>) -> Vec<f64> {
     let one = |joint: &Joint| joint.kind.dofs() == 1;
+    // loops are closed at zero coordinates
+    let has_loops = robot.loops.iter().any(|l| !l.is_soft);
     let mut starts: Vec<f64> = robot
         .joints
         .iter()
         .map(|joint| match (&joint.initial, joint.limits) {
             (Some(given), _) if one(joint) => given.first().copied().unwrap_or(0.0),
-            (_, Some([lower, upper])) if !(lower <= 0.0 && 0.0 <= upper) => middle(lower, upper),
+            (_, Some([lower, upper])) if !has_loops && !(lower <= 0.0 && 0.0 <= upper) => middle(lower, upper),
             _ => 0.0,
         })
         .collect();

@@ -342,14 +342,14 @@ impl Writer<'_> {
 
 /// Contact groups: the bodies of one tree do not touch each other. A robot of URDF is one tree with its base.
 fn groups(robot: &Robot, fixed: &[bool]) -> Vec<usize> {
+    let carriers = robot.carriers();
     let one_robot = !robot.has_own_motors;
     let mut groups = vec![0; robot.links.len()];
     let mut next = 1;
     // parents come before children
     for link in 0..robot.links.len() {
         let mut top = link;
-        while let Some(parent) =
-            robot.joint_of(top).and_then(|j| robot.joints[j].parent).filter(|p| one_robot || !fixed[*p])
+        while let Some(parent) = carriers[top].and_then(|j| robot.joints[j].parent).filter(|p| one_robot || !fixed[*p])
         {
             top = parent;
             if top == link {

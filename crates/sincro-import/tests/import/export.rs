@@ -82,7 +82,8 @@ fn the_mass_matrix_comes_back_from_every_format() {
         assert_eq!(limits, [-1.0, 2.0], "{file}");
         assert_eq!(back.model.dofs()[0].damping, 0.3, "{file}");
         assert!((back.model.total_mass() - 2.5).abs() < 1e-15, "{file}");
-        assert!(back.objects.iter().any(|o| o.name == "tip"), "{file}");
+        // SDF has frames that poses refer to, and no objects of that kind
+        assert_eq!(back.objects.iter().any(|o| o.name == "tip"), format != Format::Sdf, "{file}");
     }
 }
 

@@ -232,10 +232,10 @@ LARGE = ["gymnasium-robotics==1.4.2", "metaworld==3.1.1", "robosuite==1.5.2", "p
 #: Name → (title, files, oracle, bound, fewest that are imported).
 COLLECTIONS = {
     "urdf": ("example-robot-data, URDF", lambda w: robot_data(w)[0], against_pinocchio, PINOCCHIO_BOUND, 62),
-    "sdf": ("example-robot-data, SDF", lambda w: robot_data(w)[1], None, 0.0, 5),
-    "mjcf-small": ("dm_control, gymnasium: MJCF", lambda w: mjcf_files(w, SMALL), against_mujoco, MUJOCO_BOUND, 30),
-    "mjcf": ("eight packages of MJCF", lambda w: mjcf_files(w, SMALL + LARGE), against_mujoco, MUJOCO_BOUND, 150),
-    "bullet": ("pybullet, URDF", lambda w: sorted(glob.glob(os.path.join(fetch(w, "pybullet==3.2.7"), "**", "*.urdf"), recursive=True)), None, 0.0, 0),
+    "sdf": ("example-robot-data, SDF", lambda w: robot_data(w)[1], None, 0.0, 4),
+    "mjcf-small": ("dm_control, gymnasium: MJCF", lambda w: mjcf_files(w, SMALL), against_mujoco, MUJOCO_BOUND, 40),
+    "mjcf": ("eight packages of MJCF", lambda w: mjcf_files(w, SMALL + LARGE), against_mujoco, MUJOCO_BOUND, 165),
+    "bullet": ("pybullet, URDF", lambda w: sorted(glob.glob(os.path.join(fetch(w, "pybullet==3.2.7"), "**", "*.urdf"), recursive=True)), None, 0.0, 1080),
 }
 
 
