@@ -28,7 +28,7 @@ const MIN_MOMENT: f64 = 1e-6;
 /// Share of the largest moment that `positive-inertia` leaves at least.
 const MIN_SHARE: f64 = 1e-6;
 /// Inertia a kilogram that no figure of a robot can mean [m²].
-const ROUNDING: f64 = 1e-20;
+const ROUNDING: f64 = 1e-16;
 /// Relative excess over the triangle inequality that is put down to rounding.
 const TRIANGLE_SLACK: f64 = 1e-9;
 
@@ -89,7 +89,7 @@ pub(crate) fn check(robot: &mut Robot, options: &Options, findings: &mut Finding
         if inertial.inertia != [0.0; 6] && inertial.inertia.iter().all(|i| i.abs() < ROUNDING * inertial.mass) {
             inertial.inertia = [0.0; 6];
             let message = format!("the inertia of link `{name}` is rounding noise: it is taken as zero");
-            findings.warn(Diagnostic::error(&link.at, message).with_help("its entries are below 1e-20 times the mass"));
+            findings.warn(Diagnostic::error(&link.at, message).with_help("its entries are below 1e-16 times the mass"));
         }
         let properties = properties(inertial);
         let moments = properties.principal_moments();

@@ -19,7 +19,7 @@ pub(super) fn starts(robot: &mut Robot, context: &Context<'_>) -> Vec<f64> {
         .iter()
         .map(|joint| match (&joint.initial, joint.limits) {
             (Some(given), _) if one(joint) => given.first().copied().unwrap_or(0.0),
-            (_, Some([lower, upper])) if !has_loops && !(lower <= 0.0 && 0.0 <= upper) => middle(lower, upper),
+            (_, Some([lower, upper])) if !has_loops && (lower > 0.0 || upper < 0.0) => middle(lower, upper),
             _ => 0.0,
         })
         .collect();
