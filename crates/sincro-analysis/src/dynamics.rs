@@ -23,7 +23,8 @@ pub struct EquationTerms {
     pub passive: Vec<f64>,
 }
 
-/// State and inputs at which the terms are evaluated; a list that is empty stands for zeros (`q`: the model's own zero).
+/// State and inputs at which the terms are evaluated; a list that is empty stands for zeros (`q`: the model's own
+/// zero).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EvaluationPoint {
     /// Coordinates, `n_q`.

@@ -1,6 +1,7 @@
 //! Robots from URDF, SDF and MJCF files as scene folders, with a report of every element.
 //!
-//! Nothing is lost in silence: an element that no reader asks for is reported as dropped, a repair is made only if it is
+//! Nothing is lost in silence: an element that no reader asks for is reported as dropped, a repair is made only if it
+//! is
 //! asked for, and the report compares mass, degrees of freedom, inertia and reach of the source with those of the scene
 //! that was written and read again.
 //!

@@ -6,7 +6,8 @@
 //! | `rest` | the folder of the file |
 //!
 //! A name cannot lead out of its package, nor a relative or absolute path out of the folders that belong to the robot:
-//! that of the package (with a `package.xml`, or the uppermost one with an `__init__.py`), or the second one above the file.
+//! that of the package (with a `package.xml`, or the uppermost one with an `__init__.py`), or the second one above the
+//! file.
 
 use std::path::{Component, Path, PathBuf};
 

@@ -350,7 +350,7 @@ pub(crate) struct Gear {
 pub(crate) struct Motor {
     /// Index of the joint.
     pub joint: usize,
-    /// What it does.
+    /// Its law.
     pub law: MotorLaw,
     /// Largest torque or force.
     pub max_torque: Option<f64>,
@@ -378,7 +378,7 @@ pub(crate) struct Sensor {
     pub link: usize,
     /// In the link's frame.
     pub pose: Placement,
-    /// What it measures.
+    /// Measured quantity.
     pub kind: SensorKind,
 }
 

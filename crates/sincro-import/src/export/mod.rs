@@ -1,7 +1,7 @@
 //! Scenes as robots of other formats, with a note of everything that the format cannot say.
 //!
-//! The tree of a scene is first brought to links: bodies, fixtures and frames, each with the joints that lead to it from
-//! the link above, at zero coordinates. A writer a format does the rest.
+//! The tree of a scene is first brought to links: bodies, fixtures and frames, each with the joints that lead to it
+//! from the link above, at zero coordinates. A writer a format does the rest.
 
 mod mjcf;
 mod sdf;
@@ -36,7 +36,7 @@ pub struct Exported {
     pub text: String,
     /// Meshes by their path beside the main file.
     pub meshes: BTreeMap<String, Vec<u8>>,
-    /// What the format cannot say: object and words.
+    /// Things that the format cannot say: object and words.
     pub notes: Vec<(String, String)>,
 }
 
@@ -81,9 +81,9 @@ struct Joint {
     kind: JointKind,
     /// Its frame in that of the link above, at zero coordinates.
     pose: Pose<f64>,
-    /// What acts in its degrees of freedom.
+    /// Passive properties of its degrees of freedom.
     dofs: Vec<sincro_dynamics::joint::Dof<f64>>,
-    /// Of a joint with one degree of freedom.
+    /// Limits of a joint with one degree of freedom.
     limits: [f64; 2],
     /// Motor of the model.
     motor: Option<sincro_dynamics::actuation::Motor<f64>>,

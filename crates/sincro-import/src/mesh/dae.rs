@@ -1,8 +1,9 @@
 //! Triangles and colours of COLLADA documents.
 //!
-//! Read are triangles, `polylist` and `polygons` (split from their first corner) of all geometries that the visual scene
-//! places, with their matrices, the unit and the up-axis of the document (the result has z up), and the diffuse colour of
-//! each material. Lines, skins, animations and textures are not.
+//! Read are triangles, `polylist` and `polygons` (split from their first corner) of all geometries that the visual
+//! scene
+//! places, with their matrices, the unit and the up-axis of the document (the result has z up), and the diffuse colour
+//! of each material. Lines, skins, animations and textures are not.
 
 use std::collections::BTreeMap;
 

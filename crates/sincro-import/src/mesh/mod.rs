@@ -323,7 +323,7 @@ fn reduced_hull(corners: &[[f64; 3]]) -> Option<(Part, usize)> {
 /// The points that are farthest in `n` directions of a spiral over the sphere, each once.
 fn support(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let farthest = |k: usize| {
+    let extreme = |k: usize| {
         let z = 1.0 - 2.0 * (k as f64 + 0.5) / n as f64;
         let (s, c) = sincro_math::elementary::sin_cos(golden * k as f64);
         let r = (1.0 - z * z).sqrt();
@@ -337,7 +337,7 @@ fn support(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
         }
         best
     };
-    let chosen: BTreeSet<usize> = (0..n).map(farthest).collect();
+    let chosen: BTreeSet<usize> = (0..n).map(extreme).collect();
     chosen.into_iter().map(|k| points[k]).collect()
 }
 

@@ -150,7 +150,8 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Adds a link with its joints as a chain, its frame in the link that carries it; several joints of a body have links without mass between them.
+    /// Adds a link with its joints as a chain, its frame in the link that carries it; several joints of a body have
+    /// links without mass between them.
     fn chain(
         &mut self,
         element: Element<'d>,

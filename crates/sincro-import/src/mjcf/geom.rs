@@ -31,13 +31,13 @@ pub(super) struct MeshAsset {
 /// Rules by which a mesh gives mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum MeshInertia {
-    /// Of the volume that it encloses.
+    /// That of the volume that it encloses.
     Exact,
-    /// Of its convex hull.
+    /// That of its convex hull.
     Convex,
-    /// Of its triangles, as thin as paper: the density is that of an area.
+    /// That of its triangles, as thin as paper: the density is that of an area.
     Shell,
-    /// Of all tetrahedra between its triangles and a centre, each counted as positive.
+    /// That of all tetrahedra between its triangles and a centre, each counted as positive.
     Legacy,
 }
 
@@ -328,8 +328,8 @@ fn shell(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> MassProperties {
     gathered(parts, com)
 }
 
-/// Mass properties of simplices about a centre: the mass of each, the factor of its second moments, and the corners that
-/// are not the centre.
+/// Mass properties of simplices about a centre: the mass of each, the factor of its second moments, and the corners
+/// that are not the centre.
 fn gathered(parts: impl Iterator<Item = (f64, f64, [Vec3<f64>; 3])>, com: Vec3<f64>) -> MassProperties {
     let (mut mass, mut p) = (0.0, [[0.0; 3]; 3]);
     for (part, factor, corners) in parts {

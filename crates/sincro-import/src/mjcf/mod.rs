@@ -22,7 +22,7 @@ use defaults::Defaults;
 pub(crate) use include::load;
 use orientation::Angles;
 
-/// Why an element or attribute that is not read is not read.
+/// Reason why an element or attribute is not read.
 pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
     let soft = "contacts, limits and friction are rigid here: no solver parameters";
     match path {

@@ -18,7 +18,7 @@ use frames::Frames;
 /// Deepest nesting of models.
 const MAX_NESTING: usize = 32;
 
-/// Why an element or attribute that is not read is not read.
+/// Reason why an element or attribute is not read.
 pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
     match path {
         [.., "plugin"] => Some("a plugin is a program of another simulator"),

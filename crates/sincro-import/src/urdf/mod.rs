@@ -15,7 +15,7 @@ use crate::findings::Findings;
 use crate::robot::{Inertial, Link, Placement, Robot, Sensor, SensorKind, turned_inertia};
 use crate::source::Element;
 
-/// Why an element or attribute that is not read is not read.
+/// Reason why an element or attribute is not read.
 pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
     let gazebo = "extension for Gazebo: plugins and materials of another simulator";
     match path {

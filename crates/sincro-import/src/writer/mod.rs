@@ -42,7 +42,7 @@ pub(crate) struct Written {
     pub warnings: Vec<(Location, String)>,
 }
 
-/// What the writer must know beside the robot.
+/// Settings and collectors of the writer beside the robot.
 pub(crate) struct Context<'a> {
     pub options: &'a Options,
     pub resolver: &'a Resolver,
