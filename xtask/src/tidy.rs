@@ -26,6 +26,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-viewer", &["sincro-access", "sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
     ("sincro-fmu", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
     ("sincro-fmi", &["sincro-sim", "sincro-fmu", "sincro-lua"]),
+    ("sincro-import", &["sincro-math", "sincro-dynamics", "sincro-scene"]),
     ("sincro-figures", &["sincro-math", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-analysis"]),
     (
         "sincro-bench",
@@ -61,6 +62,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-remote",
             "sincro-viewer",
             "sincro-figures",
+            "sincro-import",
             "sincro-bench",
         ],
     ),

@@ -31,6 +31,13 @@ enum Command {
     Linearize(commands::linearize::Arguments),
     /// Find an equilibrium of a scene
     Trim(commands::trim::Arguments),
+    /// Print mass matrix, inverse and forward dynamics of a scene at given states
+    Dynamics(commands::dynamics::Arguments),
+    /// Import a robot from URDF, SDF or MJCF as a scene folder, with a report of every element
+    Import(commands::import::Arguments),
+    /// Write a scene in another format, and say what the format cannot
+    #[command(subcommand)]
+    Export(commands::export::Format),
     /// Show a scene live, or replay a finished run, in the browser: 3-D, plots, transport controls, parameters
     View(commands::view::Arguments),
     /// Show a finished run in the browser
@@ -39,8 +46,6 @@ enum Command {
     Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
-    /// Export a scene for other programs: as an FMU
-    Export(commands::export::Arguments),
     /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
     Serve(commands::serve::Arguments),
     /// Run every experiment of the thesis and show measured and expected values on one page
@@ -90,11 +95,13 @@ fn main() -> ExitCode {
         Command::Draw(arguments) => commands::draw::run(&arguments),
         Command::Linearize(arguments) => commands::linearize::run(&arguments),
         Command::Trim(arguments) => commands::trim::run(&arguments),
+        Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
+        Command::Import(arguments) => commands::import::run(&arguments),
+        Command::Export(format) => commands::export::run(&format),
         Command::View(arguments) => commands::view::run(&arguments),
         Command::Replay(arguments) => commands::view::replay(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
-        Command::Export(arguments) => commands::export::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
         Command::Bench(options) => match sincro_bench::run(&options) {
