@@ -1,6 +1,7 @@
 //! The scene that was written, read again by the scene reader, and compared with the source.
 
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
+use sincro_scene::fmu::Loaders;
 use sincro_scene::scene::{Object, ObjectKind, Scene};
 
 use crate::report::{Comparison, LinkComparison};
@@ -20,7 +21,7 @@ pub(crate) fn compare(
 ) -> Result<(), Diagnostics> {
     let folder = Temporary::new().map_err(|e| Diagnostic::nowhere(format!("no temporary folder: {e}")))?;
     imported.write_scene(&folder.0).map_err(|e| Diagnostic::nowhere(format!("the scene cannot be written: {e}")))?;
-    let opened = sincro_scene::open::open(&folder.0, &[], None, true).map_err(refused)?;
+    let opened = sincro_scene::open::open(&folder.0, &[], Loaders::default(), true).map_err(refused)?;
     let scene = &opened.scene;
     let report = &mut imported.report;
     let dofs = source.joints.iter().map(|j| j.kind.dofs()).sum::<usize>();

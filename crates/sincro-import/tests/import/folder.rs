@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use sincro_import::{Entry, Fate, Imported, Options, import};
 use sincro_scene::diagnostic::Diagnostics;
+use sincro_scene::fmu::Loaders;
 use sincro_scene::open::{Opened, open};
 
 /// A folder that is removed at the end of a test.
@@ -44,7 +45,7 @@ impl Folder {
     pub fn open(&self, imported: &Imported) -> Opened {
         let scene = self.0.join("scene");
         imported.write(&scene).unwrap();
-        open(&scene, &[], None, true).unwrap_or_else(|found| panic!("{found}\n{}", imported.scene()))
+        open(&scene, &[], Loaders::default(), true).unwrap_or_else(|found| panic!("{found}\n{}", imported.scene()))
     }
 }
 
