@@ -3,11 +3,14 @@
 //! - `check`: formatting, lints, tidiness, tests, packages, documentation; ends with a summary.
 //! - `tidy`: the checks of `check` that need no compiler: tree, arrows, words, manifests.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
-//! - `dist`: builds the program as it is given away (profile `dist`); fails if it is too large.
+//! - `dist`: builds the program and the library of FMUs as they are given away (profile `dist`); fails if one is too
+//!   large.
+//! - `judge NAME`: compares with other programs and public files, and writes the page of it.
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
 mod dist;
 mod glossary;
+mod judge;
 mod modules;
 mod package;
 mod sample;
@@ -23,11 +26,13 @@ fn main() -> ExitCode {
         Some("bless") => bless(),
         Some("tidy") => exit(tidy::check(&root())),
         Some("dist") => {
-            exit(runs(&mut cargo(&["build", "--profile", "dist", "--package", "sincro"])) && dist::size_holds(&root()))
+            let packages = ["build", "--profile", "dist", "--package", "sincro", "--package", "sincro-fmi"];
+            exit(runs(&mut cargo(&packages)) && dist::size_holds(&root()))
         }
+        Some("judge") => exit(judge::run(&root(), std::env::args().nth(2).as_deref())),
         Some("api-sample") => exit(sample::print(&root())),
         _ => {
-            eprintln!("usage: cargo xtask check | tidy | bless | dist | api-sample");
+            eprintln!("usage: cargo xtask check | tidy | bless | dist | judge NAME | api-sample");
             ExitCode::from(2)
         }
     }

@@ -49,8 +49,10 @@
 //! | modules | hold |
 //! |---|---|
 //! | [`linearize`](mod@linearize) | linearisation and trim of a scene at an operating point, by dual numbers |
+//! | [`dynamics`] | terms of the equations of motion at given states |
 //! | [`linear`] | linear systems: poles, zeros, frequency and step response, Lyapunov equations, LQR |
 
+pub mod dynamics;
 pub mod linear;
 pub mod linearize;
 pub mod prelude;

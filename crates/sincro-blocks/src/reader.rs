@@ -87,6 +87,15 @@ pub trait Files {
     fn text(&self, file: &str) -> Result<String, String> {
         Err(format!("the file `{file}` cannot be read here"))
     }
+
+    /// All bytes.
+    ///
+    /// # Errors
+    ///
+    /// The reason, in words.
+    fn bytes(&self, file: &str) -> Result<Vec<u8>, String> {
+        Err(format!("the file `{file}` cannot be read here"))
+    }
 }
 
 /// No files at all.
@@ -386,6 +395,13 @@ impl<'a> Reader<'a> {
             self.fault(key, message, "name a file of the scene folder");
             String::new()
         })
+    }
+
+    /// Bytes of a file that is named; none, which is noted, if it cannot be read.
+    pub fn binary_file(&mut self, key: &str) -> Option<Vec<u8>> {
+        let name = self.text(key);
+        let read = self.files.bytes(&name);
+        read.map_err(|message| self.fault(key, message, "name a file of the scene folder")).ok()
     }
 
     /// A list of texts; one text is a list of one.

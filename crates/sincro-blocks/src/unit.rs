@@ -93,6 +93,12 @@ impl Unit {
         Ok(())
     }
 
+    /// Size in coherent units, and exponents of kilogram, metre, second, ampere, kelvin, radian.
+    #[must_use]
+    pub fn dimension(&self) -> (f64, [i8; 6]) {
+        (self.factor, self.exponents)
+    }
+
     /// Returns true if a number means the same in both.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {

@@ -88,6 +88,24 @@ impl Folder {
         self.named(name, |path| self.bytes.get(&self.path_of(path), read_bytes))
     }
 
+    /// Bytes of a file of the folder.
+    pub(crate) fn bytes(&self, name: &str) -> Result<Arc<Vec<u8>>, String> {
+        self.bytes.get(&self.path_of(name), read_bytes)
+    }
+
+    /// Every file read so far, texts and others: its path and its bytes.
+    pub fn files(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let texts = self.texts.all();
+        let texts = texts.iter().map(|(path, source)| (path.clone(), source.text.clone().into_bytes()));
+        let bytes = self.bytes.all();
+        texts.chain(bytes.iter().map(|(path, bytes)| (path.clone(), (**bytes).clone()))).collect()
+    }
+
+    /// The folder itself.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Every text file read so far.
     pub fn sources(&self) -> Vec<Arc<SourceText>> {
         self.texts.all().values().cloned().collect()

@@ -41,7 +41,7 @@
 //! | [`diagnostic`], [`document`], [`folder`], [`tree`], [`series`], [`suggest`] | findings with their place, parsed TOML with its spans, files of a folder, paths of objects, columns of CSV files, near names |
 //! | [`schema`] | JSON Schemas from the types, and the checker that walks a file against them |
 //! | [`overrides`], [`apply_overrides`] | settings (`--set`, variants), and where they are written |
-//! | [`script`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, sensors, visible pieces, rendered pictures |
+//! | [`script`], [`fmu`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, FMUs, sensors, visible pieces, rendered pictures |
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
 //! | [`open`] | a folder with all of them |
 
@@ -51,6 +51,7 @@ pub mod diagnostic;
 pub mod diagram;
 pub mod document;
 pub mod experiment;
+pub mod fmu;
 pub mod folder;
 pub mod open;
 pub mod overrides;

@@ -8,6 +8,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Located, SourceText};
 use crate::diagram::{self, ControlDiagram, diagram_schema};
 use crate::document::Document;
 use crate::experiment::{self, Experiment, Plot, experiment_schema};
+use crate::fmu::Loaders;
 use crate::folder::Folder;
 use crate::overrides::Override;
 use crate::record::Recorder;
@@ -39,19 +40,14 @@ pub struct Opened {
 }
 
 /// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its
-/// variants and sweep, too, so that what is wrong with their settings is known before anything runs. `parser` is that
-/// of the language of its scripts.
+/// variants and sweep, too, so that what is wrong with their settings is known before anything runs. `loaders`
+/// know the language of its scripts and FMUs.
 ///
 /// # Errors
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
-pub fn open(
-    folder: &Path,
-    overrides: &[Override],
-    parser: Option<&'static dyn ScriptParser>,
-    with_others: bool,
-) -> Result<Opened, Diagnostics> {
-    open_in(&Arc::new(Folder::new(&find_folder(folder)?)), overrides, parser, with_others)
+pub fn open(folder: &Path, overrides: &[Override], loaders: Loaders, with_others: bool) -> Result<Opened, Diagnostics> {
+    open_in(&Arc::new(Folder::new(&find_folder(folder)?)), overrides, loaders, with_others)
 }
 
 /// As [`open`], of a folder whose files are not read again if they were read before.
@@ -62,10 +58,10 @@ pub fn open(
 pub fn open_in(
     folder: &Arc<Folder>,
     overrides: &[Override],
-    parser: Option<&'static dyn ScriptParser>,
+    loaders: Loaders,
     with_others: bool,
 ) -> Result<Opened, Diagnostics> {
-    let mut loaded = open_one(folder, overrides, parser)?;
+    let mut loaded = open_one(folder, overrides, loaders)?;
     let mut diagnostics = Diagnostics(std::mem::take(&mut loaded.warnings));
     // a variant was opened with the main run: its own settings must not meet those of the others
     let file = folder.path_of(EXPERIMENT);
@@ -73,7 +69,7 @@ pub fn open_in(
     let further = if is_variant || !with_others { Vec::new() } else { further_settings(&loaded.experiment) };
     for setting in further {
         let settings = settings_with(overrides, &setting);
-        match open_one(folder, &settings, parser) {
+        match open_one(folder, &settings, loaders) {
             Ok(variant) => diagnostics.merge(Diagnostics(variant.warnings)),
             Err(found) => diagnostics.merge(found),
         }
@@ -166,11 +162,7 @@ fn too_large(experiment: &Experiment) -> Diagnostics {
 }
 
 /// One experiment without its variants.
-fn open_one(
-    folder: &Arc<Folder>,
-    overrides: &[Override],
-    parser: Option<&'static dyn ScriptParser>,
-) -> Result<Opened, Diagnostics> {
+fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> Result<Opened, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let document = Document::parse(&folder.read(EXPERIMENT)?)?;
     let document = prepared(document, Target::Experiment, overrides, &mut diagnostics);
@@ -184,9 +176,15 @@ fn open_one(
     });
     let experiment = experiment.flatten();
     let seed = experiment.as_ref().map_or(0, |e| e.seed);
-    let scene = open_scene(&document, folder, overrides, (seed, parser), &mut diagnostics);
+    let scene = open_scene(
+        &document,
+        folder,
+        overrides,
+        (seed, loaders.scripts.map(|parser| parser as &dyn ScriptParser)),
+        &mut diagnostics,
+    );
     let against = (experiment.as_ref(), scene.as_ref());
-    let controller = open_diagram(&document, folder, overrides, against, parser, &mut diagnostics);
+    let controller = open_diagram(&document, folder, overrides, against, loaders, &mut diagnostics);
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
         (experiment, ..) => experiment,
@@ -264,7 +262,7 @@ fn open_diagram(
     folder: &Folder,
     overrides: &[Override],
     (experiment, scene): (Option<&Experiment>, Option<&Scene>),
-    parser: Option<&'static dyn ScriptParser>,
+    loaders: Loaders,
     diagnostics: &mut Diagnostics,
 ) -> Option<ControlDiagram> {
     let objects = scene.map_or(&[][..], |scene| &scene.objects);
@@ -303,7 +301,7 @@ fn open_diagram(
         step: experiment.step,
         seed: experiment.seed,
         parameters: &experiment.parameters,
-        parser,
+        loaders,
     };
     diagram::open(&document, folder, setting).map_err(|found| diagnostics.merge(found)).ok()
 }

@@ -9,6 +9,7 @@ use crate::controller::Controller;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
+use sincro_scene::fmu::{FmuLoader, Loaders};
 use sincro_scene::folder::Folder;
 use sincro_scene::open::{Opened, open, open_in};
 use sincro_scene::overrides::Override;
@@ -50,14 +51,16 @@ pub trait ScriptEngine: ScriptParser {
 pub struct Extensions {
     /// Language of scripts; without one, a scene that has scripts is refused.
     pub scripts: Option<&'static dyn ScriptEngine>,
+    /// Loader of FMUs; without one, a scene that has FMUs is refused.
+    pub fmus: Option<&'static dyn FmuLoader>,
     /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed
     /// step.
     pub fastest_poles: Option<FastestPoles>,
 }
 
 impl Extensions {
-    fn parser(&self) -> Option<&'static dyn ScriptParser> {
-        self.scripts.map(|engine| engine as &dyn ScriptParser)
+    fn loaders(&self) -> Loaders {
+        Loaders { scripts: self.scripts.map(|engine| engine as &dyn ScriptParser), fmus: self.fmus }
     }
 }
 
@@ -88,13 +91,23 @@ fn with(
     extensions: Extensions,
     with_others: bool,
 ) -> Result<Loaded, Diagnostics> {
-    Ok(Loaded::new(open(folder, overrides, extensions.parser(), with_others)?, extensions))
+    Ok(Loaded::new(open(folder, overrides, extensions.loaders(), with_others)?, extensions))
 }
 
 impl Loaded {
     fn new(opened: Opened, extensions: Extensions) -> Self {
         let Opened { experiment, scene, controller, warnings, sources, folder } = opened;
         Self { experiment, scene, controller, warnings, sources, folder, extensions }
+    }
+
+    /// As [`Loaded::with_overrides`], without opening variants and sweep.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`].
+    pub fn alone_with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
+        let opened = open_in(&self.folder, overrides, self.extensions.loaders(), false)?;
+        Ok(Self::new(opened, self.extensions))
     }
 
     /// The same experiment with other settings, from the files as they were read: nothing is read twice. `overrides`
@@ -106,7 +119,7 @@ impl Loaded {
     ///
     /// As [`load`].
     pub fn with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
-        let opened = open_in(&self.folder, overrides, self.extensions.parser(), true)?;
+        let opened = open_in(&self.folder, overrides, self.extensions.loaders(), true)?;
         Ok(Self::new(opened, self.extensions))
     }
 }

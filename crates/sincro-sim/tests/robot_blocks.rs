@@ -31,7 +31,7 @@ fn with(scene: Scene, draw: impl FnOnce(&mut Diagram, &Context, usize)) -> LockS
     let folder = sincro_testing::repository_scene("two-dof-position");
     let loaded = load(&folder, &[], Extensions::default()).unwrap();
     let tool = scene.model.names().frames.iter().position(|f| f.name.ends_with("tool")).unwrap();
-    let (mut diagram, context) = (Diagram::new(), Context { parser: None, model: scene.model.clone() });
+    let (mut diagram, context) = (Diagram::new(), Context { parser: None, fmus: None, model: scene.model.clone() });
     draw(&mut diagram, &context, tool);
     let controller = ControlDiagram::new(diagram, &scene.model, 0.005, 0).unwrap_or_else(|p| panic!("{p:?}"));
     let loaded = Loaded { scene, controller: Some(controller), ..loaded };

@@ -40,6 +40,14 @@ pub(crate) fn refuse_diagnostics(diagnostics: &Diagnostics) -> Exit {
     Exit::Refused
 }
 
+/// Prints why a robot is not imported.
+pub(crate) fn refuse_import(diagnostics: &Diagnostics) -> Exit {
+    print_diagnostics(&diagnostics.0);
+    let errors = diagnostics.0.iter().filter(|p| p.is_error()).count();
+    eprintln!("{}; the robot is not imported", count(errors, "error"));
+    Exit::Refused
+}
+
 /// Prints one message without a place in a file.
 pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
     let diagnostic = Diagnostic::nowhere(message);

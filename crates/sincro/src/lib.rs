@@ -12,6 +12,7 @@
 //! | judge a finished run | [`Verdict`] |
 //! | serve a scene to clients of V-REP and CoppeliaSim | [`serve`] |
 //! | show a scene live, or a finished run, in the browser | [`view`] |
+//! | export a scene as an FMU | [`export`] |
 //! | compare two finished runs | [`compare`] |
 //! | write the linearisation of a scene | [`linearization`] |
 //! | write pictures, frames, cards of a run | [`results`] |
@@ -33,6 +34,7 @@
 //! ```
 
 pub mod compare;
+pub mod export;
 pub mod linearization;
 mod load;
 pub mod results;

@@ -30,7 +30,11 @@ pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics>
 /// are too fast for their step.
 #[must_use]
 pub fn extensions() -> Extensions {
-    Extensions { scripts: Some(sincro_lua::engine()), fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
+    Extensions {
+        scripts: Some(sincro_lua::engine()),
+        fmus: Some(sincro_fmu::import::loader()),
+        fastest_poles: Some(sincro_analysis::linearize::fastest_poles),
+    }
 }
 
 /// Name of a scene: that of its folder. `path` is the folder or a file in it.

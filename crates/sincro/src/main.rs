@@ -31,6 +31,13 @@ enum Command {
     Linearize(commands::linearize::Arguments),
     /// Find an equilibrium of a scene
     Trim(commands::trim::Arguments),
+    /// Print mass matrix, inverse and forward dynamics of a scene at given states
+    Dynamics(commands::dynamics::Arguments),
+    /// Import a robot from URDF, SDF or MJCF as a scene folder, with a report of every element
+    Import(commands::import::Arguments),
+    /// Write a scene in another format, and say what the format cannot
+    #[command(subcommand)]
+    Export(commands::export::Format),
     /// Show a scene live, or replay a finished run, in the browser: 3-D, plots, transport controls, parameters
     View(commands::view::Arguments),
     /// Show a finished run in the browser
@@ -88,6 +95,9 @@ fn main() -> ExitCode {
         Command::Draw(arguments) => commands::draw::run(&arguments),
         Command::Linearize(arguments) => commands::linearize::run(&arguments),
         Command::Trim(arguments) => commands::trim::run(&arguments),
+        Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
+        Command::Import(arguments) => commands::import::run(&arguments),
+        Command::Export(format) => commands::export::run(&format),
         Command::View(arguments) => commands::view::run(&arguments),
         Command::Replay(arguments) => commands::view::replay(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),

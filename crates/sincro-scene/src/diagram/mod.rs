@@ -4,6 +4,7 @@
 //! `wiring.rs` connects both; `reference.rs` describes all blocks; `robot/` has the blocks that use the model.
 
 mod file;
+mod fmu;
 mod lua;
 mod ports;
 mod read;
@@ -22,6 +23,7 @@ use sincro_blocks::runner::Runner;
 use sincro_dynamics::model::Model;
 
 pub(crate) use file::DiagramFile;
+pub use fmu::FmuBlock;
 pub use lua::LuaBlock;
 pub use ports::is_known_at_ticks_only;
 use read::{DiagramReader, Origin};
@@ -31,9 +33,9 @@ pub use wiring::{Reading, Wiring};
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::Document;
+use crate::fmu::Loaders;
 use crate::folder::Folder;
 use crate::record::{Entry, Probe, catalogue};
-use crate::script::ScriptParser;
 
 /// A diagram of a scene, ready to run.
 #[derive(Clone, Debug)]
@@ -53,15 +55,16 @@ pub(crate) struct Setting<'a> {
     pub seed: u64,
     /// The experiment's parameters: formulas know them.
     pub parameters: &'a BTreeMap<String, f64>,
-    /// Parser of laws that are written in a script's language.
-    pub parser: Option<&'static dyn ScriptParser>,
+    /// Language of laws that are written in a script's language, and FMUs.
+    pub loaders: Loaders,
 }
 
 /// Reads and compiles a document that fits the schema.
 pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -> Result<ControlDiagram, Diagnostics> {
     let file: DiagramFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Diagnostic::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
-    let robot = robot::Context { parser: setting.parser, model: setting.model.clone() };
+    let robot =
+        robot::Context { parser: setting.loaders.scripts, fmus: setting.loaders.fmus, model: setting.model.clone() };
     let mut reader = DiagramReader::new(document, folder, &file, &robot);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
     if reader.diagnostics.any_error() {

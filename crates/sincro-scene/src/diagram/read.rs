@@ -438,10 +438,19 @@ impl Files for FolderFiles<'_> {
     }
 
     fn text(&self, file: &str) -> Result<String, String> {
-        let absolute = || format!("the path `{file}` is absolute: give it relative to the scene folder");
-        if std::path::Path::new(file).is_absolute() {
-            return Err(absolute());
-        }
+        check_relative(file)?;
         self.0.read(file).map(|source| source.text.clone()).map_err(|diagnostic| diagnostic.message)
     }
+
+    fn bytes(&self, file: &str) -> Result<Vec<u8>, String> {
+        check_relative(file)?;
+        self.0.bytes(file).map(|bytes| (*bytes).clone())
+    }
+}
+
+fn check_relative(file: &str) -> Result<(), String> {
+    if std::path::Path::new(file).is_absolute() {
+        return Err(format!("the path `{file}` is absolute: give it relative to the scene folder"));
+    }
+    Ok(())
 }

@@ -148,7 +148,7 @@ fn least(kind: &'static Kind) -> Option<Box<dyn DynBlock>> {
     let template = match library::find(kind.name) {
         Some(item) => (item.read)(&mut reader),
         None => {
-            let context = robot::Context { parser: None, model: Arc::new(one_joint()?) };
+            let context = robot::Context { parser: None, fmus: None, model: Arc::new(one_joint()?) };
             (robot::find(kind.name)?.read)(&mut reader, &context)
         }
     };

@@ -208,6 +208,29 @@ impl Recorder {
         &self.row
     }
 
+    /// Notes an instant that no row is made of: the mean torques of the next row begin here. `totals` are those of the
+    /// state.
+    pub fn skip_row(&mut self, totals: &[f64], t: f64) {
+        self.motor_impulse.copy_from_slice(&totals[2..]);
+        self.last_t = t;
+    }
+
+    /// Memory from row to row: energy at the start `[J]`, time of the last row `[s]`, impulses of the motors [N·m·s].
+    pub fn memory(&self) -> impl Iterator<Item = f64> {
+        [self.energy_at_start, self.last_t].into_iter().chain(self.motor_impulse.iter().copied())
+    }
+
+    /// Goes back to what [`Recorder::memory`] gave. Returns false, and changes nothing, if it has another length.
+    pub fn set_memory(&mut self, memory: &[f64]) -> bool {
+        let [energy, last_t, impulse @ ..] = memory else { return false };
+        if impulse.len() != self.motor_impulse.len() {
+            return false;
+        }
+        (self.energy_at_start, self.last_t) = (*energy, *last_t);
+        self.motor_impulse.copy_from_slice(impulse);
+        true
+    }
+
     fn read(&self, seen: &Observation<'_>, probe: Probe, t: f64) -> f64 {
         let state = seen.state;
         match probe {

@@ -341,6 +341,9 @@ pub(crate) struct BodyFile {
     pub shape: Vec<ShapeFile>,
     /// Makes its shapes touch others that have a contact, too; without it they only show.
     pub contact: Option<ContactFile>,
+    /// What shows in the place of its shapes; it has no mass and touches nothing.
+    #[serde(default)]
+    pub visual: Vec<VisualFile>,
 }
 
 /// Inertia about the centre of mass, body axes.
@@ -503,6 +506,54 @@ pub(crate) struct FrameFile {
     pub rotation_deg: Option<[f64; 3]>,
     /// Rotation in the parent as a quaternion (w, x, y, z), of any length but zero.
     pub quaternion_wxyz: Option<[f64; 4]>,
+    /// What shows there; it has no mass and touches nothing.
+    #[serde(default)]
+    pub visual: Vec<VisualFile>,
+}
+
+/// Something that only shows.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "oneOf" = [
+        {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
+        {"required": ["sphere"]}, {"required": ["mesh"]}
+    ],
+    "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
+))]
+pub(crate) struct VisualFile {
+    /// A box.
+    pub cuboid: Option<CuboidFile>,
+    /// A cylinder along z, centred.
+    pub cylinder: Option<RoundFile>,
+    /// A cylinder along z with half spheres on its ends; `length` is that of the cylinder alone.
+    pub capsule: Option<RoundFile>,
+    /// A cone along z: base at −length/4, apex at 3·length/4.
+    pub cone: Option<RoundFile>,
+    /// A ball.
+    pub sphere: Option<SphereFile>,
+    /// Triangles from a file, which need not enclose a volume.
+    pub mesh: Option<VisualMeshFile>,
+    /// Origin in the frame of the body [m].
+    #[serde(default)]
+    pub position: [f64; 3],
+    /// Roll, pitch and yaw in the body: R = Rz(yaw)·Ry(pitch)·Rx(roll) [deg].
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Rotation in the body as a quaternion (w, x, y, z), of any length but zero.
+    pub quaternion_wxyz: Option<[f64; 4]>,
+    /// Colour, `#rrggbb`.
+    #[schemars(extend("pattern" = "^#[0-9a-fA-F]{6}$"))]
+    pub color: Option<String>,
+}
+
+/// Triangles that only show.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VisualMeshFile {
+    /// STL (binary or text) or OBJ file, its path relative to the folder.
+    pub file: String,
+    /// What its lengths are multiplied by, one number or one for each axis; 0.001 if it is in millimetres.
+    pub scale: Option<OneOrList<f64>>,
 }
 
 /// An external force and torque at the origin of a body or frame.

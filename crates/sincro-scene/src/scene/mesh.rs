@@ -10,7 +10,7 @@ use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Pose;
 
 use super::body;
-use super::file::{BodyFile, MeshFile, OneOrList};
+use super::file::{BodyFile, MeshFile, OneOrList, VisualMeshFile};
 use super::placement::{self, Placement};
 use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 use crate::document::Document;
@@ -82,9 +82,7 @@ pub(super) fn meshes(
         let scale = mesh.scale.as_ref().map_or(&[1.0][..], OneOrList::as_slice);
         if !matches!(scale.len(), 1 | 3) || !scale.iter().all(|x| *x > 0.0) {
             let at = document.at(&format!("{pointer}/mesh/scale"));
-            let diagnostic = Diagnostic::error(&at, format!("`scale` of the mesh `{}` is {scale:?}", mesh.file));
-            diagnostics
-                .push(diagnostic.with_help("give a positive number, or one for x, y and z; 0.001 for millimetres"));
+            diagnostics.push(scale_refused(&at, &mesh.file, scale));
             continue;
         }
         match read(&named, mesh, scale, folder) {
@@ -99,6 +97,30 @@ pub(super) fn meshes(
     list
 }
 
+/// Triangles that only show, scaled; they need not enclose a volume.
+pub(super) fn shown(
+    file: &VisualMeshFile,
+    pointer: &str,
+    document: &Document,
+    folder: &Folder,
+    diagnostics: &mut Diagnostics,
+) -> Option<Triangles> {
+    let named = Located { value: file.file.clone(), at: document.at(&format!("{pointer}/mesh/file")) };
+    let scale = file.scale.as_ref().map_or(&[1.0][..], OneOrList::as_slice);
+    if !matches!(scale.len(), 1 | 3) || !scale.iter().all(|x| *x > 0.0) {
+        let at = document.at(&format!("{pointer}/mesh/scale"));
+        diagnostics.push(scale_refused(&at, &file.file, scale));
+        return None;
+    }
+    let found = triangles_named(&named, scale, folder);
+    found.map_err(|diagnostic| diagnostics.push(diagnostic)).ok()
+}
+
+fn scale_refused(at: &Location, file: &str, scale: &[f64]) -> Diagnostic {
+    let diagnostic = Diagnostic::error(at, format!("`scale` of the mesh `{file}` is {scale:?}"));
+    diagnostic.with_help("give a positive number, or one for x, y and z; 0.001 for millimetres")
+}
+
 /// The mesh of a file, scaled; its hull if that is asked for.
 fn read(
     named: &Located<String>,
@@ -106,21 +128,23 @@ fn read(
     scale: &[f64],
     folder: &Folder,
 ) -> Result<Triangles, Vec<Diagnostic>> {
-    let bytes = folder.bytes_named(named).map_err(|p| vec![p])?;
+    let found = triangles_named(named, scale, folder).map_err(|p| vec![p])?;
+    if file.convex { convex(&found, named) } else { closed(found, named) }
+}
+
+/// The triangles of a file, scaled.
+fn triangles_named(named: &Located<String>, scale: &[f64], folder: &Folder) -> Result<Triangles, Diagnostic> {
+    let bytes = folder.bytes_named(named)?;
     let found = triangles_of(&bytes, &folder.path_of(&named.value));
     // what has no place of its own in the file stands where the file is named
     let found = found.map_err(|p| match p.source {
-        Some(_) => vec![p],
+        Some(_) => p,
         None => {
-            vec![Diagnostic {
-                help: p.help,
-                ..Diagnostic::error(&named.at, format!("`{}`: {}", named.value, p.message))
-            }]
+            Diagnostic { help: p.help, ..Diagnostic::error(&named.at, format!("`{}`: {}", named.value, p.message)) }
         }
     })?;
     let corners = found.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c.min(scale.len() - 1)]));
-    let found = Triangles { corners: corners.collect(), triangles: found.triangles };
-    if file.convex { convex(&found, named) } else { closed(found, named) }
+    Ok(Triangles { corners: corners.collect(), triangles: found.triangles })
 }
 
 /// The triangles of a file's bytes; its name tells what it is.

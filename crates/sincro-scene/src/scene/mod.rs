@@ -24,6 +24,7 @@ mod signal_file;
 mod stills;
 mod text;
 mod tree;
+mod visual;
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -41,7 +42,7 @@ pub use sincro_dynamics::model::Model;
 pub use camera::VisionSensor;
 pub(crate) use camera::looking;
 pub use mesh::{Triangles, mesh_of_file};
-pub use object::{Object, ObjectKind, ShapeInstance};
+pub use object::{Object, ObjectKind, ShapeInstance, ShownSurface};
 pub use pieces::frame_of;
 pub use schema::scene_schema;
 pub use stills::Camera;
@@ -125,7 +126,8 @@ pub(crate) fn compile(
     let mut diagnostics = Diagnostics::new();
     let order = tree::order(&entries, document, &mut diagnostics);
     let mut maker = Maker { document, folder, air_density: file.air_density, diagnostics: &mut diagnostics };
-    let mut made: Vec<(Spec, Pose<f64>)> = entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry))).collect();
+    let mut made: Vec<(Spec, Pose<f64>, Vec<ShownSurface>)> =
+        entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry), maker.visuals(entry))).collect();
     let joints: Vec<&str> =
         entries.iter().filter(|e| matches!(e.file, tree::AnyFile::Joint(_))).map(|e| e.path.as_str()).collect();
     for entry in &entries {
@@ -142,8 +144,10 @@ pub(crate) fn compile(
         assembly.builder.wind(wind);
     }
     for place in &order {
-        let (spec, pose) = std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity()));
+        let (spec, pose, visuals) =
+            std::mem::replace(&mut made[place.entry], (Spec::Frame, Pose::identity(), Vec::new()));
         assembly.add(&entries[place.entry], place, spec, pose, document);
+        assembly.objects.last_mut().expect("the object was added").visuals = visuals;
     }
     assembly.join(&file, document, &mut diagnostics);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut diagnostics);
@@ -192,6 +196,15 @@ impl Maker<'_> {
             }
             tree::AnyFile::Force(file) => Spec::Force(force(file, &entry.pointer, &mut self.signals())),
         }
+    }
+
+    fn visuals(&mut self, entry: &Entry<'_>) -> Vec<ShownSurface> {
+        let files = match entry.file {
+            tree::AnyFile::Body(file) => &file.visual,
+            tree::AnyFile::Frame(file) => &file.visual,
+            _ => return Vec::new(),
+        };
+        visual::visuals(files, &entry.pointer, self.document, self.folder, self.diagnostics)
     }
 
     fn signals(&mut self) -> SignalReader<'_> {
@@ -309,6 +322,7 @@ impl Assembly {
             surfaces,
             surface_colors,
             shapes,
+            visuals: Vec::new(),
             location,
         });
         self.nodes.push(node);

@@ -29,8 +29,36 @@ pub struct Object {
     pub surface_colors: Vec<Option<[u8; 3]>>,
     /// Shapes of a body.
     pub shapes: Vec<ShapeInstance>,
+    /// Geometry that shows in the place of shapes and surfaces, if there is any.
+    pub visuals: Vec<ShownSurface>,
     /// Its name in the file.
     pub location: Location,
+}
+
+impl Object {
+    /// Visible geometry: the visuals, or shapes and surfaces where there are none.
+    pub fn shown(&self) -> impl Iterator<Item = ShownSurface> {
+        let own = self.visuals.is_empty();
+        let solids =
+            self.shapes.iter().map(|s| ShownSurface { surface: Surface::Solid(s.shape), pose: s.pose, color: s.color });
+        let surfaces = self.surfaces.iter().enumerate().map(|(k, (surface, pose))| ShownSurface {
+            surface: surface.clone(),
+            pose: *pose,
+            color: self.surface_colors.get(k).copied().flatten(),
+        });
+        self.visuals.iter().cloned().chain(solids.chain(surfaces).filter(move |_| own))
+    }
+}
+
+/// Geometry as it shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownSurface {
+    /// Geometry in its own frame.
+    pub surface: Surface,
+    /// Pose in the object's frame.
+    pub pose: Pose<f64>,
+    /// Red, green, blue.
+    pub color: Option<[u8; 3]>,
 }
 
 /// Kind of an object.

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use sincro_dynamics::contact::Surface;
 use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::Names;
 use sincro_dynamics::spatial::Pose;
 
-use super::{Object, ObjectKind, Scene};
+use super::{Object, ObjectKind, Scene, ShownSurface};
 use crate::scenery::{Piece, Scenery};
 
 /// Red, green and blue of bodies that have no colour of their own, by turns, as the page has them.
@@ -36,24 +37,14 @@ pub(super) fn scenery_of(scene: &Scene) -> Scenery {
 
 /// The pieces of object `k`; `plain` is the colour of what has none.
 fn pieces_of(objects: &[Object], names: &Names, k: usize, plain: [u8; 3]) -> Vec<Piece> {
-    let object = &objects[k];
-    if object.shapes.is_empty() && object.surfaces.is_empty() {
-        return Vec::new();
-    }
     let frame = attached(objects, names, k);
-    let solids = object.shapes.iter().map(|s| (sincro_dynamics::contact::Surface::Solid(s.shape), s.pose, s.color));
-    let surfaces = object
-        .surfaces
-        .iter()
-        .enumerate()
-        .map(|(i, (surface, pose))| (surface.clone(), *pose, object.surface_colors.get(i).copied().flatten()));
-    let piece = |(surface, pose, color): (_, Pose<f64>, Option<[u8; 3]>)| {
-        let plain = if surface == sincro_dynamics::contact::Surface::HalfSpace { FLOOR } else { plain };
+    let piece = |ShownSurface { surface, pose, color }| {
+        let plain = if surface == Surface::HalfSpace { FLOOR } else { plain };
         let geometry = Arc::new(Geometry::new(surface)?);
         let at = Attached { pose: frame.pose.compose(&pose), ..frame };
         Some(Piece { object: k, at, geometry, color: color.unwrap_or(plain) })
     };
-    solids.chain(surfaces).filter_map(piece).collect()
+    objects[k].shown().filter_map(piece).collect()
 }
 
 /// Frame of object `k` of a scene, attached to its link or to the world.

@@ -125,7 +125,7 @@ pub(super) fn kind(
 
 /// Returns true if anything of an object can be seen.
 fn is_visible(object: &Object) -> bool {
-    !(object.shapes.is_empty() && object.surfaces.is_empty())
+    object.shown().next().is_some()
 }
 
 /// Finds the bodies that proximity sensors are fixed to and see.

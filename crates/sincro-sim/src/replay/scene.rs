@@ -17,7 +17,7 @@ use sincro_dynamics::state::State;
 
 use super::surface::{self, Triangles};
 use super::trajectory::Layout;
-use sincro_scene::scene::{Object, ObjectKind, Scene, ShapeInstance};
+use sincro_scene::scene::{Object, ObjectKind, Scene, ShownSurface};
 
 /// Everything of a scene that a picture needs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -148,8 +148,14 @@ impl SceneView {
         let model = &*scene.model;
         let mut scratch = Scratch::new(model);
         kinematics::poses(model, &State::new(model).q, &mut scratch);
-        let mut maker =
-            Maker { model, links: Layout::new(model).links().to_vec(), scratch, placed: Vec::new(), n_forces: 0 };
+        let mut maker = Maker {
+            model,
+            links: Layout::new(model).links().to_vec(),
+            scratch,
+            placed: Vec::new(),
+            n_forces: 0,
+            has_visuals: scene.objects.iter().any(|o| !o.visuals.is_empty()),
+        };
         let mut objects: Vec<ObjectView> = scene.objects.iter().map(|object| maker.object(object)).collect();
         let place = |path: &str| scene.objects.iter().position(|o| o.path == path);
         maker.closures(&mut objects);
@@ -203,6 +209,8 @@ struct Maker<'a> {
     placed: Vec<(Option<usize>, Pose<f64>)>,
     /// External forces so far; those on what is fixed in the world are not in the model.
     n_forces: usize,
+    /// True if the scene says what shows: bodies without geometry then show nothing, not the box of their inertia.
+    has_visuals: bool,
 }
 
 impl Maker<'_> {
@@ -214,6 +222,8 @@ impl Maker<'_> {
         self.placed.push((mover, x_wo));
         let force = (matches!(object.kind, ObjectKind::Force) && mover.is_some()).then_some(self.n_forces);
         self.n_forces += usize::from(force.is_some());
+        let shapes: Vec<ShapeView> = object.shown().map(|shown| shown_view(&shown)).collect();
+        let hidden = self.has_visuals && shapes.is_empty();
         ObjectView {
             path: object.path.clone(),
             name: object.name.clone(),
@@ -221,9 +231,9 @@ impl Maker<'_> {
             parent: object.parent,
             mover,
             pose: self.on(mover, &x_wo),
-            shapes: object.shapes.iter().map(shape_view).chain(surfaces(object)).collect(),
+            shapes,
             mass: match &object.kind {
-                ObjectKind::Body { mass } => Some((mass.mass, mass.center_of_mass, mass.inertia)),
+                ObjectKind::Body { mass } if !hidden => Some((mass.mass, mass.center_of_mass, mass.inertia)),
                 _ => None,
             },
             joint: joint.map(|k| self.joint(k, base_mover, &x_wo)),
@@ -322,36 +332,28 @@ fn axes(kind: &JointKind) -> Vec<[f64; 3]> {
     }
 }
 
-fn shape_view(instance: &ShapeInstance) -> ShapeView {
-    let (kind, size) = match instance.shape {
+fn shown_view(shown: &ShownSurface) -> ShapeView {
+    let view = match &shown.surface {
+        Surface::Solid(shape) => solid_view(*shape),
+        Surface::HalfSpace => made_of("plane", Triangles::default()),
+        Surface::Hull(points) => made_of("mesh", surface::of_hull(points)),
+        Surface::Mesh(points, triangles) => made_of("mesh", surface::of_mesh(points, triangles)),
+        Surface::HeightField { columns, heights, size } => {
+            made_of("mesh", surface::of_heights(*columns, heights, *size))
+        }
+    };
+    ShapeView { pose: seven(&shown.pose), color: shown.color.map(hex), ..view }
+}
+
+fn solid_view(shape: Shape) -> ShapeView {
+    let (kind, size) = match shape {
         Shape::Cuboid { size } => ("cuboid", size.to_vec()),
         Shape::Sphere { radius } => ("sphere", vec![radius, 0.0]),
         Shape::Cylinder { radius, length } => ("cylinder", vec![radius, length]),
         Shape::Capsule { radius, length } => ("capsule", vec![radius, length]),
         Shape::Cone { radius, length } => ("cone", vec![radius, length]),
     };
-    let (vertices, triangles) = Triangles::default();
-    ShapeView { kind, size, vertices, triangles, pose: seven(&instance.pose), color: instance.color.map(hex) }
-}
-
-/// Surfaces of an object beside its solids: planes and triangle meshes.
-fn surfaces(object: &Object) -> impl Iterator<Item = ShapeView> {
-    object.surfaces.iter().enumerate().map(|(k, (surface, pose))| {
-        let mut view = match surface {
-            Surface::Solid(shape) => {
-                shape_view(&ShapeInstance { shape: *shape, pose: *pose, density: None, color: None })
-            }
-            Surface::HalfSpace => made_of("plane", Triangles::default()),
-            Surface::Hull(points) => made_of("mesh", surface::of_hull(points)),
-            Surface::Mesh(points, triangles) => made_of("mesh", surface::of_mesh(points, triangles)),
-            Surface::HeightField { columns, heights, size } => {
-                made_of("mesh", surface::of_heights(*columns, heights, *size))
-            }
-        };
-        view.pose = seven(pose);
-        view.color = object.surface_colors.get(k).copied().flatten().map(hex);
-        view
-    })
+    ShapeView { size, ..made_of(kind, Triangles::default()) }
 }
 
 fn made_of(kind: &'static str, (vertices, triangles): Triangles) -> ShapeView {

@@ -371,6 +371,22 @@ impl LockStep {
         }
     }
 
+    /// Signals of the scene that give the commands, the weakest source of each.
+    #[must_use]
+    pub fn signals_of_scene(&self) -> &[Signal] {
+        &self.commands
+    }
+
+    /// Puts a number in place of the scene's signal of a command: it is latched from the next base step on, unless the
+    /// diagram or a controller sets that command.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such command.
+    pub fn hold_command(&mut self, command: usize, value: f64) {
+        self.commands[command] = Signal::Constant(value);
+    }
+
     /// Source of each command, as it was last latched.
     #[must_use]
     pub fn sources(&self) -> &[Source] {

@@ -14,13 +14,14 @@ use sincro_sim::run::{method_for, method_word};
 use sincro_sim::trace::model_hash;
 
 use super::console::{degrees, print_findings, short};
+use super::robot_file::SceneSource;
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of the scene, or its experiment.toml
+    /// Folder of the scene, its experiment.toml, or a robot file (URDF, SDF, MJCF)
     scene: PathBuf,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -32,7 +33,11 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
+    let source = match SceneSource::open(&arguments.scene) {
+        Ok(source) => source,
+        Err(exit) => return exit,
+    };
+    let loaded = match parse_settings(&arguments.set).and_then(|set| load(source.folder(), &set)) {
         Ok(loaded) => loaded,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };

@@ -9,12 +9,13 @@ use sincro::results::{write_camera_frames, write_frames, write_mcap};
 use sincro::{Campaign, Diagnostics, Loaded, Override, RunRequest, Verdict, load, scene_name};
 
 use super::console::{self, Bar};
+use super::robot_file::SceneSource;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of the scene, or its experiment.toml
+    /// Folder of the scene, its experiment.toml, or a robot file (URDF, SDF, MJCF)
     scene: PathBuf,
     /// Set a number of the scene (/link.mass=2) or of the experiment (parameters.m=3); may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -57,7 +58,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(overrides) => overrides,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
-    let loaded = match load(&arguments.scene, &overrides) {
+    let source = match SceneSource::open(&arguments.scene) {
+        Ok(source) => source,
+        Err(exit) => return exit,
+    };
+    let loaded = match load(source.folder(), &overrides) {
         Ok(loaded) => loaded,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
@@ -65,10 +70,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(camera) => camera,
         Err(exit) => return exit,
     };
-    let name = scene_name(&arguments.scene);
+    let name = scene_name(source.folder());
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
-    let request =
-        RunRequest { scene: &arguments.scene, overrides: &overrides, loaded: &loaded, out: &out, index: None };
+    let request = RunRequest { scene: source.folder(), overrides: &overrides, loaded: &loaded, out: &out, index: None };
     let campaign = match run_with_progress(&request) {
         Ok(campaign) => campaign,
         Err(exit) => return exit,

@@ -16,6 +16,7 @@ use sincro_coppelia::session::{Files, Finished, Grants, Session};
 use sincro_sim::results::Status;
 
 use super::console;
+use super::robot_file::SceneSource;
 use super::run::{interrupt, parse_settings};
 use crate::{Exit, diagnostics};
 
@@ -29,7 +30,7 @@ const TELL: Duration = Duration::from_secs(5);
 /// Arguments of `serve`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of the scene, or its experiment.toml
+    /// Folder of the scene, its experiment.toml, or a robot file (URDF, SDF, MJCF)
     scene: PathBuf,
     /// Set a number of the scene (/link.mass=2) or of the experiment (parameters.m=3); may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -119,11 +120,15 @@ enum Grant {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let (mut session, options) = match prepare(arguments) {
+    let source = match SceneSource::open(&arguments.scene) {
+        Ok(source) => source,
+        Err(exit) => return exit,
+    };
+    let (mut session, options) = match prepare(arguments, source.folder()) {
         Ok(prepared) => prepared,
         Err(exit) => return exit,
     };
-    let name = scene_name(&arguments.scene);
+    let name = scene_name(source.folder());
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(format!("{name}-served")));
     session.grant(Grants {
         files: arguments.grant.contains(&Grant::Files).then(|| Files::new(received_folder(&out))),
@@ -161,9 +166,9 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     Exit::Holds
 }
 
-fn prepare(arguments: &Arguments) -> Result<(Session, Options), Exit> {
+fn prepare(arguments: &Arguments, scene: &Path) -> Result<(Session, Options), Exit> {
     let overrides = parse_settings(&arguments.set).map_err(|p| diagnostics::refuse_diagnostics(&p))?;
-    let session = open(&arguments.scene, &overrides, arguments.simulation_step);
+    let session = open(scene, &overrides, arguments.simulation_step);
     let session = session.map_err(|found| diagnostics::refuse_diagnostics(&found))?;
     let client_timeout = seconds("--client-timeout", arguments.client_timeout)?;
     let idle = seconds("--idle-timeout", arguments.idle_timeout)?;

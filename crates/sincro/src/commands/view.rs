@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use sincro::view::{self, Server, Show};
 
+use super::robot_file::SceneSource;
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `view`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of a scene, to run it live, or of a finished run, to replay it
+    /// Folder of a scene or a robot file (URDF, SDF, MJCF), to run it live, or of a finished run, to replay it
     what: PathBuf,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -50,7 +51,12 @@ pub(crate) struct ReplayArguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let show = if view::is_finished_run(&arguments.what) { replay_of(&arguments.what) } else { live(arguments) };
+    let source = match SceneSource::open(&arguments.what) {
+        Ok(source) => source,
+        Err(exit) => return exit,
+    };
+    let is_run = view::is_finished_run(&arguments.what);
+    let show = if is_run { replay_of(&arguments.what) } else { live(arguments, source.folder()) };
     let address = SocketAddr::new(arguments.bind, arguments.port);
     show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
@@ -66,10 +72,10 @@ fn replay_of(run: &Path) -> Result<Show, Exit> {
     view::replay(run).map_err(|error| diagnostics::refuse(&error.message, Some(error.help)))
 }
 
-fn live(arguments: &Arguments) -> Result<Show, Exit> {
+fn live(arguments: &Arguments, scene: &Path) -> Result<Show, Exit> {
     let overrides =
         parse_settings(&arguments.set).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))?;
-    view::live(&arguments.what, overrides).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))
+    view::live(scene, overrides).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))
 }
 
 fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {

@@ -19,6 +19,7 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
 use sincro_math::Real;
 
+use crate::fmu::FmuLoader;
 use crate::script::ScriptParser;
 
 pub use forward_kinematics::ForwardKinematics;
@@ -32,6 +33,8 @@ pub use mass_matrix::MassMatrix;
 pub struct Context {
     /// Parser of laws that are written in a script's language, if this program has one.
     pub parser: Option<&'static dyn ScriptParser>,
+    /// Loader of FMUs, if this program has one.
+    pub fmus: Option<&'static dyn FmuLoader>,
     /// The scene's model.
     pub model: Arc<Model<f64>>,
 }
@@ -54,6 +57,7 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
         gravity_torque::ITEM,
         mass_matrix::ITEM,
         super::lua::ITEM,
+        super::fmu::ITEM,
     ];
     ROBOT_BLOCKS.iter()
 }

@@ -1,0 +1,80 @@
+//! Terms of the equations of motion of a model at given states: `M(q)·v̇ + h(q, v) = τ + τ_passive(q, v)`.
+//!
+//! For users who need the numbers themselves, and for comparison with other programs. The mass matrix is that of the
+//! tree with the armature on its diagonal: loop joints, gears, limits and contacts act as constraints beside it.
+
+use sincro_dynamics::aba::{Input, forward_dynamics};
+use sincro_dynamics::actuation::{damper, spring};
+use sincro_dynamics::crba::mass_matrix;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::rnea::inverse_dynamics;
+use sincro_dynamics::scratch::Scratch;
+
+/// Terms of the equations of motion at one state; sizes are those of the model's velocities, `n_v`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquationTerms {
+    /// M with armature, row by row, `n_v × n_v` [kg·m²], [kg·m] or `[kg]`.
+    pub mass_matrix: Vec<f64>,
+    /// τ = M·v̇ + h that the accelerations `v_dot` take, springs and dampers left out [N·m] or `[N]`.
+    pub inverse_dynamics: Vec<f64>,
+    /// v̇ under the torques `torque`, springs and dampers left out [rad/s²] or [m/s²].
+    pub forward_dynamics: Vec<f64>,
+    /// Torque of springs and dampers [N·m] or `[N]`.
+    pub passive: Vec<f64>,
+}
+
+/// State and inputs at which the terms are evaluated; a list that is empty stands for zeros (`q`: the model's own
+/// zero).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EvaluationPoint {
+    /// Coordinates, `n_q`.
+    pub q: Vec<f64>,
+    /// Velocities, `n_v`.
+    pub v: Vec<f64>,
+    /// Accelerations for the inverse dynamics, `n_v`.
+    pub v_dot: Vec<f64>,
+    /// Torques for the forward dynamics, `n_v`.
+    pub torque: Vec<f64>,
+}
+
+/// Evaluates the terms at a point.
+///
+/// # Errors
+///
+/// The name of the list that has a wrong number of entries, with both numbers.
+pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<EquationTerms, String> {
+    let (n_q, n_v) = (model.n_q(), model.n_v());
+    let filled = |name: &str, list: &[f64], zero: Vec<f64>| match list.len() {
+        0 => Ok(zero),
+        n if n == zero.len() => Ok(list.to_vec()),
+        n => Err(format!("`{name}` has {n} numbers, the model has {}", zero.len())),
+    };
+    let zeros = || vec![0.0; n_v];
+    let q = filled("q", &at.q, sincro_dynamics::state::State::new(model).q)?;
+    debug_assert_eq!(q.len(), n_q);
+    let (v, v_dot) = (filled("v", &at.v, zeros())?, filled("a", &at.v_dot, zeros())?);
+    let torque = filled("tau", &at.torque, zeros())?;
+    let armature: Vec<f64> = model.dofs().iter().map(|dof| dof.armature).collect();
+    let mut scratch = Scratch::new(model);
+    let mut mass = vec![0.0; n_v * n_v];
+    mass_matrix(model, &q, &mut scratch, &mut mass);
+    let mut inverse = zeros();
+    inverse_dynamics(model, &q, &v, &v_dot, None, &mut scratch, &mut inverse);
+    for k in 0..n_v {
+        mass[k * n_v + k] += armature[k];
+        inverse[k] += armature[k] * v_dot[k];
+    }
+    let input =
+        Input { q: &q, v: &v, torque: &torque, diagonal: &armature, prescribed: None, external: None, gravity: true };
+    let mut forward = zeros();
+    forward_dynamics(model, &input, &mut scratch, &mut forward);
+    let mut passive = zeros();
+    for joint in &model.names().joints {
+        for k in 0..joint.n_v {
+            let (i, dof) = (joint.v_idx + k, &model.dofs()[joint.v_idx + k]);
+            let elastic = if joint.n_q == joint.n_v { spring::torque(dof, q[joint.q_idx + k]) } else { 0.0 };
+            passive[i] = elastic + damper::torque(dof, v[i]);
+        }
+    }
+    Ok(EquationTerms { mass_matrix: mass, inverse_dynamics: inverse, forward_dynamics: forward, passive })
+}

@@ -1,0 +1,159 @@
+//! Numbers that a world can change between two base steps: tunable parameters.
+
+use sincro_dynamics::model::{BodyId, MassProperties};
+use sincro_dynamics::spatial::Vec3;
+use sincro_dynamics::world::World;
+use sincro_scene::scene::ObjectKind;
+use sincro_sim::Loaded;
+
+/// A number of the world that can be changed while it runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tunable {
+    /// Component of gravity.
+    Gravity(usize),
+    /// Number of the mass properties of a body: 0 its mass, 1–3 its centre, 4–9 its inertia (xx, xy, xz, yy, yz, zz);
+    /// by the body's index among the frames.
+    Mass(usize, usize),
+    /// Number of a motor.
+    Motor(usize, MotorNumber),
+}
+
+/// Number of a motor that can be changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum MotorNumber {
+    Kp,
+    Stiffness,
+    Damping,
+    MaxTorque,
+    MaxVelocity,
+}
+
+/// Meaning of a path that a running world can change; none if it cannot.
+pub(crate) fn tunable(path: &str, loaded: &Loaded) -> Option<Tunable> {
+    if let Some(component) = path.strip_prefix("gravity.") {
+        return component.parse().ok().filter(|k| *k < 3).map(Tunable::Gravity);
+    }
+    let (object, key) = path.split_once('.')?;
+    let scene = &loaded.scene;
+    match scene.object(object)?.kind {
+        ObjectKind::Body { .. } => {
+            let names = scene.model.names();
+            let frame = names.frames.iter().position(|f| f.name == object && f.link.is_some() && f.body.is_some())?;
+            mass_number(key).map(|number| Tunable::Mass(frame, number))
+        }
+        ObjectKind::Joint { motor: Some(motor), .. } => {
+            let number = match key.strip_prefix("motor.")? {
+                "kp" => MotorNumber::Kp,
+                "stiffness" => MotorNumber::Stiffness,
+                "damping" => MotorNumber::Damping,
+                "max_torque" => MotorNumber::MaxTorque,
+                "max_velocity" => MotorNumber::MaxVelocity,
+                _ => return None,
+            };
+            Some(Tunable::Motor(motor, number))
+        }
+        _ => None,
+    }
+}
+
+fn mass_number(key: &str) -> Option<usize> {
+    const KEYS: [&str; 10] = [
+        "mass",
+        "center_of_mass.0",
+        "center_of_mass.1",
+        "center_of_mass.2",
+        "inertia.xx",
+        "inertia.xy",
+        "inertia.xz",
+        "inertia.yy",
+        "inertia.yz",
+        "inertia.zz",
+    ];
+    KEYS.iter().position(|known| *known == key)
+}
+
+/// Present numbers of a world that can be changed: those of the scene, then what was set.
+#[derive(Clone, Debug)]
+pub(crate) struct Tuning {
+    gravity: Vec3<f64>,
+    /// Mass properties of each body, by its index among the frames.
+    masses: Vec<Option<MassProperties>>,
+}
+
+impl Tuning {
+    /// Numbers of the scene.
+    pub(crate) fn new(loaded: &Loaded) -> Self {
+        let scene = &loaded.scene;
+        let mass_of = |name: &str| match scene.object(name).map(|object| &object.kind) {
+            Some(ObjectKind::Body { mass }) => Some(*mass),
+            _ => None,
+        };
+        let masses = scene.model.names().frames.iter().map(|frame| mass_of(&frame.name)).collect();
+        Self { gravity: scene.model.gravity(), masses }
+    }
+
+    /// Sets a number of the world.
+    ///
+    /// # Errors
+    ///
+    /// No body has such a mass, or the number means nothing.
+    pub(crate) fn set(&mut self, world: &mut World, what: &Tunable, value: f64) -> Result<(), String> {
+        if value.is_nan() {
+            return Err("not a number".into());
+        }
+        match *what {
+            Tunable::Gravity(k) => {
+                self.gravity.0[k] = value;
+                world.set_gravity(self.gravity);
+            }
+            Tunable::Mass(frame, number) => self.set_mass(world, frame, number, value)?,
+            Tunable::Motor(motor, number) => {
+                if value < 0.0 {
+                    return Err(format!("{value} is negative"));
+                }
+                let mut changed = world.model().motors()[motor];
+                match number {
+                    MotorNumber::Kp => changed.kp = value,
+                    MotorNumber::Stiffness => changed.stiffness = value,
+                    MotorNumber::Damping => changed.damping = value,
+                    MotorNumber::MaxTorque => changed.max_torque = value,
+                    MotorNumber::MaxVelocity => changed.max_velocity = value,
+                }
+                world.set_motor(sincro_dynamics::ids::MotorId::new(motor), changed);
+            }
+        }
+        Ok(())
+    }
+
+    fn set_mass(&mut self, world: &mut World, frame: usize, number: usize, value: f64) -> Result<(), String> {
+        let mut mass = self.masses[frame].ok_or("it has no mass of its own")?;
+        match number {
+            0 => mass.mass = value,
+            1..=3 => mass.center_of_mass[number - 1] = value,
+            _ => mass.inertia[number - 4] = value,
+        }
+        check(&mass)?;
+        self.masses[frame] = Some(mass);
+        let frames = &world.model().names().frames;
+        let Some(link) = frames[frame].link else { return Err("it is fixed in the world".into()) };
+        let carried = frames.iter().enumerate().filter(|(_, f)| f.link == Some(link) && f.body.is_some());
+        let bodies: Vec<(BodyId, MassProperties)> =
+            carried.filter_map(|(k, _)| Some((BodyId::new(k), self.masses[k]?))).collect();
+        world.set_mass_properties(link, &bodies);
+        Ok(())
+    }
+}
+
+/// A body has a positive mass, and moments of inertia that satisfy the triangle inequality in its own axes.
+fn check(mass: &MassProperties) -> Result<(), String> {
+    let [xx, _, _, yy, _, zz] = mass.inertia;
+    if !(mass.mass.is_finite() && mass.mass > 0.0) {
+        return Err(format!("a mass of {} kg is not positive", mass.mass));
+    }
+    let is_finite = mass.inertia.iter().chain(&mass.center_of_mass).all(|x| x.is_finite());
+    let slack = 1e-9 * (xx + yy + zz);
+    let fits =
+        xx >= 0.0 && yy >= 0.0 && zz >= 0.0 && xx <= yy + zz + slack && yy <= xx + zz + slack && zz <= xx + yy + slack;
+    if is_finite && fits { Ok(()) } else { Err(format!("no body has the moments of inertia {xx}, {yy}, {zz}")) }
+}

@@ -1,0 +1,248 @@
+//! Writer of MJCF: joints stand in the body they carry, as at zero coordinates; inertias are written in full.
+
+use sincro_dynamics::actuation::MotorMode;
+use sincro_dynamics::constraint::LoopJointKind;
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::spatial::{Pose, Vec3};
+
+use super::{Joint, Piece, Tree, escaped, numbers, solid, wxyz};
+use crate::number::plain;
+
+/// Text of the file.
+pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
+    let all = tree.links.iter().flat_map(|l| &l.joints);
+    let refused = all.filter(|j| matches!(j.kind, JointKind::Screw { .. }));
+    let mut refused: Vec<String> = refused.map(|j| format!("joint `{}`: MJCF has no screws", j.path)).collect();
+    for link in tree.links.iter().filter(|l| l.mass.is_none() && !l.joints.is_empty()) {
+        refused.push(format!(
+            "`{}` moves on a joint and has no mass: MJCF wants mass there",
+            tree.scene.objects[link.object].path
+        ));
+    }
+    for link in tree.links.iter().filter(|l| l.parent.is_some() && l.joints.iter().any(|j| j.kind == JointKind::Free)) {
+        refused.push(format!("`{}`: free joints of MJCF are at the top", tree.scene.objects[link.object].path));
+    }
+    if !refused.is_empty() {
+        return Err(refused);
+    }
+    let mut out = format!(
+        "<mujoco model=\"{}\">\n  <compiler angle=\"radian\" autolimits=\"true\" inertiafromgeom=\"false\"/>\n  <option gravity=\"{}\"/>\n",
+        escaped(&tree.name),
+        numbers(&tree.scene.model.gravity().0)
+    );
+    let mut world = String::new();
+    let roots: Vec<usize> = (0..tree.links.len()).filter(|k| tree.links[*k].parent.is_none()).collect();
+    for root in roots {
+        body(&mut world, tree, root, 2);
+    }
+    if !tree.meshes.is_empty() {
+        out += "  <asset>\n";
+        for file in tree.meshes.keys() {
+            out += &format!("    <mesh name=\"{0}\" file=\"{0}\"/>\n", escaped(file));
+        }
+        out += "  </asset>\n";
+    }
+    out += &format!("  <worldbody>\n{world}  </worldbody>\n");
+    equality(&mut out, tree);
+    actuators(&mut out, tree);
+    out += "</mujoco>\n";
+    Ok(out)
+}
+
+fn place(pose: &Pose<f64>) -> String {
+    format!("pos=\"{}\" quat=\"{}\"", numbers(&pose.pos.0), numbers(&wxyz(pose)))
+}
+
+fn body(out: &mut String, tree: &mut Tree<'_>, k: usize, depth: usize) {
+    let pad = "  ".repeat(depth);
+    let (name, pose) = (tree.links[k].name.clone(), tree.links[k].pose);
+    let is_site = tree.links[k].mass.is_none()
+        && tree.object(k).shown().next().is_none()
+        && !(0..tree.links.len()).any(|c| tree.links[c].parent == Some(k));
+    if is_site {
+        *out += &format!("{pad}<site name=\"{}\" {}/>\n", escaped(&name), place(&pose));
+        return;
+    }
+    let joints: Vec<Joint> = tree.links[k].joints.iter().filter(|j| j.kind != JointKind::Fixed).cloned().collect();
+    let free = joints.iter().find(|j| j.kind == JointKind::Free);
+    let at = free.map_or(pose, |j| match j.start[..] {
+        [x, y, z, a, b, c, d] => {
+            let q = sincro_dynamics::spatial::Quat::from_slice(&[a, b, c, d]).normalized();
+            j.pose.compose(&Pose { rot: q.matrix(), pos: Vec3([x, y, z]) }).compose(&j.pose.inverse().compose(&pose))
+        }
+        _ => pose,
+    });
+    *out += &format!("{pad}<body name=\"{}\" {}>\n", escaped(&name), place(&at));
+    for joint in &joints {
+        joint_text(out, tree, joint, &pose.inverse().compose(&joint.pose), &pad);
+    }
+    if let Some(mass) = tree.links[k].mass {
+        let [xx, xy, xz, yy, yz, zz] = mass.inertia;
+        *out += &format!(
+            "{pad}  <inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"/>\n",
+            numbers(&mass.center_of_mass),
+            plain(mass.mass),
+            numbers(&[xx, yy, zz, xy, xz, yz])
+        );
+    }
+    let (shown, touching) = tree.pieces(k);
+    let own = tree.object(k).visuals.is_empty();
+    let (group, friction) = tree.object(k).contact.as_ref().map_or((0, 1.0), |c| (c.group, c.friction));
+    if !own || touching.is_empty() {
+        for piece in shown {
+            geom(out, tree, k, &piece, "contype=\"0\" conaffinity=\"0\" group=\"1\"", &pad);
+        }
+    }
+    for piece in touching {
+        // bodies of one group do not touch each other: their bits do not meet
+        let bits = if group == 0 {
+            "contype=\"1\" conaffinity=\"3\"".to_owned()
+        } else {
+            "contype=\"2\" conaffinity=\"1\"".to_owned()
+        };
+        let hidden = if own { "" } else { " group=\"3\"" };
+        geom(out, tree, k, &piece, &format!("{bits} friction=\"{} 0 0\"{hidden}", plain(friction)), &pad);
+    }
+    let children: Vec<usize> = (0..tree.links.len()).filter(|c| tree.links[*c].parent == Some(k)).collect();
+    for child in children {
+        body(out, tree, child, depth + 1);
+    }
+    *out += &format!("{pad}</body>\n");
+}
+
+fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64>, pad: &str) {
+    let axis = |axis: [f64; 3]| numbers(&x.rot.mul_vec(Vec3(axis)).0);
+    let pos = numbers(&x.pos.0);
+    let name = escaped(&joint.name);
+    let property = |k: usize| {
+        let Some(dof) = joint.dofs.get(k) else { return String::new() };
+        let all = [
+            ("damping", dof.damping),
+            ("armature", dof.armature),
+            ("frictionloss", dof.friction),
+            ("stiffness", dof.stiffness),
+        ];
+        let mut text: String =
+            all.iter().filter(|(_, x)| *x != 0.0).map(|(key, x)| format!(" {key}=\"{}\"", plain(*x))).collect();
+        if dof.stiffness != 0.0 && dof.rest != 0.0 {
+            text += &format!(" springref=\"{}\"", plain(dof.rest));
+        }
+        text
+    };
+    let range = if joint.is_limited() {
+        format!(" range=\"{}\"", numbers(&joint.limits.map(|x| x.clamp(-1e9, 1e9))))
+    } else {
+        String::new()
+    };
+    let mut line = |kind: &str, suffix: &str, a: [f64; 3], k: usize| {
+        *out += &format!(
+            "{pad}  <joint name=\"{name}{suffix}\" type=\"{kind}\" pos=\"{pos}\" axis=\"{}\"{range}{}/>\n",
+            axis(a),
+            property(k)
+        );
+    };
+    match joint.kind {
+        JointKind::Fixed | JointKind::Screw { .. } => {}
+        JointKind::Revolute { axis } => line("hinge", "", axis, 0),
+        JointKind::Prismatic { axis } => line("slide", "", axis, 0),
+        JointKind::Universal { axis, axis2 } => {
+            line("hinge", ".1", axis, 0);
+            line("hinge", ".2", axis2, 1);
+        }
+        JointKind::Planar => {
+            line("slide", ".x", [1.0, 0.0, 0.0], 0);
+            line("slide", ".y", [0.0, 1.0, 0.0], 1);
+            line("hinge", ".angle", [0.0, 0.0, 1.0], 2);
+        }
+        JointKind::Ball => {
+            *out += &format!("{pad}  <joint name=\"{name}\" type=\"ball\" pos=\"{pos}\"{}/>\n", property(0))
+        }
+        JointKind::Free => *out += &format!("{pad}  <freejoint name=\"{name}\"/>\n"),
+    }
+    if joint.kind != JointKind::Free && joint.start.iter().any(|x| *x != 0.0) && joint.dofs.len() == 1 {
+        tree.note(&joint.path, "MJCF starts it at zero");
+    }
+}
+
+fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &str, pad: &str) {
+    let path = tree.object(k).path.clone();
+    let shape = match &piece.surface {
+        Surface::Solid(shape) => match solid(shape) {
+            Some(("box", s)) => format!("type=\"box\" size=\"{}\"", numbers(&[0.5 * s[0], 0.5 * s[1], 0.5 * s[2]])),
+            Some(("sphere", s)) => format!("type=\"sphere\" size=\"{}\"", plain(s[0])),
+            Some((word, s)) => format!("type=\"{word}\" size=\"{}\"", numbers(&[s[0], 0.5 * s[1]])),
+            None => return tree.note(&path, "MJCF has no cones"),
+        },
+        Surface::HalfSpace => "type=\"plane\" size=\"0 0 1\"".to_owned(),
+        surface => match tree.mesh_file(k, surface) {
+            Some(file) => format!("type=\"mesh\" mesh=\"{}\"", escaped(&file)),
+            None => return tree.note(&path, "height fields are not written"),
+        },
+    };
+    let color = piece.color.map_or_else(String::new, |c| {
+        let [r, g, b] = c.map(|x| plain(f64::from(x) / 255.0));
+        format!(" rgba=\"{r} {g} {b} 1\"")
+    });
+    *out += &format!("{pad}  <geom {shape} {} {more}{color}/>\n", place(&piece.pose));
+}
+
+fn equality(out: &mut String, tree: &mut Tree<'_>) {
+    let mut lines = String::new();
+    for (first, second, ratio, offset) in tree.gears() {
+        lines += &format!(
+            "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n",
+            escaped(&second),
+            escaped(&first),
+            plain(offset),
+            plain(ratio)
+        );
+    }
+    for closure in tree.scene.model.constraints().loop_joints.clone() {
+        let end = |path: &str| {
+            tree.links.iter().find(|l| tree.scene.objects[l.object].path == path).map(|l| escaped(&l.name))
+        };
+        let (a, b) = (end(&closure.a.name), end(&closure.b.name));
+        let words = match (closure.kind, a, b) {
+            (LoopJointKind::Point, Some(a), Some(b)) => format!("<connect site1=\"{a}\" site2=\"{b}\"/>"),
+            (LoopJointKind::Weld, Some(a), Some(b)) => format!("<weld site1=\"{a}\" site2=\"{b}\"/>"),
+            _ => {
+                tree.note(
+                    &closure.name,
+                    "MJCF has no hinges and distances that close loops, and its loops join frames",
+                );
+                continue;
+            }
+        };
+        lines += &format!("    {words}\n");
+        tree.note(&closure.name, "MJCF's loops are soft");
+    }
+    if !lines.is_empty() {
+        *out += &format!("  <equality>\n{lines}  </equality>\n");
+    }
+}
+
+fn actuators(out: &mut String, tree: &mut Tree<'_>) {
+    let joints: Vec<Joint> = tree.links.iter().flat_map(|l| l.joints.iter().cloned()).collect();
+    let mut lines = String::new();
+    for joint in joints {
+        let Some(motor) = joint.motor else { continue };
+        let limit = if motor.max_torque.is_finite() && motor.max_torque > 0.0 {
+            format!(" forcerange=\"{0} {1}\"", plain(-motor.max_torque), plain(motor.max_torque))
+        } else {
+            String::new()
+        };
+        let name = escaped(&joint.name);
+        match motor.mode {
+            MotorMode::Torque => lines += &format!("    <motor name=\"{name}\" joint=\"{name}\"{limit}/>\n"),
+            MotorMode::Spring => {
+                let (kp, kv) = (plain(motor.stiffness), plain(motor.damping));
+                lines += &format!("    <position name=\"{name}\" joint=\"{name}\" kp=\"{kp}\" kv=\"{kv}\"{limit}/>\n");
+            }
+            _ => tree.note(&joint.path, "MJCF has no ideal motors: none is written"),
+        }
+    }
+    if !lines.is_empty() {
+        *out += &format!("  <actuator>\n{lines}  </actuator>\n");
+    }
+}

@@ -1,0 +1,288 @@
+//! Scenes as robots of other formats, with a note of everything that the format cannot say.
+//!
+//! The tree of a scene is first brought to links: bodies, fixtures and frames, each with the joints that lead to it
+//! from the link above, at zero coordinates. A writer a format does the rest.
+
+mod mjcf;
+mod sdf;
+mod urdf;
+
+use std::collections::BTreeMap;
+
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::{JointInfo, MassProperties, Shape};
+use sincro_dynamics::spatial::Pose;
+use sincro_scene::scene::{Object, ObjectKind, Scene};
+
+use crate::mesh::{Part, stl};
+use crate::number;
+
+/// Formats that are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Unified Robot Description Format.
+    Urdf,
+    /// MuJoCo's XML.
+    Mjcf,
+    /// Simulation Description Format.
+    Sdf,
+}
+
+/// A robot in another format.
+#[derive(Clone, Debug)]
+pub struct Exported {
+    /// Text of the main file.
+    pub text: String,
+    /// Meshes by their path beside the main file.
+    pub meshes: BTreeMap<String, Vec<u8>>,
+    /// Things that the format cannot say: object and words.
+    pub notes: Vec<(String, String)>,
+}
+
+/// Writes the mechanism of a scene in another format; `name` is that of the robot.
+///
+/// # Errors
+///
+/// Joints that the format does not have, each by its path.
+pub fn export(scene: &Scene, name: &str, format: Format) -> Result<Exported, Vec<String>> {
+    let mut tree = Tree::new(scene, name);
+    tree.note_rest();
+    let text = match format {
+        Format::Urdf => urdf::text(&mut tree)?,
+        Format::Mjcf => mjcf::text(&mut tree)?,
+        Format::Sdf => sdf::text(&mut tree)?,
+    };
+    Ok(Exported { text, meshes: tree.meshes, notes: tree.notes })
+}
+
+/// A link: body, fixture or frame.
+struct Link {
+    /// Index among the objects of the scene.
+    object: usize,
+    /// Unique name.
+    name: String,
+    /// The link above; none for the world.
+    parent: Option<usize>,
+    /// Joints from the link above, outermost last.
+    joints: Vec<Joint>,
+    /// Its frame in that of the link above, at zero coordinates.
+    pose: Pose<f64>,
+    mass: Option<MassProperties>,
+}
+
+/// A joint on the way to a link.
+#[derive(Clone)]
+struct Joint {
+    /// Path in the scene.
+    path: String,
+    /// Unique name.
+    name: String,
+    kind: JointKind,
+    /// Its frame in that of the link above, at zero coordinates.
+    pose: Pose<f64>,
+    /// Passive properties of its degrees of freedom.
+    dofs: Vec<sincro_dynamics::joint::Dof<f64>>,
+    /// Limits of a joint with one degree of freedom.
+    limits: [f64; 2],
+    /// Motor of the model.
+    motor: Option<sincro_dynamics::actuation::Motor<f64>>,
+    /// Coordinates at the start.
+    start: Vec<f64>,
+}
+
+impl Joint {
+    fn axis(&self) -> [f64; 3] {
+        match self.kind {
+            JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. } => axis,
+            JointKind::Universal { axis, .. } => axis,
+            _ => [0.0, 0.0, 1.0],
+        }
+    }
+
+    fn is_limited(&self) -> bool {
+        self.limits.iter().any(|x| x.is_finite())
+    }
+}
+
+/// Geometry of a link.
+struct Piece {
+    surface: Surface,
+    pose: Pose<f64>,
+    color: Option<[u8; 3]>,
+}
+
+struct Tree<'a> {
+    scene: &'a Scene,
+    name: String,
+    links: Vec<Link>,
+    meshes: BTreeMap<String, Vec<u8>>,
+    notes: Vec<(String, String)>,
+}
+
+impl<'a> Tree<'a> {
+    fn new(scene: &'a Scene, name: &str) -> Self {
+        let mut tree =
+            Self { scene, name: name.to_owned(), links: Vec::new(), meshes: BTreeMap::new(), notes: Vec::new() };
+        let mut link_of: Vec<Option<usize>> = vec![None; scene.objects.len()];
+        let mut names = std::collections::BTreeSet::new();
+        for (k, object) in scene.objects.iter().enumerate() {
+            let mass = match &object.kind {
+                ObjectKind::Body { mass } => Some(*mass),
+                ObjectKind::Fixture | ObjectKind::Frame => None,
+                _ => continue,
+            };
+            let (mut joints, mut pose, mut at) = (Vec::new(), object.pose, object.parent);
+            let mut chain = Vec::new();
+            while let Some(p) = at.filter(|p| link_of[*p].is_none()) {
+                chain.push(p);
+                at = scene.objects[p].parent;
+            }
+            let mut above = Pose::identity();
+            for p in chain.iter().rev() {
+                above = above.compose(&scene.objects[*p].pose);
+                let joint = tree.joint(&scene.objects[*p], above, &mut names);
+                joints.extend(joint);
+            }
+            pose = above.compose(&pose);
+            let parent = at.and_then(|p| link_of[p]);
+            link_of[k] = Some(tree.links.len());
+            let name = unique(&mut names, object);
+            tree.links.push(Link { object: k, name, parent, joints, pose, mass });
+        }
+        tree
+    }
+
+    fn joint(&self, object: &Object, pose: Pose<f64>, names: &mut std::collections::BTreeSet<String>) -> Option<Joint> {
+        let ObjectKind::Joint { kind, .. } = object.kind else { return None };
+        let model = &self.scene.model;
+        let info: Option<&JointInfo> = model.names().joint(&object.path);
+        let dofs = info.map_or_else(Vec::new, |i| model.dofs()[i.v_idx..i.v_idx + i.n_v].to_vec());
+        let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
+        for limit in model.constraints().limits.iter().filter(|l| info.is_some_and(|i| i.n_v == 1 && l.dof == i.v_idx))
+        {
+            limits[usize::from(limit.sign < 0.0)] = limit.bound;
+        }
+        Some(Joint {
+            path: object.path.clone(),
+            name: unique(names, object),
+            kind,
+            pose,
+            dofs,
+            limits,
+            motor: info.and_then(|i| i.motor).map(|id| *model.motor(id)),
+            start: info.map_or_else(Vec::new, |i| self.scene.initial.q[i.q_idx..i.q_idx + i.n_q].to_vec()),
+        })
+    }
+
+    fn note(&mut self, path: &str, words: &str) {
+        self.notes.push((path.to_owned(), words.to_owned()));
+    }
+
+    /// Notes the objects that no format takes.
+    fn note_rest(&mut self) {
+        let scene = self.scene;
+        for object in &scene.objects {
+            let words = match object.kind {
+                ObjectKind::Force => "an external force",
+                ObjectKind::Rotor => "a rotor",
+                ObjectKind::Drag => "a drag element",
+                ObjectKind::Sensor => "a sensor",
+                ObjectKind::Camera { .. } => "a camera",
+                _ => continue,
+            };
+            self.note(&object.path, &format!("{words} is not written"));
+        }
+        for script in &scene.scripts {
+            self.note(&script.path, "a script is not written");
+        }
+    }
+
+    fn object(&self, link: usize) -> &'a Object {
+        &self.scene.objects[self.links[link].object]
+    }
+
+    /// Geometry that shows, and geometry that touches.
+    fn pieces(&self, link: usize) -> (Vec<Piece>, Vec<Piece>) {
+        let object = self.object(link);
+        let shown = object.shown().map(|s| Piece { surface: s.surface, pose: s.pose, color: s.color }).collect();
+        let solids =
+            object.shapes.iter().map(|s| Piece { surface: Surface::Solid(s.shape), pose: s.pose, color: s.color });
+        let surfaces =
+            object.surfaces.iter().map(|(surface, pose)| Piece { surface: surface.clone(), pose: *pose, color: None });
+        let touching = if object.contact.is_some() { solids.chain(surfaces).collect() } else { Vec::new() };
+        (shown, touching)
+    }
+
+    /// File of a mesh of a link; none for geometry that is no mesh.
+    fn mesh_file(&mut self, link: usize, surface: &Surface) -> Option<String> {
+        let (corners, triangles) = match surface {
+            Surface::Mesh(corners, triangles) => (corners.clone(), triangles.clone()),
+            Surface::Hull(points) => sincro_dynamics::geometry::polyhedron::convex_hull(points)?,
+            _ => return None,
+        };
+        let bytes = stl(&Part { corners, triangles, color: None }, [1.0; 3]);
+        if let Some((known, _)) = self.meshes.iter().find(|(_, b)| **b == bytes) {
+            return Some(known.clone());
+        }
+        let file = format!("meshes/{}-{}.stl", self.links[link].name, self.meshes.len());
+        self.meshes.insert(file.clone(), bytes);
+        Some(file)
+    }
+
+    /// Gears between joints, by the names of those.
+    fn gears(&self) -> Vec<(String, String, f64, f64)> {
+        let names = self.scene.model.names();
+        let name = |dof: usize| {
+            let path = &names.joint_info(names.dof_joint[dof]).name;
+            let all = self.links.iter().flat_map(|l| &l.joints);
+            all.clone().find(|j| j.path == *path).map(|j| j.name.clone())
+        };
+        let gears = self.scene.model.constraints().gears.iter();
+        gears.filter_map(|g| Some((name(g.dofs[0])?, name(g.dofs[1])?, g.ratio, g.offset))).collect()
+    }
+}
+
+/// A name that is not taken: the last part of the path, or the whole path.
+fn unique(names: &mut std::collections::BTreeSet<String>, object: &Object) -> String {
+    let whole = object.path.trim_start_matches('/').replace('/', ".");
+    let name = if names.contains(&object.name) { whole } else { object.name.clone() };
+    names.insert(name.clone());
+    name
+}
+
+/// Numbers of an attribute.
+fn numbers(list: &[f64]) -> String {
+    list.iter().map(|x| number::plain(*x)).collect::<Vec<_>>().join(" ")
+}
+
+/// Roll, pitch and yaw of a pose.
+fn rpy(pose: &Pose<f64>) -> [f64; 3] {
+    match crate::robot::Placement::of_pose(pose).rotation {
+        crate::robot::Rotation::RollPitchYaw(rpy) => rpy,
+        crate::robot::Rotation::Quaternion(_) => sincro_dynamics::kinematics::roll_pitch_yaw(&pose.rot).0,
+    }
+}
+
+/// Quaternion w, x, y, z of a pose.
+fn wxyz(pose: &Pose<f64>) -> [f64; 4] {
+    let mut q = [0.0; 4];
+    sincro_dynamics::spatial::Quat::from_matrix(&pose.rot).write(&mut q);
+    q
+}
+
+/// A text in XML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Word and sizes of a solid that every format has.
+fn solid(shape: &Shape) -> Option<(&'static str, Vec<f64>)> {
+    Some(match shape {
+        Shape::Cuboid { size } => ("box", size.to_vec()),
+        Shape::Sphere { radius } => ("sphere", vec![*radius]),
+        Shape::Cylinder { radius, length } => ("cylinder", vec![*radius, *length]),
+        Shape::Capsule { radius, length } => ("capsule", vec![*radius, *length]),
+        Shape::Cone { .. } => return None,
+    })
+}

@@ -1,0 +1,141 @@
+//! Actuators on joints: gain and bias become a torque motor or a spring-damper motor.
+
+use sincro_scene::diagnostic::Diagnostic;
+
+use super::Reader;
+use crate::findings::Findings;
+use crate::robot::{Motor, MotorLaw, Robot};
+use crate::source::Element;
+
+/// Force = gain·u + bias₀ + bias₁·length + bias₂·rate.
+struct Law {
+    gain: f64,
+    bias: [f64; 3],
+}
+
+impl<'d> Reader<'d> {
+    /// All actuators.
+    pub(super) fn actuators(&self, actuators: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
+        for element in self.files.elements(actuators) {
+            if element.name() == "plugin" {
+                findings.error(element.error("actuators of plugins have no counterpart"));
+                continue;
+            }
+            element.keep();
+            element.attribute("name");
+            match findings.take(self.actuator(element, robot)) {
+                Some(Ok(motor)) => robot.motors.push(motor),
+                Some(Err(why)) => {
+                    findings.warn(element.error(format!("actuator is left out: {why}")));
+                    element.drop(&why);
+                }
+                None => {}
+            }
+        }
+    }
+
+    fn actuator(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Motor, String>, Diagnostic> {
+        let d = &self.defaults;
+        let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) else {
+            let on = ["tendon", "site", "body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
+            return Ok(Err(format!(
+                "it acts on a {}, and motors here act on joints",
+                on.unwrap_or("thing without name")
+            )));
+        };
+        let Some(&joint) = self.joints.get(name) else {
+            return Err(e.error(format!("there is no joint `{name}`")));
+        };
+        if robot.joints[joint].kind.dofs() != 1 {
+            return Ok(Err("its joint has not one degree of freedom".into()));
+        }
+        if robot.motors.iter().any(|m| m.joint == joint) {
+            return Ok(Err("a joint has one motor, and this one has it already".into()));
+        }
+        let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
+        let law = match self.law(e)? {
+            Ok(law) => law,
+            Err(why) => return Ok(Err(why)),
+        };
+        let limit = self.limit(e, &law, gear)?;
+        let reference = self.references[joint];
+        let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
+        let made = if law.bias == [0.0; 3] {
+            e.change(&format!("a torque motor: its command is {} times the control", law.gain * gear));
+            (MotorLaw::Torque, 0.0)
+        } else if law.bias[0] == 0.0 && stiffness >= 0.0 && damping >= 0.0 {
+            e.change("a spring motor: stiffness and damping of the joint, its command is the position");
+            (MotorLaw::Spring(stiffness, damping), -reference)
+        } else {
+            return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
+        };
+        Ok(Ok(Motor { joint, law: made.0, max_torque: limit, command: made.1 }))
+    }
+
+    fn law(&self, e: Element<'d>) -> Result<Result<Law, String>, Diagnostic> {
+        let d = &self.defaults;
+        let number = |name: &str| d.number(e, "main", name);
+        Ok(Ok(match e.name() {
+            "motor" => Law { gain: 1.0, bias: [0.0; 3] },
+            "position" => {
+                let kp = number("kp")?.unwrap_or(1.0);
+                if number("dampratio")?.is_some_and(|r| r > 0.0) {
+                    return Ok(Err("its damping is a ratio, which needs the inertia at the start".into()));
+                }
+                let time = number("timeconst")?.unwrap_or(0.0);
+                if time > 0.0 {
+                    return Ok(Err("its activation has a time constant".into()));
+                }
+                Law { gain: kp, bias: [0.0, -kp, -number("kv")?.unwrap_or(0.0)] }
+            }
+            "velocity" => {
+                let kv = number("kv")?.unwrap_or(1.0);
+                e.change("a damper: its command, a velocity, is left out");
+                Law { gain: kv, bias: [0.0, 0.0, -kv] }
+            }
+            "general" => {
+                let kinds = ["dyntype", "gaintype", "biastype"].map(|key| d.text(e, "main", key));
+                if !matches!(kinds[0], None | Some("none")) {
+                    return Ok(Err(format!("its activation is of type `{}`", kinds[0].unwrap_or(""))));
+                }
+                if !matches!(kinds[1], None | Some("fixed")) {
+                    return Ok(Err(format!("its gain is of type `{}`", kinds[1].unwrap_or(""))));
+                }
+                let gain = number("gainprm")?.unwrap_or(1.0);
+                let list = d.numbers(e, "main", "biasprm")?.unwrap_or_default();
+                let get = |k: usize| list.get(k).copied().unwrap_or(0.0);
+                match kinds[2] {
+                    None | Some("none") => Law { gain, bias: [0.0; 3] },
+                    Some("affine") => Law { gain, bias: [get(0), get(1), get(2)] },
+                    Some(other) => return Ok(Err(format!("its bias is of type `{other}`"))),
+                }
+            }
+            other => return Ok(Err(format!("a `{other}` has no counterpart"))),
+        }))
+    }
+
+    /// Largest torque: from the range of the force, or of the control of a motor.
+    fn limit(&self, e: Element<'d>, law: &Law, gear: f64) -> Result<Option<f64>, Diagnostic> {
+        let d = &self.defaults;
+        let largest = |name: &str, flag: &str| -> Result<Option<f64>, Diagnostic> {
+            let range = d.numbers(e, "main", name)?;
+            let on = match d.text(e, "main", flag) {
+                Some("true") => true,
+                Some("false") => false,
+                _ => self.settings.autolimits,
+            };
+            Ok(match range.as_deref() {
+                Some([low, high]) if on => Some(low.abs().max(high.abs())),
+                _ => None,
+            })
+        };
+        let force = largest("forcerange", "forcelimited")?.map(|f| f * gear.abs());
+        let control = largest("ctrlrange", "ctrllimited")?.filter(|_| law.bias == [0.0; 3]);
+        let control = control.map(|u| (u * law.gain * gear).abs());
+        Ok(match (force, control) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        }
+        .filter(|x| *x > 0.0))
+    }
+}

@@ -1,0 +1,166 @@
+//! Equalities as loop joints and gears; tendons, which are refused if they act.
+
+use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_scene::diagnostic::Diagnostic;
+
+use super::Reader;
+use crate::findings::Findings;
+use crate::robot::{Gear, Loop, LoopKind, Placement, Robot};
+use crate::source::Element;
+
+/// A weld that is open by more than this at the start is not one of the mechanism `[m]`, `[rad]`.
+const OPEN: f64 = 1e-6;
+
+impl<'d> Reader<'d> {
+    /// Tendons without springs, limits and friction only measure; others are refused.
+    pub(super) fn tendons(&self, tendons: Element<'d>, findings: &mut Findings) {
+        for element in self.files.elements(tendons) {
+            let name = element.peek("name").unwrap_or("tendon").to_owned();
+            let mut acts = None;
+            for key in ["stiffness", "damping", "frictionloss", "armature"] {
+                let given = findings.take(self.defaults.numbers(element, "main", key)).flatten();
+                if given.is_some_and(|n| n.iter().any(|x| *x != 0.0)) {
+                    acts = Some(key);
+                }
+            }
+            let has_range = self.defaults.holder(element, "main", "range").is_some();
+            let limited = match self.defaults.text(element, "main", "limited") {
+                Some("true") => true,
+                Some("false") => false,
+                _ => self.settings.autolimits && has_range,
+            };
+            if limited {
+                acts = Some("range");
+            }
+            match acts {
+                Some(key) => findings
+                    .error(element.error(format!("tendon `{name}` acts (`{key}`): tendons have no counterpart"))),
+                None => element.drop("a tendon without spring, damping and limits exerts no force"),
+            }
+        }
+    }
+
+    /// All equalities.
+    pub(super) fn equalities(&mut self, equality: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
+        for element in self.files.elements(equality) {
+            element.keep();
+            element.attribute("name");
+            if self.defaults.text(element, "main", "active") == Some("false") {
+                element.drop("it is not active");
+                continue;
+            }
+            let made = match element.name() {
+                "connect" => self.connect(element, robot),
+                "weld" => self.weld(element, robot),
+                "joint" => self.coupled(element, robot),
+                other => Err(element.error(format!("equality of `{other}` has no counterpart"))),
+            };
+            findings.take(made);
+        }
+    }
+
+    fn end(&self, e: Element<'d>, key: &str) -> Result<Option<usize>, Diagnostic> {
+        match e.attribute(key) {
+            None | Some("world") => Ok(None),
+            Some(name) => {
+                let found = self.bodies.get(name).copied();
+                found.map(Some).ok_or_else(|| e.error(format!("there is no body `{name}`")))
+            }
+        }
+    }
+
+    fn site_end(&self, e: Element<'d>, key: &str) -> Result<Option<usize>, Diagnostic> {
+        let name = e.attribute(key).unwrap_or_default();
+        self.sites.get(name).copied().map(Some).ok_or_else(|| e.error(format!("there is no site `{name}`")))
+    }
+
+    fn connect(&mut self, e: Element<'d>, robot: &mut Robot) -> Result<(), Diagnostic> {
+        let by_sites = e.peek("site1").is_some();
+        let ends = if by_sites {
+            [self.site_end(e, "site1")?, self.site_end(e, "site2")?]
+        } else {
+            [self.end(e, "body1")?, self.end(e, "body2")?]
+        };
+        let anchor = Placement::new(self.defaults.vector(e, "main", "anchor")?.unwrap_or_default(), [0.0; 3]);
+        let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
+        let point = x_wb.inverse().point(x_wa.point(Vec3(anchor.position)));
+        let other = if by_sites { Placement::default() } else { Placement::new(point.0, [0.0; 3]) };
+        e.change("a hard ball joint that closes a loop: a [[closure]]");
+        let name = e.peek("name").map_or_else(|| format!("connect{}", robot.loops.len() + 1), str::to_owned);
+        robot.loops.push(Loop {
+            name,
+            at: e.location(),
+            element: e.id(),
+            kind: LoopKind::Point,
+            is_soft: true,
+            ends: [(ends[0], anchor), (ends[1], other)],
+        });
+        Ok(())
+    }
+
+    fn weld(&mut self, e: Element<'d>, robot: &mut Robot) -> Result<(), Diagnostic> {
+        let by_sites = e.peek("site1").is_some();
+        let ends = if by_sites {
+            [self.site_end(e, "site1")?, self.site_end(e, "site2")?]
+        } else {
+            [self.end(e, "body1")?, self.end(e, "body2")?]
+        };
+        let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
+        let actual = x_wa.inverse().compose(&x_wb);
+        let relative = match self.defaults.numbers(e, "main", "relpose")?.as_deref() {
+            Some(&[x, y, z, w, i, j, k]) if !by_sites && w * w + i * i + j * j + k * k > 0.0 => {
+                Placement { position: [x, y, z], rotation: crate::robot::Rotation::Quaternion([w, i, j, k]) }.pose()
+            }
+            _ if by_sites => Pose::identity(),
+            _ => actual,
+        };
+        let gap = relative.inverse().compose(&actual);
+        let angle = (0..3).map(|k| gap.rot.0[k][k]).sum::<f64>() - 3.0;
+        if gap.pos.norm() > OPEN || angle.abs() > OPEN * OPEN {
+            e.drop(&format!(
+                "a soft weld that is open at the start by {:.3e} m: nothing hard can stand for it",
+                gap.pos.norm()
+            ));
+            return Ok(());
+        }
+        e.change("a hard weld: a [[closure]]");
+        let name = e.peek("name").map_or_else(|| format!("weld{}", robot.loops.len() + 1), str::to_owned);
+        let first = Placement::of_pose(&actual);
+        robot.loops.push(Loop {
+            name,
+            at: e.location(),
+            element: e.id(),
+            kind: LoopKind::Weld,
+            is_soft: true,
+            ends: [(ends[0], first), (ends[1], Placement::default())],
+        });
+        Ok(())
+    }
+
+    /// q₁ − q₁₀ = c₀ + c₁·(q₂ − q₂₀)
+    fn coupled(&mut self, e: Element<'d>, robot: &mut Robot) -> Result<(), Diagnostic> {
+        let find = |key: &str| -> Result<Option<usize>, Diagnostic> {
+            let Some(name) = e.attribute(key) else { return Ok(None) };
+            let found = self.joints.get(name).copied();
+            found.map(Some).ok_or_else(|| e.error(format!("there is no joint `{name}`")))
+        };
+        let (first, second) = (find("joint1")?, find("joint2")?);
+        let c = self.defaults.numbers(e, "main", "polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
+        let get = |k: usize| c.get(k).copied().unwrap_or(0.0);
+        let (Some(first), Some(second)) = (first, second) else {
+            return Err(e.error("a joint that is held at a position has no counterpart").with_help("remove the joint"));
+        };
+        if (2..5).any(|k| get(k) != 0.0) {
+            return Err(e.error("joints coupled by a polynomial have no counterpart").with_help("a linear one has"));
+        }
+        let n = |j: usize| robot.joints[j].kind.dofs();
+        if n(first) != 1 || n(second) != 1 {
+            return Err(e.error("coupled joints have one degree of freedom each"));
+        }
+        // coordinates here are zero at the reference
+        e.change("a gear between two joints: a [[coupling]]");
+        let name = format!("{}-follows", robot.joints[first].name);
+        robot.gears.push(Gear { name, at: e.location(), joints: [second, first], ratio: get(1), offset: get(0) });
+        Ok(())
+    }
+}

@@ -1,0 +1,258 @@
+//! Reader of MuJoCo's XML format.
+//!
+//! Source: key `mjcf`. Includes are put in place, defaults are resolved, several joints of a body become a chain, mass
+//! properties come from the geoms where the format says so. Features of the dynamics without a counterpart are refused
+//! by name: tendons that act, fluid forces, plugins, soft bodies.
+
+mod actuator;
+mod body;
+mod defaults;
+mod equality;
+mod geom;
+mod include;
+mod orientation;
+mod state;
+
+use std::collections::BTreeMap;
+
+use crate::findings::Findings;
+use crate::robot::Robot;
+use crate::source::Element;
+use defaults::Defaults;
+pub(crate) use include::load;
+use orientation::Angles;
+
+/// Reason why an element or attribute is not read.
+pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
+    let soft = "contacts, limits and friction are rigid here: no solver parameters";
+    match path {
+        [
+            ..,
+            "@solref" | "@solimp" | "@solreflimit" | "@solimplimit" | "@solreffriction" | "@solimpfriction" | "@solmix",
+        ] => Some(soft),
+        [.., "@margin" | "@gap" | "@condim" | "@priority"] => Some(soft),
+        [.., "texture" | "skin" | "light"] => Some("bodies have a colour each, the viewer has its own light"),
+        _ if path.contains(&"material") => Some("bodies have a colour each"),
+        [.., "visual" | "statistic" | "size" | "custom"] => Some("setting of MuJoCo's viewer or memory"),
+        [.., "visual" | "statistic" | "size" | "custom", _] => Some("setting of MuJoCo's viewer or memory"),
+        [.., "camera"] => Some("cameras of the viewer are not imported"),
+        _ if path.contains(&"option") => Some("setting of MuJoCo's solver"),
+        _ if path.contains(&"sensor") => Some("its quantity can be recorded, or measured by a [[sensor]]"),
+        [.., "exclude"] => Some("the bodies of one tree do not touch each other"),
+        _ if path.contains(&"contact") => Some("pairs follow from the bodies"),
+        [.., "hfield"] => Some("height fields of images are not read"),
+        [.., "@user"] | [.., "@group"] => Some("data of other programs"),
+        [.., "site", "@rgba" | "@size" | "@type" | "@material"] => Some("a frame does not show"),
+        [.., "compiler", _] => Some("setting of MuJoCo's compiler that changes nothing here"),
+        _ if path.contains(&"tendon") => Some("it exerts no force"),
+        _ => None,
+    }
+}
+
+/// State of the reader.
+struct Reader<'d> {
+    files: include::Files<'d>,
+    /// Folder of the model.
+    folder: std::path::PathBuf,
+    defaults: Defaults<'d>,
+    angles: Angles,
+    settings: Settings,
+    /// Meshes of the assets by name.
+    meshes: BTreeMap<String, geom::MeshAsset>,
+    /// Colours of materials by name.
+    materials: BTreeMap<String, [u8; 3]>,
+    /// Links by the names of bodies.
+    bodies: BTreeMap<String, usize>,
+    /// Links and frames of sites by name: the body's link, the site's own.
+    sites: BTreeMap<String, usize>,
+    /// Joints by name.
+    joints: BTreeMap<String, usize>,
+    /// Reference coordinate of each joint of the robot.
+    references: Vec<f64>,
+    /// Joints of the tree in the order of the coordinates.
+    order: Vec<usize>,
+}
+
+/// Settings of the compiler.
+#[derive(Debug)]
+struct Settings {
+    autolimits: bool,
+    /// Always (`true`), never (`false`), or where there is no `inertial`.
+    inertia_from_geoms: Option<bool>,
+    inertia_groups: [i64; 2],
+    mesh_folder: String,
+    bound_mass: f64,
+    bound_inertia: f64,
+    total_mass: f64,
+    strip_path: bool,
+}
+
+/// Reads a model.
+pub(crate) fn read<'d>(
+    root: Element<'d>,
+    roots: &[(std::path::PathBuf, Element<'d>)],
+    findings: &mut Findings,
+) -> Robot {
+    let mut robot = Robot { name: root.attribute("model").unwrap_or("mujoco").to_owned(), ..Robot::default() };
+    let files = include::Files::new(roots);
+    let top = files.elements(root);
+    let all = |name: &str| -> Vec<Element<'d>> { top.iter().filter(|e| e.name() == name).copied().collect() };
+    let (settings, angles) = settings(&all("compiler"), findings);
+    let mut reader = Reader {
+        defaults: Defaults::new(&files, &all("default")),
+        files,
+        folder: root.file().folder(),
+        angles,
+        settings,
+        meshes: BTreeMap::new(),
+        materials: BTreeMap::new(),
+        bodies: BTreeMap::new(),
+        sites: BTreeMap::new(),
+        joints: BTreeMap::new(),
+        references: Vec::new(),
+        order: Vec::new(),
+    };
+    for option in all("option") {
+        options(option, &mut robot, findings);
+    }
+    for name in ["extension", "deformable"] {
+        for element in all(name) {
+            element.keep();
+            if !reader.files.elements(element).is_empty() {
+                findings.error(element.error(format!("`{name}`: plugins and soft bodies have no counterpart")));
+            }
+        }
+    }
+    for asset in all("asset") {
+        asset.keep();
+        reader.assets(asset, findings);
+    }
+    for world in all("worldbody") {
+        world.keep();
+        reader.world(world, &mut robot, findings);
+    }
+    if robot.links.is_empty() {
+        findings.error(root.error("the model has no body"));
+        return robot;
+    }
+    if reader.settings.total_mass > 0.0 {
+        scale_mass(&mut robot, reader.settings.total_mass);
+    }
+    for tendon in all("tendon") {
+        tendon.keep();
+        reader.tendons(tendon, findings);
+    }
+    for equality in all("equality") {
+        equality.keep();
+        reader.equalities(equality, &mut robot, findings);
+    }
+    for actuator in all("actuator") {
+        actuator.keep();
+        reader.actuators(actuator, &mut robot, findings);
+    }
+    for sensor in all("sensor") {
+        sensor.keep();
+        reader.sensors(sensor, &mut robot);
+    }
+    for keyframe in all("keyframe") {
+        keyframe.keep();
+        reader.keyframes(keyframe, &mut robot, findings);
+    }
+    robot.has_own_motors = true;
+    robot.may_overlap = robot.links.iter().any(|link| !link.collisions.is_empty());
+    robot
+}
+
+fn settings(all: &[Element<'_>], findings: &mut Findings) -> (Settings, Angles) {
+    let mut angles = Angles::default();
+    let mut s = Settings {
+        autolimits: true,
+        inertia_from_geoms: None,
+        inertia_groups: [0, 5],
+        mesh_folder: String::new(),
+        bound_mass: 0.0,
+        bound_inertia: 0.0,
+        total_mass: -1.0,
+        strip_path: false,
+    };
+    for element in all {
+        element.keep();
+        let flag = |name: &str, old: bool| element.attribute(name).map_or(old, |text| text == "true");
+        if let Some(unit) = element.attribute("angle") {
+            angles.in_degrees = unit == "degree";
+        }
+        if let Some(sequence) = element.attribute("eulerseq") {
+            match orientation::sequence(sequence) {
+                Some(sequence) => angles.sequence = sequence,
+                None => findings.error(element.error(format!("`{sequence}` is no sequence of three axes"))),
+            }
+        }
+        if element.attribute("coordinate") == Some("global") {
+            findings.error(
+                element
+                    .error("global coordinates are of an old version")
+                    .with_help("save the model again with a newer MuJoCo"),
+            );
+        }
+        s.autolimits = flag("autolimits", s.autolimits);
+        s.strip_path = flag("strippath", s.strip_path);
+        match element.attribute("inertiafromgeom") {
+            Some("true") => s.inertia_from_geoms = Some(true),
+            Some("false") => s.inertia_from_geoms = Some(false),
+            Some("auto") => s.inertia_from_geoms = None,
+            _ => {}
+        }
+        if let Some(folder) = element.attribute("assetdir").or(element.attribute("meshdir")) {
+            folder.clone_into(&mut s.mesh_folder);
+        }
+        if let Some(folder) = element.attribute("meshdir") {
+            folder.clone_into(&mut s.mesh_folder);
+        }
+        for (name, place) in [
+            ("boundmass", &mut s.bound_mass),
+            ("boundinertia", &mut s.bound_inertia),
+            ("settotalmass", &mut s.total_mass),
+        ] {
+            if let Some(Some(x)) = findings.take(element.number(name)) {
+                *place = x;
+            }
+        }
+        if let Some(Some(range)) = findings.take(element.numbers("inertiagrouprange"))
+            && let [a, b] = range[..]
+        {
+            s.inertia_groups = [a as i64, b as i64];
+        }
+        if element.attribute("balanceinertia") == Some("true") {
+            element.change("inertias are not balanced: they stay as the file gives them");
+        }
+    }
+    (s, angles)
+}
+
+fn options(element: Element<'_>, robot: &mut Robot, findings: &mut Findings) {
+    element.keep();
+    if let Some(gravity) = findings.take(element.vector("gravity")).flatten() {
+        robot.gravity = Some(gravity);
+    }
+    for name in ["density", "viscosity"] {
+        if findings.take(element.number(name)).flatten().is_some_and(|x| x > 0.0) {
+            let message = format!("fluid forces (`{name}`) have no counterpart");
+            findings.error(element.error(message).with_help("set it to zero to import the model without them"));
+        }
+    }
+    if let Some(flag) = element.child("flag")
+        && flag.attribute("gravity") == Some("disable")
+    {
+        robot.gravity = Some([0.0; 3]);
+    }
+}
+
+fn scale_mass(robot: &mut Robot, total: f64) {
+    let mass: f64 = robot.links.iter().filter_map(|l| l.inertial).map(|i| i.mass).sum();
+    if mass > 0.0 {
+        for inertial in robot.links.iter_mut().filter_map(|l| l.inertial.as_mut()) {
+            inertial.mass *= total / mass;
+            inertial.inertia.iter_mut().for_each(|i| *i *= total / mass);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The experiment of a robot: it runs as it is.
+
+use super::{Writer, one_line};
+use crate::number::{list, number, quoted};
+use crate::robot::Keyframe;
+use crate::source::Fate;
+
+/// Joints that are recorded at most; more can be added by hand.
+const MAX_RECORDED: usize = 32;
+
+/// Text of `experiment.toml`.
+pub(super) fn text(writer: &Writer<'_>) -> String {
+    let robot = writer.robot;
+    let mut out = String::new();
+    let mut line = |text: String| {
+        out.push_str(&text);
+        out.push('\n');
+    };
+    line(format!("title = {}", quoted(&one_line(&robot.name))));
+    let file = writer.context.file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    line(format!("description = {}", quoted(&format!("Imported from {}.", one_line(&file)))));
+    line("scene = \"scene.toml\"".into());
+    line("duration = 1.0".into());
+    line("step = 0.005".into());
+    line("error_bar = \"none\"".into());
+    let mut record: Vec<String> = Vec::new();
+    for (joint, path) in robot.joints.iter().zip(&writer.joint_paths) {
+        let Some(path) = path else { continue };
+        if joint.kind.dofs() == 1 && record.len() < MAX_RECORDED {
+            record.push(format!("{path}.position"));
+        }
+    }
+    record.push("energy.kinetic".into());
+    record.push("energy.potential".into());
+    line("record = [".into());
+    record.iter().for_each(|signal| line(format!("    {},", quoted(signal))));
+    line("]".into());
+    let mut used = std::collections::BTreeSet::new();
+    for keyframe in &robot.keyframes {
+        let name = crate::number::name(&keyframe.name);
+        let coordinates = match coordinates(writer, keyframe) {
+            Ok(coordinates) => coordinates,
+            Err(why) => {
+                writer.context.ledger.judge_place(keyframe.element, Fate::Dropped, &why);
+                continue;
+            }
+        };
+        let settings = coordinates.iter().filter_map(|(joint, q)| {
+            let path = writer.joint_paths[*joint].as_ref()?;
+            let value = if let [x] = q[..] { number(x) } else { list(q) };
+            Some(format!("{} = {value}", quoted(&format!("{path}.initial.position"))))
+        });
+        let settings: Vec<String> = settings.collect();
+        if settings.is_empty() || !used.insert(name.clone()) {
+            writer.context.ledger.judge_place(
+                keyframe.element,
+                Fate::Dropped,
+                "there is one of that name, or it is empty",
+            );
+            continue;
+        }
+        line(String::new());
+        line("[[variant]]".into());
+        line(format!("name = {}", quoted(&name)));
+        line("[variant.set]".into());
+        settings.into_iter().for_each(&mut line);
+    }
+    out
+}
+
+/// Coordinates of a keyframe with gears as they are coupled; the reason if a run cannot start there.
+fn coordinates(writer: &Writer<'_>, keyframe: &Keyframe) -> Result<Vec<(usize, Vec<f64>)>, String> {
+    let robot = writer.robot;
+    let mut starts = writer.starts.clone();
+    for (joint, q) in &keyframe.positions {
+        if let [x] = q[..] {
+            starts[*joint] = x;
+        }
+    }
+    for _ in 0..robot.gears.len() {
+        for gear in &robot.gears {
+            starts[gear.joints[1]] = gear.ratio * starts[gear.joints[0]] + gear.offset;
+        }
+    }
+    let beyond = |k: &usize| robot.joints[*k].limits.is_some_and(|[low, high]| starts[*k] < low || starts[*k] > high);
+    if let Some(k) = (0..robot.joints.len()).find(beyond) {
+        return Err(format!("joint `{}` stands at {}, beyond its limits", robot.joints[k].name, number(starts[k])));
+    }
+    let open = |closure: &&crate::robot::Loop| {
+        writer.opening(closure, &writer.starts) <= super::OPEN && writer.opening(closure, &starts) > super::OPEN
+    };
+    if let Some(closure) = robot.loops.iter().find(open) {
+        return Err(format!("`{}` is open there", closure.name));
+    }
+    let unit = |q: &[f64]| {
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        q.iter().map(|x| x / norm).collect::<Vec<f64>>()
+    };
+    let value = |(joint, q): &(usize, Vec<f64>)| match q.len() {
+        1 => (*joint, vec![starts[*joint]]),
+        7 => (*joint, [q[..3].to_vec(), unit(&q[3..])].concat()),
+        _ => (*joint, unit(q)),
+    };
+    Ok(keyframe.positions.iter().map(value).collect())
+}

@@ -1,0 +1,99 @@
+//! Scenes that are exported, and imported again.
+
+use sincro_dynamics::crba::mass_matrix;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::scratch::Scratch;
+use sincro_import::export::{Format, export};
+
+use crate::folder::Folder;
+
+const SCENE: &str = r##"
+gravity = [0.0, 0.0, -3.7]
+
+[[body]]
+name = "base"
+mass = 1.0
+inertia = { xx = 1.0, yy = 1.0, zz = 1.0 }
+shape = [{ cuboid = { size = [0.2, 0.3, 0.1] }, color = "#336699" }]
+contact = { friction = 0.4 }
+
+[[joint]]
+name = "turn"
+parent = "/base"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+position = [0.1, 0.0, 0.2]
+rotation_deg = [0.0, 0.0, 30.0]
+limits = { lower = -1.0, upper = 2.0 }
+damping = 0.3
+
+[[body]]
+name = "arm"
+parent = "/base/turn"
+position = [0.0, 0.0, 0.25]
+rotation_deg = [10.0, 20.0, 0.0]
+mass = 2.0
+center_of_mass = [0.0, 0.01, 0.0]
+inertia = { xx = 0.04, yy = 0.03, zz = 0.02, xy = 0.001 }
+shape = [{ capsule = { radius = 0.05, length = 0.4 } }]
+
+[[joint]]
+name = "slide"
+parent = "/base/turn/arm"
+kind = "prismatic"
+axis = [0.0, 0.0, 1.0]
+position = [0.0, 0.0, 0.25]
+motor = { mode = "torque", max_torque = 5.0 }
+
+[[body]]
+name = "tool"
+parent = "/base/turn/arm/slide"
+mass = 0.5
+inertia = { xx = 0.001, yy = 0.001, zz = 0.001 }
+
+[[frame]]
+name = "tip"
+parent = "/base/turn/arm/slide/tool"
+position = [0.0, 0.0, 0.1]
+"##;
+
+fn masses(model: &Model<f64>) -> Vec<f64> {
+    let (mut scratch, mut mass) = (Scratch::new(model), vec![0.0; model.n_v() * model.n_v()]);
+    mass_matrix(model, &[0.7, 0.1], &mut scratch, &mut mass);
+    mass
+}
+
+#[test]
+fn the_mass_matrix_comes_back_from_every_format() {
+    let folder = Folder::new();
+    folder.file("own/scene.toml", SCENE);
+    folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
+    let own = sincro_scene::open::open(&folder.path().join("own"), &[], None, true).unwrap();
+    let expected = masses(&own.scene.model);
+    for (format, file) in [(Format::Urdf, "r.urdf"), (Format::Mjcf, "r.xml"), (Format::Sdf, "r.sdf")] {
+        let exported = export(&own.scene, "own", format).unwrap();
+        let imported = folder.import(file, &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
+        let back = folder.open(&imported).scene;
+        assert_eq!(back.model.n_v(), 2, "{file}");
+        for (a, b) in masses(&back.model).iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-14, "{file}: {a} {b}\n{}", exported.text);
+        }
+        let limits: Vec<f64> = back.model.constraints().limits.iter().map(|l| l.bound).collect();
+        assert_eq!(limits, [-1.0, 2.0], "{file}");
+        assert_eq!(back.model.dofs()[0].damping, 0.3, "{file}");
+        assert!((back.model.total_mass() - 2.5).abs() < 1e-15, "{file}");
+        // SDF has frames that poses refer to, and no objects of that kind
+        assert_eq!(back.objects.iter().any(|o| o.name == "tip"), format != Format::Sdf, "{file}");
+    }
+}
+
+#[test]
+fn what_a_format_cannot_say_is_said() {
+    let folder = Folder::new();
+    folder.file("own/scene.toml", SCENE.replace("kind = \"prismatic\"", "kind = \"screw\"\npitch = 0.1"));
+    folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
+    let own = sincro_scene::open::open(&folder.path().join("own"), &[], None, true).unwrap();
+    assert!(export(&own.scene, "own", Format::Urdf).unwrap_err()[0].contains("/base/turn/arm/slide"));
+    let exported = export(&own.scene, "own", Format::Sdf).unwrap();
+    assert!(exported.notes.iter().any(|(path, words)| path.ends_with("slide") && words.contains("motors")));
+}

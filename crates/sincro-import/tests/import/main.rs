@@ -1,0 +1,8 @@
+//! Robots that are imported, as scenes that are read again: what is kept, what is told, what is refused.
+
+mod bad_input;
+mod export;
+mod folder;
+mod mjcf;
+mod sdf;
+mod urdf;

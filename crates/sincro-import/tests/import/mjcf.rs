@@ -1,0 +1,122 @@
+//! MJCF.
+
+use crate::folder::{Folder, dropped, entry};
+
+const HOPPER: &str = r#"<mujoco model="hopper">
+  <compiler angle="degree"/>
+  <default><joint damping="1" armature="0.1"/><default class="knee"><joint damping="3" range="-60 0"/></default>
+    <motor gear="50" ctrlrange="-1 1" ctrllimited="true"/></default>
+  <option timestep="0.002" gravity="0 0 -9.8"/>
+  <worldbody>
+    <geom name="floor" type="plane" size="5 5 0.1" conaffinity="1" rgba="0.8 0.8 0.8 1"/>
+    <body name="torso" pos="0 0 1.25">
+      <joint name="x" type="slide" axis="1 0 0" armature="0" damping="0"/>
+      <joint name="z" type="slide" axis="0 0 1" armature="0" damping="0" ref="1.25"/>
+      <joint name="pitch" type="hinge" axis="0 1 0" pos="0 0 0.1" armature="0" damping="0"/>
+      <geom type="capsule" fromto="0 0 0.2 0 0 -0.2" size="0.05"/>
+      <site name="imu" pos="0 0 0.1"/>
+      <body name="shin" pos="0 0 -0.2">
+        <joint name="knee" class="knee" axis="0 -1 0" stiffness="5" springref="-10"/>
+        <geom type="box" size="0.03 0.03 0.2" pos="0 0 -0.2" mass="2" euler="0 0 90"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor name="m" joint="knee"/></actuator>
+  <sensor><gyro site="imu"/><accelerometer site="imu"/><framepos objtype="body" objname="shin"/></sensor>
+  <keyframe><key name="bent" qpos="0 1.25 0 -0.5"/></keyframe>
+</mujoco>"#;
+
+#[test]
+fn several_joints_of_a_body_are_a_chain() {
+    let folder = Folder::new();
+    let imported = folder.import("hopper.xml", HOPPER).unwrap_or_else(|found| panic!("{found}"));
+    let opened = folder.open(&imported);
+    let scene = &opened.scene;
+    assert_eq!(scene.model.n_v(), 4);
+    assert!(imported.report.differences().is_empty(), "{:?}", imported.report.differences());
+    let path = "/x/z/pitch/torso/knee";
+    let knee = scene.model.names().joint(path).unwrap();
+    let dof = scene.model.dofs()[knee.v_idx];
+    assert_eq!((dof.damping, dof.armature, dof.stiffness), (3.0, 0.1, 5.0), "defaults of the class and of main");
+    assert!((dof.rest + 10.0_f64.to_radians()).abs() < 1e-15);
+    assert_eq!(scene.model.motors()[0].max_torque, 50.0);
+    assert_eq!(opened.experiment.variants[0].name, "bent");
+    assert_eq!(scene.sensors.len(), 1, "gyro and accelerometer are one unit");
+}
+
+#[test]
+fn mass_comes_from_the_geoms_where_the_format_says_so() {
+    let folder = Folder::new();
+    let imported = folder.import("hopper.xml", HOPPER).unwrap();
+    let scene = folder.open(&imported).scene;
+    let pi = std::f64::consts::PI;
+    let torso = 1000.0 * (pi * 0.05_f64.powi(2) * 0.4 + 4.0 / 3.0 * pi * 0.05_f64.powi(3));
+    assert!((scene.model.total_mass() - torso - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn references_shift_coordinates() {
+    let folder = Folder::new();
+    let imported = folder.import("hopper.xml", HOPPER).unwrap();
+    assert!(imported.scene().contains("limits = { lower = -1.0471975511965976, upper = 0.0 }"), "{}", imported.scene());
+    let scene = folder.open(&imported).scene;
+    assert_eq!(scene.initial.q, vec![0.0; 4]);
+}
+
+#[test]
+fn unread_parts_are_told() {
+    let folder = Folder::new();
+    let imported = folder.import("hopper.xml", HOPPER).unwrap();
+    let dropped = dropped(&imported);
+    assert!(dropped.iter().any(|d| d.ends_with("sensor/framepos")), "{dropped:?}");
+    assert!(dropped.iter().any(|d| d.ends_with("option/@timestep")), "{dropped:?}");
+    assert!(entry(&imported, "motor[m]").words.contains("50 times the control"));
+}
+
+#[test]
+fn includes_stand_in_place_and_circles_end() {
+    let folder = Folder::new();
+    folder.file("parts/arm.xml", r#"<mujoco><body name="arm"><joint name="j"/><geom size="0.1"/></body></mujoco>"#);
+    let text = r#"<mujoco><worldbody><include file="parts/arm.xml"/></worldbody></mujoco>"#;
+    let scene = folder.open(&folder.import("m.xml", text).unwrap()).scene;
+    assert!(scene.object("/j/arm").is_some());
+    folder.file("a.xml", r#"<mujoco><include file="b.xml"/><worldbody/></mujoco>"#);
+    folder.file("b.xml", r#"<mujoco><include file="a.xml"/></mujoco>"#);
+    assert!(sincro_import::import(&folder.path().join("a.xml"), &sincro_import::Options::default()).is_err());
+    let outside = text.replace("parts/arm.xml", "../../../../etc/passwd");
+    assert!(folder.import("m.xml", &outside).unwrap_err().to_string().contains("is not included"));
+}
+
+#[test]
+fn features_without_counterpart_are_refused_by_name() {
+    let folder = Folder::new();
+    for (feature, part, words) in [
+        ("<option density=\"1.2\"/>", "", "fluid forces"),
+        ("<extension><plugin plugin=\"x\"/></extension>", "", "plugins"),
+        (
+            "<tendon><fixed name=\"t\" stiffness=\"3\"><joint joint=\"knee\" coef=\"1\"/></fixed></tendon>",
+            "",
+            "tendon `t` acts",
+        ),
+        ("<equality><joint joint1=\"knee\" joint2=\"pitch\" polycoef=\"0 1 2 0 0\"/></equality>", "", "polynomial"),
+        ("", "<flexcomp name=\"f\"/>", "flexcomp"),
+    ] {
+        let text = HOPPER
+            .replace("</mujoco>", &format!("{feature}</mujoco>"))
+            .replace("<body name=\"shin\"", &format!("{part}<body name=\"shin\""));
+        let refused = folder.import("hopper.xml", &text).unwrap_err().to_string();
+        assert!(refused.contains(words), "{words}: {refused}");
+    }
+}
+
+#[test]
+fn equalities_close_loops_and_couple_joints() {
+    let folder = Folder::new();
+    let text = HOPPER.replace(
+        "</mujoco>",
+        "<equality><connect body1=\"shin\" anchor=\"0 0 -0.4\"/><joint joint1=\"knee\" joint2=\"pitch\" polycoef=\"0 -1 0 0 0\"/></equality></mujoco>",
+    );
+    let scene = folder.open(&folder.import("hopper.xml", &text).unwrap()).scene;
+    assert_eq!(scene.model.constraints().loop_joints.len(), 1);
+    assert_eq!(scene.model.constraints().gears[0].ratio, -1.0);
+}

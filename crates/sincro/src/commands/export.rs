@@ -1,0 +1,30 @@
+//! `sincro export`: a scene in another format; a file of its own for each kind.
+
+use clap::Subcommand;
+
+use super::{export_fmu, export_robot};
+use crate::Exit;
+
+/// Formats.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Format {
+    /// A functional mock-up unit for Simulink, Modelica tools and all others that import FMI
+    Fmu(export_fmu::Arguments),
+    /// Unified Robot Description Format
+    Urdf(export_robot::Arguments),
+    /// MuJoCo's XML
+    Mjcf(export_robot::Arguments),
+    /// Simulation Description Format
+    Sdf(export_robot::Arguments),
+}
+
+/// Runs the command.
+pub(crate) fn run(format: &Format) -> Exit {
+    use sincro_import::export::Format as Robot;
+    match format {
+        Format::Fmu(arguments) => export_fmu::run(arguments),
+        Format::Urdf(arguments) => export_robot::run(arguments, Robot::Urdf),
+        Format::Mjcf(arguments) => export_robot::run(arguments, Robot::Mjcf),
+        Format::Sdf(arguments) => export_robot::run(arguments, Robot::Sdf),
+    }
+}

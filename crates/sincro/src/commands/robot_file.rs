@@ -1,0 +1,63 @@
+//! Scenes of the command line: folders, and robot files that are imported into a temporary folder first.
+
+use std::path::{Path, PathBuf};
+
+use sincro_import::{Imported, Options, import, is_robot_file};
+
+use crate::{Exit, diagnostics};
+
+/// A scene folder, or that of a robot file, which lives as long as this.
+#[derive(Debug)]
+pub(crate) struct SceneSource {
+    folder: PathBuf,
+    temporary: Option<PathBuf>,
+}
+
+impl SceneSource {
+    /// The folder `path`, or the scene of the robot file `path`.
+    ///
+    /// # Errors
+    ///
+    /// The robot is refused; the reasons have been printed.
+    pub fn open(path: &Path) -> Result<Self, Exit> {
+        if !(is_robot_file(path) && path.is_file()) {
+            return Ok(Self { folder: path.to_path_buf(), temporary: None });
+        }
+        let imported = import(path, &Options::default()).map_err(|found| diagnostics::refuse_import(&found))?;
+        let name = path.file_stem().map_or_else(|| "robot".into(), |stem| stem.to_os_string());
+        let temporary = std::env::temp_dir().join(format!("sincro-robot-{}", std::process::id()));
+        let folder = temporary.join(name);
+        let source = Self { folder, temporary: Some(temporary) };
+        imported.write(&source.folder).map_err(|error| {
+            diagnostics::refuse(&format!("`{}` cannot be written: {error}", source.folder.display()), None)
+        })?;
+        tell(path, &imported);
+        Ok(source)
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+impl Drop for SceneSource {
+    fn drop(&mut self) {
+        if let Some(folder) = &self.temporary {
+            let _ = std::fs::remove_dir_all(folder);
+        }
+    }
+}
+
+/// Says in one line that something was lost, if it was.
+fn tell(path: &Path, imported: &Imported) {
+    let (counts, warnings) = (imported.report.counts, imported.warnings.len());
+    if counts.dropped > 0 || warnings > 0 {
+        eprintln!(
+            "{}: {} elements and attributes are not in the scene, {}; `sincro import` writes the report",
+            path.display(),
+            counts.dropped,
+            diagnostics::count(warnings, "warning")
+        );
+    }
+}

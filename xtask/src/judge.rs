@@ -1,0 +1,43 @@
+//! `cargo xtask judge NAME`: comparisons with other programs and with public files, which take longer than tests and
+//! need a package index.
+
+use std::path::Path;
+use std::process::Command;
+
+/// A judge: what it does with the workspace's folder; true if its bounds hold.
+type Judge = fn(&Path) -> bool;
+
+/// The judges by name.
+const JUDGES: &[(&str, Judge)] = &[("import", import)];
+
+/// Runs a judge; true if its bounds hold.
+pub fn run(root: &Path, name: Option<&str>) -> bool {
+    match JUDGES.iter().find(|(known, _)| Some(*known) == name) {
+        Some((_, judge)) => judge(root),
+        None => {
+            let names: Vec<&str> = JUDGES.iter().map(|(name, _)| *name).collect();
+            eprintln!("usage: cargo xtask judge {}", names.join(" | "));
+            false
+        }
+    }
+}
+
+/// Imports the robots of public packages, compares their dynamics with Pinocchio and MuJoCo, and writes
+/// `docs/import.md`.
+fn import(root: &Path) -> bool {
+    let work = root.join("target/judges/import");
+    let venv = work.join("venv");
+    let python = venv.join("bin/python");
+    let packages = ["pin==4.1.0", "mujoco==4.0.0", "numpy", "xacro==2.1.1"];
+    let program = root.join("target/release/sincro");
+    crate::runs(&mut crate::cargo(&["build", "--release", "--package", "sincro"]))
+        && crate::runs(Command::new("python3").args(["-m", "venv"]).arg(&venv))
+        && crate::runs(Command::new(&python).args(["-m", "pip", "install", "-q"]).args(packages))
+        && crate::runs(
+            Command::new(&python)
+                .arg(root.join("crates/sincro-import/tests/judges/judge.py"))
+                .args([program.as_path(), work.as_path()])
+                .args(["urdf", "sdf", "mjcf", "bullet", "--markdown"])
+                .arg(root.join("docs/import.md")),
+        )
+}
