@@ -47,9 +47,9 @@ const SLOWEST_RISE: f64 = 1e-6;
 
 impl<R: Real> FrictionGroup<R> {
     /// Sliding velocity over the length of the step, for a `normal` force by which friction could turn it within the
-    /// step. With the rate of the problem across it, it gives the direction at the end of the step, which the force then
-    /// opposes: friction that turns with a small velocity would be stiff without bound. The rate grows without bound
-    /// where the velocity comes near that which friction could not turn, so that the force is smooth there.
+    /// step. With the rate of the problem across it, it gives the direction at the end of the step, which the force
+    /// then opposes: friction that turns with a small velocity would be stiff without bound. The rate grows without
+    /// bound where the velocity comes near that which friction could not turn, so that the force is smooth there.
     pub fn sliding_rate(&self, normal: f64) -> Option<f64> {
         let SlowSliding { speed, h, mobility } = self.slow_sliding;
         let reach = h * self.coefficient * normal * mobility;

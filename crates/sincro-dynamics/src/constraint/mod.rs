@@ -441,7 +441,8 @@ impl<R: Real> Constraints<R> {
         group.compliance = Some(speed);
     }
 
-    /// Sliding rate and compliance of groups that slide so slowly that friction can turn their velocity within the step.
+    /// Sliding rate and compliance of groups that slide so slowly that friction can turn their velocity within the
+    /// step.
     fn find_slow_sliding(&mut self) {
         let m = self.rows.len();
         let h = self.sub_step;

@@ -652,8 +652,8 @@ impl World {
         Ok(())
     }
 
-    /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`. Returns the time reached, and true
-    /// if it ends at an event.
+    /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`. Returns the time reached, and
+    /// true if it ends at an event.
     fn sub_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
