@@ -37,6 +37,27 @@ const CASES: &[(&str, &str, &str, &str)] = &[
     ),
     (
         "scene.toml",
+        "command = { ramp",
+        "max_torque = 0.0, command = { ramp",
+        r#"scene.toml:26:43: error: `max_torque` is 0, expected a number in N·m or N, greater than 0
+  help: Largest torque or force, above 0; none if left out or inf [N·m] or [N]. A joint that nothing drives has mode `free`."#,
+    ),
+    (
+        "scene.toml",
+        "command = { ramp",
+        "max_torque = -2.0, command = { ramp",
+        r#"scene.toml:26:43: error: `max_torque` is -2, expected a number in N·m or N, greater than 0
+  help: Largest torque or force, above 0; none if left out or inf [N·m] or [N]. A joint that nothing drives has mode `free`."#,
+    ),
+    (
+        "scene.toml",
+        "command = { ramp",
+        "max_torque = nan, command = { ramp",
+        r#"scene.toml:26:43: error: `max_torque` is not a number, expected a finite number in N·m or N
+  help: Largest torque or force, above 0; none if left out or inf [N·m] or [N]. A joint that nothing drives has mode `free`."#,
+    ),
+    (
+        "scene.toml",
         "damping = 0.5",
         "damping = [0.5, 0.5]",
         r#"scene.toml:8:11: error: `damping` of `/shoulder` has 2 entries, the joint has 1 degrees of freedom

@@ -68,7 +68,8 @@ fn the_mass_matrix_comes_back_from_every_format() {
     let folder = Folder::new();
     folder.file("own/scene.toml", SCENE);
     folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
-    let own = sincro_scene::open::open(&folder.path().join("own"), &[], None, true).unwrap();
+    let own =
+        sincro_scene::open::open(&folder.path().join("own"), &[], sincro_scene::fmu::Loaders::default(), true).unwrap();
     let expected = masses(&own.scene.model);
     for (format, file) in [(Format::Urdf, "r.urdf"), (Format::Mjcf, "r.xml"), (Format::Sdf, "r.sdf")] {
         let exported = export(&own.scene, "own", format).unwrap();
@@ -92,7 +93,8 @@ fn what_a_format_cannot_say_is_said() {
     let folder = Folder::new();
     folder.file("own/scene.toml", SCENE.replace("kind = \"prismatic\"", "kind = \"screw\"\npitch = 0.1"));
     folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
-    let own = sincro_scene::open::open(&folder.path().join("own"), &[], None, true).unwrap();
+    let own =
+        sincro_scene::open::open(&folder.path().join("own"), &[], sincro_scene::fmu::Loaders::default(), true).unwrap();
     assert!(export(&own.scene, "own", Format::Urdf).unwrap_err()[0].contains("/base/turn/arm/slide"));
     let exported = export(&own.scene, "own", Format::Sdf).unwrap();
     assert!(exported.notes.iter().any(|(path, words)| path.ends_with("slide") && words.contains("motors")));

@@ -276,8 +276,8 @@ pub(crate) struct MotorFile {
     pub mode: MotorModeFile,
     /// Command as a signal, held over each base step; default 0. Torque, velocity, or position, as the mode says.
     pub command: Option<SignalFile>,
-    /// Largest torque or force; none if left out or inf [N·m] or [N].
-    #[schemars(range(min = 0.0), extend("x-infinite" = true))]
+    /// Largest torque or force, above 0; none if left out or inf [N·m] or [N]. A joint that nothing drives has mode `free`.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
     pub max_torque: Option<f64>,
     /// Mode `position`: velocity a unit of error [1/s].
     #[schemars(range(min = 0.0))]
