@@ -473,6 +473,7 @@ impl<R: Real> Constraints<R> {
     fn solve(&mut self) {
         self.find_slow_sliding();
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.shares_load = true;
         self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
         self.memory.keep(&self.blocks, &self.lambda);
     }

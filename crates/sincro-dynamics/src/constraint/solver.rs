@@ -69,6 +69,8 @@ pub(crate) struct Solver<R> {
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
     trial: Option<SolverReport>,
+    /// True if contacts that begin to carry load share it evenly, where they are redundant: forces, not impulses.
+    pub shares_load: bool,
     /// Rank tolerance of corrections.
     pub rank: f64,
     /// Smallest scaled pivot of the last linear system.
@@ -109,8 +111,13 @@ impl<R: Real> Solver<R> {
     }
 
     fn search(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        let was_loaded = carries_load(problem, blocks, lambda);
         if self.iterate_active_set(problem, blocks, lambda) {
-            return;
+            // several contacts that begin to carry load together share it evenly
+            let begins = !was_loaded && self.shares_load && carries_load(problem, blocks, lambda);
+            if !(begins && blocks.iter().filter(|block| block.given.is_none()).count() > 1) {
+                return;
+            }
         }
         self.report.split += 1;
         // from zero, so that redundant contacts share the load evenly: the warm start did not fit
@@ -296,6 +303,12 @@ impl Tolerances {
         let [force, rate] = [largest(lambda).max(undoing), largest(problem.b)].map(|x| x + f64::MIN_POSITIVE);
         Self { force: SLACK * force, rate: SLACK * rate, held: HELD_RATE * rate, none: REFINED * rate }
     }
+}
+
+/// Returns true if a contact has a normal force beyond rounding.
+fn carries_load<R: Real>(problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &[R]) -> bool {
+    let small = Tolerances::of(problem, lambda).force;
+    blocks.iter().any(|block| block.given.is_none() && lambda[block.row].lane(0) > small)
 }
 
 /// Updates the contact modes that violate the complementarity conditions; returns true if any did.
