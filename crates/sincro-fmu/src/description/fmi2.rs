@@ -1,8 +1,8 @@
 //! `modelDescription.xml` of FMI 2.0 (key `fmi-2`).
 
-use super::xml::{Attribute, Xml, flag, number, text};
+use super::variables::write_variables;
+use super::xml::{Attribute, Xml, flag, text};
 use super::{Description, TOOL};
-use crate::units::{BASES, Units};
 use crate::variables::{Role, Variable};
 
 pub(super) fn write(of: &Description<'_>) -> String {
@@ -21,16 +21,7 @@ pub(super) fn write(of: &Description<'_>) -> String {
         ],
     );
     interfaces(&mut xml, of);
-    let mut units = Units::default();
-    let named: Vec<Option<String>> = of.catalogue.variables.iter().map(|v| units.add(&v.unit)).collect();
-    write_units(&mut xml, &units);
-    log_categories(&mut xml, "LogCategories");
-    default_experiment(&mut xml, of);
-    xml.begin("ModelVariables", &[]);
-    for (k, (variable, unit)) in of.catalogue.variables.iter().zip(named).enumerate() {
-        write_variable(&mut xml, k, variable, unit);
-    }
-    xml.end();
+    write_variables(&mut xml, of, write_variable);
     structure(&mut xml, of);
     xml.end();
     xml.finish()
@@ -49,49 +40,6 @@ fn interfaces(xml: &mut Xml, of: &Description<'_>) {
     if of.kinds.co_simulation {
         common(xml, "CoSimulation", of.can_save, &[flag("canHandleVariableCommunicationStepSize", true)]);
     }
-}
-
-pub(super) fn write_units(xml: &mut Xml, units: &Units) {
-    if units.iter().next().is_none() {
-        return;
-    }
-    xml.begin("UnitDefinitions", &[]);
-    for (name, factor, exponents) in units.iter() {
-        xml.begin("Unit", &[text("name", name)]);
-        let mut attributes: Vec<Attribute<'_>> = BASES
-            .iter()
-            .zip(exponents)
-            .filter(|(_, exponent)| **exponent != 0)
-            .map(|(base, exponent)| text(base, exponent.to_string()))
-            .collect();
-        if factor != 1.0 {
-            attributes.push(number("factor", factor));
-        }
-        xml.element("BaseUnit", &attributes);
-        xml.end();
-    }
-    xml.end();
-}
-
-pub(super) fn log_categories(xml: &mut Xml, list: &'static str) {
-    xml.begin(list, &[]);
-    for (name, description) in LOG_CATEGORIES {
-        xml.element("Category", &[text("name", name), text("description", description)]);
-    }
-    xml.end();
-}
-
-/// Categories of messages, and their meanings.
-pub(super) const LOG_CATEGORIES: [(&str, &str); 4] = [
-    ("logStatusError", "calls that failed, and why"),
-    ("logStatusWarning", "warnings of the scene when it is loaded"),
-    ("logEvents", "messages of scripts; why a simulation ended"),
-    ("logTrace", "hash of all states of the run, when it ends"),
-];
-
-pub(super) fn default_experiment(xml: &mut Xml, of: &Description<'_>) {
-    let attributes = [number("startTime", 0.0), number("stopTime", of.stop_time), number("stepSize", of.step_size)];
-    xml.element("DefaultExperiment", &attributes);
 }
 
 fn write_variable(xml: &mut Xml, k: usize, variable: &Variable, unit: Option<String>) {

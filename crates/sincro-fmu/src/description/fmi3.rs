@@ -1,9 +1,8 @@
 //! `modelDescription.xml` of FMI 3.0 (key `fmi-3`).
 
-use super::fmi2::{default_experiment, log_categories, write_units};
+use super::variables::write_variables;
 use super::xml::{Attribute, Xml, flag, number, text};
 use super::{Description, TOOL};
-use crate::units::Units;
 use crate::variables::{Role, Variable};
 
 pub(super) fn write(of: &Description<'_>) -> String {
@@ -20,16 +19,7 @@ pub(super) fn write(of: &Description<'_>) -> String {
         ],
     );
     interfaces(&mut xml, of);
-    let mut units = Units::default();
-    let named: Vec<Option<String>> = of.catalogue.variables.iter().map(|v| units.add(&v.unit)).collect();
-    write_units(&mut xml, &units);
-    log_categories(&mut xml, "LogCategories");
-    default_experiment(&mut xml, of);
-    xml.begin("ModelVariables", &[]);
-    for (k, (variable, unit)) in of.catalogue.variables.iter().zip(named).enumerate() {
-        write_variable(&mut xml, k, variable, unit);
-    }
-    xml.end();
+    write_variables(&mut xml, of, write_variable);
     structure(&mut xml, of);
     xml.end();
     xml.finish()

@@ -2,6 +2,7 @@
 
 mod fmi2;
 mod fmi3;
+mod variables;
 mod xml;
 
 use crate::variables::Catalogue;
