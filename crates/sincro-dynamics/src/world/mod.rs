@@ -610,7 +610,7 @@ impl World {
             if self.has_limited_drives() {
                 self.mechanism.drive_monitor.begin(&self.target_velocities);
             }
-            let (reached, is_event) = match self.sub_step(t, (h_max, corner), limited, system) {
+            let (reached, is_event) = match self.sub_step(t, (h_max, corner), (limited, control), system) {
                 Err((_, Stop::Integration(_))) if limited && self.before.iter().all(|x| x.is_finite()) => {
                     // laws without a continuous solution here: no step is small enough
                     self.restore();
@@ -652,16 +652,16 @@ impl World {
         Ok(())
     }
 
-    /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`. Returns the time reached, and
-    /// true if it ends at an event.
+    /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`; with `limited` drives or
+    /// contacts its events are located, from the error control at its start. Returns the time reached, and true if it
+    /// ends at an event.
     fn sub_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         (h_max, corner): (f64, f64),
-        limited: bool,
+        (limited, control): (bool, Option<Control>),
         system: &mut A,
     ) -> Result<(f64, bool), (f64, Stop)> {
-        let control = if limited { self.control() } else { None };
         let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)));
         let violated = self.mechanism.drive_monitor.end() - t;
         let h = h?;
