@@ -66,6 +66,19 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-bench",
         ],
     ),
+    (
+        "sincro-python",
+        &[
+            "sincro-math",
+            "sincro-dynamics",
+            "sincro-scene",
+            "sincro-sim",
+            "sincro-analysis",
+            "sincro-figures",
+            "sincro-import",
+            "sincro",
+        ],
+    ),
 ];
 
 /// The crates that compute.

@@ -92,6 +92,7 @@ fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
         sources: Vec::new(),
         folder: std::sync::Arc::default(),
         extensions: extensions(),
+        controllers: Vec::new(),
     };
     let mut run = LockStep::new(&loaded, method, false);
     run.start().expect("finite");

@@ -88,4 +88,4 @@ pub mod table;
 pub mod trace;
 pub mod validity;
 
-pub use load::{Extensions, Loaded, ScriptEngine, load, load_alone};
+pub use load::{ControllerFactory, Extensions, Loaded, ScriptEngine, load, load_alone};

@@ -1,5 +1,6 @@
 //! Loading a scene folder: its files, and the parts of the program above the lock-step that it needs.
 
+use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -33,6 +34,14 @@ pub struct Loaded {
     pub folder: Arc<Folder>,
     /// Extensions that it was loaded with: variants and sweeps are loaded with the same.
     pub extensions: Extensions,
+    /// Controllers of a program, attached to each run of the scene after its own: variants and sweeps have the same.
+    pub controllers: Vec<Arc<dyn ControllerFactory>>,
+}
+
+/// Maker of a controller for each run of a scene: the main run, its finer run, the variants.
+pub trait ControllerFactory: Send + Sync + fmt::Debug {
+    /// The controller of one run, in the state before its first tick.
+    fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
 }
 
 /// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and
@@ -97,7 +106,7 @@ fn with(
 impl Loaded {
     fn new(opened: Opened, extensions: Extensions) -> Self {
         let Opened { experiment, scene, controller, warnings, sources, folder } = opened;
-        Self { experiment, scene, controller, warnings, sources, folder, extensions }
+        Self { experiment, scene, controller, warnings, sources, folder, extensions, controllers: Vec::new() }
     }
 
     /// As [`Loaded::with_overrides`], without opening variants and sweep.
@@ -107,7 +116,7 @@ impl Loaded {
     /// As [`load`].
     pub fn alone_with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
         let opened = open_in(&self.folder, overrides, self.extensions.loaders(), false)?;
-        Ok(Self::new(opened, self.extensions))
+        Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, self.extensions) })
     }
 
     /// The same experiment with other settings, from the files as they were read: nothing is read twice. `overrides`
@@ -120,6 +129,6 @@ impl Loaded {
     /// As [`load`].
     pub fn with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
         let opened = open_in(&self.folder, overrides, self.extensions.loaders(), true)?;
-        Ok(Self::new(opened, self.extensions))
+        Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, self.extensions) })
     }
 }

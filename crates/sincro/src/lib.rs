@@ -3,7 +3,8 @@
 //! The parts are crates of their own: `sincro-dynamics` (multibody dynamics), `sincro-blocks` (block diagrams),
 //! `sincro-sim` (scenes, experiments, the run), the adapters `sincro-lua`, `sincro-remote` and `sincro-viewer`, and
 //! `sincro-figures`. None of the adapters knows another. This crate joins them once, for the command line and for every
-//! other front end; it prints nothing and never ends the process.
+//! other front end; but for the command line itself (`command_line`, feature `cli`), it prints nothing
+//! and never ends the process.
 //!
 //! | to do | use |
 //! |---|---|
@@ -33,7 +34,17 @@
 //! # }
 //! ```
 
+// the commands name the library as any other program would
+#[cfg(feature = "cli")]
+extern crate self as sincro;
+
+#[cfg(feature = "cli")]
+pub mod command_line;
+#[cfg(feature = "cli")]
+mod commands;
 pub mod compare;
+#[cfg(feature = "cli")]
+mod diagnostics;
 pub mod export;
 pub mod linearization;
 mod load;
@@ -42,6 +53,8 @@ mod run;
 pub mod serve;
 pub mod view;
 
+#[cfg(feature = "cli")]
+pub(crate) use command_line::Exit;
 pub use load::{camera, extensions, load, scene_name};
 pub use run::{RunFailure, RunRequest, Verdict, simulate};
 

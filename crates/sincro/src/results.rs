@@ -78,6 +78,13 @@ fn write_with(
     write_text(&out.join("report.html"), &report::html(&page))
 }
 
+/// Page of a run as HTML, with its replay and the program that shows it.
+#[must_use]
+pub fn report_html(loaded: &Loaded, campaign: &Campaign) -> String {
+    let replay = embed::replay(&replay(loaded, campaign).to_json());
+    report::html(&Page { replay, ..campaign::page(loaded, campaign) })
+}
+
 /// Replay of a campaign, with the drawing of its diagram.
 #[must_use]
 pub fn replay(loaded: &Loaded, campaign: &Campaign) -> Replay {

@@ -124,6 +124,9 @@ impl LockStep {
             Some(part) => new.world.initialize_with(0.0, part),
             None => new.world.initialize(0.0),
         }
+        for factory in &loaded.controllers {
+            new.attach(factory.controller(loaded));
+        }
         new
     }
 

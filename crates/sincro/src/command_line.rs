@@ -1,0 +1,120 @@
+//! The command line of sincro.
+//!
+//! Exit status: 0 all checks hold and the audit has no findings, 1 a check fails or could not be made or the audit has
+//! findings, 2 bad input (nothing is written), 3 the run stopped (what was recorded is kept).
+
+use std::ffi::OsString;
+
+use clap::{Parser, Subcommand};
+
+use crate::{Verdict, commands, diagnostics};
+
+/// Simulates robots and their controllers in lock-step: exact, deterministic, with an error bar on every run.
+#[derive(Debug, Parser)]
+#[command(name = "sincro", version, about, propagate_version = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene folder, judge its checks, write signals, figures and a report
+    Run(commands::run::Arguments),
+    /// Check a scene without running it: objects, degrees of freedom, warnings, available signals
+    Check(commands::check::Arguments),
+    /// Draw the block diagram of a scene as SVG
+    Draw(commands::draw::Arguments),
+    /// Linearise a scene: matrices, poles, zeros, Bode and step plots
+    Linearize(commands::linearize::Arguments),
+    /// Find an equilibrium of a scene
+    Trim(commands::trim::Arguments),
+    /// Print mass matrix, inverse and forward dynamics of a scene at given states
+    Dynamics(commands::dynamics::Arguments),
+    /// Import a robot from URDF, SDF or MJCF as a scene folder, with a report of every element
+    Import(commands::import::Arguments),
+    /// Write a scene in another format, and say what the format cannot
+    #[command(subcommand)]
+    Export(commands::export::Format),
+    /// Show a scene live, or replay a finished run, in the browser: 3-D, plots, transport controls, parameters
+    View(commands::view::Arguments),
+    /// Show a finished run in the browser
+    Replay(commands::view::ReplayArguments),
+    /// Compare two finished runs: the first and the greatest difference of each signal
+    Diff(commands::diff::Arguments),
+    /// List the blocks that diagrams are made of, or show one with its parameters and an example
+    Blocks(commands::blocks::Arguments),
+    /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
+    Serve(commands::serve::Arguments),
+    /// Run every experiment of the thesis and show measured and expected values on one page
+    Reproduce(commands::reproduce::Arguments),
+    /// Measure speed, memory and accuracy on this machine, next to MuJoCo and Pinocchio on request
+    Bench(sincro_bench::Options),
+}
+
+/// Exit of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// All checks hold, and the audit has no findings.
+    Holds,
+    /// A check fails or could not be made, or the audit has findings.
+    Fails,
+    /// Bad input.
+    Refused,
+    /// The run stopped.
+    Stopped,
+}
+
+impl From<Verdict> for Exit {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Holds => Self::Holds,
+            Verdict::Fails => Self::Fails,
+            Verdict::Stopped => Self::Stopped,
+        }
+    }
+}
+
+impl From<Exit> for u8 {
+    fn from(exit: Exit) -> Self {
+        match exit {
+            Exit::Holds => 0,
+            Exit::Fails => 1,
+            Exit::Refused => 2,
+            Exit::Stopped => 3,
+        }
+    }
+}
+
+/// Runs the command line on its arguments, the first of which is the name of the program, and returns its exit status.
+/// Unlike the rest of this library it prints, and ends the process at a second Ctrl-C.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let command = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli.command,
+        Err(refused) => {
+            let _ = refused.print();
+            return u8::try_from(refused.exit_code()).unwrap_or(2);
+        }
+    };
+    let exit = match command {
+        Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Draw(arguments) => commands::draw::run(&arguments),
+        Command::Linearize(arguments) => commands::linearize::run(&arguments),
+        Command::Trim(arguments) => commands::trim::run(&arguments),
+        Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
+        Command::Import(arguments) => commands::import::run(&arguments),
+        Command::Export(format) => commands::export::run(&format),
+        Command::View(arguments) => commands::view::run(&arguments),
+        Command::Replay(arguments) => commands::view::replay(&arguments),
+        Command::Diff(arguments) => commands::diff::run(&arguments),
+        Command::Blocks(arguments) => commands::blocks::run(&arguments),
+        Command::Serve(arguments) => commands::serve::run(&arguments),
+        Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
+        Command::Bench(options) => match sincro_bench::run(&options) {
+            Ok(()) => Exit::Holds,
+            Err(message) => diagnostics::refuse(&message, None),
+        },
+    };
+    exit.into()
+}
