@@ -53,6 +53,7 @@ pub(super) fn default_experiment(step: f64, duration: f64) -> Experiment {
         sweep: None,
         variants: Vec::new(),
         plots: Vec::new(),
+        task: None,
     }
 }
 

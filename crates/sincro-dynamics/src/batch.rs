@@ -11,9 +11,13 @@ use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
 use crate::aero::rotor::SpeedFrom;
+use crate::aero::wind::Wind;
+use crate::coupled::StateView;
 use crate::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
+use crate::kinematics;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, PackError};
+use crate::signal::Signal;
 use crate::state::State;
 use crate::world::{MethodKind, Stop, World};
 
@@ -79,11 +83,130 @@ pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<()
 
 fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     let end = settings.h * f64::from(settings.n_steps);
-    let unlimited = world.model.drives.iter().all(|d| world.model.drive_limit(d).is_none());
+    obstacle_to_lanes(&world.model).is_none() && world.model.next_time_event(-1.0) >= end
+}
+
+/// Part of a model that lanes cannot advance together, in words; none if there is none.
+#[must_use]
+pub fn obstacle_to_lanes(model: &Model<f64>) -> Option<&'static str> {
+    if model.drives.iter().any(|d| model.drive_limit(d).is_some()) {
+        return Some("a drive with a limit or friction");
+    }
     // particles are counted for each world
-    let counts = world.model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. }));
-    let is_free = world.model.constraints().is_empty();
-    unlimited && is_free && !counts && world.model.next_time_event(-1.0) >= end
+    if model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. })) {
+        return Some("a rotor of particles");
+    }
+    (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")
+}
+
+/// Returns true if the forces on a model do not depend on time by themselves: signals are constant, the air is steady.
+#[must_use]
+pub fn is_time_invariant(model: &Model<f64>) -> bool {
+    let applied = model.applied().iter().flat_map(|a| &a.signal);
+    let wrenches = model.wrenches().iter().flat_map(|w| w.force.iter().chain(&w.torque).flatten());
+    let is_constant = |signal: &Signal| matches!(signal, Signal::Constant(_));
+    applied.chain(wrenches).all(is_constant) && model.wind().is_none_or(Wind::is_steady)
+}
+
+/// Worlds of one structure in lanes, advanced step by step: their states and commands can be set between steps. Their
+/// forces must not depend on time ([`is_time_invariant`]): each lane has a clock of its own.
+#[derive(Clone, Debug)]
+pub struct SteppedLanes<R> {
+    lanes: LaneWorlds<R>,
+    method: FixedMethod<R>,
+}
+
+/// A fixed-step method with its working memory.
+#[derive(Clone, Debug)]
+enum FixedMethod<R> {
+    Euler(SemiImplicitEuler<R>),
+    Rk4(Rk4<R>),
+    Implicit(Extrapolated<R>),
+}
+
+impl<R: Real> SteppedLanes<R> {
+    /// Lanes of these models; the last one fills the lanes that are left over.
+    ///
+    /// # Errors
+    ///
+    /// The models differ in structure.
+    ///
+    /// # Panics
+    ///
+    /// The method is one of error control, or lanes cannot advance the models ([`obstacle_to_lanes`]).
+    pub fn new(models: &[&Model<f64>], kind: MethodKind) -> Result<Self, PackError> {
+        assert!(models.iter().all(|model| obstacle_to_lanes(model).is_none()), "lanes advance these models");
+        let mechanism = Mechanism::new(Model::<R>::pack(models)?, false);
+        let dim = mechanism.dim();
+        let method = match kind {
+            MethodKind::SemiImplicitEuler => FixedMethod::Euler(SemiImplicitEuler::new(dim)),
+            MethodKind::Rk4 => FixedMethod::Rk4(Rk4::new(dim)),
+            MethodKind::Implicit => FixedMethod::Implicit(Extrapolated::new(dim, 2, Control::new(1.0, 1.0))),
+            MethodKind::DormandPrince | MethodKind::Stiff => panic!("lanes have a fixed step"),
+        };
+        let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
+        Ok(Self { lanes: LaneWorlds { y: vec![R::zero(); dim], reach_target_velocities, mechanism }, method })
+    }
+
+    /// Puts one lane into a state: coordinates, velocities, rotors.
+    pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
+        let LaneWorlds { mechanism, y, .. } = &mut self.lanes;
+        let with = |old: R, new: f64| R::from_lanes(|k| if k == lane { new } else { old.lane(k) });
+        let base: Vec<R> = mechanism.base().iter().zip(&state.q).map(|(old, new)| with(*old, *new)).collect();
+        mechanism.set_base(&base);
+        let n_v = mechanism.model().n_v();
+        for (k, new) in state.v.iter().enumerate() {
+            y[n_v + k] = with(y[n_v + k], *new);
+            y[k] = with(y[k], 0.0);
+        }
+        for (k, new) in mechanism.rotor_states().zip(&state.rotors) {
+            y[k] = with(y[k], *new);
+        }
+    }
+
+    /// Commands of all lanes, held until they are set again.
+    pub fn commands(&mut self) -> &mut [R] {
+        &mut self.lanes.mechanism.commands
+    }
+
+    /// Makes one step of length `h` `[s]`.
+    #[inline(always)]
+    pub fn step(&mut self, h: f64) {
+        let Self { lanes, method } = self;
+        let is_euler = matches!(method, FixedMethod::Euler(_));
+        let is_driven = !lanes.mechanism.drives.is_empty();
+        if is_driven {
+            lanes.drive(is_euler, h);
+        }
+        match method {
+            FixedMethod::Euler(method) => method.step(&mut lanes.mechanism, 0.0, h, &mut lanes.y),
+            FixedMethod::Rk4(method) => method.step(&mut lanes.mechanism, 0.0, h, &mut lanes.y),
+            FixedMethod::Implicit(method) => method.step(&mut lanes.mechanism, 0.0, h, &mut lanes.y),
+        }
+        if is_driven && is_euler {
+            lanes.set_driven_velocities();
+        }
+    }
+
+    /// State of all lanes as it can be observed; poses and twists of links are found if `with_kinematics`.
+    #[inline(always)]
+    pub fn view(&mut self, with_kinematics: bool) -> StateView<'_, R> {
+        let LaneWorlds { mechanism, y, reach_target_velocities: zeros } = &mut self.lanes;
+        let n_v = mechanism.model.n_v();
+        let (v, rotors) = (&y[n_v..2 * n_v], &y[mechanism.rotor_states()]);
+        if with_kinematics {
+            zeros.fill(R::zero());
+            kinematics::motions(&mechanism.model, &mechanism.base, v, zeros, &mut mechanism.scratch);
+        }
+        let (model, q, commands) = (&mechanism.model, &*mechanism.base, &*mechanism.commands);
+        StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
+    }
+
+    /// Returns true if all numbers of a lane are finite.
+    #[must_use]
+    pub fn is_finite(&self, lane: usize) -> bool {
+        self.lanes.y.iter().chain(self.lanes.mechanism.base()).all(|x| x.lane(lane).is_finite())
+    }
 }
 
 /// One world by itself.
@@ -148,6 +271,7 @@ impl LaneVisitor for Bundle<'_> {
 }
 
 /// A bundle in lanes: unlimited drives only.
+#[derive(Clone, Debug)]
 struct LaneWorlds<R> {
     mechanism: Mechanism<R>,
     y: Vec<R>,

@@ -66,13 +66,16 @@ pub fn run(
 /// A recorded signal: name, unit, values, error bar and the method of its estimate.
 type Column = (String, String, Py<PyArray1<f64>>, Option<f64>, String);
 
+/// Columns of one run.
+type Arrays = Vec<Py<PyArray1<f64>>>;
+
 /// Result of a run, all of it.
 #[pyclass(frozen, module = "sincro._sincro")]
 pub struct Run {
     loaded: Loaded,
     campaign: Campaign,
     /// Columns that were asked for, by run: the numbers are handed to Python once.
-    arrays: Mutex<Vec<(Option<String>, Vec<Py<PyArray1<f64>>>)>>,
+    arrays: Mutex<Vec<(Option<String>, Arrays)>>,
 }
 
 impl Run {

@@ -8,12 +8,14 @@
 //! | `campaign` | a whole run with its error bars, checks and audit: `Run` |
 //! | `function` | Python functions as controllers in lock-step |
 //! | `dynamics` | mass matrix, inverse and forward dynamics, Jacobians, linearisation, trim |
+//! | `environment` | tasks of scenes as many worlds at once, for reinforcement learning |
 //! | `numbers` | arguments that Python gives, checked |
 //! | `errors` | problems as Python exceptions, with the text of the command line |
 //! | `foreground` | long work beside the interpreter: the GIL released, Ctrl-C heard, panics contained |
 
 mod campaign;
 mod dynamics;
+mod environment;
 mod errors;
 mod foreground;
 mod function;
@@ -77,6 +79,7 @@ fn _sincro(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<model::Model>()?;
     module.add_class::<campaign::Run>()?;
     module.add_class::<live::Snapshot>()?;
+    module.add_class::<environment::Worlds>()?;
     module.add_function(wrap_pyfunction!(command_line, module)?)?;
     module.add_function(wrap_pyfunction!(import_robot, module)?)?;
     module.add_function(wrap_pyfunction!(lqr, module)?)?;

@@ -66,6 +66,10 @@ pub struct Model {
 }
 
 impl Model {
+    pub(crate) fn loaded(&self) -> &Arc<Loaded> {
+        &self.loaded
+    }
+
     fn functions(&self) -> Vec<Arc<Function>> {
         self.functions.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -139,6 +143,9 @@ impl Model {
     }
 }
 
+/// First index and the one after the last.
+type Range = (usize, usize);
+
 /// Name and unit of each command, as they are recorded.
 fn command_names(loaded: &Loaded) -> Vec<(String, String)> {
     let all = catalogue(&loaded.scene.model);
@@ -171,6 +178,7 @@ impl Model {
 
     // ---- the scene
 
+    /// Folder of the scene.
     #[getter]
     fn path(&self) -> PathBuf {
         self.path.clone()
@@ -181,11 +189,13 @@ impl Model {
         self.settings.clone()
     }
 
+    /// Title of the experiment.
     #[getter]
     fn title(&self) -> &str {
         &self.loaded.experiment.title
     }
 
+    /// Warnings about the scene, with their places.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.loaded.warnings.iter().map(ToString::to_string).collect()
@@ -197,21 +207,25 @@ impl Model {
         self.loaded.experiment.step
     }
 
+    /// Duration of the experiment [s].
     #[getter]
     fn duration(&self) -> f64 {
         self.loaded.experiment.duration
     }
 
+    /// Number of coordinates.
     #[getter]
     fn n_q(&self) -> usize {
         self.loaded.scene.model.n_q()
     }
 
+    /// Number of velocities: degrees of freedom, closed loops not counted.
     #[getter]
     fn n_v(&self) -> usize {
         self.loaded.scene.model.n_v()
     }
 
+    /// Name and unit of every command, in the order of `step`.
     #[getter]
     fn inputs(&self) -> Vec<(String, String)> {
         self.commands.clone()
@@ -227,7 +241,7 @@ impl Model {
 
     /// Path, first and last coordinate (exclusive), first and last velocity of every joint.
     #[getter]
-    fn joints(&self) -> Vec<(String, (usize, usize), (usize, usize))> {
+    fn joints(&self) -> Vec<(String, Range, Range)> {
         let of = |j: &sincro_dynamics::model::JointInfo| {
             (j.name.clone(), (j.q_idx, j.q_idx + j.n_q), (j.v_idx, j.v_idx + j.n_v))
         };
@@ -240,6 +254,13 @@ impl Model {
         self.loaded.scene.model.names().frames.iter().map(|frame| frame.name.clone()).collect()
     }
 
+    /// True if the experiment has a task.
+    #[getter]
+    fn has_task(&self) -> bool {
+        self.loaded.experiment.task.is_some()
+    }
+
+    /// Closes the model: what is asked of it later is refused.
     fn close(&self) {
         self.is_closed.store(true, Ordering::Relaxed);
         if let Ok(mut live) = self.live.try_lock() {
@@ -266,31 +287,37 @@ impl Model {
 
     // ---- the run under way
 
+    /// Time of the run under way [s].
     #[getter]
     fn time(&self, py: Python<'_>) -> PyResult<f64> {
         self.with_live(py, |live| Ok(live.lockstep.t()))
     }
 
+    /// Base steps of the run under way.
     #[getter]
     fn tick(&self, py: Python<'_>) -> PyResult<u64> {
         self.with_live(py, |live| Ok(live.lockstep.tick()))
     }
 
+    /// Hash of all states of the run under way, as `sincro run` prints it.
     #[getter]
     fn trace_hash(&self, py: Python<'_>) -> PyResult<String> {
         self.with_live(py, |live| Ok(live.trace().to_string()))
     }
 
+    /// Coordinates of the run under way, (n_q,) [rad] or [m].
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_vec(py, self.now(py)?.0))
     }
 
+    /// Velocities of the run under way, (n_v,) [rad/s] or [m/s].
     #[getter]
     fn v<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_vec(py, self.now(py)?.1))
     }
 
+    /// Puts the run under way into another state: coordinates (n_q,), velocities (n_v,); what is left out stays.
     #[pyo3(signature = (q=None, v=None))]
     fn set_state(&self, py: Python<'_>, q: Option<&Bound<'_, PyAny>>, v: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let q = q.map(|q| numbers::vector(py, "q", q, self.n_q())).transpose()?;
@@ -301,6 +328,9 @@ impl Model {
         })
     }
 
+    /// Advances the run under way by base steps. `u`: all commands in the order of `inputs` (n_inputs,), or some of
+    /// them by name; they win over the scene's signals and the diagram, and are held until they are set again or
+    /// released.
     #[pyo3(signature = (u=None, steps=1))]
     fn step(&self, py: Python<'_>, u: Option<&Bound<'_, PyAny>>, steps: u64) -> PyResult<()> {
         let set = match u {
@@ -335,6 +365,7 @@ impl Model {
         })
     }
 
+    /// Begins the run under way anew, commands released.
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
         self.refuse_closed(py)?;
         let Some(in_use) = Use::begin(self) else {
@@ -355,10 +386,12 @@ impl Model {
         Ok(PyArray1::from_vec(py, values))
     }
 
+    /// The present moment, exact, to go back to.
     fn snapshot(&self, py: Python<'_>) -> PyResult<Snapshot> {
         self.with_live(py, Live::snapshot)
     }
 
+    /// Goes back, or forward, to a moment of this scene with these settings.
     fn restore(&self, py: Python<'_>, to: &Bound<'_, Snapshot>) -> PyResult<()> {
         let to = to.get();
         self.with_live(py, |live| live.restore(to))
@@ -418,6 +451,7 @@ impl Model {
 
     // ---- equations of motion
 
+    /// Mass matrix M(q) with armature, (n_v, n_v) [kg·m²], [kg·m] or [kg]; `q` (n_q,): now unless given.
     #[pyo3(signature = (q=None))]
     fn mass_matrix<'py>(&self, py: Python<'py>, q: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let q = self.q_or_now(py, q)?;
@@ -425,6 +459,8 @@ impl Model {
         matrix(py, terms.mass_matrix, self.n_v(), self.n_v())
     }
 
+    /// Torques τ = M(q)·v̇ + h(q, v), springs and dampers left out, (n_v,) [N·m] or [N]; `q`: now, `v`, `v_dot`: zero
+    /// unless given.
     #[pyo3(signature = (q=None, v=None, v_dot=None))]
     fn inverse_dynamics<'py>(
         &self,
@@ -440,6 +476,8 @@ impl Model {
         Ok(PyArray1::from_vec(py, terms.inverse_dynamics))
     }
 
+    /// Accelerations v̇ under the torques `tau`, springs and dampers left out, (n_v,) [rad/s²] or [m/s²]; `q`: now,
+    /// `v`, `tau`: zero unless given.
     #[pyo3(signature = (q=None, v=None, tau=None))]
     fn forward_dynamics<'py>(
         &self,
@@ -455,6 +493,7 @@ impl Model {
         Ok(PyArray1::from_vec(py, terms.forward_dynamics))
     }
 
+    /// Jacobian of a body or frame, (6, n_v): angular velocity [rad/s], then velocity of the origin [m/s], world axes.
     #[pyo3(signature = (frame, q=None))]
     fn jacobian<'py>(
         &self,
@@ -480,13 +519,13 @@ impl Model {
         q: Option<&Bound<'py, PyAny>>,
         v: Option<&Bound<'py, PyAny>>,
         tau: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 3]> {
         let (q, n, zeros) = (self.q_or_now(py, q)?, self.n_v(), vec![0.0; self.n_v()]);
         let v = numbers::vector_or(py, "v", v, &zeros)?;
         let tau = numbers::vector_or(py, "tau", tau, &zeros)?;
         let [by_q, by_v, by_tau] =
             foreground::contained(py, || dynamics::forward_derivatives(&self.loaded, &q, &v, &tau))?;
-        Ok((matrix(py, by_q, n, n)?, matrix(py, by_v, n, n)?, matrix(py, by_tau, n, n)?))
+        Ok([matrix(py, by_q, n, n)?, matrix(py, by_v, n, n)?, matrix(py, by_tau, n, n)?])
     }
 
     /// JSON of the linearisation (`sincro linearize --json`), with the operating point.

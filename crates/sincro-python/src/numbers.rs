@@ -46,8 +46,13 @@ pub fn list(py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<Ve
     if let Ok(x) = given.extract::<f64>() {
         return Ok(vec![x]);
     }
-    let converted = py.import("numpy").and_then(|numpy| numpy.call_method1("asarray", (given, "float64")));
-    let array = converted.ok().and_then(|array| array.cast_into::<PyArray1<f64>>().ok());
+    // kinds of real numbers: floating, signed, unsigned, truth; what is complex, a text or an object is none
+    let real = |array: Bound<'_, PyAny>| -> PyResult<Option<Bound<'_, PyAny>>> {
+        let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+        if "fiub".contains(&kind) { array.call_method1("astype", ("float64",)).map(Some) } else { Ok(None) }
+    };
+    let converted = py.import("numpy").and_then(|numpy| numpy.call_method1("asarray", (given,))).and_then(real);
+    let array = converted.ok().flatten().and_then(|array| array.cast_into::<PyArray1<f64>>().ok());
     match array {
         Some(array) => Ok(array.readonly().as_array().to_vec()),
         None => {

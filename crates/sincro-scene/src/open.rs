@@ -195,6 +195,9 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
         if let Err(found) = Recorder::new(&experiment.record, &scene.model, &signals) {
             diagnostics.merge(found);
         }
+        if let Some(task) = &experiment.task {
+            diagnostics.merge(experiment::task::check(task, &scene.model, &signals));
+        }
     }
     if let Some(experiment) = &experiment {
         if let Some(scene) = &scene {

@@ -16,7 +16,7 @@ use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 use sincro_math::Real;
 
-use crate::controller::{Commands, Controller, Forked, Instant, NotFinite};
+use crate::controller::{Commands, Controller, Forked, Instant, NotFinite, Source};
 use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{self, View};
@@ -36,6 +36,8 @@ pub struct DiagramController<R: Number> {
     /// Last samples of the sensors.
     sensed: Vec<f64>,
     held: Vec<f64>,
+    /// True for each command that a stronger source has set in this step: continuous blocks do not write it.
+    is_overridden: Vec<bool>,
 }
 
 impl<R: Number> DiagramController<R> {
@@ -54,6 +56,7 @@ impl<R: Number> DiagramController<R> {
             impulse: vec![0.0; model.motors().len()],
             sensed: vec![0.0; model.names().sensors.iter().map(|s| s.values.len()).sum()],
             held: vec![0.0; model.n_commands()],
+            is_overridden: vec![false; model.n_commands()],
         }
     }
 
@@ -98,9 +101,16 @@ impl<R: Number> DiagramController<R> {
         }
     }
 
+    /// Notes the sources of the commands of a step: continuous blocks leave those of controllers alone.
+    pub fn note_sources(&mut self, sources: &[Source]) {
+        for (is_overridden, source) in self.is_overridden.iter_mut().zip(sources) {
+            *is_overridden = matches!(source, Source::Controller(_));
+        }
+    }
+
     fn write_commands(&self, commands: &mut [R], continuous_only: bool) {
         for command in &self.wiring.program().commands {
-            if command.is_continuous || !continuous_only {
+            if (command.is_continuous || !continuous_only) && !self.is_overridden[command.terminal] {
                 commands[command.terminal] = self.runner.signals()[command.signal.start];
             }
         }

@@ -64,6 +64,7 @@
 //! | [`trace`], [`snapshot`], [`validity`], [`replay`] | hash of a run, state as bytes, validity of rotor theory, keyframes |
 //! | [`audit`] | laws, solver, energy balance and inputs of every run, against the limits of its accuracy |
 //! | [`table`], [`sweep`], [`check`], [`results`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, result files |
+//! | [`task`] | many worlds of a task, for reinforcement learning |
 //! | [`campaign`] | an experiment with its variants, sweep and error bars |
 
 pub mod audit;
@@ -85,6 +86,7 @@ pub mod sensors;
 pub mod snapshot;
 pub mod sweep;
 pub mod table;
+pub mod task;
 pub mod trace;
 pub mod validity;
 

@@ -206,6 +206,12 @@ impl Wind {
         }
     }
 
+    /// Returns true if it has neither gusts nor turbulence.
+    #[must_use]
+    pub fn is_steady(&self) -> bool {
+        self.gusts.is_empty() && self.turbulence.is_none()
+    }
+
     /// Next time event: the first instant after `t` `[s]` at which a gust begins or ends; infinite if there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {

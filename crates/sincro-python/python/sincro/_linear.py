@@ -38,7 +38,7 @@ class LinearSystem:
         """
         from . import _sincro
 
-        Q, R = (np.diag(w) if np.ndim(w) == 1 else np.asarray(w, dtype=float) for w in (Q, R))
+        Q, R = (np.diag(w) if w.ndim == 1 else w for w in (np.asarray(Q, dtype=float), np.asarray(R, dtype=float)))
         return _sincro.lqr(self.A, self.B, Q, R)
 
     def __iter__(self):

@@ -179,7 +179,7 @@ class Model(_sincro.Model):
 
         A displacement of a ball or free joint is a rotation vector (and a shift) in the axes of the moving body.
         """
-        return self._forward_dynamics_derivatives(q, v, tau)
+        return tuple(self._forward_dynamics_derivatives(q, v, tau))
 
     # ---- the page
 

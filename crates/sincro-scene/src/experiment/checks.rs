@@ -235,7 +235,8 @@ impl CheckReader<'_> {
         }
     }
 
-    fn formula(&mut self, text: &str, pointer: &str, slots: &[String]) -> Option<Expression> {
+    /// The formula at `pointer`, which reads `slots`; none, with the problem noted, if it is not understood.
+    pub fn formula(&mut self, text: &str, pointer: &str, slots: &[String]) -> Option<Expression> {
         let names: Vec<&str> = slots.iter().map(String::as_str).collect();
         match Expression::parse(text, &names) {
             Ok(formula) => Some(formula),

@@ -71,6 +71,8 @@ pub(crate) struct ExperimentFile {
     /// Plots of the report; one for each recorded unit if none is given.
     #[serde(default)]
     pub plot: Vec<PlotFile>,
+    /// A task for reinforcement learning.
+    pub task: Option<super::task_file::TaskFile>,
 }
 
 /// How the equations of motion are integrated.

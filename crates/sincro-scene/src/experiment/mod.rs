@@ -10,9 +10,12 @@ mod resolve;
 mod sample_times;
 mod schema;
 pub mod stop;
+pub mod task;
+mod task_file;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 pub(crate) use file::ExperimentFile;
 pub(crate) use grid::short;
@@ -24,6 +27,7 @@ use crate::diagnostic::{Located, Location};
 use crate::overrides::Override;
 use check::{Check, Reference};
 use stop::StopWhen;
+use task::Task;
 
 /// Smallest useful accuracy of the variable-step methods: below, the rounding of double precision in a step is larger
 /// than its tolerance, and the steps become shorter without end.
@@ -70,6 +74,8 @@ pub struct Experiment {
     pub variants: Vec<Variant>,
     /// Plots of the report; empty if the report is to choose.
     pub plots: Vec<Plot>,
+    /// A task for reinforcement learning, if there is one.
+    pub task: Option<Arc<Task>>,
 }
 
 /// Integration method of the equations of motion.

@@ -12,6 +12,7 @@ use super::file::{
 };
 use super::grid::Grid;
 use super::stop::{Side, StopWhen};
+use super::task;
 use super::{ErrorBar, Experiment, Integrator, Plot, SMALLEST_ACCURACY, Sweep, Variant, path_components};
 use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
@@ -60,6 +61,7 @@ impl Resolver<'_> {
         let sweep = file.sweep.as_ref().map(|sweep| self.sweep(sweep, &parameters));
         let variants = self.variants(&parameters, grid);
         let plots = self.plots(&parameters, grid);
+        let task = task::of_file(file.task.as_ref(), grid, &mut self.reader(&parameters, Keys::Run(grid)));
         let scene_path = self.folder.path_of(&file.scene);
         Some(Experiment {
             title: file.title.clone(),
@@ -81,6 +83,7 @@ impl Resolver<'_> {
             sweep,
             variants,
             plots,
+            task,
         })
     }
 

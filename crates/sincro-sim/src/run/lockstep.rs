@@ -372,6 +372,9 @@ impl LockStep {
         for (k, controller) in self.controllers.iter().enumerate() {
             controller.latch(&mut commands.by(Source::Controller(k)));
         }
+        if let Some(diagram) = &mut self.control {
+            diagram.note_sources(&self.sources);
+        }
     }
 
     /// Signals of the scene that give the commands, the weakest source of each.

@@ -1,0 +1,211 @@
+"""Tasks: gymnasium's checks, seeds, autoreset, lanes against lock-steps, wrong calls."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import sincro
+
+gymnasium = pytest.importorskip("gymnasium")
+import sincro.gym  # noqa: E402
+from gymnasium.utils.env_checker import check_env  # noqa: E402
+from gymnasium.vector import AutoresetMode  # noqa: E402
+
+TASKS = ["cart-pole-balance", "cart-pole-swing-up", "acrobot", "reacher-springs", "quadrotor-hover"]
+
+
+def scene(name):
+    return f"scenes/{name}"
+
+
+def actions_for(envs, steps, seed=0):
+    envs.action_space.seed(seed)
+    return [envs.action_space.sample() for _ in range(steps)]
+
+
+def episodes(envs, actions, seed=3):
+    seen = [envs.reset(seed=seed)[0].copy()]
+    rest = []
+    for action in actions:
+        observations, rewards, terminated, truncated, _ = envs.step(action)
+        seen.append(observations.copy())
+        rest.append(np.stack([rewards, terminated, truncated]))
+    return np.array(seen), np.array(rest)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_gymnasium_has_nothing_to_say(name):
+    env = sincro.gym.make(scene(name), render_mode="rgb_array")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # observations are not bounded, which gymnasium remarks on
+        warnings.filterwarnings("ignore", message=".*-infinity.*|.*infinity.*|.*symmetric and normalized.*")
+        warnings.filterwarnings("ignore", message=".*not within the.*|.*spec.*")
+        check_env(env, skip_render_check=True)
+    assert env.render().shape == (360, 480, 3) and env.render().std() > 1
+
+
+def test_pictures_are_the_right_way_up():
+    env = sincro.gym.make(scene("cart-pole-balance"), render_mode="rgb_array")
+    env.reset(seed=0)
+    picture = env.render().astype(int)
+    # the pole is brown, the cart is not
+    is_pole = (picture[..., 0] - picture[..., 2] > 40).nonzero()[0]
+    is_cart = ((picture.sum(axis=2) < 500) & (picture[..., 0] <= picture[..., 2])).nonzero()[0]
+    assert is_pole.size and is_cart.size and is_pole.mean() < is_cart.mean()
+
+
+@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("mode", list(AutoresetMode))
+def test_worlds_do_not_depend_on_lanes_threads_and_neighbours(name, mode):
+    many = sincro.gym.make_vec(scene(name), 19, autoreset=mode, threads=3)
+    assert many.runs_in_lanes, many.lanes_refused
+    actions = actions_for(many, 120)
+    seen, rest = episodes(many, actions)
+    few = sincro.gym.make_vec(scene(name), 5, autoreset=mode, threads=1)
+    seen_few, rest_few = episodes(few, [action[:5] for action in actions])
+    assert np.array_equal(seen[:, :5], seen_few) and np.array_equal(rest[:, :, :5], rest_few)
+
+
+def test_lanes_have_the_bits_of_lock_steps(tmp_path):
+    import shutil
+
+    for name in TASKS:
+        folder = tmp_path / name
+        shutil.copytree(scene(name), folder)
+        text = (folder / "experiment.toml").read_text()
+        # a number that is drawn and always the same keeps the lanes away
+        text += '\n[[task.random]]\npath = "gravity.1"\nrange = [0.0, 0.0]\n'
+        (folder / "experiment.toml").write_text(text)
+        lanes, single = (sincro.gym.make_vec(path, 4) for path in (scene(name), folder))
+        assert lanes.runs_in_lanes and not single.runs_in_lanes
+        actions = actions_for(lanes, 60)
+        (seen, rest), (seen_single, rest_single) = episodes(lanes, actions), episodes(single, actions)
+        assert np.array_equal(seen, seen_single), name
+        assert np.array_equal(rest, rest_single), name
+
+
+def test_one_world_is_the_first_of_many():
+    env, envs = sincro.gym.make(scene("acrobot")), sincro.gym.make_vec(scene("acrobot"), 2)
+    one, _ = env.reset(seed=11)
+    many, _ = envs.reset(seed=11)
+    assert np.array_equal(one, many[0]) and not np.array_equal(many[0], many[1])
+    for action in (0, 2, 1):
+        one, reward, *_ = env.step(action)
+        many, rewards, *_ = envs.step(np.array([action, 0]))
+        assert np.array_equal(one, many[0]) and reward == rewards[0]
+
+
+def test_autoreset_modes_differ_as_gymnasium_says():
+    push = np.array([1, 1])
+    runs = {}
+    for mode in AutoresetMode:
+        envs = sincro.gym.make_vec(scene("cart-pole-balance"), 2, autoreset=mode)
+        envs.reset(seed=0)
+        for count in range(1, 100):
+            observations, rewards, terminated, truncated, info = envs.step(push)
+            if terminated[0]:
+                break
+        runs[mode] = (count, observations[0], info)
+        assert rewards[0] == 1.0 and not truncated[0]
+        after, rewards, terminated, _, _ = envs.step(push)
+        if mode is AutoresetMode.NEXT_STEP:
+            assert rewards[0] == 0.0 and not terminated[0] and np.abs(after[0]).max() <= 0.05
+        if mode is AutoresetMode.DISABLED:
+            assert np.array_equal(after[0], observations[0]) and not terminated[0]
+            again, _ = envs.reset(options={"reset_mask": np.array([True, False])})
+            assert np.abs(again[0]).max() <= 0.05 and np.array_equal(again[1], after[1])
+    counts = {count for count, _, _ in runs.values()}
+    assert len(counts) == 1
+    same = runs[AutoresetMode.SAME_STEP]
+    final = same[2]["final_obs"][0]
+    assert same[2]["_final_obs"][0] and np.array_equal(final, runs[AutoresetMode.DISABLED][1])
+    assert np.abs(same[1]).max() <= 0.05
+
+
+def test_cart_pole_has_the_episodes_of_gymnasium():
+    ours = sincro.gym.make(scene("cart-pole-balance"))
+    theirs = gymnasium.make("CartPole-v1").unwrapped
+    theirs.kinematics_integrator = "semi-implicit euler"
+    generator = np.random.default_rng(5)
+    lengths = []
+    for episode in range(50):
+        observation, _ = ours.reset(seed=episode)
+        theirs.reset(seed=0)
+        theirs.state = tuple(observation)
+        actions = generator.integers(0, 2, 500)
+        pair = []
+        for env in (ours, theirs):
+            for count, action in enumerate(actions, 1):
+                result = env.step(int(action))
+                if result[2] or count == 500:
+                    break
+            pair.append(count)
+            last = result[0]
+        lengths.append(pair)
+    assert all(a == b for a, b in lengths), lengths
+
+
+def test_randomised_parameters_are_drawn_by_episode(tmp_path):
+    import shutil
+
+    folder = tmp_path / "cart"
+    shutil.copytree(scene("cart-pole-balance"), folder)
+    with (folder / "experiment.toml").open("a") as file:
+        file.write('\n[[task.random]]\npath = "/rail/cart/hinge/pole.mass"\nrange = [0.05, 0.5]\n')
+    envs = sincro.gym.make_vec(folder, 3, threads=2)
+    assert "drawn" in envs.lanes_refused
+    actions = actions_for(envs, 50)
+    first, second = episodes(envs, actions), episodes(envs, actions)
+    assert np.array_equal(first[0], second[0])
+    plain = sincro.gym.make_vec(scene("cart-pole-balance"), 3)
+    assert not np.array_equal(episodes(plain, actions)[0][1:], first[0][1:])
+
+
+@pytest.mark.parametrize(
+    "action", [np.array([np.nan] * 4), np.zeros(3), "text", None, np.zeros((2, 4)), np.full(4, np.inf), np.zeros(4, complex)]
+)
+def test_wrong_actions_are_refused(action):
+    env = sincro.gym.make(scene("quadrotor-hover"))
+    env.reset(seed=0)
+    with pytest.raises(sincro.SincroError):
+        env.step(action)
+
+
+@pytest.mark.parametrize("action", [2, -1, 0.5, np.array([0, 1]), None])
+def test_wrong_choices_are_refused(action):
+    env = sincro.gym.make(scene("cart-pole-balance"))
+    with pytest.raises(sincro.ArgumentError, match="reset"):
+        env.step(0)
+    env.reset(seed=0)
+    with pytest.raises(sincro.SincroError):
+        env.step(action)
+
+
+def test_tasks_are_checked_when_the_scene_is_loaded(tmp_path):
+    import shutil
+
+    wrong = [
+        ('reward = "1"', 'reward = "1 + nothing"', "unknown name `nothing`"),
+        ('command = "/rail"', 'command = "/rial"', "there is no command `/rial`"),
+        ('x = "/rail.position", v', 'x = "/rail.positon", v', "there is no signal `/rail.positon`"),
+        ('signal = "/rail.velocity"', 'signal = "/rail.motor_torque"', "cannot start with"),
+        ("values = [-10.0, 10.0]", "range = [1.0, 1.0]", "empty or unbounded"),
+        ("time_limit = 10.0", "time_limit = 10.0\nperiod = 0.03", "no whole multiple"),
+        ('name = "push"', 'name = "x"', "cannot be a name here"),
+    ]
+    for k, (old, new, message) in enumerate(wrong):
+        folder = tmp_path / str(k)
+        shutil.copytree(scene("cart-pole-balance"), folder)
+        text = (folder / "experiment.toml").read_text()
+        assert old in text
+        (folder / "experiment.toml").write_text(text.replace(old, new, 1))
+        with pytest.raises(sincro.SceneError, match=message) as caught:
+            sincro.load(folder)
+        assert caught.value.diagnostics[0]["line"] > 1
+
+
+def test_a_scene_without_a_task_says_so():
+    with pytest.raises(sincro.SceneError, match="no task"):
+        sincro.gym.make("scenes/spring-dynamic")

@@ -1,0 +1,271 @@
+//! A task with its names resolved, and the draws of an episode.
+
+use std::sync::Arc;
+
+use sincro_blocks::library::sources::random::{gaussian, splitmix, uniform};
+use sincro_dynamics::batch::{is_time_invariant, obstacle_to_lanes};
+use sincro_dynamics::model::Model;
+use sincro_dynamics::signal::Signal;
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::MethodKind;
+use sincro_math::expression::Expression;
+
+use crate::load::Loaded;
+use crate::run::method_for;
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::experiment::task::{Action, Distribution, Space, Target, Task, command_index};
+use sincro_scene::overrides::Override;
+use sincro_scene::record::probe::{needs_kinematics, of_state};
+use sincro_scene::record::{Probe, Recorder, catalogue};
+use sincro_scene::scene::Scene;
+
+/// A formula, the plain ones known as such.
+#[derive(Clone, Debug)]
+pub(super) enum Formula {
+    /// A number of the list.
+    Slot(usize),
+    /// A constant.
+    Constant(f64),
+    /// Anything else.
+    Expression(Expression),
+}
+
+impl Formula {
+    fn of(expression: &Expression, slots: &[String]) -> Self {
+        if let Some(value) = expression.constant() {
+            return Self::Constant(value);
+        }
+        let slot = slots.iter().position(|slot| slot == expression.text().trim());
+        slot.map_or_else(|| Self::Expression(expression.clone()), Self::Slot)
+    }
+
+    /// Value for a list of numbers.
+    #[inline]
+    pub fn eval(&self, values: &[f64], stack: &mut Vec<f64>) -> f64 {
+        match self {
+            Self::Slot(slot) => values[*slot],
+            Self::Constant(value) => *value,
+            Self::Expression(expression) => expression.eval(values, stack),
+        }
+    }
+}
+
+/// Coordinate or velocity that an episode starts with.
+#[derive(Clone, Copy, Debug)]
+enum StartAt {
+    Coordinate(usize),
+    Rate(usize),
+}
+
+/// A task, resolved against its scene.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub(super) loaded: Loaded,
+    pub(super) task: Arc<Task>,
+    pub(super) method: MethodKind,
+    /// Probes of the signals; of the diagram and the world.
+    pub(super) probes: Vec<Probe>,
+    pub(super) needs_kinematics: bool,
+    pub(super) observations: Vec<Formula>,
+    pub(super) reward: Formula,
+    pub(super) terminated: Option<Formula>,
+    /// Command of each action, if it is one.
+    pub(super) of_actions: Vec<Option<usize>>,
+    /// Commands by formulas.
+    pub(super) of_formulas: Vec<(usize, Formula)>,
+    starts: Vec<(usize, StartAt)>,
+    /// Reason why lanes cannot advance the worlds.
+    lanes_refused: Option<String>,
+}
+
+/// Start of an episode, as it was drawn.
+#[derive(Clone, Debug)]
+pub(super) struct Drawn {
+    /// State of the world.
+    pub state: State<f64>,
+    /// Random numbers with names.
+    pub named: Vec<f64>,
+    /// Numbers of the scene and the diagram.
+    pub overrides: Vec<Override>,
+}
+
+impl Plan {
+    /// Resolves the task of an experiment.
+    ///
+    /// # Errors
+    ///
+    /// The experiment has no task, or a number that is drawn cannot be set.
+    pub fn new(loaded: &Loaded) -> Result<Self, Diagnostics> {
+        let Some(task) = loaded.experiment.task.clone() else {
+            let found = Diagnostic::nowhere("the experiment has no task");
+            return Err(found.with_help("add a table `[task]` to `experiment.toml`: docs/python.md").into());
+        };
+        let model = &*loaded.scene.model;
+        let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
+        // as they were when the scene was loaded: all of them are there
+        drop(Recorder::new(&task.signals, model, &entries)?);
+        let all: Vec<_> = catalogue(model).into_iter().chain(entries).collect();
+        let probe = |name: &str| all.iter().find(|entry| entry.name == name).map(|entry| entry.probe);
+        let probes: Vec<Probe> = task.signals.iter().filter_map(|signal| probe(&signal.value)).collect();
+        let starts = task.random.iter().enumerate().filter_map(|(k, random)| {
+            let Target::Start(signal) = &random.target else { return None };
+            match probe(&signal.value)? {
+                Probe::Coordinate(i) => Some((k, StartAt::Coordinate(i))),
+                Probe::Rate(i) => Some((k, StartAt::Rate(i))),
+                _ => None,
+            }
+        });
+        let command = |name: &str| command_index(model, name);
+        let of = |expression: &Expression| Formula::of(expression, &task.slots);
+        let mut plan = Self {
+            method: method_for(loaded).0,
+            needs_kinematics: probes.iter().any(|probe| needs_kinematics(*probe)),
+            probes,
+            observations: task.observations.iter().map(of).collect(),
+            reward: of(&task.reward),
+            terminated: task.terminated.as_ref().map(of),
+            of_actions: task.actions.iter().map(|a| a.command.as_ref().and_then(|c| command(&c.value))).collect(),
+            of_formulas: task.commands.iter().filter_map(|(c, f)| Some((command(&c.value)?, of(f)))).collect(),
+            starts: starts.collect(),
+            lanes_refused: None,
+            loaded: loaded.clone(),
+            task,
+        };
+        plan.lanes_refused = plan.obstacle().map(ToOwned::to_owned);
+        let middle = plan.drawn(0, 0);
+        if !middle.overrides.is_empty() {
+            loaded.alone_with_overrides(&middle.overrides)?;
+        }
+        Ok(plan)
+    }
+
+    /// Part of the scene that keeps lanes from advancing its worlds, in words.
+    fn obstacle(&self) -> Option<&str> {
+        let Loaded { scene, controller, .. } = &self.loaded;
+        let fixed = matches!(self.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
+        let model = &*scene.model;
+        if !fixed {
+            return Some("an integrator with error control: set `rk4`, `implicit` or `semi-implicit-euler`");
+        }
+        if controller.is_some() {
+            return Some("a diagram");
+        }
+        if !scene.scripts.is_empty() {
+            return Some("scripts");
+        }
+        if self.task.random.iter().any(|random| matches!(random.target, Target::Parameter(_))) {
+            return Some("numbers of the scene that are drawn for each episode");
+        }
+        if !is_time_invariant(model) || !scene.commands.iter().all(|s| matches!(s, Signal::Constant(_))) {
+            return Some("signals, gusts or turbulence that change with time");
+        }
+        if self.probes.iter().any(|probe| !is_of_state(model, *probe)) {
+            return Some(
+                "a signal that the state alone does not decide, such as a sensor, a contact or an acceleration",
+            );
+        }
+        obstacle_to_lanes(model)
+    }
+
+    /// Reason why lanes cannot advance the worlds; none if they do.
+    #[must_use]
+    pub fn lanes_refused(&self) -> Option<&str> {
+        self.lanes_refused.as_deref()
+    }
+
+    /// The scene of all worlds.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.loaded.scene
+    }
+
+    /// Numbers that the agent sees.
+    #[must_use]
+    pub fn n_observations(&self) -> usize {
+        self.observations.len()
+    }
+
+    /// Numbers that it does.
+    #[must_use]
+    pub fn n_actions(&self) -> usize {
+        self.task.actions.len()
+    }
+
+    /// The task.
+    #[must_use]
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Time from one action to the next `[s]`.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.task.ticks as f64 * self.loaded.experiment.step
+    }
+
+    /// The actions as they act: within their ranges; of those with values the nearest.
+    pub(super) fn acting(&self, given: &[f64], out: &mut [f64]) {
+        for ((out, x), Action { space, .. }) in out.iter_mut().zip(given).zip(&self.task.actions) {
+            *out = match space {
+                Space::Range(low, high) => x.clamp(*low, *high),
+                Space::Values(values) => nearest(values, *x),
+            };
+        }
+    }
+
+    /// Draws of an episode: number `k` is number `k` of the generator of the seed's episode, whatever was drawn before.
+    pub(super) fn drawn(&self, seed: u64, episode: u64) -> Drawn {
+        let state = self.loaded.scene.initial.clone();
+        let mut drawn = Drawn { state, named: Vec::new(), overrides: Vec::new() };
+        self.draw(seed, episode, &mut drawn);
+        drawn
+    }
+
+    /// As [`Plan::drawn`], into what an earlier call gave.
+    pub(super) fn draw(&self, seed: u64, episode: u64, drawn: &mut Drawn) {
+        let key = splitmix(seed, episode);
+        let value = |k: usize| {
+            let key = splitmix(key, k as u64);
+            match self.task.random[k].distribution {
+                Distribution::Uniform(low, high) => low + (high - low) * uniform(key, 0),
+                Distribution::Normal(mean, deviation) => mean + deviation * gaussian(key, 0),
+            }
+        };
+        for (k, at) in &self.starts {
+            match at {
+                StartAt::Coordinate(i) => drawn.state.q[*i] = value(*k),
+                StartAt::Rate(i) => drawn.state.v[*i] = value(*k),
+            }
+        }
+        drawn.named.clear();
+        drawn.overrides.clear();
+        for (k, random) in self.task.random.iter().enumerate() {
+            match &random.target {
+                Target::Name(_) => drawn.named.push(value(k)),
+                Target::Parameter(path) => drawn.overrides.push(Override::new(&path.value, &format!("{:?}", value(k)))),
+                Target::Start(_) => {}
+            }
+        }
+    }
+}
+
+fn nearest(values: &[f64], x: f64) -> f64 {
+    let distance = |value: &f64| (value - x).abs();
+    values.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(x)
+}
+
+/// Returns true if the state of the world alone decides a probe, and its commands.
+fn is_of_state(model: &Model<f64>, probe: Probe) -> bool {
+    use sincro_dynamics::kinematics;
+    use sincro_dynamics::scratch::Scratch;
+    use sincro_scene::record::probe::View;
+
+    if matches!(probe, Probe::Command(_)) {
+        return true;
+    }
+    let (state, mut scratch) = (State::new(model), Scratch::new(model));
+    kinematics::motions(model, &state.q, &state.v, &vec![0.0; model.n_v()], &mut scratch);
+    let State { q, v, rotors, commands, .. } = &state;
+    of_state(&View { t: 0.0, model, q, v, rotors, commands, scratch: &scratch }, probe).is_some()
+}

@@ -1,0 +1,109 @@
+//! A world as a lock-step of its own: for whatever lanes cannot advance.
+
+use crate::controller::{Commands, Controller, Forked};
+use crate::load::Loaded;
+use crate::run::LockStep;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::record::Recorder;
+
+use super::plan::{Drawn, Plan};
+
+/// Commands of the task: they win over the scene's and the diagram's.
+#[derive(Clone, Debug)]
+struct Commanded(Vec<Option<f64>>);
+
+impl Controller for Commanded {
+    fn name(&self) -> &str {
+        "task"
+    }
+
+    fn latch(&self, commands: &mut Commands<'_>) {
+        for (command, value) in self.0.iter().enumerate() {
+            if let Some(value) = value {
+                commands.set(command, *value);
+            }
+        }
+    }
+
+    fn fork(&self) -> Forked {
+        Forked::Whole(Box::new(self.clone()))
+    }
+}
+
+/// One world.
+#[derive(Debug)]
+pub(super) struct SingleWorld {
+    run: Option<(LockStep, Recorder)>,
+    is_good: bool,
+}
+
+impl SingleWorld {
+    pub fn new() -> Self {
+        Self { run: None, is_good: false }
+    }
+
+    /// Begins an episode.
+    pub fn start(&mut self, plan: &Plan, drawn: &Drawn) {
+        self.run = None;
+        let varied: Option<Loaded> = match drawn.overrides.is_empty() {
+            true => None,
+            // what the files refuse for this draw ends the episode at once, as any world that cannot go on
+            false => match plan.loaded.alone_with_overrides(&drawn.overrides) {
+                Ok(loaded) => Some(loaded),
+                Err(_) => {
+                    self.is_good = false;
+                    return;
+                }
+            },
+        };
+        let loaded = varied.as_ref().unwrap_or(&plan.loaded);
+        let mut lockstep = LockStep::new(loaded, plan.method, false);
+        lockstep.attach(Box::new(Commanded(vec![None; loaded.scene.commands.len()])));
+        let mut state = lockstep.state().clone();
+        let nominal = &plan.loaded.scene.initial;
+        // only what was drawn differs: a scene with other numbers may have another start of its own
+        for (now, (drawn, nominal)) in state.q.iter_mut().zip(drawn.state.q.iter().zip(&nominal.q)) {
+            *now = if drawn == nominal { *now } else { *drawn };
+        }
+        for (now, (drawn, nominal)) in state.v.iter_mut().zip(drawn.state.v.iter().zip(&nominal.v)) {
+            *now = if drawn == nominal { *now } else { *drawn };
+        }
+        lockstep.place(state, &[]);
+        self.is_good = lockstep.start().is_ok();
+        let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
+        let recorder = Recorder::new(&plan.task.signals, &loaded.scene.model, &entries);
+        self.run = recorder.ok().map(|mut recorder| {
+            let (seen, signals) = lockstep.observe(0.0);
+            recorder.row(&seen, signals, 0.0, true);
+            (lockstep, recorder)
+        });
+    }
+
+    /// Advances by one action's period under commands; none is left to the scene and its diagram.
+    pub fn advance(&mut self, plan: &Plan, commands: &[Option<f64>]) {
+        let Some((lockstep, _)) = &mut self.run else { return };
+        if let Some((held, _)) = lockstep.controller::<Commanded>() {
+            held.0.copy_from_slice(commands);
+        }
+        for _ in 0..plan.task.ticks {
+            if !self.is_good {
+                return;
+            }
+            self.is_good = lockstep.advance().is_ok() && !lockstep.take_stop_request();
+        }
+    }
+
+    /// Coordinates of the world; none before its first episode.
+    pub fn coordinates(&self) -> Option<Vec<f64>> {
+        self.run.as_ref().map(|(lockstep, _)| lockstep.state().q.clone())
+    }
+
+    /// Signals of the world; false if it cannot go on.
+    pub fn observe(&mut self, out: &mut [f64]) -> bool {
+        let Some((lockstep, recorder)) = &mut self.run else { return false };
+        let t = lockstep.t();
+        let (seen, signals) = lockstep.observe(t);
+        out.copy_from_slice(&recorder.row(&seen, signals, t, false)[1..]);
+        self.is_good && out.iter().all(|x| x.is_finite())
+    }
+}
