@@ -102,7 +102,8 @@ impl FunctionController {
         if let Ok(table) = answer.cast::<PyDict>() {
             for (key, value) in table {
                 let key: String = key.extract()?;
-                let place = function.writes.iter().position(|(_, name)| *name == key);
+                let is_named = |name: &str| name == key || name.strip_suffix(".command") == Some(key.as_str());
+                let place = function.writes.iter().position(|(_, name)| is_named(name));
                 let Some(place) = place else {
                     let names: Vec<&str> = function.writes.iter().map(|(_, name)| name.as_str()).collect();
                     let message =

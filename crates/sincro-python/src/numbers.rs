@@ -46,13 +46,8 @@ pub fn list(py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<Ve
     if let Ok(x) = given.extract::<f64>() {
         return Ok(vec![x]);
     }
-    // kinds of real numbers: floating, signed, unsigned, truth; what is complex, a text or an object is none
-    let real = |array: Bound<'_, PyAny>| -> PyResult<Option<Bound<'_, PyAny>>> {
-        let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
-        if "fiub".contains(&kind) { array.call_method1("astype", ("float64",)).map(Some) } else { Ok(None) }
-    };
-    let converted = py.import("numpy").and_then(|numpy| numpy.call_method1("asarray", (given,))).and_then(real);
-    let array = converted.ok().flatten().and_then(|array| array.cast_into::<PyArray1<f64>>().ok());
+    let converted = py.import("numpy").and_then(|numpy| numpy.call_method1("asarray", (given,)));
+    let array = converted.and_then(real).ok().flatten().and_then(|array| array.cast_into::<PyArray1<f64>>().ok());
     match array {
         Some(array) => Ok(array.readonly().as_array().to_vec()),
         None => {
@@ -60,4 +55,11 @@ pub fn list(py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<Ve
             Err(errors::argument(py, &format!("`{name}` is a {kind}, not a one-dimensional array of real numbers")))
         }
     }
+}
+
+/// The array as 64-bit floating numbers; none if its numbers are not real: complex, texts, objects.
+fn real(array: Bound<'_, PyAny>) -> PyResult<Option<Bound<'_, PyAny>>> {
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    // floating, signed, unsigned, truth
+    if "fiub".contains(&kind) { array.call_method1("astype", ("float64",)).map(Some) } else { Ok(None) }
 }
