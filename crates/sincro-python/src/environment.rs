@@ -14,6 +14,9 @@ use crate::{errors, foreground};
 /// Width and height of pictures [px].
 const PICTURE: [usize; 2] = [480, 360];
 
+/// Name of an action, its bounds if it has a range, its values if it has those.
+type ActionSpace = (String, Option<(f64, f64)>, Option<Vec<f64>>);
+
 /// Results of a step as arrays: observations, rewards, terminated, truncated, stopped, final observations.
 type Results<'py> = (
     Bound<'py, PyArray2<f64>>,
@@ -63,7 +66,7 @@ impl Worlds {
 
     /// Name of each action, its bounds if it has a range, its values if it has those.
     #[getter]
-    fn actions(&self, py: Python<'_>) -> PyResult<Vec<(String, Option<(f64, f64)>, Option<Vec<f64>>)>> {
+    fn actions(&self, py: Python<'_>) -> PyResult<Vec<ActionSpace>> {
         self.worlds(py, |worlds| {
             let of = |action: &sincro_scene::experiment::task::Action| match &action.space {
                 Space::Range(low, high) => (action.name.clone(), Some((*low, *high)), None),

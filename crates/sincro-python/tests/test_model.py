@@ -101,13 +101,13 @@ def test_linearize_trim_and_lqr():
 
 
 def test_a_function_controls_in_lock_step_as_the_diagram_does():
-    reference = cart().run(error_bars=False)
-    model = cart()
+    reference = cart(duration=2.0).run(error_bars=False, variants=False)
+    model = cart(duration=2.0, step=0.001, record_every=20)
     gain = np.array([-3.16227766016838, -49.5382717484982, -5.91443631723358, -12.846078506305167])
     times = []
 
     @model.controller(
-        period=0.02,
+        period=0.001,
         reads=[RAIL, HINGE, "/rail.velocity", "/rail/cart/hinge.velocity"],
         writes=["/rail"],
     )
@@ -116,11 +116,13 @@ def test_a_function_controls_in_lock_step_as_the_diagram_does():
         return [float(np.clip(-gain @ y, -8, 8))]
 
     result = model.run()
-    assert times[:3] == [0.0, 0.02, 0.04]
-    np.testing.assert_allclose(result[HINGE], reference[HINGE], atol=1e-9)
+    assert times[:3] == [0.0, 0.001, 0.002]
+    difference = np.abs(np.asarray(result[HINGE]) - np.asarray(reference[HINGE])).max()
+    # the diagram is continuous, the function holds its command for 1 ms
+    assert 1e-6 < difference < 1e-3
     assert result[HINGE].error_bar is None, "a function with a memory is run once"
     model.step(steps=10)
-    assert model.time == pytest.approx(0.2)
+    assert model.time == pytest.approx(0.01)
     model.clear_controllers()
     assert model.controllers == []
 
@@ -138,7 +140,7 @@ def test_an_object_with_reset_is_run_again_for_the_error_bars():
 
     model, counter = cart(), Counter()
     model.controller(counter, period=0.1)
-    result = model.run(until=1.0)
+    result = model.run(until=1.0, variants=False)
     assert counter.resets == 2 and result[HINGE].error_bar is not None
 
 
