@@ -239,3 +239,25 @@ def test_variants_are_results():
         assert variant.time.size > 1 and variant.trace_hash and name in repr(variant)
     with pytest.raises(sincro.UnknownNameError):
         result._run.columns("no such variant")
+
+
+URDF = """<robot name="r"><link name="base"/><link name="a"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="j" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/></joint></robot>"""
+
+
+def test_robots_are_imported(tmp_path):
+    robot = tmp_path / "r.urdf"
+    robot.write_text(URDF)
+    assert sincro.load(robot).n_v == 1
+    imported = sincro.import_robot(robot, tmp_path / "scene", motors="torque")
+    assert imported.report["counts"]["dropped"] == 0
+    model = sincro.load(imported.folder)
+    model.step([1.0])
+    assert model.v[0] > 0
+    with pytest.raises(sincro.SceneError, match="is not empty"):
+        sincro.import_robot(robot, tmp_path / "scene")
+    robot.write_text("<robot>")
+    with pytest.raises(sincro.SceneError) as caught:
+        sincro.load(robot)
+    assert caught.value.diagnostics[0]["line"] == 1
