@@ -132,13 +132,44 @@ fn a_closed_loop_has_the_states_of_its_controller() {
     assert!(slowest < 1e-9, "{slowest}");
 }
 
+/// Two-link arm with the shoulder driven at a velocity u: w = v₂ + N u does not jump, N = M₂₁/M₂₂.
 #[test]
-fn an_ideal_motor_is_no_input() {
-    let loaded = scene("two-dof-position", &[]);
+fn a_velocity_motor_has_direct_feedthrough_in_velocity() {
+    let set = [
+        ("/shoulder.motor.mode", "velocity"),
+        ("/shoulder/elbow.motor.mode", "torque"),
+        ("/shoulder.motor.command", "0"),
+        ("/shoulder/elbow.motor.command", "0"),
+        ("/shoulder/elbow.initial", "{ position = 0.9 }"),
+        ("diagram.speed.gain", "0"),
+    ];
+    let loaded = scene("two-dof-position", &set);
+    let outputs = vec![name("/shoulder.velocity"), name("/shoulder/elbow.velocity")];
+    let request = Request { inputs: vec![name("/shoulder")], outputs, ..Request::default() };
+    let (at, linear) = at_start(&loaded, &request);
+    let names: Vec<&str> = linear.system.states.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["/shoulder.position", "/shoulder/elbow.position", "/shoulder/elbow.velocity"]);
+    let (h, b) = (1.064, 0.5338);
+    let n = (h * sin_cos(at.state().q[1]).1 + b) / b;
+    let d = &linear.system.d;
+    assert!((d[0] - 1.0).abs() < 1e-14 && (d[1] + n).abs() < 1e-13 * n, "{d} {n}");
+    // the coordinate of the elbow moves by w − N u
+    assert!((linear.system.b[(1, 0)] + n).abs() < 1e-13 * n && linear.system.a[(1, 2)] == 1.0);
+    assert_eq!(linear.system.b[(0, 0)], 1.0);
+}
+
+#[test]
+fn an_acceleration_is_no_output_of_a_velocity_motor() {
+    let set = [("/shoulder.motor.mode", "velocity"), ("/shoulder/elbow.motor.mode", "torque")];
+    let loaded = scene("two-dof-position", &set);
     let at = operating_point(&loaded, 0.0).unwrap();
-    let request = Request { inputs: vec![name("/shoulder")], ..Request::default() };
+    let request = Request {
+        inputs: vec![name("/shoulder")],
+        outputs: vec![name("/shoulder/elbow.acceleration")],
+        ..Request::default()
+    };
     let diagnostics = linearize(&loaded, &at, &request).unwrap_err().to_string();
-    assert!(diagnostics.contains("is the command of an ideal motor"), "{diagnostics}");
+    assert!(diagnostics.contains("contains the rate of"), "{diagnostics}");
 }
 
 #[test]

@@ -66,8 +66,11 @@ impl StateSpace {
     #[must_use]
     pub fn poles(&self) -> Vec<Mode> {
         let size = self.a.norm();
-        let mut modes: Vec<Mode> =
-            eigenvalues(&self.a).into_iter().map(|pole| Mode::new(pole, self.sample_time, size)).collect();
+        let poles = match self.sample_time {
+            None => deflated_eigenvalues(&self.a),
+            Some(_) => eigenvalues(&self.a),
+        };
+        let mut modes: Vec<Mode> = poles.into_iter().map(|pole| Mode::new(pole, self.sample_time, size)).collect();
         modes.sort_by(|a, b| {
             let by_speed = rough(a.natural_frequency).total_cmp(&rough(b.natural_frequency));
             by_speed.then(a.pole.re.total_cmp(&b.pole.re)).then(b.pole.im.total_cmp(&a.pole.im))
@@ -96,6 +99,64 @@ impl StateSpace {
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
     }
+}
+
+impl StateSpace {
+    /// States that span, with others of them, motions at constant rates: cyclic coordinates and their speeds. Each has
+    /// a pole at zero.
+    #[must_use]
+    pub fn cyclic_states(&self) -> Vec<usize> {
+        let mut left: Vec<usize> = (0..self.n_states()).collect();
+        let mut cyclic = Vec::new();
+        let size = self.a.amax();
+        if size == 0.0 || self.sample_time.is_some() {
+            return if self.sample_time.is_some() { cyclic } else { left };
+        }
+        // a state on whose rate and value no other rate depends can be left out; then others may follow
+        while let Some(at) = left.iter().position(|&k| left.iter().all(|&i| self.a[(i, k)].abs() <= NO_EFFECT * size)) {
+            cyclic.push(left.remove(at));
+        }
+        cyclic.sort_unstable();
+        cyclic
+    }
+}
+
+/// Entries of A below this share of its largest are rounding of an effect that does not exist.
+const NO_EFFECT: f64 = 1e-13;
+
+/// Singular values below this share of the norm, and of the number of rows, count as zero where zero poles are taken
+/// out.
+const NULL: f64 = 1e-15;
+
+/// Eigenvalues with those at zero exactly zero: multiple ones, of coordinates that no rate depends on, would come out as
+/// roots of the rounding. The null space is split off by an orthogonal transformation until none is left (key
+/// `golub2013`, 7.6.5).
+fn deflated_eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    let mut rest = matrix.clone();
+    if rest.is_empty() || rest.iter().any(|x| !x.is_finite()) {
+        return eigenvalues(matrix);
+    }
+    let _ = balance_parlett_reinsch(&mut rest);
+    let size = rest.norm();
+    let mut zeros = 0;
+    while !rest.is_empty() {
+        let n = rest.nrows();
+        let svd = rest.clone().svd(false, true);
+        let Some(v_t) = svd.v_t else { break };
+        let least = NULL * n as f64 * size;
+        let null: Vec<usize> = (0..n).filter(|k| svd.singular_values[*k] <= least).collect();
+        if null.is_empty() {
+            break;
+        }
+        // the rows of V^T that are left span an invariant subspace of A^T
+        let kept: Vec<usize> = (0..n).filter(|k| !null.contains(k)).collect();
+        let v = v_t.select_rows(&kept);
+        rest = &v * rest * v.transpose();
+        zeros += null.len();
+    }
+    let mut found = vec![Complex::new(0.0, 0.0); zeros];
+    found.extend(eigenvalues(&rest));
+    found
 }
 
 /// Eigenvalues of a real square matrix, ordered by modulus, then real part, then imaginary part from above.

@@ -148,7 +148,7 @@ pub fn solve(
 }
 
 /// `−J⁺ r` and the rank of J; `None` if J is zero.
-fn newton_step(j: &DMatrix<f64>, r: &DVector<f64>) -> Option<(DVector<f64>, usize)> {
+pub(crate) fn newton_step(j: &DMatrix<f64>, r: &DVector<f64>) -> Option<(DVector<f64>, usize)> {
     if j.is_empty() || j.amax() == 0.0 {
         return None;
     }

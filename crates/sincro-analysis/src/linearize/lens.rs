@@ -1,6 +1,9 @@
 //! The equations of motion as one function, on any numbers: (x, u) → (ẋ, y).
 
 use sincro_blocks::instance::Number;
+use sincro_dynamics::actuation::MotorMode;
+use sincro_dynamics::actuation::drive::DriveKind;
+use sincro_dynamics::constraint::ActiveSource;
 use sincro_dynamics::coupled::{Coupled, CoupledSystem, MechanismResponse, StateView};
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::kinematics;
@@ -18,6 +21,9 @@ use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
 /// A scene at an operating point.
+///
+/// Its *full* state is (δ, v, r, z): displacements and velocities of all degrees of freedom of the tree, states of
+/// rotors, continuous states of the diagram. What constraints leave of it is found by [`super::reduction`].
 pub(super) struct Lens<R: Number> {
     mechanism: Mechanism<R>,
     watch: LoopSystem<R>,
@@ -25,16 +31,52 @@ pub(super) struct Lens<R: Number> {
     inputs: Vec<InputKind>,
     commands: Vec<f64>,
     signals: Vec<f64>,
-    /// Places in y of the states: held degrees of freedom have no velocity among them.
+    /// Place in y of each full state.
     places: Vec<usize>,
     axes: Vec<Axis>,
     values: Vec<f64>,
+    /// Locked degrees of freedom and what holds each.
+    locks: Vec<Lock>,
     t: f64,
     y: Vec<R>,
     slope: Vec<R>,
     decay: Vec<R>,
-    rates: Vec<R>,
     own: usize,
+}
+
+/// A locked degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Lock {
+    pub dof: usize,
+    /// Index of the drive that gives the velocity.
+    pub drive: usize,
+    /// True if its position is held, too: by friction, by a motor that is no input.
+    pub holds_position: bool,
+}
+
+/// Equation that holds at the operating point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Equation<R> {
+    pub source: EquationSource,
+    /// Position residual of a holonomic constraint.
+    pub residual: Option<R>,
+    /// Velocity residual.
+    pub rate: R,
+}
+
+/// Source of an equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum EquationSource {
+    Constraint(ActiveSource),
+    Drive(usize),
+}
+
+/// Values at a state: rates of the full states, outputs, equations that hold.
+#[derive(Clone, Debug)]
+pub(super) struct Evaluation<R> {
+    pub rates: Vec<R>,
+    pub outputs: Vec<R>,
+    pub equations: Vec<Equation<R>>,
 }
 
 /// The diagram, if it is in the loop, and the outputs that are read along the way.
@@ -47,11 +89,13 @@ struct LoopSystem<R: Number> {
 }
 
 impl<R: Number> Lens<R> {
-    pub fn new(loaded: &Loaded, at: &LockStep, names: &Names) -> Self {
-        let model = &loaded.scene.model;
-        let cast = Model::<R>::pack(&[&**model]).expect("one model has one structure");
+    /// At the state that `at` is in, its modes settled ([`super::point::settle`]).
+    pub fn new(loaded: &Loaded, at: &mut LockStep, names: &Names) -> Self {
+        let model = loaded.scene.model.clone();
+        let cast = Model::<R>::pack(&[at.world().model()]).expect("one model has one structure");
         let mut mechanism = Mechanism::new(cast, true);
-        let control = at.control().filter(|_| names.is_closed).map(|c| DiagramController::<R>::like(c, model));
+        mechanism.take_constraint_modes(at.world().mechanism());
+        let control = at.control().filter(|_| names.is_closed).map(|c| DiagramController::<R>::like(c, &model));
         let z: Vec<f64> = if names.is_closed {
             at.control().map_or(Vec::new(), |c| c.runner.state.continuous.clone())
         } else {
@@ -61,12 +105,8 @@ impl<R: Number> Lens<R> {
         let (n_v, own, n_rotors) = (model.n_v(), mechanism.dim(), model.n_rotor_states());
         mechanism.drives = state.drives.iter().map(|x| R::splat(*x)).collect();
         mechanism.mark_locked();
-        let places: Vec<usize> = (0..n_v)
-            .chain((0..n_v).filter(|&k| !mechanism.is_locked(k) || state.drives.is_empty()).map(|k| n_v + k))
-            .chain(own - n_rotors..own + z.len())
-            .collect();
-        let (all_axes, all_values) = describe(loaded, at, &state, &z);
-        let pick = |place: usize| if place < 2 * n_v { place } else { place + n_rotors - own + 2 * n_v };
+        let places: Vec<usize> = (0..2 * n_v).chain(own - n_rotors..own + z.len()).collect();
+        let (axes, values) = describe(loaded, at, &state, &z);
         let signals = at.control().map_or(Vec::new(), |c| c.runner.state.signals.clone());
         Self {
             watch: LoopSystem {
@@ -79,38 +119,58 @@ impl<R: Number> Lens<R> {
             inputs: names.inputs.iter().map(|i| i.what).collect(),
             commands: state.commands.clone(),
             signals,
-            axes: places.iter().map(|&p| all_axes[pick(p)].clone()).collect(),
-            values: places.iter().map(|&p| all_values[pick(p)]).collect(),
+            axes,
+            values,
             places,
+            locks: locks(at, names),
             t: at.t(),
             y: vec![R::zero(); own + z.len()],
             slope: vec![R::zero(); own + z.len()],
             decay: vec![R::zero(); z.len()],
-            rates: Vec::new(),
             own,
             mechanism,
             state,
         }
     }
 
-    pub fn n_states(&self) -> usize {
+    /// Number of full states.
+    pub fn n_full(&self) -> usize {
         self.places.len()
     }
 
-    /// Number of velocities among the states.
-    pub fn n_velocities(&self) -> usize {
-        let n_v = self.watch.zero.len();
-        self.places.iter().filter(|&&p| (n_v..2 * n_v).contains(&p)).count()
+    /// Degrees of freedom of the tree.
+    pub fn n_v(&self) -> usize {
+        self.watch.zero.len()
     }
 
-    pub fn state_axes(&self) -> Vec<Axis> {
-        self.axes.clone()
+    /// Number of inputs.
+    pub fn n_inputs(&self) -> usize {
+        self.inputs.len()
     }
 
-    pub fn state_values(&self) -> Vec<f64> {
-        self.values.clone()
+    /// Names and units of the full states.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
     }
 
+    /// Values of the full states.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Locked degrees of freedom.
+    pub fn locks(&self) -> &[Lock] {
+        &self.locks
+    }
+
+    /// Lets velocity motors and friction hold positions as they would, or none at all.
+    pub fn hold_positions(&mut self, holds: bool) {
+        let drives = self.mechanism.model().drives();
+        let keeps = |lock: &Lock| holds || drives[lock.drive].kind == DriveKind::Lock;
+        self.locks.iter_mut().for_each(|lock| lock.holds_position &= keeps(lock));
+    }
+
+    /// Values of the inputs.
     pub fn input_values(&self) -> Vec<f64> {
         let value = |input: &InputKind| match *input {
             InputKind::Command(m) => self.commands[m],
@@ -119,10 +179,11 @@ impl<R: Number> Lens<R> {
         self.inputs.iter().map(value).collect()
     }
 
-    /// Rates and outputs with `change[k]` added to state or input `k`.
-    fn evaluate_changed(&mut self, change: &[(usize, R)]) -> (&[R], &[R]) {
+    /// Evaluates at the full states and inputs changed by `change`; with `prescribed` the acceleration of that locked
+    /// degree of freedom is given, too.
+    pub fn evaluate(&mut self, change: &[R], prescribed: Option<(usize, R)>) -> Evaluation<R> {
         let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<R>>();
-        let n_v = self.watch.zero.len();
+        let n_v = self.n_v();
         // a chart is laid at the operating point, and the displacement stays in it
         let x = State {
             q: cast(&self.state.q),
@@ -141,54 +202,117 @@ impl<R: Number> Lens<R> {
             *y = R::splat(*z);
         }
         self.watch.perturbed = None;
-        for &(k, by) in change {
-            if k < self.places.len() {
-                self.y[self.places[k]] += by;
-                continue;
-            }
-            match self.inputs[k - self.places.len()] {
-                InputKind::Command(m) => self.mechanism.commands[m] += by,
-                InputKind::Signal(signal) => self.watch.perturb(signal, by, &self.signals),
+        for (&place, by) in self.places.iter().zip(change) {
+            self.y[place] += *by;
+        }
+        let n_full = self.n_full();
+        for (input, by) in self.inputs.iter().zip(&change[n_full..]) {
+            match *input {
+                InputKind::Command(m) => self.mechanism.commands[m] += *by,
+                InputKind::Signal(signal) => self.watch.perturb(signal, *by, &self.signals),
             }
         }
-        debug_assert!(self.y.len() >= 2 * n_v, "displacements and velocities first");
+        let of_drives = self.lock_equations();
+        for (lock, equation) in self.locks.iter().zip(&of_drives) {
+            self.mechanism.prescribe_acceleration(lock.dof, equation.1);
+        }
+        if let Some((dof, acceleration)) = prescribed {
+            self.mechanism.prescribe_acceleration(dof, acceleration);
+        }
         let mut system = Coupled {
             mechanism: &mut self.mechanism,
             system: &mut self.watch,
             negated_jacobian_diagonal: &mut self.decay,
         };
         system.slope(self.t, &self.y, &mut self.slope);
-        self.rates = self.places.iter().map(|&p| self.slope[p]).collect();
+        let of_mechanism = self.mechanism.active_constraints(&self.y[n_v..2 * n_v]);
+        let equations = of_mechanism.into_iter().map(|row| Equation {
+            source: EquationSource::Constraint(row.source),
+            residual: row.residual,
+            rate: row.rate,
+        });
+        let equations = equations.chain(of_drives.into_iter().map(|(equation, _)| equation)).collect();
         self.watch.restore(&self.signals);
-        (&self.rates, &self.watch.values)
+        Evaluation {
+            rates: self.places.iter().map(|&p| self.slope[p]).collect(),
+            outputs: self.watch.values.clone(),
+            equations,
+        }
+    }
+
+    /// Equations of the locked degrees of freedom at y, with the acceleration that each prescribes.
+    fn lock_equations(&self) -> Vec<(Equation<R>, R)> {
+        let n_v = self.n_v();
+        let model = self.mechanism.model();
+        let of = |lock: &Lock| {
+            let v = self.y[n_v + lock.dof];
+            let drive = &model.drives()[lock.drive];
+            let (mut target, mut acceleration) = (R::zero(), R::zero());
+            if let DriveKind::Motor(id) = drive.kind {
+                let motor = model.motor(id);
+                let displacement = self.y[lock.dof];
+                let q = model.dofs()[lock.dof].coordinate().map_or(R::zero(), |k| R::splat(self.state.q[k]));
+                let command = self.mechanism.commands[id.index()];
+                // a position motor that is held keeps its velocity
+                let q = if lock.holds_position { q } else { q + displacement };
+                target = motor.target_velocity(q, command);
+                let is_position = motor.mode == MotorMode::Position && !lock.holds_position;
+                let follows = is_position && target.lane(0).abs() < motor.max_velocity.lane(0);
+                acceleration = if follows { -(motor.kp * v) } else { R::zero() };
+            }
+            let equation = Equation {
+                source: EquationSource::Drive(lock.drive),
+                residual: lock.holds_position.then_some(self.y[lock.dof]),
+                rate: v - target,
+            };
+            (equation, acceleration)
+        };
+        self.locks.iter().map(of).collect()
     }
 }
 
+/// Locked degrees of freedom: a motor governs before friction.
+fn locks(at: &mut LockStep, names: &Names) -> Vec<Lock> {
+    let drives = at.state().drives.clone();
+    let model = at.world().model();
+    let mut locks: Vec<Lock> = Vec::new();
+    for (i, drive) in model.drives().iter().enumerate().filter(|(i, _)| drives[*i] == 0.0) {
+        let holds_position = match drive.kind {
+            DriveKind::Friction | DriveKind::Lock => true,
+            DriveKind::Motor(id) => {
+                let is_input = names.inputs.iter().any(|input| input.what == InputKind::Command(id.index()));
+                !is_input && (names.holds_motors || model.motor(id).mode == MotorMode::Velocity)
+            }
+        };
+        let lock = Lock { dof: drive.dof, drive: i, holds_position };
+        match locks.iter_mut().find(|lock| lock.dof == drive.dof) {
+            Some(known) => *known = lock,
+            None => locks.push(lock),
+        }
+    }
+    locks
+}
+
 impl Lens<Dual<1>> {
-    /// Rates and outputs with the states and inputs changed by so much, with the derivative by state or input `by`.
-    pub fn evaluate_about(&mut self, change: &[f64], by: usize) -> (&[Dual<1>], &[Dual<1>]) {
-        let seed = |(k, x): (usize, &f64)| (k, if k == by { Dual::variable(*x, 0) } else { Dual::constant(*x) });
-        let change: Vec<(usize, Dual<1>)> = change.iter().enumerate().map(seed).collect();
-        self.evaluate_changed(&change)
+    /// Evaluates with the derivative along a direction of the full states and inputs.
+    pub fn along(&mut self, direction: &[f64]) -> Evaluation<Dual<1>> {
+        let change: Vec<Dual<1>> = direction.iter().map(|d| Dual { value: 0.0, partials: [*d] }).collect();
+        self.evaluate(&change, None)
     }
 
-    /// Rates and outputs, with the derivative by state or input `by`.
-    pub fn evaluate(&mut self, by: Option<usize>) -> (&[Dual<1>], &[Dual<1>]) {
-        let change: Vec<(usize, Dual<1>)> = by.map(|k| (k, Dual::variable(0.0, 0))).into_iter().collect();
-        self.evaluate_changed(&change)
+    /// Response of all rates to the acceleration of a locked degree of freedom, and that of the outputs.
+    pub fn response_to(&mut self, dof: usize) -> (Vec<f64>, Vec<f64>) {
+        let change = vec![Dual::constant(0.0); self.n_full() + self.n_inputs()];
+        let found = self.evaluate(&change, Some((dof, Dual::variable(0.0, 0))));
+        let partial = |list: &[Dual<1>]| list.iter().map(|x| x.partials[0]).collect();
+        (partial(&found.rates), partial(&found.outputs))
     }
 }
 
 impl Lens<f64> {
-    /// Rates and outputs with the states and inputs changed by so much.
-    pub fn evaluate_at(&mut self, change: &[f64]) -> (&[f64], &[f64]) {
-        let change: Vec<(usize, f64)> = change.iter().copied().enumerate().collect();
-        self.evaluate_changed(&change)
-    }
-
-    /// The state that a displacement leads to: what a run can be started from.
+    /// The state that a displacement of the full states leads to.
     pub fn displaced(&self, change: &[f64]) -> (State<f64>, Vec<f64>) {
-        let n_v = self.watch.zero.len();
+        let n_v = self.n_v();
         let mut state = self.state.clone();
         displace(self.mechanism.model(), &self.state.q, &change[..n_v], &mut state.q);
         let mut z = Vec::new();

@@ -6,23 +6,31 @@
 //! the equations of motion with the derivative carried along.
 //!
 //! The open loop is the world alone, its commands held. The closed loop has the diagram's continuous blocks in it;
-//! blocks with a sample time hold what they gave last, as they do between ticks. A degree of freedom that an ideal
-//! motor or sticking friction holds has no velocity among the states.
+//! blocks with a sample time hold what they gave last, as they do between ticks.
+//!
+//! Closed loops, gears, velocity motors, joints stuck in friction or at a limit and closed contacts are eliminated
+//! ([`reduction`]): the states are independent coordinates and speeds, and what was eliminated is said
+//! ([`Linearization::reduction`]).
 
 mod lens;
 mod names;
 mod point;
+mod reduction;
 mod trim;
+mod words;
 
 pub use point::{Request, operating_point};
 pub use trim::{Trim, TrimRequest, Trimmed, trim};
+pub use words::{ReducedElement, ReducedKind, Reduction};
 
 use sincro_dynamics::world::MethodKind;
 use sincro_math::Dual;
 
 use crate::linear::{Axis, DMatrix, StateSpace};
 use lens::Lens;
-use sincro_scene::diagnostic::Diagnostics;
+use names::{InputKind, Names};
+use reduction::{Equations, Metric, Tangent};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
@@ -39,6 +47,8 @@ pub struct Linearization {
     pub output: Vec<f64>,
     /// Rates of the states there: zero at an equilibrium.
     pub rate: Vec<f64>,
+    /// Equations that were eliminated.
+    pub reduction: Reduction,
     /// Warnings about the accuracy of the numbers.
     pub notes: Vec<String>,
 }
@@ -58,42 +68,99 @@ impl Linearization {
 /// Inputs and outputs that mean nothing or cannot be linearised.
 pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Linearization, Diagnostics> {
     let names = names::resolve(loaded, at, request)?;
+    linearize_settled(loaded, &mut point::settle(loaded, at, &names), names)
+}
+
+/// Linearises at a state that is settled.
+fn linearize_settled(loaded: &Loaded, at: &mut LockStep, names: Names) -> Result<Linearization, Diagnostics> {
     let mut lens = Lens::<Dual<1>>::new(loaded, at, &names);
-    let (n, m, p) = (lens.n_states(), names.inputs.len(), names.outputs.len());
+    let equations = Equations::of(&mut lens);
+    let kinds: Vec<_> = names.inputs.iter().map(|i| i.what).collect();
+    let q = at.state().q.clone();
+    let metric = Metric::of(at.world().model(), &q);
+    let tangent = Tangent::of(&mut lens, &equations, &metric, &kinds);
+    refuse_improper(&tangent, &names)?;
+    let (n, m, p) = (tangent.states.len(), names.inputs.len(), names.outputs.len());
+    let pick = |list: &[f64]| tangent.states.iter().map(|&k| list[k]).collect::<Vec<f64>>();
     let mut system = StateSpace {
         a: DMatrix::zeros(n, n),
         b: DMatrix::zeros(n, m),
         c: DMatrix::zeros(p, n),
         d: DMatrix::zeros(p, m),
-        states: lens.state_axes(),
+        states: tangent.states.iter().map(|&k| lens.axes()[k].clone()).collect(),
         inputs: names.inputs.iter().map(|i| i.axis.clone()).collect(),
         outputs: names.outputs.iter().map(|o| o.axis.clone()).collect(),
         t: at.t(),
         sample_time: None,
     };
-    for k in 0..n + m {
-        let (rates, outputs) = lens.evaluate(Some(k));
-        for (i, rate) in rates.iter().enumerate() {
+    for (k, column) in tangent.columns.iter().enumerate() {
+        let found = lens.along(column);
+        for (i, &state) in tangent.states.iter().enumerate() {
             let entry = if k < n { &mut system.a[(i, k)] } else { &mut system.b[(i, k - n)] };
-            *entry = rate.partials[0];
+            *entry = found.rates[state].partials[0];
         }
-        for (i, output) in outputs.iter().enumerate() {
+        for (i, output) in found.outputs.iter().enumerate() {
             let entry = if k < n { &mut system.c[(i, k)] } else { &mut system.d[(i, k - n)] };
             *entry = output.partials[0];
         }
     }
-    let (rates, outputs) = lens.evaluate(None);
-    let (rate, output) = (rates.iter().map(|x| x.value).collect(), outputs.iter().map(|x| x.value).collect());
-    let (state, input) = (lens.state_values(), lens.input_values());
+    let found = lens.along(&vec![0.0; lens.n_full() + m]);
+    let values = |list: &[Dual<1>]| list.iter().map(|x| x.value).collect::<Vec<f64>>();
+    let (rate, output) = (pick(&values(&found.rates)), values(&found.outputs));
+    let (state, input) = (pick(lens.values()), lens.input_values());
+    let mut reduction = Reduction::of(at.world().model(), &equations, &tangent, lens.axes(), lens.locks());
+    reduction.cyclic = system.cyclic_states().into_iter().map(|k| system.states[k].name.clone()).collect();
     let mut notes = names.notes;
-    let set = loaded.scene.model.constraints();
-    if !set.pairs.is_empty() || !set.limits.is_empty() {
-        notes.push("contacts and limits of joints are left out: the linearisation is of the free motion".into());
+    note_jumps(&tangent, &system, &mut notes);
+    note_openings(&equations, &mut notes);
+    Ok(Linearization { system, state, input, output, rate, reduction, notes })
+}
+
+/// Refuses outputs that contain the rate of a motor's velocity.
+fn refuse_improper(tangent: &Tangent, names: &Names) -> Result<(), Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    for (input, response) in &tangent.improper {
+        for (output, response) in names.outputs.iter().zip(response) {
+            if *response != 0.0 {
+                let message = format!(
+                    "`{}` contains the rate of `{}`, which a motor follows at once",
+                    output.axis.name, names.inputs[*input].axis.name
+                );
+                let help =
+                    "name positions and velocities as outputs, or other inputs: a step of that velocity is an impulse";
+                diagnostics.push(Diagnostic::nowhere(message).with_help(help));
+            }
+        }
     }
-    if set.n_bilateral() > 0 {
-        notes.push("closed loops make some of the states depend on others: they show as poles at zero".into());
+    if diagnostics.any_error() { Err(diagnostics) } else { Ok(()) }
+}
+
+/// Speeds that jump with an input.
+fn note_jumps(tangent: &Tangent, system: &StateSpace, notes: &mut Vec<String>) {
+    let speeds = tangent.n_positions..tangent.n_positions + tangent.n_speeds;
+    for (input, _) in &tangent.improper {
+        let column = &tangent.columns[system.n_states() + input];
+        let jump = |k: &usize| column[tangent.states[*k]] != 0.0;
+        let list: Vec<String> = speeds.clone().filter(jump).map(|k| format!("`{}`", system.states[k].name)).collect();
+        if !list.is_empty() {
+            notes.push(format!(
+                "a step of `{}` makes velocities jump: the states {} are without the share that jumps, the outputs with it",
+                system.inputs[*input].name,
+                list.join(", ")
+            ));
+        }
     }
-    Ok(Linearization { system, state, input, output, rate, notes })
+}
+
+/// Equations that do not hold at the operating point.
+fn note_openings(equations: &Equations, notes: &mut Vec<String>) {
+    let largest = |list: &[f64]| list.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    let (open, moving) = (largest(&equations.residual), largest(&equations.rate));
+    if open > 1e-8 || moving > 1e-6 {
+        notes.push(format!(
+            "the equations that were eliminated hold to {open:.1e} m or rad, their rates to {moving:.1e} per second"
+        ));
+    }
 }
 
 /// An axis from a name and a unit.
@@ -109,7 +176,13 @@ pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> 
     at.start().ok()?;
     at.latch();
     let fastest = |is_closed: bool| {
-        let found = linearize(loaded, &at, &Request { is_closed, ..Request::default() }).ok()?;
+        let request = Request { is_closed, ..Request::default() };
+        let mut names = names::resolve(loaded, &at, &request).ok()?;
+        // motors are driven from tick to tick: their gains are no poles of what is integrated
+        names.inputs.retain(|input| !is_velocity_motor(loaded, input.what));
+        names.outputs.clear();
+        names.holds_motors = true;
+        let found = linearize_settled(loaded, &mut at.fork().lockstep, names).ok()?;
         let moduli = found.system.poles().into_iter().map(|mode| mode.natural_frequency);
         Some(moduli.fold(0.0_f64, f64::max))
     };
@@ -120,8 +193,15 @@ pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> 
 /// The diagram is not in the loop.
 #[must_use]
 pub fn rates_near(loaded: &Loaded, at: &LockStep, k: usize, by: f64) -> Vec<f64> {
-    let mut lens = Lens::<f64>::new(loaded, at, &names::Names::default());
-    let mut change = vec![0.0; lens.n_states()];
+    let names = Names::default();
+    let mut lens = Lens::<f64>::new(loaded, &mut point::settle(loaded, at, &names), &names);
+    let mut change = vec![0.0; lens.n_full()];
     change[k] = by;
-    lens.evaluate_at(&change).0.to_vec()
+    lens.evaluate(&change, None).rates
+}
+
+/// Returns true if an input is the command of a motor that gives a velocity.
+fn is_velocity_motor(loaded: &Loaded, input: InputKind) -> bool {
+    let motors = loaded.scene.model.motors();
+    matches!(input, InputKind::Command(m) if motors.get(m).is_some_and(|motor| motor.is_drive()))
 }

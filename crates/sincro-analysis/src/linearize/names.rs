@@ -37,10 +37,12 @@ pub(super) struct Names {
     pub inputs: Vec<Input>,
     pub outputs: Vec<Output>,
     pub is_closed: bool,
+    /// Motors that are no inputs hold their velocity, position motors too.
+    pub holds_motors: bool,
     pub notes: Vec<String>,
 }
 
-/// Resolves what is asked for, or chooses: all commands that are no ideal motor's, all coordinates.
+/// Resolves what is asked for, or chooses: all commands, all coordinates.
 pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Names, Diagnostics> {
     let of_diagram = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
     let all: Vec<Entry> = catalogue(&loaded.scene.model).into_iter().chain(of_diagram).collect();
@@ -50,7 +52,7 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
         [] => names.inputs = default_inputs(loaded, at, &all, names.is_closed),
         asked => {
             for name in asked {
-                match input(loaded, at, &all, name, names.is_closed) {
+                match input(at, &all, name, names.is_closed) {
                     Ok(input) => names.inputs.push(input),
                     Err(diagnostic) => diagnostics.push(diagnostic),
                 }
@@ -76,7 +78,6 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
         let message = "signals of the diagram are in the closed loop only";
         diagnostics.push(Diagnostic::nowhere(message).with_help("add --closed-loop, or name signals of the world"));
     }
-    note_friction(loaded, at, &mut names.notes);
     let in_diagram = at.control().map_or(0, |c| c.wiring().program().n_states);
     if !names.is_closed && loaded.scene.model.n_v() == 0 && in_diagram > 0 {
         names.notes.push("the scene has no joints; the states of its diagram are seen with --closed-loop".into());
@@ -87,26 +88,9 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
     if diagnostics.any_error() { Err(diagnostics) } else { Ok(names) }
 }
 
-/// Joints that friction holds where the scene is: no small force moves them.
-fn note_friction(loaded: &Loaded, at: &LockStep, notes: &mut Vec<String>) {
-    use sincro_dynamics::actuation::drive::DriveKind;
-    let drives = loaded.scene.model.drives().iter().zip(&at.state().drives);
-    let stuck = drives.filter(|(drive, pull)| drive.kind == DriveKind::Friction && **pull == 0.0);
-    let names: Vec<String> =
-        stuck.map(|(drive, _)| format!("`{}`", loaded.scene.model.names().dof_name(drive.dof))).collect();
-    if !names.is_empty() {
-        notes.push(format!(
-            "friction holds {}: no small input moves it, and its velocity is no state. Take --set JOINT.friction=0, or an instant of motion",
-            names.join(", ")
-        ));
-    }
-}
-
 fn default_inputs(loaded: &Loaded, at: &LockStep, all: &[Entry], is_closed: bool) -> Vec<Input> {
-    let motors = loaded.scene.model.motors();
     let is_driven = |m: usize| is_closed && drives(at, m);
-    let is_ideal = |m: usize| motors.get(m).is_some_and(|motor| motor.is_drive());
-    let free = (0..loaded.scene.model.n_commands()).filter(|&m| !is_ideal(m) && !is_driven(m));
+    let free = (0..loaded.scene.model.n_commands()).filter(|&m| !is_driven(m));
     let entry = |m: usize| all.iter().find(|e| e.probe == Probe::Command(m) && !e.unit.is_empty());
     free.filter_map(|m| entry(m).map(|e| Input { axis: axis(&e.name, &*e.unit), what: InputKind::Command(m) }))
         .collect()
@@ -117,24 +101,12 @@ fn drives(at: &LockStep, motor: usize) -> bool {
     at.control().is_some_and(|c| c.wiring().program().commands.iter().any(|c| c.terminal == motor))
 }
 
-fn input(
-    loaded: &Loaded,
-    at: &LockStep,
-    all: &[Entry],
-    name: &Located<String>,
-    is_closed: bool,
-) -> Result<Input, Diagnostic> {
+fn input(at: &LockStep, all: &[Entry], name: &Located<String>, is_closed: bool) -> Result<Input, Diagnostic> {
     // a joint's path stands for its motor, a rotor's for its speed, as in a diagram
     let path = |e: &Entry| e.name.strip_suffix(".command").or_else(|| e.name.strip_suffix(".speed")).map(str::to_owned);
     let entry = all.iter().find(|e| e.name == name.value || path(e).as_ref() == Some(&name.value));
     let error = |message: String, help: &str| Err(Diagnostic::error(&name.at, message).with_help(help));
     match entry.map(|e| (e, e.probe)) {
-        Some((_, Probe::Command(m))) if loaded.scene.model.motors().get(m).is_some_and(|motor| motor.is_drive()) => {
-            error(
-                format!("`{}` is the command of an ideal motor: the velocity jumps with it", name.value),
-                "a jump has no linear equation: set the motor's mode to `torque`, or name another input",
-            )
-        }
         Some((_, Probe::Command(m))) if is_closed && drives(at, m) => error(
             format!("`{}` is commanded by the diagram", name.value),
             "name the signal of the diagram that something is to be added to, or leave --closed-loop out",

@@ -1,5 +1,7 @@
 //! The operating point: where a run is at some time.
 
+use super::lens::{EquationSource, Lens};
+use super::names::Names;
 use sincro_scene::diagnostic::{Diagnostic, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::{LockStep, method_for};
@@ -41,4 +43,45 @@ pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Diagnostic> 
     }
     run.latch();
     Ok(run)
+}
+
+/// Settles a copy of a run in its present state: contacts and limits are found, drives and contacts take their modes,
+/// ideal motors have their velocities.
+pub(super) fn settle(loaded: &Loaded, at: &LockStep, names: &Names) -> LockStep {
+    let mut settled = at.fork().lockstep;
+    initialize(&mut settled);
+    let mut lens = Lens::<f64>::new(loaded, &mut settled, names);
+    let rest = vec![0.0; lens.n_full() + lens.n_inputs()];
+    let n_v = lens.n_v();
+    let base = lens.evaluate(&rest, None);
+    let mut change = rest.clone();
+    for lock in lens.locks().to_vec() {
+        let source = EquationSource::Drive(lock.drive);
+        let missing = base.equations.iter().find(|e| e.source == source).map_or(0.0, |e| -e.rate);
+        if missing != 0.0 {
+            // the velocities jump by an impulse on the joint
+            let with = lens.evaluate(&rest, Some((lock.dof, 1.0)));
+            let without = lens.evaluate(&rest, Some((lock.dof, 0.0)));
+            for k in n_v..2 * n_v {
+                change[k] += missing * (with.rates[k] - without.rates[k]);
+            }
+        }
+    }
+    if change.iter().any(|x| *x != 0.0) {
+        let (state, _) = lens.displaced(&change);
+        settled.place(state, &[]);
+        initialize(&mut settled);
+    }
+    settled
+}
+
+/// Finds the modes of drives and contacts in the state that a run is in.
+pub(super) fn initialize(run: &mut LockStep) {
+    let t = run.t();
+    let commands = run.state().commands.clone();
+    match run.control().filter(|control| control.is_continuous()).cloned() {
+        Some(mut control) => run.world().initialize_with(t, &mut control),
+        None => run.world().initialize(t),
+    }
+    run.world().state.commands = commands;
 }

@@ -1,16 +1,23 @@
 //! Trim: where a scene stays as it is.
 //!
-//! Unknown are the coordinates and the continuous states of the diagram, and those commands that are set free;
-//! velocities are zero. All rates must vanish, and signals that are asked for must have their values. The Jacobian is
-//! that of the linearisation, exact.
+//! Unknown are the independent coordinates ([`super::reduction`]), the continuous states of the diagram, and those
+//! commands that are set free; velocities are zero. All rates must vanish, the velocities that motors ask for too, and
+//! signals that are asked for must have their values. The Jacobian is that of the linearisation, exact.
+//!
+//! Each step of Newton's method is put back onto the closed loops and contacts, in the metric of the mass matrix. A step
+//! that would pass a joint limit or let bodies overlap ends there; then the modes of contacts, limits and drives are
+//! found anew. Joints that friction or a velocity motor holds keep their position, unless signals are asked for.
 
+use sincro_dynamics::initial;
+use sincro_dynamics::state::State;
 use sincro_math::Dual;
 
-use super::lens::Lens;
+use super::lens::{EquationSource, Evaluation, Lens};
 use super::names::{self, InputKind, Names};
-use super::point::Request;
-use crate::linear::newton::{self, Solution};
-use crate::linear::{Axis, DMatrix};
+use super::point::{self, Request};
+use super::reduction::{Equations, Metric, Tangent};
+use crate::linear::newton::newton_step;
+use crate::linear::{Axis, DMatrix, DVector};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
@@ -19,6 +26,18 @@ use sincro_sim::run::LockStep;
 const AT_REST: f64 = 1e-10;
 /// Most steps of Newton's method.
 const MAX_STEPS: usize = 200;
+/// Halvings of a step before it counts as none.
+const MAX_HALVINGS: usize = 40;
+/// Share of the promised descent that a step must bring.
+const DESCENT: f64 = 1e-4;
+/// Iterations that put a step back onto the loops.
+const MAX_PROJECTIONS: usize = 30;
+/// Position residual of a closed loop `[m]` or `[rad]`.
+const CLOSED: f64 = 1e-12;
+/// Position residual up to which rounding may keep a loop open.
+const NEARLY_CLOSED: f64 = 1e-10;
+/// Depth beyond a limit or of an overlap at which a step ends `[m]` or `[rad]`.
+const TOUCHES: f64 = 5e-10;
 
 /// Request for a trim.
 #[derive(Clone, Debug, Default)]
@@ -64,25 +83,80 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<T
     let mut at = from.fork().lockstep;
     at.stop();
     let names = resolve(loaded, &at, request)?;
-    let targets: Vec<f64> = request.wanted.iter().map(|(_, x)| *x).collect();
-    let mut values = Lens::<f64>::new(loaded, &at, &names);
-    let mut duals = Lens::<Dual<1>>::new(loaded, &at, &names);
-    let unknowns = Unknowns::of(&values, names.inputs.len(), loaded.scene.model.n_v());
-    let solution = solve(&mut values, &mut duals, &unknowns, &targets)?;
-    let (state, z) = values.displaced(&unknowns.spread(&solution.x));
-    at.place(state, &z);
+    close(loaded, &mut at)?;
+    let mut search =
+        Search { loaded, names: &names, targets: request.wanted.iter().map(|(_, x)| *x).collect(), iterations: 0 };
+    search.find(&mut at)?;
+    let iterations = search.iterations;
+    check(loaded, &at)?;
 
     let outputs = request.wanted.iter().map(|(name, _)| name.clone()).collect();
-    let found = super::linearize(loaded, &at, &Request { inputs: Vec::new(), outputs, is_closed: request.is_closed })?;
-    let zip = |axes: &[Axis], values: &[f64]| axes.iter().cloned().zip(values.iter().copied()).collect();
+    let asked = Request { inputs: Vec::new(), outputs, is_closed: request.is_closed };
+    let all = names::resolve(loaded, &at, &asked)?;
+    let mut lens = Lens::<f64>::new(loaded, &mut at, &all);
+    let found = lens.evaluate(&vec![0.0; lens.n_full() + lens.n_inputs()], None);
+    let zip = |axes: Vec<Axis>, values: &[f64]| axes.into_iter().zip(values.iter().copied()).collect();
+    let wanted = all.outputs.iter().map(|o| o.axis.clone()).collect();
     let trim = Trim {
-        states: zip(&found.system.states, &found.state),
-        inputs: zip(&found.system.inputs, &found.input),
-        outputs: if targets.is_empty() { Vec::new() } else { zip(&found.system.outputs, &found.output) },
-        residual: found.drift(),
-        iterations: solution.iterations,
+        states: zip(lens.axes().to_vec(), lens.values()),
+        inputs: zip(all.inputs.iter().map(|i| i.axis.clone()).collect(), &lens.input_values()),
+        outputs: if request.wanted.is_empty() { Vec::new() } else { zip(wanted, &found.outputs) },
+        residual: found.rates.iter().fold(0.0, |worst, rate| rate.abs().max(worst)),
+        iterations,
     };
     Ok(Trimmed { trim, at })
+}
+
+/// Closes loops that are open where the search starts.
+fn close(loaded: &Loaded, at: &mut LockStep) -> Result<(), Diagnostics> {
+    let model = &loaded.scene.model;
+    let is_open = |state: &State<f64>| openings(loaded, state).1 > NEARLY_CLOSED;
+    if !is_open(at.state()) {
+        return Ok(());
+    }
+    let Some(q) = initial::assemble(model, at.state()) else {
+        let (name, gap) = openings(loaded, at.state());
+        let message = format!("loop `{name}` is open by {gap:.3e} and does not close near where the search starts");
+        return Err(Diagnostic::nowhere(message).with_help("start where it is closed").into());
+    };
+    let mut state = at.state().clone();
+    state.q = q;
+    at.place(state, &[]);
+    Ok(())
+}
+
+/// The loop that is open farthest, and by how much.
+fn openings(loaded: &Loaded, state: &State<f64>) -> (String, f64) {
+    let all = initial::constraint_residuals(&loaded.scene.model, state);
+    let worst = |a: (String, f64), r: initial::ConstraintResidual| {
+        let gap = r.distance.max(r.angle);
+        if gap > a.1 { (r.name, gap) } else { a }
+    };
+    all.into_iter().fold((String::new(), 0.0), worst)
+}
+
+/// Deepest passage of a limit or overlap of bodies, beyond what a state has already.
+fn depth(loaded: &Loaded, state: &State<f64>) -> f64 {
+    let model = &loaded.scene.model;
+    let limits = model.constraints().limits.iter().map(|l| -l.sign * (state.q[l.coordinate] - l.bound));
+    let overlaps = initial::penetrations(model, state).into_iter().map(|p| p.depth);
+    limits.chain(overlaps).fold(0.0, f64::max)
+}
+
+/// Refuses a state that a scene could not start from.
+fn check(loaded: &Loaded, at: &LockStep) -> Result<(), Diagnostics> {
+    let model = &loaded.scene.model;
+    let (name, gap) = openings(loaded, at.state());
+    if gap > 1e-9 {
+        return Err(Diagnostic::nowhere(format!("no equilibrium found: loop `{name}` stays open by {gap:.3e}")).into());
+    }
+    match initial::limit_violations(model, at.state()).first() {
+        Some(v) => {
+            let message = format!("no equilibrium found: `{}` would be at {}, beyond {}", v.joint, v.position, v.limit);
+            Err(Diagnostic::nowhere(message).into())
+        }
+        None => Ok(()),
+    }
 }
 
 /// The commands that are free and the signals that are wanted; none of either where the request has none.
@@ -106,65 +180,231 @@ fn resolve(loaded: &Loaded, at: &LockStep, request: &TrimRequest) -> Result<Name
     if diagnostics.is_empty() { Ok(names) } else { Err(Diagnostics(diagnostics)) }
 }
 
-/// Which of the states and inputs are unknown: all but the velocities.
-struct Unknowns {
-    places: Vec<usize>,
-    /// The rates that must vanish: all but those of the coordinates.
-    equations: core::ops::Range<usize>,
-    n_all: usize,
+/// Newton's method on the manifold of closed loops and contacts.
+struct Search<'a> {
+    loaded: &'a Loaded,
+    names: &'a Names,
+    targets: Vec<f64>,
+    iterations: usize,
 }
 
-impl Unknowns {
-    fn of(lens: &Lens<f64>, n_inputs: usize, n_v: usize) -> Self {
-        let (n, n_all) = (lens.n_states(), lens.n_states() + n_inputs);
-        Self { places: (0..n_v).chain(n_v + lens.n_velocities()..n_all).collect(), equations: n_v..n, n_all }
-    }
-
-    /// Unknowns as changes of all states and inputs.
-    fn spread(&self, x: &[f64]) -> Vec<f64> {
-        let mut change = vec![0.0; self.n_all];
-        for (value, &place) in x.iter().zip(&self.places) {
-            change[place] = *value;
-        }
-        change
-    }
+/// What must vanish, and where it stands.
+struct Residuals {
+    values: Vec<f64>,
+    labels: Vec<String>,
 }
 
-fn solve(
-    values: &mut Lens<f64>,
-    duals: &mut Lens<Dual<1>>,
-    unknowns: &Unknowns,
-    targets: &[f64],
-) -> Result<Solution, Diagnostics> {
-    let n_equations = unknowns.equations.len();
-    let residual = |x: &[f64], r: &mut [f64]| {
-        let (rates, outputs) = values.evaluate_at(&unknowns.spread(x));
-        r[..n_equations].copy_from_slice(&rates[unknowns.equations.clone()]);
-        for ((r, y), target) in r[n_equations..].iter_mut().zip(outputs).zip(targets) {
-            *r = y - target;
+impl Search<'_> {
+    fn find(&mut self, at: &mut LockStep) -> Result<(), Diagnostics> {
+        loop {
+            point::initialize(at);
+            // an impact may have moved it
+            if at.state().v.iter().any(|v| *v != 0.0) {
+                at.stop();
+            }
+            let mut values = Lens::<f64>::new(self.loaded, at, self.names);
+            let mut duals = Lens::<Dual<1>>::new(self.loaded, at, self.names);
+            let holds = self.targets.is_empty();
+            values.hold_positions(holds);
+            duals.hold_positions(holds);
+            let rest = vec![0.0; values.n_full() + values.n_inputs()];
+            let now = self.residuals(&values.evaluate(&rest, None), values.axes(), values.n_v());
+            if now.values.iter().any(|r| !r.is_finite()) {
+                return Err(self.failure(&now, "a rate is not finite"));
+            }
+            if now.largest().1 <= AT_REST {
+                return Ok(());
+            }
+            if self.iterations == MAX_STEPS {
+                return Err(self.failure(&now, "the steps ran out while it was still getting smaller"));
+            }
+            let manifold = Manifold::of(&mut duals, at, self.names);
+            let (unknowns, jacobian) = self.jacobian(&mut duals, &manifold.tangent);
+            let r = DVector::from_column_slice(&now.values);
+            let nothing = "no position near the start changes it";
+            let Some((step, _)) = newton_step(&jacobian, &r) else { return Err(self.failure(&now, nothing)) };
+            let gradient = jacobian.tr_mul(&r);
+            let mut direction = rest.clone();
+            for (share, column) in step.iter().zip(&unknowns) {
+                direction.iter_mut().zip(column).for_each(|(d, c)| *d += share * c);
+            }
+            let slope = 2.0 * gradient.dot(&step);
+            if gradient.norm() <= 1e-9 * jacobian.norm() * r.norm() {
+                return Err(self.failure(&now, nothing));
+            }
+            let Some(change) = self.line_search(&mut values, &manifold, &direction, (r.norm_squared(), slope)) else {
+                return Err(self.failure(&now, "every step makes it greater, or leads beyond a limit"));
+            };
+            let (state, z) = values.displaced(&change);
+            at.place(state, &z);
+            self.iterations += 1;
         }
-    };
-    let jacobian = |x: &[f64], j: &mut DMatrix<f64>| {
-        let change = unknowns.spread(x);
-        for (column, &place) in unknowns.places.iter().enumerate() {
-            let (rates, outputs) = duals.evaluate_about(&change, place);
-            let all = rates[unknowns.equations.clone()].iter().chain(outputs);
-            for (row, entry) in all.enumerate() {
-                j[(row, column)] = entry.partials[0];
+    }
+
+    /// The residuals of an evaluation: rates of speeds, of rotors and diagram, velocities that motors ask for, wanted
+    /// signals.
+    fn residuals<R: sincro_blocks::instance::Number>(
+        &self,
+        found: &Evaluation<R>,
+        axes: &[Axis],
+        n_v: usize,
+    ) -> Residuals {
+        let mut new = Residuals { values: Vec::new(), labels: Vec::new() };
+        self.each(found, n_v, |x, k| {
+            new.values.push(x.lane(0));
+            new.labels.push(k.map_or("a motor's velocity or a wanted signal".into(), |k| {
+                format!("the rate of `{}`", axes.get(k).map_or("", |axis| &axis.name))
+            }));
+        });
+        new
+    }
+
+    /// Visits all residuals of an evaluation, with the full state of a rate.
+    fn each<R: sincro_blocks::instance::Number>(
+        &self,
+        found: &Evaluation<R>,
+        n_v: usize,
+        mut visit: impl FnMut(R, Option<usize>),
+    ) {
+        for (k, rate) in found.rates.iter().enumerate().skip(n_v) {
+            visit(*rate, Some(k));
+        }
+        for drive in 0..self.loaded.scene.model.drives().len() {
+            let of_drive = found.equations.iter().find(|e| e.source == EquationSource::Drive(drive));
+            visit(of_drive.map_or(R::zero(), |e| e.rate), None);
+        }
+        for (output, target) in found.outputs.iter().zip(&self.targets) {
+            visit(*output - R::splat(*target), None);
+        }
+    }
+
+    /// Directions of the unknowns, and the derivatives of all residuals along them.
+    fn jacobian(&self, duals: &mut Lens<Dual<1>>, tangent: &Tangent) -> (Vec<Vec<f64>>, DMatrix<f64>) {
+        let n_v = duals.n_v();
+        let speeds = tangent.n_positions..tangent.n_positions + tangent.n_speeds;
+        let columns = tangent.columns.iter().enumerate().filter(|(k, _)| !speeds.contains(k));
+        let at_rest = |(_, column): (usize, &Vec<f64>)| {
+            let mut column = column.clone();
+            column[n_v..2 * n_v].fill(0.0);
+            column
+        };
+        let unknowns: Vec<Vec<f64>> = columns.map(at_rest).collect();
+        let mut columns: Vec<f64> = Vec::new();
+        for direction in &unknowns {
+            let found = duals.along(direction);
+            self.each(&found, n_v, |x, _| columns.push(x.partials[0]));
+        }
+        let n_rows = if unknowns.is_empty() { 0 } else { columns.len() / unknowns.len() };
+        (unknowns.clone(), DMatrix::from_column_slice(n_rows, unknowns.len(), &columns))
+    }
+
+    /// Halves the step until it brings enough descent; one that leads beyond a limit or into a body ends there.
+    fn line_search(
+        &self,
+        values: &mut Lens<f64>,
+        manifold: &Manifold,
+        direction: &[f64],
+        (square, slope): (f64, f64),
+    ) -> Option<Vec<f64>> {
+        let n_v = values.n_v();
+        let before = depth(self.loaded, &values.displaced(&vec![0.0; direction.len()]).0);
+        let mut trial = |share: f64| {
+            let change: Vec<f64> = direction.iter().map(|d| share * d).collect();
+            let change = manifold.project(values, change)?;
+            let deep = depth(self.loaded, &values.displaced(&change).0) > before + TOUCHES;
+            let r = self.residuals(&values.evaluate(&change, None), &[], n_v);
+            Some((change, deep, r.values.iter().map(|r| r * r).sum::<f64>()))
+        };
+        let mut share = 1.0;
+        for _ in 0..MAX_HALVINGS {
+            match trial(share) {
+                Some((_, true, _)) => {
+                    // up to where it touches
+                    let (mut good, mut bad) = (0.0, share);
+                    for _ in 0..60 {
+                        let middle = 0.5 * (good + bad);
+                        let fits = trial(middle).is_some_and(|(_, deep, _)| !deep);
+                        if fits { good = middle } else { bad = middle }
+                    }
+                    let (change, _, _) = trial(good)?;
+                    return (good > 1e-14).then_some(change);
+                }
+                Some((change, false, reached)) if reached <= square + DESCENT * share * slope => return Some(change),
+                _ => share *= 0.5,
             }
         }
-    };
-    let x0 = vec![0.0; unknowns.places.len()];
-    let n_residuals = n_equations + targets.len();
-    newton::solve(n_residuals, residual, jacobian, &x0, AT_REST, MAX_STEPS).map_err(|failure| {
-        let axes = duals.state_axes();
-        let what = match unknowns.equations.clone().nth(failure.worst) {
-            Some(k) => format!("the rate of `{}`", axes[k].name),
-            None => "a signal that was asked for".to_owned(),
-        };
-        let message = format!("no equilibrium found: {:.3e} is left over in {what}", failure.residual);
+        None
+    }
+
+    fn failure(&self, now: &Residuals, why: &str) -> Diagnostics {
+        let (worst, size) = now.largest();
+        let message = format!("no equilibrium found: {size:.3e} is left over in {}; {why}", now.labels[worst]);
         let help = "commands are held as they are at that time: set them free (--free NAME) or give others (--set); or start nearer \
                     (`initial` of the joints), or ask for less (--want)";
         Diagnostic::nowhere(message).with_help(help).into()
-    })
+    }
+}
+
+impl Residuals {
+    /// Index and size of the largest; what is not a number is the largest.
+    fn largest(&self) -> (usize, f64) {
+        let greater = |best: (usize, f64), (k, v): (usize, &f64)| {
+            if v.abs() > best.1 || v.is_nan() { (k, v.abs()) } else { best }
+        };
+        self.values.iter().enumerate().fold((0, 0.0), greater)
+    }
+}
+
+/// Closed loops, contacts and held joints near a state.
+struct Manifold {
+    tangent: Tangent,
+    /// L⁻ᵀ of the mass matrix.
+    inverse_root: DMatrix<f64>,
+    /// Holonomic equations that are used, their rows in W L⁻ᵀ, and the pseudo-inverse of these.
+    rows: Vec<usize>,
+    pseudo_inverse: DMatrix<f64>,
+}
+
+impl Manifold {
+    fn of(duals: &mut Lens<Dual<1>>, at: &mut LockStep, names: &Names) -> Self {
+        let equations = Equations::of(duals);
+        let q = at.state().q.clone();
+        let metric = Metric::of(at.world().model(), &q);
+        let kinds: Vec<InputKind> = names.inputs.iter().map(|i| i.what).collect();
+        let tangent = Tangent::of(duals, &equations, &metric, &kinds);
+        let rows = equations.holonomic_rows(&metric);
+        let w = equations.rate_by_v.select_rows(&rows) * &metric.inverse_root;
+        let gram = &w * w.transpose();
+        let pseudo_inverse = match gram.cholesky() {
+            Some(factor) => w.transpose() * factor.inverse(),
+            None => DMatrix::zeros(w.ncols(), w.nrows()),
+        };
+        Self { tangent, inverse_root: metric.inverse_root, rows, pseudo_inverse }
+    }
+
+    /// Puts a change of the full states onto the manifold; `None` if it does not come there. The factors are those of
+    /// where it started: the error falls by a factor that is small for small changes.
+    fn project(&self, values: &mut Lens<f64>, mut change: Vec<f64>) -> Option<Vec<f64>> {
+        if self.rows.is_empty() {
+            return Some(change);
+        }
+        let n_v = values.n_v();
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_PROJECTIONS {
+            let equations = values.evaluate(&change, None).equations;
+            let of_row = |i: &usize| equations.get(*i).and_then(|e| e.residual).unwrap_or(f64::NAN);
+            let g = DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row));
+            let worst = g.amax();
+            if worst <= CLOSED || (worst <= NEARLY_CLOSED && worst >= 0.5 * last) {
+                return Some(change);
+            }
+            if !worst.is_finite() || worst > 2.0 * last {
+                return None;
+            }
+            last = worst;
+            let back = &self.inverse_root * (&self.pseudo_inverse * g);
+            change[..n_v].iter_mut().zip(back.iter()).for_each(|(x, b)| *x -= b);
+        }
+        None
+    }
 }

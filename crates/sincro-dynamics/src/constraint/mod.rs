@@ -26,12 +26,14 @@
 //! | `solver` | solution of one problem: active set first, then ADMM |
 //! | `impact` | impacts, contact points |
 //! | `projection` | projection of positions and velocities |
+//! | `active_rows` | equations that hold at a state, for analysis |
 //! | `warm_start` | multipliers and contact modes kept between evaluations; fallback for Zeno behaviour |
 //!
 //! What the world asks of a constrained mechanism (detect contacts, apply an impact, project) is in `crate::mechanism`.
 //!
 //! Sources: keys `featherstone2008` (chapter 8, loops; chapter 11, contact), `acary2008` (chapters 3 and 13).
 
+mod active_rows;
 mod active_set;
 mod admm;
 mod cone;
@@ -50,6 +52,7 @@ pub(crate) mod warm_start;
 use sincro_math::Real;
 
 pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
+pub use active_rows::{ActiveRow, ActiveSource};
 pub use solver::SolverReport;
 
 use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate::tangents};

@@ -63,6 +63,15 @@ impl<R: Real> WarmStart<R> {
         }
     }
 
+    /// Takes over which slots are closed and which of their groups slide, and in which directions.
+    pub fn take_modes(&mut self, other: &WarmStart<f64>) {
+        self.closed.clone_from(&other.closed);
+        self.slides.clone_from(&other.slides);
+        for (own, other) in self.directions.iter_mut().zip(&other.directions) {
+            *own = other.map(|direction| direction.map(R::splat));
+        }
+    }
+
     pub fn zeno_fallback(&self) -> ZenoFallback {
         let number = self.numbers.last().map_or(0, |x| x.lane(0) as u32);
         ZenoFallback { pause: number / 256, left: number % 256 }

@@ -10,6 +10,7 @@
 //! A mechanism owns its model and its latched commands besides working memory: [`State`] and [`Scratch`] are not yet
 //! separated from it.
 
+mod analysis;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
 mod loop_rank;
