@@ -1,7 +1,9 @@
 //! Linearisation against closed forms and central differences; trim against statics.
 
 use sincro_analysis::linear::{DMatrix, lqr};
-use sincro_analysis::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
+use sincro_analysis::linearize::{
+    Linearization, Request, TrimRequest, linearize, linearize_sampled, operating_point, trim,
+};
 use sincro_math::elementary::sin_cos;
 use sincro_scene::diagnostic::{Located, Location, SourceText};
 use sincro_scene::overrides::Override;
@@ -212,4 +214,54 @@ fn the_gains_of_the_cart_and_pole_are_those_of_its_linearisation() {
         assert!((gain + design.k[k]).abs() < 1e-8 * gain.abs(), "{k}: {gain} {}", design.k[k]);
     }
     assert!(design.poles.iter().all(|p| p.re < -1.0), "{:?}", design.poles);
+}
+
+/// Ideal motors with a sampled position loop, q⁺ = q + T·u, u = k·(r − q of the sample before): z² − z + k T = 0.
+#[test]
+fn a_sampled_position_loop_has_its_discrete_poles() {
+    let loaded = scene("two-dof-position", &[]);
+    let at = operating_point(&loaded, 2.0).unwrap();
+    let found = linearize_sampled(&loaded, &at).unwrap();
+    let poles: Vec<_> = found.system.poles().iter().map(|mode| mode.pole).collect();
+    eprintln!("{poles:?} {:?}", found.system.states);
+    assert_eq!(found.system.sample_time, Some(0.005));
+}
+
+/// Poles of the difference of two runs, by a recurrence of second order fitted to a coordinate.
+fn measured_poles(loaded: &Loaded, t: f64, coordinate: usize, after: usize) -> [f64; 2] {
+    let at = operating_point(loaded, t).unwrap();
+    let found = linearize_sampled(loaded, &at).unwrap();
+    let largest = found.system.poles().iter().map(|m| m.pole).collect::<Vec<_>>();
+    eprintln!("drift {} period {} {largest:?}", found.drift, found.period);
+    let (mut one, mut two) = (at.fork().lockstep, at.fork().lockstep);
+    let mut state = two.state().clone();
+    state.q[coordinate] += 1e-4;
+    two.place(state, &[]);
+    let mut series = Vec::new();
+    for k in 0..after + 60 {
+        for _ in 0..found.period {
+            one.advance().unwrap();
+            two.advance().unwrap();
+        }
+        if k >= after {
+            series.push(two.state().q[coordinate] - one.state().q[coordinate]);
+        }
+    }
+    let (mut m, mut r) = (DMatrix::zeros(2, 2), DMatrix::zeros(2, 1));
+    for w in series.windows(3) {
+        let row = DMatrix::from_row_slice(1, 2, &[w[1], w[0]]);
+        m += row.transpose() * &row;
+        r += row.transpose() * w[2];
+    }
+    let fit = m.try_inverse().unwrap() * r;
+    eprintln!("recurrence {fit} {:?}", &series[..4]);
+    [fit[0], fit[1]]
+}
+
+#[test]
+fn discrete_poles_are_those_of_measured_growth() {
+    let pid = scene("two-dof-position", &[("diagram", "\"pid.toml\""), ("/shoulder.motor.mode", "torque"), ("/shoulder/elbow.motor.mode", "torque")]);
+    measured_poles(&pid, 2.0, 0, 40);
+    let flight = scene("quadrotor-flight-2", &[]);
+    measured_poles(&flight, 8.0, 2, 20);
 }

@@ -440,7 +440,7 @@ fn a_regulator_stabilises_the_upright_four_bar() {
     assert!(run.world().statistics().fallback_steps == 0);
 }
 
-/// Benchmark bicycle: rear frame free, wheels as discs that roll without slipping. Published eigenvalues: key
+/// Benchmark bicycle: rear frame on a free joint, wheels as discs that roll without slipping. Published eigenvalues: key
 /// `meijaard2007`, table 2.
 fn bicycle(speed: f64) -> SceneFolder {
     let (s, c) = sin_cos(core::f64::consts::PI / 10.0);

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use sincro_analysis::linear::{Axis, Complex, DMatrix, Margin, Stability};
+use sincro_analysis::linearize::Reduction;
 use sincro_figures::linear::{self, Analysis, Channel};
 use sincro_figures::plot::{self, Size};
 use sincro_sim::file::{FileError, prepare};
@@ -13,16 +14,17 @@ use sincro_sim::table::CsvWriter;
 
 use crate::results::write_text;
 
-/// Writes all files of a linear system into a folder, which is created if it is absent.
+/// Writes all files of a linear system into a folder, which is created if it is absent; `reduction` says what was
+/// eliminated before.
 ///
 /// # Errors
 ///
 /// A file cannot be written.
-pub fn write(analysis: &Analysis, out: &Path) -> Result<(), FileError> {
+pub fn write(analysis: &Analysis, reduction: Option<&Reduction>, out: &Path) -> Result<(), FileError> {
     let folder = out.join("figures");
     prepare(out)?;
     prepare(&folder)?;
-    write_text(&out.join("linearization.json"), &json(analysis))?;
+    write_text(&out.join("linearization.json"), &json(analysis, reduction))?;
     write_bode(analysis, &out.join("bode.csv"))?;
     write_step(analysis, &out.join("step.csv"))?;
     for (name, figure) in linear::figures(analysis) {
@@ -49,6 +51,25 @@ struct File<'a> {
     controllable_dimensions: usize,
     observable_dimensions: usize,
     channels: Vec<ChannelFile<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reduction: Option<ReductionFile<'a>>,
+}
+
+#[derive(Serialize)]
+struct ReductionFile<'a> {
+    eliminated: Vec<Eliminated<'a>>,
+    independent_equations: usize,
+    of_them_holonomic: usize,
+    dependent_coordinates: &'a [String],
+    dependent_speeds: &'a [String],
+    states_with_pole_at_zero: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Eliminated<'a> {
+    name: &'a str,
+    kind: &'static str,
+    equations: usize,
 }
 
 type Rows = Vec<Vec<f64>>;
@@ -85,7 +106,7 @@ struct At {
 
 /// Text of `linearization.json`: matrices by rows, names and units of states, inputs and outputs, poles, margins.
 #[must_use]
-pub fn json(analysis: &Analysis) -> String {
+pub fn json(analysis: &Analysis, reduction: Option<&Reduction>) -> String {
     let s = analysis.system;
     let poles = analysis.poles.iter().map(|mode| Pole {
         pole: pair(&mode.pole),
@@ -114,10 +135,24 @@ pub fn json(analysis: &Analysis) -> String {
         controllable_dimensions: analysis.controllability.rank,
         observable_dimensions: analysis.observability.rank,
         channels: analysis.channels.iter().map(|channel| channel_file(analysis, channel)).collect(),
+        reduction: reduction.filter(|reduction| !reduction.is_empty()).map(reduction_file),
     };
     let mut text = serde_json::to_string_pretty(&file).expect("numbers and texts are JSON");
     text.push('\n');
     text
+}
+
+fn reduction_file(reduction: &Reduction) -> ReductionFile<'_> {
+    let eliminated =
+        reduction.elements.iter().map(|e| Eliminated { name: &e.name, kind: e.kind.id(), equations: e.equations });
+    ReductionFile {
+        eliminated: eliminated.collect(),
+        independent_equations: reduction.rank,
+        of_them_holonomic: reduction.holonomic_rank,
+        dependent_coordinates: &reduction.dependent_coordinates,
+        dependent_speeds: &reduction.dependent_speeds,
+        states_with_pole_at_zero: &reduction.cyclic,
+    }
 }
 
 fn channel_file<'a>(analysis: &'a Analysis, channel: &Channel) -> ChannelFile<'a> {
@@ -196,7 +231,7 @@ mod tests {
     #[test]
     fn the_json_reads_back() {
         let system = servo();
-        let json: serde_json::Value = serde_json::from_str(&json(&Analysis::of("Servo", &system))).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&json(&Analysis::of("Servo", &system), None)).unwrap();
         assert_eq!(json["a"][1][2], 2.0);
         assert_eq!(json["poles"][2]["pole"], serde_json::json!([-5.0, 0.0]));
         assert_eq!(json["poles"][0]["time_constant"], serde_json::Value::Null);
@@ -214,7 +249,7 @@ mod tests {
             std::fs::create_dir_all(&folder).unwrap();
             let analysis = Analysis::of(name, &system);
             std::fs::write(folder.join("terminal.txt"), text(&analysis)).unwrap();
-            write(&analysis, &folder).unwrap();
+            write(&analysis, None, &folder).unwrap();
             for file in ["linearization.json", "bode.csv", "step.csv", "report.html", "figures/01-bode.svg"] {
                 assert!(folder.join(file).is_file(), "{file}");
             }

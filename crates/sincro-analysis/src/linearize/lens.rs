@@ -163,6 +163,12 @@ impl<R: Number> Lens<R> {
         &self.locks
     }
 
+    /// Lets velocities that motors give be states.
+    pub fn release_motors(&mut self) {
+        let drives = self.mechanism.model().drives();
+        self.locks.retain(|lock| !matches!(drives[lock.drive].kind, DriveKind::Motor(_)));
+    }
+
     /// Lets velocity motors and friction hold positions as they would, or none at all.
     pub fn hold_positions(&mut self, holds: bool) {
         let drives = self.mechanism.model().drives();

@@ -16,10 +16,12 @@ mod lens;
 mod names;
 mod point;
 mod reduction;
+mod sampled;
 mod trim;
 mod words;
 
 pub use point::{Request, operating_point};
+pub use sampled::{SampledLoop, linearize_sampled};
 pub use trim::{Trim, TrimRequest, Trimmed, trim};
 pub use words::{ReducedElement, ReducedKind, Reduction};
 
@@ -58,6 +60,13 @@ impl Linearization {
     #[must_use]
     pub fn drift(&self) -> f64 {
         self.rate.iter().fold(0.0_f64, |worst, r| worst.max(r.abs()))
+    }
+
+    /// Returns true if no state changes but those on which no other rate depends: a motion at constant rates.
+    #[must_use]
+    pub fn is_steady(&self) -> bool {
+        let moves = |(axis, rate): (&Axis, &f64)| rate.abs() >= 1e-8 && !self.reduction.cyclic.contains(&axis.name);
+        !self.system.states.iter().zip(&self.rate).any(moves)
     }
 }
 

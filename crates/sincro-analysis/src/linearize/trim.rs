@@ -30,6 +30,8 @@ const MAX_STEPS: usize = 200;
 const MAX_HALVINGS: usize = 40;
 /// Share of the promised descent that a step must bring.
 const DESCENT: f64 = 1e-4;
+/// Largest change of a coordinate in a step of a mechanism with loops or contacts `[rad]` or `[m]`.
+const MAX_MOVE: f64 = 0.1;
 /// Iterations that put a step back onto the loops.
 const MAX_PROJECTIONS: usize = 30;
 /// Position residual of a closed loop `[m]` or `[rad]`.
@@ -228,7 +230,11 @@ impl Search<'_> {
             for (share, column) in step.iter().zip(&unknowns) {
                 direction.iter_mut().zip(column).for_each(|(d, c)| *d += share * c);
             }
-            let slope = 2.0 * gradient.dot(&step);
+            // farther than this the loops may close on another branch
+            let farthest = direction[..values.n_v()].iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+            let share = if manifold.rows.is_empty() { 1.0 } else { (MAX_MOVE / farthest).min(1.0) };
+            direction.iter_mut().for_each(|d| *d *= share);
+            let slope = 2.0 * share * gradient.dot(&step);
             if gradient.norm() <= 1e-9 * jacobian.norm() * r.norm() {
                 return Err(self.failure(&now, nothing));
             }
@@ -311,7 +317,12 @@ impl Search<'_> {
         let mut trial = |share: f64| {
             let change: Vec<f64> = direction.iter().map(|d| share * d).collect();
             let change = manifold.project(values, change)?;
-            let deep = depth(self.loaded, &values.displaced(&change).0) > before + TOUCHES;
+            let state = values.displaced(&change).0;
+            // equations that are redundant on the branch of the mechanism may be open on another one
+            if openings(self.loaded, &state).1 > NEARLY_CLOSED {
+                return None;
+            }
+            let deep = depth(self.loaded, &state) > before + TOUCHES;
             let r = self.residuals(&values.evaluate(&change, None), &[], n_v);
             Some((change, deep, r.values.iter().map(|r| r * r).sum::<f64>()))
         };

@@ -33,6 +33,8 @@ pub struct Analysis<'a> {
     pub channels: Vec<Channel>,
     /// Inputs without an effect on an output: a message for each such pair.
     pub silent: Vec<String>,
+    /// Equations that were eliminated, in words.
+    pub reduction: Vec<String>,
 }
 
 /// Transfer function of one input to one output.
@@ -73,7 +75,14 @@ impl<'a> Analysis<'a> {
             observability: system.observability(),
             channels,
             silent,
+            reduction: Vec::new(),
         }
+    }
+
+    /// The analysis with the words for what was eliminated before it.
+    #[must_use]
+    pub fn with_reduction(self, reduction: Vec<String>) -> Self {
+        Self { reduction, ..self }
     }
 
     /// Channels shown in full: the first [`MAX_CHANNELS`].

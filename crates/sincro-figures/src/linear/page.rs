@@ -20,11 +20,20 @@ pub fn html(analysis: &Analysis) -> String {
     let body = [
         banner,
         section("Poles", &(table(&StateTable::poles(analysis)) + &reach)),
+        reduction(analysis),
         channels(analysis),
         section("Channels", &overview(analysis)),
         section("Matrices", &matrices(analysis)),
     ];
     document(&analysis.title, "report", &body.concat())
+}
+
+/// What was eliminated; empty if nothing was.
+fn reduction(analysis: &Analysis) -> String {
+    if analysis.reduction.is_empty() {
+        return String::new();
+    }
+    section("Reduced to independent coordinates", &list(&analysis.reduction))
 }
 
 fn channels(analysis: &Analysis) -> String {

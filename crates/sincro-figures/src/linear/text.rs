@@ -113,6 +113,12 @@ pub fn text(analysis: &Analysis) -> String {
     for (k, input) in analysis.system.inputs.iter().enumerate() {
         out += &format!("  u{} is {}\n", k + 1, named(input));
     }
+    if !analysis.reduction.is_empty() {
+        out += "\nreduced to independent coordinates\n";
+        for line in &analysis.reduction {
+            out += &format!("  {line}\n");
+        }
+    }
     for (title, table) in StateTable::matrices(analysis) {
         out += &format!("\n{title}\n{}", table.aligned("  "));
     }

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use sincro::{Loaded, linearization, load};
 use sincro_analysis::linear::{DMatrix, lqr};
-use sincro_analysis::linearize::{Linearization, Request, TrimRequest, linearize, operating_point, trim};
+use sincro_analysis::linearize::{
+    Linearization, Request, TrimRequest, linearize, linearize_sampled, operating_point, trim,
+};
 use sincro_figures::linear::{Analysis, text};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
@@ -36,6 +38,10 @@ pub(crate) struct Arguments {
     /// With the continuous blocks of the diagram in the loop; else the commands are held
     #[arg(long)]
     closed_loop: bool,
+    /// The whole of the scene with its sampled controller, from one period of all sample times to the next: discrete
+    /// poles
+    #[arg(long, conflicts_with_all = ["inputs", "outputs", "closed_loop", "lqr_q"])]
+    sampled: bool,
     /// Weights of the states: design a linear-quadratic regulator with them and --lqr-r
     #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', requires = "lqr_r", allow_negative_numbers = true)]
     lqr_q: Vec<f64>,
@@ -56,18 +62,22 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(loaded) => loaded,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
+    if arguments.sampled {
+        return sampled(arguments, &loaded);
+    }
     let found = match compute(arguments, &loaded) {
         Ok(found) => found,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
-    let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
+    let title = format!("{}, linearised", loaded.experiment.title);
+    let analysis = Analysis::of(title, &found.system).with_reduction(found.reduction.words());
     if let Some(out) = &arguments.out
-        && let Err(error) = linearization::write(&analysis, out)
+        && let Err(error) = linearization::write(&analysis, Some(&found.reduction), out)
     {
         return diagnostics::refuse_file(&error);
     }
     if arguments.json {
-        say!("{}", linearization::json(&analysis));
+        say!("{}", linearization::json(&analysis, Some(&found.reduction)));
     } else {
         print(&analysis, &found, arguments.out.as_deref());
     }
@@ -80,6 +90,40 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         }
         Err(diagnostic) => diagnostics::refuse_diagnostics(&diagnostic.into()),
     }
+}
+
+/// Linearises the sampled loop as a whole, and shows or writes it.
+fn sampled(arguments: &Arguments, loaded: &Loaded) -> Exit {
+    let start = || -> Result<_, Diagnostics> {
+        let at = operating_point(loaded, arguments.at)?;
+        let at = if arguments.equilibrium { trim(loaded, &at, &TrimRequest::default())?.at } else { at };
+        Ok(linearize_sampled(loaded, &at)?)
+    };
+    let found = match start() {
+        Ok(found) => found,
+        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
+    };
+    let analysis = Analysis::of(format!("{}, sampled loop", loaded.experiment.title), &found.system);
+    if let Some(out) = &arguments.out
+        && let Err(error) = linearization::write(&analysis, None, out)
+    {
+        return diagnostics::refuse_file(&error);
+    }
+    if arguments.json {
+        say!("{}", linearization::json(&analysis, None));
+        return Exit::Holds;
+    }
+    say!("{}", text(&analysis).trim_end());
+    let ticks = if found.period == 1 { "one base step".into() } else { format!("{} base steps", found.period) };
+    say!("\noperating point at {} s, period {ticks}", found.system.t);
+    match found.drift {
+        drift if drift < 1e-8 => say!("  an equilibrium: no state changes by more than {drift:.1e} in a period"),
+        drift => say!("  no equilibrium: states change by up to {drift:.4} in a period"),
+    }
+    if let Some(out) = &arguments.out {
+        say!("report {}", out.join("report.html").display());
+    }
+    Exit::Holds
 }
 
 fn compute(arguments: &Arguments, loaded: &Loaded) -> Result<Linearization, Diagnostics> {
@@ -113,6 +157,7 @@ fn print(analysis: &Analysis, found: &Linearization, out: Option<&Path>) {
     match found.drift() {
         0.0 => say!("  an equilibrium: all rates are zero"),
         drift if drift < 1e-8 => say!("  an equilibrium: no rate is above {drift:.1e}"),
+        _ if found.is_steady() => say!("  a steady motion: only states with a pole at zero change"),
         drift => say!(
             "  no equilibrium: rates up to {drift:.4}. The matrices hold along the motion; --equilibrium finds a rest"
         ),
