@@ -223,22 +223,26 @@ fn a_sampled_position_loop_has_its_discrete_poles() {
     let at = operating_point(&loaded, 2.0).unwrap();
     let found = linearize_sampled(&loaded, &at).unwrap();
     let poles: Vec<_> = found.system.poles().iter().map(|mode| mode.pole).collect();
-    eprintln!("{poles:?} {:?}", found.system.states);
     assert_eq!(found.system.sample_time, Some(0.005));
+    let root = (1.0_f64 - 4.0 * 2.0 * 0.005).sqrt();
+    for expected in [0.5 * (1.0 + root), 0.5 * (1.0 - root)] {
+        let near = poles.iter().filter(|p| (p.re - expected).abs() < 1e-9 && p.im.abs() < 1e-9).count();
+        assert_eq!(near, 2, "{expected}: {poles:?}");
+    }
 }
 
-/// Poles of the difference of two runs, by a recurrence of second order fitted to a coordinate.
-fn measured_poles(loaded: &Loaded, t: f64, coordinate: usize, after: usize) -> [f64; 2] {
+/// Growth of a difference between two runs, by a recurrence of second order fitted to a coordinate from period `after`
+/// on: both of its roots are poles, to `tolerance`.
+fn assert_poles_of_growth(loaded: &Loaded, t: f64, coordinate: usize, (after, n): (usize, usize), tolerance: f64) {
     let at = operating_point(loaded, t).unwrap();
     let found = linearize_sampled(loaded, &at).unwrap();
-    let largest = found.system.poles().iter().map(|m| m.pole).collect::<Vec<_>>();
-    eprintln!("drift {} period {} {largest:?}", found.drift, found.period);
+    let poles: Vec<_> = found.system.poles().iter().map(|m| m.pole).collect();
     let (mut one, mut two) = (at.fork().lockstep, at.fork().lockstep);
     let mut state = two.state().clone();
     state.q[coordinate] += 1e-4;
     two.place(state, &[]);
     let mut series = Vec::new();
-    for k in 0..after + 60 {
+    for k in 0..after + n {
         for _ in 0..found.period {
             one.advance().unwrap();
             two.advance().unwrap();
@@ -254,14 +258,28 @@ fn measured_poles(loaded: &Loaded, t: f64, coordinate: usize, after: usize) -> [
         r += row.transpose() * w[2];
     }
     let fit = m.try_inverse().unwrap() * r;
-    eprintln!("recurrence {fit} {:?}", &series[..4]);
-    [fit[0], fit[1]]
+    // z² = a z + b
+    let (half, square) = (0.5 * fit[0], 0.25 * fit[0] * fit[0] + fit[1]);
+    let root = square.abs().sqrt();
+    let roots = if square < 0.0 { [(half, root), (half, -root)] } else { [(half + root, 0.0), (half - root, 0.0)] };
+    for (re, im) in roots {
+        let distance =
+            |p: &sincro_analysis::linear::Complex<f64>| sincro_math::elementary::hypot(p.re - re, p.im - im).0;
+        let nearest = poles.iter().map(distance).fold(f64::INFINITY, f64::min);
+        eprintln!("measured {re:.6} {im:.6}, nearest pole {nearest:.1e} away; {} states {poles:.4?}", poles.len());
+        assert!(nearest <= tolerance, "{re} {im}: {nearest:e} {poles:?}");
+    }
 }
 
 #[test]
 fn discrete_poles_are_those_of_measured_growth() {
-    let pid = scene("two-dof-position", &[("diagram", "\"pid.toml\""), ("/shoulder.motor.mode", "torque"), ("/shoulder/elbow.motor.mode", "torque")]);
-    measured_poles(&pid, 2.0, 0, 40);
+    let motors = [("/shoulder.motor.mode", "torque"), ("/shoulder/elbow.motor.mode", "torque")];
+    let pid = scene("two-dof-position", &[("diagram", "\"pid.toml\""), motors[0], motors[1]]);
+    assert_poles_of_growth(&pid, 2.0, 0, (40, 60), 1e-3);
+}
+
+#[test]
+fn the_sampled_flight_has_the_poles_of_its_measured_growth() {
     let flight = scene("quadrotor-flight-2", &[]);
-    measured_poles(&flight, 8.0, 2, 20);
+    assert_poles_of_growth(&flight, 20.0, 2, (40, 60), 1e-3);
 }

@@ -7,8 +7,8 @@
 //! limits and contacts. Poles are the eigenvalues of the derivative.
 //!
 //! States are the independent coordinates and speeds of the world, states of rotors, continuous states and memory of
-//! the diagram, last samples of sensors. What a period overwrites has poles at zero, which decay within it; these are
-//! left out.
+//! the diagram, last samples of sensors. Memory and samples that a period overwrites without a trace, or that nothing
+//! depends on, are left out.
 
 use sincro_blocks::program::Rate;
 use sincro_dynamics::model::Model;
@@ -26,6 +26,9 @@ use sincro_sim::run::{Halt, LockStep};
 
 /// Change of each state `[rad]`, `[m]` and the like: differences are central, their error is of its square.
 const CHANGE: f64 = 1e-5;
+
+/// Derivatives below this are rounding of an effect that does not exist.
+const NO_EFFECT: f64 = 1e-9;
 
 /// Base steps in a period that is still lifted.
 const MAX_PERIOD: u64 = 100_000;
@@ -67,11 +70,14 @@ pub fn linearize_sampled(loaded: &Loaded, at: &LockStep) -> Result<SampledLoop, 
     }
     let start = map.at_start();
     let drift = map.difference(&middle, &start).iter().fold(0.0_f64, |worst, x| worst.max(x.abs()));
+    let kept = map.kept(&a);
+    let a = a.select_rows(&kept).select_columns(&kept);
+    let n = kept.len();
     let system = StateSpace {
         b: DMatrix::zeros(n, 0),
         c: DMatrix::zeros(0, n),
         d: DMatrix::zeros(0, 0),
-        states: map.axes.clone(),
+        states: kept.iter().map(|&k| map.axes[k].clone()).collect(),
         inputs: Vec::new(),
         outputs: Vec::new(),
         t: at.t(),
@@ -138,8 +144,7 @@ impl<'a> PeriodMap<'a> {
         let metric = Metric::of(settled.world().model(), &q);
         let tangent = Tangent::of(&mut duals, &equations, &metric, &[]);
         let mut axes: Vec<Axis> = tangent.states.iter().map(|&k| lens.axes()[k].clone()).collect();
-        let (n_continuous, n_memory) =
-            start.diagram.as_ref().map_or((0, 0), |d| (d.continuous.len(), d.memory.len()));
+        let (n_continuous, n_memory) = start.diagram.as_ref().map_or((0, 0), |d| (d.continuous.len(), d.memory.len()));
         let named = |what: &str, n: usize| (1..=n).map(|k| Axis::new(format!("{what} {k}"), "")).collect::<Vec<_>>();
         axes.extend(named("continuous state", n_continuous));
         axes.extend(named("memory", n_memory));
@@ -150,6 +155,20 @@ impl<'a> PeriodMap<'a> {
 
     fn n_states(&self) -> usize {
         self.axes.len()
+    }
+
+    /// States with an effect: all of the world, and of the others those that something else depends on.
+    fn kept(&self, a: &DMatrix<f64>) -> Vec<usize> {
+        let n_world = self.tangent.states.len() + self.n_continuous;
+        let mut kept: Vec<usize> = (0..self.n_states()).collect();
+        let has_effect = |k: usize, kept: &[usize]| kept.iter().any(|&i| i != k && a[(i, k)].abs() > NO_EFFECT);
+        while let Some(at) = kept.iter().rposition(|&k| {
+            let stays = (a[(k, k)] - 1.0).abs() <= NO_EFFECT || a[(k, k)].abs() <= NO_EFFECT;
+            k >= n_world && stays && !has_effect(k, &kept)
+        }) {
+            kept.remove(at);
+        }
+        kept
     }
 
     /// The state itself, before any change.
