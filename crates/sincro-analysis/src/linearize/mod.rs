@@ -9,7 +9,7 @@
 //! blocks with a sample time hold what they gave last, as they do between ticks.
 //!
 //! Closed loops, gears, velocity motors, joints stuck in friction or at a limit and closed contacts are eliminated
-//! ([`reduction`]): the states are independent coordinates and speeds, and what was eliminated is said
+//! (`reduction.rs`): the states are independent coordinates and speeds, and what was eliminated is said
 //! ([`Linearization::reduction`]).
 
 mod lens;
@@ -25,6 +25,9 @@ pub use sampled::{SampledLoop, linearize_sampled};
 pub use trim::{Trim, TrimRequest, Trimmed, trim};
 pub use words::{ReducedElement, ReducedKind, Reduction};
 
+use sincro_dynamics::initial::constraint_residuals;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::state::{State, displace};
 use sincro_dynamics::world::MethodKind;
 use sincro_math::Dual;
 
@@ -89,6 +92,7 @@ fn linearize_settled(loaded: &Loaded, at: &mut LockStep, names: Names) -> Result
     let metric = Metric::of(at.world().model(), &q);
     let tangent = Tangent::of(&mut lens, &equations, &metric, &kinds);
     refuse_improper(&tangent, &names)?;
+    refuse_open_tangent(at.world().model(), &q, &tangent)?;
     let (n, m, p) = (tangent.states.len(), names.inputs.len(), names.outputs.len());
     let pick = |list: &[f64]| tangent.states.iter().map(|&k| list[k]).collect::<Vec<f64>>();
     let mut system = StateSpace {
@@ -142,6 +146,36 @@ fn refuse_improper(tangent: &Tangent, names: &Names) -> Result<(), Diagnostics> 
         }
     }
     if diagnostics.any_error() { Err(diagnostics) } else { Ok(()) }
+}
+
+/// Refuses a tangent space that opens loops: the independent set of their equations, which was chosen where the run
+/// starts, is dependent here.
+fn refuse_open_tangent(model: &Model<f64>, q: &[f64], tangent: &Tangent) -> Result<(), Diagnostics> {
+    const MOVE: f64 = 1e-5;
+    let opening = |q: &[f64]| {
+        let state = State { q: q.to_vec(), ..State::new(model) };
+        let all = constraint_residuals(model, &state);
+        all.into_iter().map(|r| r.distance.max(r.angle)).fold(0.0, f64::max)
+    };
+    let before = opening(q);
+    for column in &tangent.columns[..tangent.n_positions] {
+        let step = &column[..model.n_v()];
+        let largest = step.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+        let opening_at = |by: f64| {
+            let step: Vec<f64> = step.iter().map(|x| x * by / largest).collect();
+            let mut moved = q.to_vec();
+            displace(model, q, &step, &mut moved);
+            opening(&moved)
+        };
+        // along the loops it is of second order: 16 times as large at 4 times the move
+        let (near, far) = (opening_at(MOVE), opening_at(4.0 * MOVE));
+        if near > 2.0 * before + 2e-9 && far < 8.0 * near {
+            let message = "the equations of the loops that the run uses are dependent at this position";
+            let help = "linearise nearer to where the scene starts, or start it nearer to this position (`initial`)";
+            return Err(Diagnostic::nowhere(message).with_help(help).into());
+        }
+    }
+    Ok(())
 }
 
 /// Speeds that jump with an input.

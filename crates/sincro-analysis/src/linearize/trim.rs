@@ -190,7 +190,7 @@ struct Search<'a> {
     iterations: usize,
 }
 
-/// What must vanish, and where it stands.
+/// Residuals, each with the words for it.
 struct Residuals {
     values: Vec<f64>,
     labels: Vec<String>,

@@ -1,4 +1,4 @@
-//! What a reduction to independent coordinates has done, in numbers and in words.
+//! Record of a reduction to independent coordinates, in numbers and in words.
 
 use sincro_dynamics::actuation::drive::DriveKind;
 use sincro_dynamics::constraint::ActiveSource;
