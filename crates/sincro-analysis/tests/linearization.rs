@@ -281,5 +281,5 @@ fn discrete_poles_are_those_of_measured_growth() {
 #[test]
 fn the_sampled_flight_has_the_poles_of_its_measured_growth() {
     let flight = scene("quadrotor-flight-2", &[]);
-    assert_poles_of_growth(&flight, 20.0, 2, (40, 60), 1e-3);
+    assert_poles_of_growth(&flight, 8.0, 2, (20, 60), 2e-3);
 }
