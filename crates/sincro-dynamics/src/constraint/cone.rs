@@ -84,7 +84,4 @@ pub(crate) struct UnilateralConstraint<R> {
     /// True for a compliant contact.
     pub is_compliant: bool,
     pub groups: [Option<FrictionGroup<R>>; 3],
-    /// Observable change: bit 0, the constraint opens; bits 1 to 3, a group starts to slip. One of several redundant
-    /// contacts may carry no force and yet neither open nor slip.
-    pub effect: u8,
 }

@@ -37,6 +37,9 @@ impl Constraints<f64> {
         self.before.clear();
         self.before.extend((0..self.rows.len()).map(|i| dot(&self.jacobian[i * n..(i + 1) * n], v)));
         let report = self.solver.report;
+        if self.settles() {
+            return self.settle(model, v, scratch, has_drives);
+        }
         let mut lost = self.solve_impact(model, RestitutionLaw::Newton);
         if !lost.is_ok_and(is_loss) && self.restores(model) {
             self.solver.report.discard(&report);
@@ -46,6 +49,13 @@ impl Constraints<f64> {
                 lost = self.solve_impact(model, RestitutionLaw::None);
             }
         }
+        self.apply_impulses(model, v, scratch, has_drives);
+        let (Ok((lost, _)) | Err((lost, _))) = lost;
+        lost
+    }
+
+    /// Adds the velocity changes by the impulses to `v`.
+    fn apply_impulses(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) {
         let mut change = core::mem::take(&mut self.velocity_change);
         change.fill(0.0);
         self.push(model, scratch, &mut change, has_drives);
@@ -53,8 +63,39 @@ impl Constraints<f64> {
             *v += *change;
         }
         self.velocity_change = change;
-        let (Ok((lost, _)) | Err((lost, _))) = lost;
-        lost
+    }
+
+    /// Returns true if all contacts that are closed approach or separate so slowly that they come to rest: a body that
+    /// rocks from one contact to the other would otherwise make ever shorter and slower impacts without end.
+    fn settles(&self) -> bool {
+        let rates = self.blocks.iter().filter(|block| !block.is_compliant).map(|block| self.before[block.row]);
+        rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs())) < self.settling_speed
+    }
+
+    /// Brings the normal rates of all closed contacts to zero. Returns the energy lost `[J]`, which is never negative:
+    /// the velocities are projected in the metric of the mass matrix.
+    fn settle(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) -> f64 {
+        self.reset_impact();
+        for block in &mut self.blocks {
+            block.groups = [None; 3];
+        }
+        self.b.clone_from(&self.before);
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.hold(&problem, &mut self.blocks, &mut self.lambda);
+        self.apply_impulses(model, v, scratch, has_drives);
+        self.work_of_impulses().0
+    }
+
+    /// Energy lost by the impulses, and the sum of the works that it is the difference of `[J]`.
+    fn work_of_impulses(&self) -> (f64, f64) {
+        let m = self.rows.len();
+        let (mut lost, mut works) = (0.0, 0.0);
+        for i in 0..m {
+            let change = dot(&self.a[i * m..(i + 1) * m], &self.lambda);
+            lost -= self.lambda[i] * (self.before[i] + 0.5 * change);
+            works += (self.lambda[i] * self.before[i]).abs() + (self.lambda[i] * change).abs();
+        }
+        (lost, works)
     }
 
     /// Returns true if a contact that approaches has restitution.
@@ -93,14 +134,8 @@ impl Constraints<f64> {
             self.solve_impulses();
             self.block_approach();
         }
-        let m = self.rows.len();
-        let (mut lost, mut works) = (0.0, 0.0);
-        for i in 0..m {
-            let change = dot(&self.a[i * m..(i + 1) * m], &self.lambda);
-            lost -= self.lambda[i] * (self.before[i] + 0.5 * change);
-            works += (self.lambda[i] * self.before[i]).abs() + (self.lambda[i] * change).abs();
-        }
-        if self.solver.report.not_converged > failures { Err((lost, works)) } else { Ok((lost, works)) }
+        let work = self.work_of_impulses();
+        if self.solver.report.not_converged > failures { Err(work) } else { Ok(work) }
     }
 
     /// Takes back prescribed impulses under which a contact still approaches.

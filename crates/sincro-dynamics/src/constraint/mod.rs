@@ -22,7 +22,9 @@
 //! | `dense` | elimination that reveals the rank |
 //! | `cone` | unilateral constraints, friction groups, contact modes |
 //! | `active_set` | linear system of the current active set |
+//! | `held` | solution with held contact modes; laws that it may violate |
 //! | `admm` | ADMM for the same problem, without an active set |
+//! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
 //! | `solver` | solution of one problem: active set first, then ADMM |
 //! | `impact` | impacts, contact points |
 //! | `projection` | projection of positions and velocities |
@@ -39,6 +41,8 @@ mod admm;
 mod cone;
 mod delassus;
 mod dense;
+mod gauss_seidel;
+mod held;
 mod impact;
 mod loop_joint;
 mod projection;
@@ -62,12 +66,22 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use active_set::ContactProblem;
 use cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
+pub(crate) use held::HeldLaw;
+use held::is_observable;
 use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
 use warm_start::WarmStart;
 
 /// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
 pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;
+
+/// Bounds of the speed below which a contact neither slides nor approaches [m/s] or [rad/s]; within them it is ten
+/// times the accuracy of the integration.
+pub(crate) const LEAST_ZERO_SPEED: f64 = 1e-8;
+pub(crate) const MAX_ZERO_SPEED: f64 = 1e-6;
+
+/// Least speed below which contacts that meet come to rest [m/s] or [rad/s].
+pub(crate) const SETTLING_SPEED: f64 = 1e-7;
 
 /// Conditioning of the loops below which a position is singular: no stage of a step may stand there.
 pub(crate) const SINGULAR: f64 = 1e-8;
@@ -82,6 +96,17 @@ pub(crate) enum Level {
     Acceleration,
     /// Velocities at the end of a step of length h `[s]`, impacts included.
     Velocity(f64),
+}
+
+/// Treatment of contact modes in an evaluation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ModeRule {
+    /// The complementarity problem decides them.
+    Decided,
+    /// Those of the start of the sub-step stand.
+    Held,
+    /// As `Held`; laws that they violate are noted.
+    HeldAndChecked,
 }
 
 /// Contact point with its force.
@@ -138,7 +163,37 @@ pub(crate) struct Constraints<R> {
     is_independent: Vec<bool>,
     /// Length of the sub-step that is being made `[s]`; 0: none.
     pub sub_step: f64,
+    /// Speed below which a contact neither slides nor approaches [m/s] or [rad/s].
+    pub zero_speed: f64,
+    /// Speed below which contacts that meet come to rest [m/s] or [rad/s].
+    pub settling_speed: f64,
+    /// Treatment of contact modes.
+    pub mode_rule: ModeRule,
+    /// True if the held modes had no solution in the last evaluation, which decided them.
+    pub lost_modes: bool,
+    /// Law that the held modes violate in the last evaluation.
+    pub violation: Option<HeldLaw>,
+    held: HeldSolution<R>,
     pub solver: Solver<R>,
+}
+
+/// Solution with held modes, kept while the problem is solved as a whole.
+#[derive(Clone, Debug, Default)]
+struct HeldSolution<R> {
+    blocks: Vec<UnilateralConstraint<R>>,
+    lambda: Vec<R>,
+    rates: Vec<R>,
+}
+
+impl<R: Real> HeldSolution<R> {
+    fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R], rates: &[R]) {
+        self.blocks.clear();
+        self.blocks.extend_from_slice(blocks);
+        for (kept, list) in [(&mut self.lambda, lambda), (&mut self.rates, rates)] {
+            kept.clear();
+            kept.extend_from_slice(list);
+        }
+    }
 }
 
 impl<R: Real> Constraints<R> {
@@ -173,6 +228,12 @@ impl<R: Real> Constraints<R> {
             row_sizes: Vec::new(),
             is_independent: vec![true; set.n_bilateral()],
             sub_step: 0.0,
+            zero_speed: LEAST_ZERO_SPEED,
+            settling_speed: SETTLING_SPEED,
+            mode_rule: ModeRule::Decided,
+            lost_modes: false,
+            violation: None,
+            held: HeldSolution::default(),
             solver: Solver::default(),
         };
         // more contacts than this at once enlarge the memory, once for every new maximum
@@ -187,7 +248,9 @@ impl<R: Real> Constraints<R> {
         self.rows.reserve(m);
         self.blocks.reserve(m);
         self.kept.reserve(m);
-        for list in [&mut self.residual, &mut self.b, &mut self.lambda, &mut self.before] {
+        self.held.blocks.reserve(m);
+        let held = [&mut self.held.lambda, &mut self.held.rates];
+        for list in [&mut self.residual, &mut self.b, &mut self.lambda, &mut self.before].into_iter().chain(held) {
             list.reserve(m);
         }
         self.jacobian.reserve(m * n);
@@ -301,7 +364,6 @@ impl<R: Real> Constraints<R> {
                     given: None,
                     is_compliant: false,
                     groups: [None; 3],
-                    effect: 0,
                 });
             }
         }
@@ -315,7 +377,7 @@ impl<R: Real> Constraints<R> {
         }
         self.lambda.clear();
         self.lambda.resize(self.rows.len(), R::zero());
-        self.memory.restore(&mut self.blocks, &mut self.lambda);
+        self.memory.restore(&mut self.blocks, &mut self.lambda, self.mode_rule != ModeRule::Decided);
     }
 
     /// Assembles the rows and residuals of loop joints and gears that are used, and nothing else.
@@ -396,22 +458,14 @@ impl<R: Real> Constraints<R> {
             if slides {
                 group.mode = ContactMode::Slip;
                 let (direction, speed) = self.direction_against(first, dim, v, self.memory.direction(slot, g));
-                group.direction = self.memory.set_direction(slot, g, direction);
+                group.direction = self.memory.set_direction(slot, g, direction, speed);
                 if dim == 2 {
                     self.align(&mut group, speed);
                 }
             }
             groups[g] = Some(group);
         }
-        self.blocks.push(UnilateralConstraint {
-            slot,
-            row,
-            open: false,
-            given,
-            is_compliant: given.is_some(),
-            groups,
-            effect: 0,
-        });
+        self.blocks.push(UnilateralConstraint { slot, row, open: false, given, is_compliant: given.is_some(), groups });
     }
 
     fn add(&mut self, row: Row<R>, residual: R) {
@@ -475,10 +529,45 @@ impl<R: Real> Constraints<R> {
 
     fn solve(&mut self) {
         self.find_slow_sliding();
-        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         self.solver.shares_load = true;
-        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+        self.violation = None;
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        let holds = self.mode_rule != ModeRule::Decided;
+        let held = holds && self.solver.hold(&problem, &mut self.blocks, &mut self.lambda);
+        self.lost_modes = holds && !held;
+        if held {
+            if self.mode_rule == ModeRule::HeldAndChecked {
+                self.check_held_modes();
+            }
+        } else {
+            self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+        }
         self.memory.keep(&self.blocks, &self.lambda);
+    }
+
+    /// Checks the solution with held modes; one of another set of modes with the same accelerations takes its place
+    /// where it violates a law.
+    fn check_held_modes(&mut self) {
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        let Some(law) = self.solver.worst_law(&problem, &self.blocks, &self.lambda) else { return };
+        self.held.keep(&self.blocks, &self.lambda, self.solver.rates());
+        let report = self.solver.report;
+        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+        let is_solved = self.solver.report.not_converged == report.not_converged;
+        if is_solved && !is_observable(&problem, self.solver.rates(), &self.held.rates) {
+            return;
+        }
+        self.solver.report.discard(&report);
+        self.blocks.copy_from_slice(&self.held.blocks);
+        self.lambda.copy_from_slice(&self.held.lambda);
+        self.solver.find_rates(&problem, &self.lambda);
+        self.violation = Some(law);
+    }
+
+    /// Excess of a law over its tolerance in the last evaluation, above zero if it is violated.
+    pub fn excess(&self, law: HeldLaw) -> f64 {
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        self.solver.excess(law, &problem, &self.blocks, &self.lambda)
     }
 
     /// Adds the response to the constraint forces to accelerations and reactions.

@@ -5,17 +5,19 @@
 //! redundant contacts keep their share. If the multipliers satisfy the complementarity conditions, the problem is
 //! solved. If not, the violated modes are changed, a few times; for slip directions this is Newton's method. If that
 //! does not converge, ADMM ([`super::admm`]) finds the solution without an active set, and the linear system of the
-//! modes it implies makes it exact.
+//! modes it implies makes it exact; the last resorts are Gauss–Seidel sweeps and all sets of closed contacts.
 
 use sincro_math::Real;
 
 use super::active_set::{ActiveSet, ContactProblem};
 use super::admm::{Admm, activate_all};
 use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
-use super::dense::{Dense, RANK};
+use super::dense::Dense;
+pub(super) use super::dense::RANK;
+use super::gauss_seidel;
 
 /// Complementarity tolerance, relative to the largest force or rate.
-const SLACK: f64 = 1e-9;
+pub(super) const SLACK: f64 = 1e-9;
 
 /// Tolerance of rates that must be zero, relative to the largest rate: redundant contacts whose distances differ by
 /// rounding contradict each other by as much; an inconsistent active set leaves far more.
@@ -30,8 +32,11 @@ const MAX_MODE_UPDATES: usize = 8;
 /// Maximum number of contacts whose sets of closed ones are enumerated.
 const MAX_ENUMERATED: usize = 5;
 
+/// Numbers of Gauss–Seidel sweeps after which their active set is tried.
+const SWEEPS: [usize; 5] = [20, 40, 80, 160, 320];
+
 /// Maximum number of turns of slow sliding friction.
-const MAX_TURNS: usize = 20;
+pub(super) const MAX_TURNS: usize = 20;
 
 /// Iterations of ADMM before its active set is tried the first time; doubled after each trial.
 const FIRST_ITERATIONS: usize = 25;
@@ -61,11 +66,14 @@ impl SolverReport {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Solver<R> {
     dense: Dense<R>,
-    active_set: ActiveSet<R>,
+    pub(super) active_set: ActiveSet<R>,
     admm: Admm,
     delta: Vec<R>,
     all_active: Vec<UnilateralConstraint<R>>,
     start: Vec<R>,
+    /// Multipliers and rates of Gauss–Seidel sweeps.
+    swept: Vec<R>,
+    swept_rates: Vec<R>,
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
     trial: Option<SolverReport>,
@@ -83,7 +91,7 @@ impl<R: Real> Solver<R> {
         self.dense.reserve(m);
         self.active_set.reserve(m);
         let more = |len: usize| m.saturating_sub(len);
-        for list in [&mut self.delta, &mut self.start] {
+        for list in [&mut self.delta, &mut self.start, &mut self.swept, &mut self.swept_rates] {
             list.reserve(more(list.len()));
         }
         self.all_active.reserve(more(self.all_active.len()));
@@ -106,11 +114,6 @@ impl<R: Real> Solver<R> {
     pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         self.report.solved += 1;
         self.rank = RANK;
-        self.search(problem, blocks, lambda);
-        self.mark_effects(problem, blocks, lambda);
-    }
-
-    fn search(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         let was_loaded = carries_load(problem, blocks, lambda);
         if self.iterate_active_set(problem, blocks, lambda) {
             // several contacts that begin to carry load together share it evenly
@@ -139,7 +142,9 @@ impl<R: Real> Solver<R> {
                 break;
             }
             if done {
-                if self.enumerate(problem, (&all_active, false), blocks, lambda)
+                if self.sweep(problem, (&all_active, false), blocks, lambda)
+                    || self.sweep(problem, (&all_active, true), blocks, lambda)
+                    || self.enumerate(problem, (&all_active, false), blocks, lambda)
                     || self.enumerate(problem, (&all_active, true), blocks, lambda)
                 {
                     break;
@@ -155,6 +160,29 @@ impl<R: Real> Solver<R> {
             iterations *= 2;
         }
         self.all_active = all_active;
+    }
+
+    /// Active-set iteration from what Gauss–Seidel sweeps find; returns true on convergence.
+    fn sweep(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        (all_active, explicit): (&[UnilateralConstraint<R>], bool),
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        blocks.copy_from_slice(all_active);
+        if explicit {
+            blocks.iter_mut().for_each(fix_slow_sliding);
+        }
+        self.swept.clear();
+        self.swept.resize(lambda.len(), R::zero());
+        self.swept_rates.clear();
+        self.swept_rates.extend_from_slice(problem.b);
+        SWEEPS.into_iter().any(|sweeps| {
+            gauss_seidel::sweep(problem, sweeps, blocks, (&mut self.swept, &mut self.swept_rates));
+            lambda.copy_from_slice(&self.swept);
+            self.iterate_active_set(problem, blocks, lambda)
+        })
     }
 
     /// Active-set iteration from every set of closed contacts, of small problems; returns true on convergence. Sliding
@@ -213,7 +241,12 @@ impl<R: Real> Solver<R> {
     }
 
     /// Repeats the correction where elimination left more than rounding.
-    fn refine(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+    pub(super) fn refine(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) {
         let small = Tolerances::of(problem, lambda).none;
         let rates = &self.active_set.rates;
         let holds = |block: &&UnilateralConstraint<R>| !block.open && block.given.is_none();
@@ -234,24 +267,6 @@ impl<R: Real> Solver<R> {
         self.dense.solve(self.rank, &mut self.delta);
         self.smallest_pivot = self.dense.smallest_pivot;
         self.active_set.change(blocks, &self.delta, lambda);
-    }
-
-    /// Records the observable change of every constraint.
-    fn mark_effects(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) {
-        let small = 10.0 * Tolerances::of(problem, lambda).rate;
-        let rates = &self.active_set.rates;
-        for block in blocks.iter_mut() {
-            block.effect = 0;
-            if block.open {
-                block.effect = u8::from(rates[block.row].lane(0) > small);
-                continue;
-            }
-            for (g, group) in block.groups.iter().enumerate() {
-                let Some(group) = group.filter(|g| !g.slides && g.mode == ContactMode::Slip) else { continue };
-                let rate = rates[group.row..group.row + group.dim].iter().map(|r| r.lane(0).abs()).fold(0.0, f64::max);
-                block.effect |= u8::from(rate > small) << (g + 1);
-            }
-        }
     }
 
     /// Complementarity residual relative to the largest rate (dimensionless); counted if it exceeds the tolerance.
@@ -285,17 +300,17 @@ impl<R: Real> Solver<R> {
 
 /// Absolute tolerances of one problem.
 #[derive(Clone, Copy)]
-struct Tolerances {
-    force: f64,
-    rate: f64,
-    held: f64,
+pub(super) struct Tolerances {
+    pub force: f64,
+    pub rate: f64,
+    pub held: f64,
     none: f64,
 }
 
 impl Tolerances {
     /// The force scale includes the force that would stop the largest rate of the lightest row: where everything opens,
     /// nothing else gives forces a scale.
-    fn of<R: Real>(problem: &ContactProblem<'_, R>, lambda: &[R]) -> Self {
+    pub fn of<R: Real>(problem: &ContactProblem<'_, R>, lambda: &[R]) -> Self {
         let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
         let m = problem.m();
         let lightest = (0..m).fold(0.0_f64, |s, i| s.max(problem.a[i * m + i].lane(0)));
@@ -365,7 +380,12 @@ fn turn_slow_sliding<R: Real>(rates: &[R], blocks: &mut [UnilateralConstraint<R>
 
 /// Turns the friction of a group that slides slowly against its velocity at the end of the step; returns true if it was
 /// not turned so yet.
-fn turn_slow_friction<R: Real>(group: &mut FrictionGroup<R>, normal: f64, rates: &[R], lambda: &[R]) -> bool {
+pub(super) fn turn_slow_friction<R: Real>(
+    group: &mut FrictionGroup<R>,
+    normal: f64,
+    rates: &[R],
+    lambda: &[R],
+) -> bool {
     let Some(sliding) = group.sliding_rate(normal) else {
         let was_turned = group.slides && group.compliance.is_some();
         if was_turned {
@@ -390,16 +410,33 @@ fn update_friction_mode<R: Real>(
     rates: &[R],
     lambda: &[R],
 ) -> bool {
-    let limit = group.coefficient * normal;
-    let (force, rate) = (pair(group, lambda), pair(group, rates));
-    let (size, speed) = (norm(force), norm(rate));
     if group.mode == ContactMode::Stick {
-        if size > limit + small.force {
+        let force = pair(group, lambda);
+        let size = norm(force);
+        if size > group.coefficient * normal + small.force {
             group.slip(force.map(|x| R::splat(x / size)), None);
             return true;
         }
-        return speed > small.held;
+        return norm(pair(group, rates)) > small.held;
     }
+    turn_impending_slip(group, normal, small, rates, lambda).unwrap_or_else(|| {
+        group.stick();
+        true
+    })
+}
+
+/// Turns friction at its limit against the impending slip; returns true if it was not turned so yet, none if the slip
+/// goes along the force: it sticks then.
+pub(super) fn turn_impending_slip<R: Real>(
+    group: &mut FrictionGroup<R>,
+    normal: f64,
+    small: Tolerances,
+    rates: &[R],
+    lambda: &[R],
+) -> Option<bool> {
+    let limit = group.coefficient * normal;
+    let (force, rate) = (pair(group, lambda), pair(group, rates));
+    let (size, speed) = (norm(force), norm(rate));
     if speed <= small.rate {
         // at its limit without a rate; a direction that can turn must not have turned beyond the limit
         let beyond = size > limit + small.force;
@@ -408,29 +445,28 @@ fn update_friction_mode<R: Real>(
         if beyond || creeps {
             group.slip(force.map(|x| R::splat(x / size)), None);
         }
-        return beyond || creeps;
+        return Some(beyond || creeps);
     }
     let d = group.direction.map(|d| d.lane(0));
     if rate[0] * d[0] + rate[1] * d[1] > 0.0 {
-        group.stick();
-        return true;
+        return None;
     }
     // turn the force against the impending slip
     let turned = norm([rate[0] + speed * d[0], rate[1] + speed * d[1]]);
     let compliance = Some(speed / limit).filter(|c| c.is_finite());
     // without a normal force nothing tells how contacts share the load: that is left to ADMM
     if compliance.is_some() && turned <= SLACK * speed {
-        return false;
+        return Some(false);
     }
     group.slip(rate.map(|x| R::splat(-x / speed)), compliance.map(R::splat));
-    true
+    Some(true)
 }
 
 /// Components of a group in a list over rows.
-fn pair<R: Real>(group: &FrictionGroup<R>, list: &[R]) -> [f64; 2] {
+pub(super) fn pair<R: Real>(group: &FrictionGroup<R>, list: &[R]) -> [f64; 2] {
     std::array::from_fn(|k| if k < group.dim { list[group.row + k].lane(0) } else { 0.0 })
 }
 
-fn norm(x: [f64; 2]) -> f64 {
+pub(super) fn norm(x: [f64; 2]) -> f64 {
     (x[0] * x[0] + x[1] * x[1]).sqrt()
 }

@@ -3,7 +3,7 @@
 //! | per slot | meaning | part of the state |
 //! |---|---|---|
 //! | multipliers | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
-//! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group + 16·observable change | yes |
+//! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group | yes |
 //! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
 //!
 //! The last number is the [`ZenoFallback`].
@@ -42,11 +42,13 @@ pub(crate) struct WarmStart<R> {
     is_new: Vec<bool>,
     slides: Vec<[bool; 3]>,
     directions: Vec<[[R; 2]; 3]>,
-    /// Codes at the start of a sub-step; a change of the observable part is an event.
-    start: Vec<f64>,
+    /// Multipliers and codes at the start of a sub-step.
+    start: Vec<R>,
+    /// Those that others were proposed for.
+    decided: Vec<R>,
     start_directions: Vec<[[R; 2]; 3]>,
-    /// Groups that slide against the direction they had at the start.
-    reversed: Vec<[bool; 3]>,
+    /// Sliding velocity of each group along that at the start [m/s] or [rad/s]; below zero it has reversed.
+    along_start: Vec<[f64; 3]>,
 }
 
 impl<R: Real> WarmStart<R> {
@@ -57,9 +59,10 @@ impl<R: Real> WarmStart<R> {
             is_new: vec![false; n_slots],
             slides: vec![[false; 3]; n_slots],
             directions: vec![[[R::zero(); 2]; 3]; n_slots],
-            start: vec![0.0; n_slots],
+            start: vec![R::zero(); warm_start_len(n_slots)],
+            decided: vec![R::zero(); warm_start_len(n_slots)],
             start_directions: vec![[[R::zero(); 2]; 3]; n_slots],
-            reversed: vec![[false; 3]; n_slots],
+            along_start: vec![[0.0; 3]; n_slots],
         }
     }
 
@@ -100,13 +103,13 @@ impl<R: Real> WarmStart<R> {
         self.directions[slot][group]
     }
 
-    /// Sets the direction of a sliding group's friction. Within a sub-step it does not reverse: the force continues
-    /// smoothly until the instant of reversal has been located.
-    pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2]) -> [R; 2] {
+    /// Sets the direction of a sliding group's friction, for its `speed`. Within a sub-step it does not reverse: the
+    /// force continues smoothly until the instant of reversal has been located.
+    pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2], speed: R) -> [R; 2] {
         let start = self.start_directions[slot][group];
-        let turned = (direction[0] * start[0] + direction[1] * start[1]).lane(0) < 0.0;
-        self.reversed[slot][group] = turned;
-        let direction = if turned { direction.map(|x| -x) } else { direction };
+        let along = (direction[0] * start[0] + direction[1] * start[1]).lane(0);
+        self.along_start[slot][group] = along * speed.lane(0);
+        let direction = if along < 0.0 { direction.map(|x| -x) } else { direction };
         self.directions[slot][group] = direction;
         direction
     }
@@ -122,14 +125,10 @@ impl<R: Real> WarmStart<R> {
         }
     }
 
-    fn code(&self, slot: usize) -> u32 {
-        self.numbers[slot * SLOT_LEN + 6].lane(0) as u32
-    }
-
-    /// Restores modes and multipliers of the last solution.
-    pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+    /// Restores multipliers and modes of the last solution, or with `holds` the modes of the start of the sub-step.
+    pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R], holds: bool) {
         for block in blocks {
-            let code = self.code(block.slot);
+            let code = code(if holds { &self.start } else { &self.numbers }, block.slot);
             if code == 0 {
                 continue;
             }
@@ -168,33 +167,60 @@ impl<R: Real> WarmStart<R> {
                     code += 2 << g;
                 }
             }
-            code += 16 * u32::from(block.effect);
             kept[6] = R::splat(f64::from(code));
         }
     }
 
-    /// Records the modes at the start of a sub-step.
+    /// Records multipliers and modes at the start of a sub-step.
     pub fn mark_start(&mut self) {
-        for slot in 0..self.start.len() {
-            self.start[slot] = f64::from(self.code(slot));
-        }
+        self.start.copy_from_slice(&self.numbers);
         self.start_directions.copy_from_slice(&self.directions);
     }
 
-    /// Returns true if the observable mode of a closed slot differs from the start of the sub-step.
-    pub fn has_changed(&self) -> bool {
-        let closed = || (0..self.start.len()).filter(|slot| self.closed[*slot]);
-        closed().any(|slot| effect(self.start[slot] as u32) != effect(self.code(slot)))
-            || closed().any(|slot| self.has_reversed(slot))
+    /// Returns true if a mode differs from the start of the sub-step.
+    pub fn has_other_modes(&self) -> bool {
+        (0..self.closed.len()).any(|slot| self.closed[slot] && code(&self.start, slot) != code(&self.numbers, slot))
     }
 
-    /// Returns true if a sliding group has reversed.
-    fn has_reversed(&self, slot: usize) -> bool {
-        (0..3).any(|g| self.slides[slot][g] && self.reversed[slot][g])
+    /// Takes the present multipliers and modes for those at the start of the sub-step; directions stay.
+    pub fn propose_modes(&mut self) {
+        self.decided.copy_from_slice(&self.start);
+        self.start.copy_from_slice(&self.numbers);
+        self.directions.copy_from_slice(&self.start_directions);
+    }
+
+    /// Takes back [`WarmStart::propose_modes`].
+    pub fn reject_modes(&mut self) {
+        self.start.copy_from_slice(&self.decided);
+        self.return_to_start();
+    }
+
+    /// Goes back to multipliers and modes at the start of the sub-step.
+    pub fn return_to_start(&mut self) {
+        self.numbers.copy_from_slice(&self.start);
+        self.directions.copy_from_slice(&self.start_directions);
+    }
+
+    /// Returns true if a slot carried a force, or none was needed of it, at the start of the sub-step.
+    pub fn was_closed(&self, slot: usize) -> bool {
+        self.closed[slot] && code(&self.start, slot).saturating_sub(1) & 1 == 0
+    }
+
+    /// Closed slot and group that slides against its direction at the start of the sub-step.
+    pub fn reversal(&self) -> Option<(usize, usize)> {
+        let closed = (0..self.closed.len()).filter(|slot| self.closed[*slot]);
+        closed
+            .flat_map(|slot| (0..3).map(move |g| (slot, g)))
+            .find(|(slot, g)| self.slides[*slot][*g] && self.along_start[*slot][*g] < 0.0)
+    }
+
+    /// Sliding velocity of a group along that at the start of the sub-step [m/s] or [rad/s].
+    pub fn along_start(&self, slot: usize, group: usize) -> f64 {
+        self.along_start[slot][group]
     }
 }
 
-/// Observable part of a code.
-fn effect(code: u32) -> u32 {
-    code.saturating_sub(1) >> 4
+/// Code of a slot.
+fn code<R: Real>(numbers: &[R], slot: usize) -> u32 {
+    numbers[slot * SLOT_LEN + 6].lane(0) as u32
 }

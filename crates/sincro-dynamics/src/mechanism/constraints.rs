@@ -3,7 +3,10 @@
 
 use sincro_math::Real;
 
-use crate::constraint::{CLOSED_DISTANCE, Constraints};
+use crate::constraint::warm_start::WarmStart;
+use crate::constraint::{
+    CLOSED_DISTANCE, Constraints, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED,
+};
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::{Collider, Pair};
 use crate::integrate::System;
@@ -11,9 +14,6 @@ use crate::mechanism::Mechanism;
 use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::spatial::{Pose, Vec3};
-
-/// Speed below which a contact neither slides nor approaches [m/s] or [rad/s].
-pub(crate) const ZERO_SPEED: f64 = 1e-8;
 
 /// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
 const PROJECTED: f64 = 1e-12;
@@ -23,6 +23,25 @@ const PROJECTED_ROUGHLY: f64 = 1e-10;
 
 /// Iteration limit of a projection of positions.
 const MAX_PROJECTIONS: usize = 12;
+
+/// Distance within which the distances of open contacts guide the search for the instant at which they close `[m]`.
+const LOCATED: f64 = 0.1;
+
+/// Excess over a law, relative to the largest force or rate, up to which a contact may be at the change of its mode.
+const GRAZING: f64 = 1e-4;
+
+/// Zero crossing of a contact or limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ContactEvent {
+    /// The held modes violate a law.
+    Law(HeldLaw),
+    /// Sliding of a group (slot and group) reverses.
+    Reversal(usize, usize),
+    /// A compliant contact opens: index of the constraint.
+    Opening(usize),
+    /// An open contact or limit closes: slot.
+    Closing(usize),
+}
 
 /// Result of contact detection at the start of a sub-step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,8 +88,9 @@ impl Mechanism<f64> {
         };
         c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.candidates);
         let mut touch = ContactStatus::default();
+        let zero_speed = c.zero_speed;
         let closes = |distance: f64, rate: f64| match closing {
-            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= ZERO_SPEED,
+            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
             ActivationRule::All => distance <= CLOSED_DISTANCE,
             ActivationRule::Within(h) => {
                 distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
@@ -80,7 +100,7 @@ impl Mechanism<f64> {
             let distance = limit.sign * (self.base[limit.coordinate] - limit.bound);
             let rate = limit.sign * v[limit.dof];
             c.memory.classify(slot, closes(distance, rate), [false; 3]);
-            touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -ZERO_SPEED;
+            touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
         }
         for pair in &set.pairs {
             for k in pair.first..pair.first + pair.slots {
@@ -99,45 +119,94 @@ impl Mechanism<f64> {
                 let closed = closes(at.distance, rate);
                 let slides = if closed { slides(c, &candidate, &at, pair) } else { [false; 3] };
                 c.memory.classify(slot, closed, slides);
-                touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -ZERO_SPEED;
+                touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -zero_speed;
             }
         }
         touch
     }
 
-    /// Zero crossing of a signed distance: returns true if an open contact or limit has closed and still approaches, in
-    /// the state last evaluated.
-    pub(crate) fn has_new_contact(&mut self, v: &[f64]) -> bool {
-        let Some(c) = self.constraints.as_deref_mut() else { return false };
+    /// Sets the treatment of contact modes in the evaluations that follow.
+    pub(crate) fn set_mode_rule(&mut self, rule: ModeRule) {
+        if let Some(c) = &mut self.constraints {
+            c.mode_rule = rule;
+        }
+    }
+
+    /// Zero crossings of contacts and limits that have happened in the state last evaluated, with held modes, one of
+    /// each kind: a law that they violate, a reversal of sliding, a compliant contact that has opened, a distance that
+    /// has closed.
+    pub(crate) fn contact_events(&mut self, v: &[f64]) -> [Option<ContactEvent>; 4] {
+        let Some(c) = self.constraints.as_deref() else { return [None; 4] };
+        let opened = c.blocks.iter().position(|b| b.given.is_some() && c.residual[b.row] > 0.0);
+        [
+            c.violation.map(ContactEvent::Law),
+            c.memory.reversal().map(|(slot, group)| ContactEvent::Reversal(slot, group)),
+            opened.map(ContactEvent::Opening),
+            self.find_closing(v).map(ContactEvent::Closing),
+        ]
+    }
+
+    /// Value of a zero crossing in the state last evaluated, above zero where it has happened; NaN if it is not known.
+    pub(crate) fn contact_event_value(&mut self, event: ContactEvent) -> f64 {
+        let Some(c) = self.constraints.as_deref() else { return f64::NAN };
+        match event {
+            ContactEvent::Law(law) => c.excess(law),
+            ContactEvent::Reversal(slot, group) => -c.memory.along_start(slot, group),
+            ContactEvent::Opening(block) => c.blocks.get(block).map_or(f64::NAN, |b| c.residual[b.row]),
+            ContactEvent::Closing(slot) => -self.distance_of(slot),
+        }
+    }
+
+    /// Value of a zero crossing that is as good as zero, far below the distance or speed that counts as none.
+    pub(crate) fn contact_event_resolution(&self, event: ContactEvent) -> f64 {
+        let small = match event {
+            ContactEvent::Law(_) => 1e-11,
+            ContactEvent::Reversal(..) => 1e-3 * LEAST_ZERO_SPEED,
+            ContactEvent::Opening(_) | ContactEvent::Closing(_) => 1e-5 * CLOSED_DISTANCE,
+        };
+        small * self.projection_scale
+    }
+
+    /// Slot of the open contact or limit that has closed and still approaches, in the state last evaluated; the deepest
+    /// one.
+    fn find_closing(&mut self, v: &[f64]) -> Option<usize> {
+        let c = self.constraints.as_deref_mut()?;
         let set = &*self.model.constraints;
+        let mut deepest: (Option<usize>, f64) = (None, 0.0);
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
-            if !c.memory.is_closed(slot) && distance < 0.0 && limit.sign * v[limit.dof] < -ZERO_SPEED {
-                return true;
+            if !c.memory.was_closed(slot) && distance < deepest.1 && limit.sign * v[limit.dof] < -c.zero_speed {
+                deepest = (Some(slot), distance);
             }
         }
         c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, 1e-6, &mut c.later_candidates);
         for pair in &set.pairs {
             for k in pair.first..pair.first + pair.slots {
-                let Some(candidate) = c.later_candidates[k] else { continue };
-                if c.memory.is_closed(set.limits.len() + k) {
+                let (Some(candidate), slot) = (c.later_candidates[k], set.limits.len() + k) else { continue };
+                if c.memory.was_closed(slot) {
                     continue;
                 }
                 let at = candidate.kinematics(&c.motions.at(&self.scratch));
-                if at.distance < 0.0
-                    && (pair.material.stiffness.is_finite() || normal_rate(c, &candidate, &at) < -ZERO_SPEED)
+                if at.distance < deepest.1
+                    && (pair.material.stiffness.is_finite() || normal_rate(c, &candidate, &at) < -c.zero_speed)
                 {
-                    return true;
+                    deepest = (Some(slot), at.distance);
                 }
             }
         }
-        false
+        deepest.0
     }
 
-    /// Returns true if a compliant contact has opened, in the state last evaluated.
-    pub(crate) fn has_compliant_contact_opened(&self) -> bool {
-        let Some(c) = self.constraints.as_deref() else { return false };
-        c.blocks.iter().any(|b| b.given.is_some() && c.residual[b.row] > 0.0)
+    /// Signed distance of a slot in the state last evaluated `[m]` or `[rad]`; NaN if there is no candidate.
+    fn distance_of(&mut self, slot: usize) -> f64 {
+        let Some(c) = self.constraints.as_deref_mut() else { return f64::NAN };
+        let set = &*self.model.constraints;
+        if let Some(limit) = set.limits.get(slot) {
+            return limit.sign * (self.q[limit.coordinate] - limit.bound);
+        }
+        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, LOCATED, &mut c.later_candidates);
+        let candidate = c.later_candidates[slot - set.limits.len()];
+        candidate.map_or(f64::NAN, |candidate| candidate.kinematics(&c.motions.at(&self.scratch)).distance)
     }
 
     /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of
@@ -233,11 +302,30 @@ impl Mechanism<f64> {
         }
     }
 
-    /// Returns true if a contact has opened, stuck, slipped or reversed since [`Mechanism::mark_start`], in the state
-    /// last evaluated.
-    pub(crate) fn has_changed(&self) -> bool {
-        let Some(c) = self.constraints.as_deref() else { return false };
-        c.memory.has_changed() || self.has_compliant_contact_opened()
+    /// Sets the speeds that count as none for the accuracy of the integration.
+    pub(crate) fn set_contact_accuracy(&mut self, accuracy: f64) {
+        if let Some(c) = &mut self.constraints {
+            c.zero_speed = (10.0 * accuracy).clamp(LEAST_ZERO_SPEED, MAX_ZERO_SPEED);
+            c.settling_speed = c.zero_speed.max(SETTLING_SPEED);
+        }
+    }
+
+    /// Working memory of contact modes and multipliers.
+    pub(crate) fn contact_memory(&mut self) -> Option<&mut WarmStart<f64>> {
+        self.constraints.as_mut().map(|c| &mut c.memory)
+    }
+
+    /// Returns true if the held modes violate the laws by no more than what a force or rate that passes zero does.
+    pub(crate) fn is_grazing(&self) -> bool {
+        let Some(c) = self.constraints.as_deref() else { return true };
+        !c.lost_modes && c.violation.is_none_or(|law| c.excess(law) <= GRAZING)
+    }
+
+    /// Goes back to the contact modes and multipliers at [`Mechanism::mark_start`].
+    pub(crate) fn return_to_start(&mut self) {
+        if let Some(c) = &mut self.constraints {
+            c.memory.return_to_start();
+        }
     }
 }
 
@@ -309,11 +397,11 @@ fn slides(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinema
     let (t1, t2) = tangents(at.normal);
     let v = relative(c, candidate, at.point);
     let w = c.motions.twist_of(candidate.a).ang - c.motions.twist_of(candidate.b).ang;
-    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > ZERO_SPEED;
+    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > c.zero_speed;
     let m = &pair.material;
     [
         m.friction > 0.0 && across(v),
         m.rolling_friction > 0.0 && across(w),
-        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > ZERO_SPEED,
+        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > c.zero_speed,
     ]
 }

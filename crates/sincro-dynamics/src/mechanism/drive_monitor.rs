@@ -13,6 +13,9 @@ const SAME_VELOCITY: f64 = 1e-12;
 /// Least velocity that the width is relative to [rad/s] or [m/s].
 const LEAST_VELOCITY: f64 = 1e-3;
 
+/// The same where constraints hold what drives push against: its velocity drifts by the rounding of their solution.
+const LEAST_VELOCITY_CONSTRAINED: f64 = 1.0;
+
 /// Relative excess of a reaction over its limit that counts as rounding.
 const SAME_FORCE: f64 = 1e-12;
 
@@ -29,19 +32,28 @@ pub(crate) struct DriveMonitor {
     pub is_active: bool,
     /// Target velocity of each drive [rad/s] or [m/s].
     pub targets: Vec<f64>,
-    /// Earliest stage at which a law was violated `[s]`; infinite for none.
+    band: VelocityBand,
+    /// Earliest stage after the first one at which a law was violated `[s]`; infinite for none.
     pub violated: f64,
+    /// Time of the first stage `[s]`.
+    from: f64,
     /// Velocity and acceleration of each drive's joint at the first stage.
     start: Vec<(f64, f64)>,
 }
 
 impl DriveMonitor {
     /// Begins a step.
-    pub fn begin(&mut self, targets: &[f64]) {
+    pub fn begin(&mut self, targets: &[f64], band: VelocityBand) {
+        self.band = band;
         self.targets.clear();
         self.targets.extend_from_slice(targets);
         self.start.clear();
-        (self.is_active, self.violated) = (true, f64::INFINITY);
+        (self.is_active, self.violated, self.from) = (true, f64::INFINITY, f64::NAN);
+    }
+
+    /// Begins a trial step: violations of one that was not accepted do not count.
+    pub fn begin_trial(&mut self) {
+        self.violated = f64::INFINITY;
     }
 
     /// Earliest time within a step of length `h` at which the velocity of a saturated drive is beyond its target
@@ -53,7 +65,7 @@ impl DriveMonitor {
             let (saturation, v1, a1) = drive(i);
             for s in extrema((*v0, h * a0), (v1, h * a1)) {
                 let v = hermite((*v0, h * a0), (v1, h * a1), s);
-                if saturation != 0.0 && is_beyond(*target, v, saturation) {
+                if self.band.is_beyond(*target, v, saturation) {
                     earliest = earliest.min(s * h);
                 }
             }
@@ -83,16 +95,39 @@ fn extrema((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> [f64; 2] {
     [q / (3.0 * c3), a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
 }
 
-/// Target minus present velocity, zero within rounding.
-pub(crate) fn velocity_error(target: f64, v: f64) -> f64 {
-    let missing = target - v;
-    let scale = target.abs().max(v.abs()).max(LEAST_VELOCITY);
-    if missing.abs() <= SAME_VELOCITY * scale { 0.0 } else { missing }
+/// Width within which a velocity counts as its target.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct VelocityBand {
+    /// Least velocity that the width is relative to [rad/s] or [m/s].
+    least: f64,
 }
 
-/// Returns true if a velocity is beyond its target in the direction in which a drive pushes.
-pub(crate) fn is_beyond(target: f64, v: f64, saturation: f64) -> bool {
-    velocity_error(target, v) * saturation < 0.0
+impl Default for VelocityBand {
+    fn default() -> Self {
+        Self { least: LEAST_VELOCITY }
+    }
+}
+
+impl VelocityBand {
+    fn width(self, target: f64, v: f64) -> f64 {
+        SAME_VELOCITY * target.abs().max(v.abs()).max(self.least)
+    }
+
+    /// Target minus present velocity, zero within the band.
+    pub fn error(self, target: f64, v: f64) -> f64 {
+        let missing = target - v;
+        if missing.abs() <= self.width(target, v) { 0.0 } else { missing }
+    }
+
+    /// Distance of a velocity beyond its target, in the direction in which a drive pushes, and beyond the band.
+    pub fn passage(self, target: f64, v: f64, saturation: f64) -> f64 {
+        (v - target) * saturation.signum() - self.width(target, v)
+    }
+
+    /// Returns true if a velocity is beyond its target in the direction in which a drive pushes.
+    pub fn is_beyond(self, target: f64, v: f64, saturation: f64) -> bool {
+        saturation != 0.0 && self.passage(target, v, saturation) > 0.0
+    }
 }
 
 impl<R: Real> Mechanism<R> {
@@ -120,6 +155,15 @@ impl<R: Real> Mechanism<R> {
         self.scratch.dofs[dof].d.lane(0)
     }
 
+    /// Width within which the velocity of a drive counts as its target.
+    pub(crate) fn velocity_band(&self) -> VelocityBand {
+        if self.constraints.is_some() {
+            VelocityBand { least: LEAST_VELOCITY_CONSTRAINED }
+        } else {
+            VelocityBand::default()
+        }
+    }
+
     /// Rounding of the last evaluation, relative to the sum of the magnitudes of its terms.
     pub(crate) fn rounding(&self) -> f64 {
         if self.constraints.is_some() { ROUNDING_CONSTRAINED } else { ROUNDING }
@@ -127,18 +171,29 @@ impl<R: Real> Mechanism<R> {
 
     /// Returns true if the reaction on a degree of freedom in the last evaluation exceeds `limit`.
     pub(crate) fn is_overloaded(&self, dof: usize, limit: f64) -> bool {
+        self.overload(dof, limit) > 0.0
+    }
+
+    /// Reaction on a degree of freedom in the last evaluation beyond `limit` and rounding [N·m] or `[N]`.
+    fn overload(&self, dof: usize, limit: f64) -> f64 {
         let reaction = self.scratch.reaction[dof].lane(0).abs();
-        reaction > limit * (1.0 + SAME_FORCE) && reaction > limit + self.rounding() * self.reaction_scale(dof)
+        reaction - (limit * (1.0 + SAME_FORCE)).max(limit + self.rounding() * self.reaction_scale(dof))
     }
 
     /// Returns true if the reaction on locked drive `i`, in the last evaluation, is more than the drives that lock its
     /// joint can give together.
     pub(crate) fn is_drive_overloaded(&self, i: usize) -> bool {
+        self.drive_overload(i) > 0.0
+    }
+
+    /// Reaction on locked drive `i`, in the last evaluation, beyond what the drives that lock its joint can give
+    /// together, and beyond rounding [N·m] or `[N]`.
+    pub(crate) fn drive_overload(&self, i: usize) -> f64 {
         let dof = self.model.drives[i].dof;
         let locked = self.model.drives.iter().zip(&self.drives).filter(|(d, s)| d.dof == dof && s.lane(0) == 0.0);
         let limit =
             locked.map(|(drive, _)| self.model.drive_limit(drive).map_or(f64::INFINITY, |limit| limit.lane(0))).sum();
-        self.is_overloaded(dof, limit)
+        self.overload(dof, limit)
     }
 
     /// Notes whether the law of a limited drive is violated at a stage, for velocities `v`, after the evaluation.
@@ -147,17 +202,25 @@ impl<R: Real> Mechanism<R> {
             let of_joint = self.model.drives.iter().map(|d| (v[d.dof].lane(0), v_dot[d.dof].lane(0)));
             self.drive_monitor.start.extend(of_joint);
         }
-        if t >= self.drive_monitor.violated {
+        if self.drive_monitor.from.is_nan() {
+            self.drive_monitor.from = t;
+        }
+        if t >= self.drive_monitor.violated || t == self.drive_monitor.from {
             return;
         }
-        let violated = (0..self.model.drives.len()).any(|i| {
-            let (drive, saturation) = (&self.model.drives[i], self.drives[i].lane(0));
-            match self.model.drive_limit(drive) {
-                None => false,
-                Some(_) if saturation == 0.0 => self.is_drive_overloaded(i),
-                Some(_) => is_beyond(self.drive_monitor.targets[i], v[drive.dof].lane(0), saturation),
-            }
-        });
+        let is_contact = self.constraints.as_ref().is_some_and(|c| c.violation.is_some());
+        let violated = is_contact
+            || (0..self.model.drives.len()).any(|i| {
+                let (drive, saturation) = (&self.model.drives[i], self.drives[i].lane(0));
+                match self.model.drive_limit(drive) {
+                    None => false,
+                    Some(_) if saturation == 0.0 => self.is_drive_overloaded(i),
+                    Some(_) => {
+                        let monitor = &self.drive_monitor;
+                        monitor.band.is_beyond(monitor.targets[i], v[drive.dof].lane(0), saturation)
+                    }
+                }
+            });
         if violated {
             self.drive_monitor.violated = t;
         }

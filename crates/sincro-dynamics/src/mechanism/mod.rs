@@ -549,6 +549,7 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     fn begin_step(&mut self) {
         self.singular.begin_step();
+        self.drive_monitor.begin_trial();
         if let Some(c) = &mut self.constraints {
             c.solver.begin_trial();
         }

@@ -1,9 +1,10 @@
 //! Constraints within a tick: impacts at the start of a sub-step, events that end it, projection after it, and steps at
 //! velocity level as a fallback for Zeno behaviour.
 
+use super::switching::look_ahead_time;
 use super::{Stop, World};
 use crate::actuation::DriveKind;
-use crate::constraint::warm_start::ZenoFallback;
+use crate::constraint::warm_start::{WarmStart, ZenoFallback};
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler, System};
 use crate::mechanism::constraints::ActivationRule;
@@ -70,20 +71,45 @@ impl World {
         self.add_motor_impulses(Self::is_unlimited);
     }
 
-    /// Evaluates constraint forces at the start of a sub-step, after classification, and records the contact modes.
-    pub(super) fn resolve_contact_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    /// Evaluates constraint forces at the start of a sub-step of about `h`, after classification, and records the
+    /// contact modes: after an event those a little later. A force reaches its bound continuously, so that at the event
+    /// itself rounding decides between the modes on both sides of it.
+    pub(super) fn resolve_contact_modes<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (h, after_event): (f64, bool),
+        system: &mut A,
+    ) {
         if !self.is_constrained() {
             return;
         }
         self.mechanism.mark_locked();
         self.evaluate_slope(t, system);
         self.mechanism.mark_start();
+        if after_event {
+            self.look_ahead_at_contacts(t, h, system);
+        }
     }
 
-    /// Returns true if a limit or contact has changed its mode (zero crossing).
-    pub(super) fn has_contact_event(&mut self) -> bool {
-        let n = self.model().n_v();
-        self.mechanism.has_changed() || self.mechanism.has_new_contact(&self.y[n..2 * n])
+    /// Takes the contact modes a little later than `t` for those at `t`, where they hold as well but for the change of
+    /// a mode that is due; state and time stay.
+    fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+        let report = self.solver_report();
+        let step = look_ahead_time(t, h);
+        self.present.copy_from_slice(&self.y);
+        for (y, slope) in self.y.iter_mut().zip(&self.slope) {
+            *y += step * slope;
+        }
+        self.evaluate_slope(t + step, system);
+        self.y.copy_from_slice(&self.present);
+        if self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes()) {
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
+            self.evaluate_held(t, system);
+            if !self.mechanism.is_grazing() {
+                self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
+            }
+        }
+        report.into_iter().for_each(|before| self.discard_failures(&before));
     }
 
     /// Projects onto the constraints after a sub-step, rates of sticking contacts included.

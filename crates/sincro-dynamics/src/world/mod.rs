@@ -2,7 +2,7 @@
 //!
 //! [`World::advance`] is stage 4 of the step: commands are latched before it, and it takes the state from t to t + h,
 //! in as many sub-steps as the method and the events need. Three kinds of event end a sub-step: a time event of an
-//! input signal, known beforehand, and two zero crossings that are located by bisection: a drive that changes between
+//! input signal, known beforehand, and two zero crossings that are located (`events`): a drive that changes between
 //! locked and saturated, and a contact or joint limit that closes, opens, sticks or slips.
 //!
 //! After a failure the state is that of the last sub-step that could be made, everything finite.
@@ -10,9 +10,11 @@
 //! A world owns its model, state, mechanism and the working memory of its method; they are not yet separate values.
 
 pub mod audit;
+mod bracket;
 mod builder;
 mod contacts;
 mod drives;
+mod events;
 mod parameters;
 mod step;
 mod switching;
@@ -24,7 +26,7 @@ use crate::actuation::DriveKind;
 use crate::actuation::{Motor, Push};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::warm_start::ZenoFallback;
-use crate::constraint::{ContactPoint, SolverReport};
+use crate::constraint::{ContactPoint, ModeRule, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::energy::{Energy, energy, momentum};
 use crate::ids::{MotorId, RotorId};
@@ -36,6 +38,7 @@ use crate::scratch::Scratch;
 use crate::spatial::Force;
 use crate::state::State;
 use contacts::MAX_CONTACT_EVENTS;
+use events::{Crossing, MAX_CROSSINGS};
 use switching::{Kink, NO_KINK};
 
 /// Times closer than this are the same instant `[s]`.
@@ -49,6 +52,14 @@ const MAX_IDLE_EVENTS: usize = 20;
 
 /// Time between events, relative to the tick, that counts as none.
 const IDLE: f64 = 1e-12;
+
+/// Maximum number of sub-steps in a row that make next to no progress, and the length of those, relative to the tick:
+/// sliding friction that turns with a velocity near zero can hold error control back without end.
+const MAX_CRAWLING_STEPS: usize = 200;
+const CRAWLING: f64 = 1e-9;
+
+/// Maximum number of steps in which a sub-step, made in one, is repeated.
+const MAX_REPEATED_STEPS: usize = 1000;
 
 /// Length of the first step at velocity level after too many of them, relative to the tick.
 const IDLE_STEP: f64 = 1e-3;
@@ -137,6 +148,8 @@ pub struct World {
     /// Limited drives whose modes are being decided, and the kink of each drive among them.
     kinks: Vec<Kink>,
     kink_of: Vec<usize>,
+    /// Zero crossings last found.
+    crossings: Vec<Crossing>,
     /// y at the present instant during a look-ahead.
     present: Vec<f64>,
     accelerations: Vec<f64>,
@@ -274,6 +287,9 @@ impl World {
         let n_drives = model.n_drives();
         let mut mechanism = Mechanism::new(model, tracks_totals);
         mechanism.select_loop_rows(&state.q);
+        if matches!(kind, MethodKind::DormandPrince | MethodKind::Stiff) {
+            mechanism.set_contact_accuracy(control.accuracy);
+        }
         let dim = mechanism.dim() + n_states;
         let method = match kind {
             MethodKind::SemiImplicitEuler => Method::SemiImplicitEuler,
@@ -304,6 +320,7 @@ impl World {
             jumps: vec![false; n_drives],
             kinks: Vec::with_capacity(n_drives),
             kink_of: vec![NO_KINK; n_drives],
+            crossings: Vec::with_capacity(MAX_CROSSINGS),
             present: vec![0.0; dim],
             accelerations,
             statistics: StepStatistics::default(),
@@ -378,7 +395,7 @@ impl World {
         self.latch_target_velocities();
         self.resolve_impacts();
         self.resolve_actuator_modes(t, self.step_size, system);
-        self.resolve_contact_modes(t, system);
+        self.resolve_contact_modes(t, (0.0, false), system);
         self.mechanism.store(&self.y, &mut self.state);
     }
 
@@ -567,7 +584,7 @@ impl World {
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
         let (mut t, end, mut events, mut idle) = (start, start + span, 0, 0);
-        let mut share = IDLE_STEP;
+        let (mut share, mut after_event, mut crawling) = (IDLE_STEP, false, 0);
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
             self.set_patience(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
@@ -591,7 +608,7 @@ impl World {
                 self.resolve_impacts();
                 self.resolve_actuator_modes(t, h_max, system);
                 let before = self.solver_report().unwrap_or_default();
-                self.resolve_contact_modes(t, system);
+                self.resolve_contact_modes(t, (h_max, after_event), system);
                 if self.solver_report().is_some_and(|r| r.not_converged > before.not_converged) {
                     // no finite forces keep the laws here (Painlevé): impulses do
                     self.discard_failures(&before);
@@ -607,8 +624,9 @@ impl World {
             if limited {
                 self.save_step_start();
             }
-            if self.has_limited_drives() {
-                self.mechanism.drive_monitor.begin(&self.target_velocities);
+            if limited {
+                let band = self.mechanism.velocity_band();
+                self.mechanism.drive_monitor.begin(&self.target_velocities, band);
             }
             let (reached, is_event) = match self.sub_step(t, (h_max, corner), (limited, control), system) {
                 Err((_, Stop::Integration(_))) if limited && self.before.iter().all(|x| x.is_finite()) => {
@@ -627,6 +645,7 @@ impl World {
                 }
                 made => made?,
             };
+            after_event = is_event;
             if is_event {
                 idle = if reached - t > IDLE * span { 0 } else { idle + 1 };
                 events += 1;
@@ -641,11 +660,12 @@ impl World {
             } else {
                 idle = 0;
             }
+            crawling = if self.is_constrained() && reached - t < CRAWLING * span { crawling + 1 } else { 0 };
             t = reached;
-            if idle > MAX_IDLE_EVENTS {
+            if idle > MAX_IDLE_EVENTS || crawling > MAX_CRAWLING_STEPS {
                 // whatever alternates here is decided over a short step as a whole
                 t = self.fallback_step(t, span, (&mut share, end), system)?;
-                idle = 0;
+                (idle, crawling) = (0, 0);
             }
         }
         self.set_patience(ZenoFallback::default());
@@ -662,7 +682,9 @@ impl World {
         (limited, control): (bool, Option<Control>),
         system: &mut A,
     ) -> Result<(f64, bool), (f64, Stop)> {
-        let h = self.method_step(t, h_max, system).map_err(|failure| (t, Stop::Integration(failure)));
+        let h = self
+            .method_step(t, h_max, ModeRule::HeldAndChecked, system)
+            .map_err(|failure| (t, Stop::Integration(failure)));
         let violated = self.mechanism.drive_monitor.end() - t;
         let h = h?;
         if !self.y.iter().all(|x| x.is_finite()) {
@@ -671,8 +693,8 @@ impl World {
         self.statistics.steps += 1;
         let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
         let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
-        if let Some(bad) = event {
-            return Ok((self.locate_event(t, (bad, h), control, system)?, true));
+        if let Some((bad, crossing)) = event {
+            return Ok((self.locate_event(t, (bad, h), crossing, control, system)?, true));
         }
         self.project();
         Ok((reached, false))
@@ -699,31 +721,41 @@ impl World {
         span / f64::from(self.substeps) * (1.0 + 1e-12)
     }
 
-    /// One step of the method from `t`, at most `h_max`; y is charted anew. Returns the length made.
+    /// One step of the method from `t`, at most `h_max`, with contact modes by `rule`; y is charted anew. Returns the
+    /// length made.
     fn method_step<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
         h_max: f64,
+        rule: ModeRule,
         system: &mut A,
     ) -> Result<f64, Failure> {
         let h = self.control().map_or(h_max, |c| c.h.min(h_max));
         if let Some(constraints) = &mut self.mechanism.constraints {
             constraints.sub_step = h;
         }
+        self.mechanism.set_mode_rule(rule);
         let system = &mut Coupled {
             mechanism: &mut self.mechanism,
             system,
             negated_jacobian_diagonal: &mut self.negated_jacobian_diagonal,
         };
         let y = &mut self.y;
-        match &mut self.method {
+        let made = match &mut self.method {
             Method::SemiImplicitEuler => unreachable!("its steps are those at velocity level"),
-            Method::Rk4(m) => m.step(system, t, h_max, y),
-            Method::Implicit(m) => m.step(system, t, h_max, y),
-            Method::DormandPrince(m) => return m.step(system, t, h_max, y),
-            Method::Stiff(m) => return m.adaptive_step(system, t, h_max, y),
-        }
-        Ok(h_max)
+            Method::Rk4(m) => {
+                m.step(system, t, h_max, y);
+                Ok(h_max)
+            }
+            Method::Implicit(m) => {
+                m.step(system, t, h_max, y);
+                Ok(h_max)
+            }
+            Method::DormandPrince(m) => m.step(system, t, h_max, y),
+            Method::Stiff(m) => m.adaptive_step(system, t, h_max, y),
+        };
+        self.mechanism.set_mode_rule(ModeRule::Decided);
+        made
     }
 
     fn save_step_start(&mut self) {
@@ -755,12 +787,20 @@ impl World {
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
         self.restore();
+        self.mechanism.return_to_start();
         if let Some(control) = control {
             self.set_control(control);
         }
-        let mut done = 0.0;
+        let (mut done, mut steps) = (0.0, 0);
         while done < h {
-            let step = self.method_step(t + done, h - done, system).map_err(|f| (t + done, Stop::Integration(f)))?;
+            let at = t + done;
+            let step = self
+                .method_step(at, h - done, ModeRule::Held, system)
+                .map_err(|failure| (at, Stop::Integration(failure)))?;
+            steps += 1;
+            if steps > MAX_REPEATED_STEPS {
+                return Err((at, Stop::Integration(Failure::StepTooSmall { t: at, h: step })));
+            }
             done = if step >= h - done { h } else { done + step };
         }
         Ok(())

@@ -20,7 +20,6 @@ use std::cmp::Ordering;
 
 use super::World;
 use crate::coupled::CoupledSystem;
-use crate::mechanism::drive_monitor::{is_beyond, velocity_error};
 
 /// Distance of a velocity from its target, relative to 1 + |v|, within which drives reach their targets at one event.
 const SIMULTANEOUS: f64 = 1e-13;
@@ -36,6 +35,11 @@ const BLOCK_CHANGES: u32 = 3;
 
 /// Kink of a drive that is at none.
 pub(super) const NO_KINK: usize = usize::MAX;
+
+/// Time by which modes are decided ahead of `t`, for a step of `h` `[s]`.
+pub(super) fn look_ahead_time(t: f64, h: f64) -> f64 {
+    (LOOK_AHEAD * h).max(LOOK_AHEAD_ULPS * f64::EPSILON * t.abs())
+}
 
 /// Limited drives of one degree of freedom at one kink.
 #[derive(Clone, Copy, Debug)]
@@ -106,6 +110,10 @@ impl World {
                 let dof = self.mechanism.model.drives[i].dof;
                 let known = self.kinks.iter().position(|kink| kink.dof == dof);
                 self.add_to_kink(i, known);
+                if self.is_constrained() {
+                    let n = self.model().n_v();
+                    self.y[n + dof] = self.target_velocities[i];
+                }
             }
             unchanged &= before == self.mechanism.drives[i];
         }
@@ -189,7 +197,7 @@ impl World {
                 let scale = self.mechanism.acceleration_scale(dof);
                 self.slope[n + dof] * saturation > rounding * scale
             } else {
-                is_beyond(target, self.velocity(dof), saturation)
+                self.mechanism.velocity_band().is_beyond(target, self.velocity(dof), saturation)
             };
             self.kinks[k].infeasible = infeasible;
             count += usize::from(infeasible);
@@ -199,7 +207,7 @@ impl World {
 
     /// Decides the modes of the kinks a little later than `t`; state and time stay.
     fn look_ahead<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
-        let step = (LOOK_AHEAD * h).max(LOOK_AHEAD_ULPS * f64::EPSILON * t.abs());
+        let step = look_ahead_time(t, h);
         let n = self.model().n_v();
         self.present.copy_from_slice(&self.y);
         for (y, slope) in self.y.iter_mut().zip(&self.slope) {
@@ -215,15 +223,19 @@ impl World {
 
     /// Velocity error of a drive, target minus present velocity, zero within rounding.
     pub(super) fn velocity_error(&self, i: usize) -> f64 {
-        velocity_error(self.target_velocities[i], self.velocity(self.mechanism.model.drives[i].dof))
+        let v = self.velocity(self.mechanism.model.drives[i].dof);
+        self.mechanism.velocity_band().error(self.target_velocities[i], v)
     }
 
     /// Returns true if a saturated drive has passed its target velocity.
     pub(super) fn has_passed_target(&self, i: usize) -> bool {
-        let saturation = self.mechanism.drives[i];
-        !self.is_unlimited(i)
-            && saturation != 0.0
-            && is_beyond(self.target_velocities[i], self.velocity(self.mechanism.model.drives[i].dof), saturation)
+        !self.is_unlimited(i) && self.mechanism.drives[i] != 0.0 && self.target_passage(i) > 0.0
+    }
+
+    /// Velocity of a saturated drive beyond its target and rounding [rad/s] or [m/s].
+    pub(super) fn target_passage(&self, i: usize) -> f64 {
+        let v = self.velocity(self.mechanism.model.drives[i].dof);
+        self.mechanism.velocity_band().passage(self.target_velocities[i], v, self.mechanism.drives[i])
     }
 
     /// Returns true if a saturated drive is so close to its target velocity, in the state last evaluated, that it
@@ -238,10 +250,10 @@ impl World {
         target != v && (target - v).abs() <= SIMULTANEOUS * (1.0 + v.abs()) + 4.0 * resolution * acceleration
     }
 
-    /// Returns true if a locked drive is overloaded in the last evaluation.
-    pub(super) fn has_overload(&self) -> bool {
+    /// A locked drive that is overloaded in the last evaluation.
+    pub(super) fn find_overload(&self) -> Option<usize> {
         (0..self.target_velocities.len())
-            .any(|i| self.mechanism.drives[i] == 0.0 && self.mechanism.is_drive_overloaded(i))
+            .find(|i| self.mechanism.drives[*i] == 0.0 && self.mechanism.is_drive_overloaded(*i))
     }
 
     /// Decides the modes over a step at velocity level by trial steps: each limited drive either ends at its target

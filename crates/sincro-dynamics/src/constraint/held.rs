@@ -1,0 +1,171 @@
+//! Solution with held contact modes, and the laws that it may violate.
+//!
+//! Between two events the contact modes of the start of the sub-step stand: a contact that carries load may pull, a
+//! sticking one exceed its cone, an open one be approached. Forces and accelerations are then smooth functions of the
+//! state up to the event and beyond it, as the integrator's error estimate and the search for the instant of the event
+//! need them. Where a law is violated, the complementarity problem is solved as a whole: if its accelerations are the
+//! same (redundant contacts, of which others can carry what these cannot), its solution is taken, else the violation is
+//! a zero crossing. Source: key `acary2008`, chapter 8 (event-driven schemes, index sets).
+
+use sincro_math::Real;
+
+use super::active_set::ContactProblem;
+use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use super::solver::{MAX_TURNS, RANK, SLACK, Solver, Tolerances, norm, pair, turn_impending_slip, turn_slow_friction};
+
+/// Least change of a rate that is an observable one, relative to the largest rate.
+const OBSERVABLE: f64 = 0.1 * SLACK;
+
+/// Law that held modes may violate; indices of constraint and friction group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum HeldLaw {
+    /// A closed contact does not pull.
+    Unilateral(usize),
+    /// An open contact is not approached.
+    Open(usize),
+    /// Sticking friction stays within its cone.
+    Stick(usize, usize),
+    /// Impending slip is opposed by its friction.
+    Slip(usize, usize),
+}
+
+impl<R: Real> Solver<R> {
+    /// Finds λ for the modes of `blocks`; returns false if they have no solution. Directions of friction are part of
+    /// the solution.
+    pub fn hold(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        self.report.solved += 1;
+        self.rank = RANK;
+        for _ in 0..MAX_TURNS {
+            self.correct(problem, blocks, lambda);
+            if blocks.is_empty() {
+                return true;
+            }
+            self.active_set.find_rates(problem, lambda);
+            let small = Tolerances::of(problem, lambda);
+            if turn(small, &self.active_set.rates, blocks, lambda) {
+                continue;
+            }
+            self.refine(problem, blocks, lambda);
+            return self.is_consistent(small, blocks);
+        }
+        false
+    }
+
+    /// Returns true if the rates that the modes hold at zero are zero.
+    fn is_consistent(&self, small: Tolerances, blocks: &[UnilateralConstraint<R>]) -> bool {
+        let rates = &self.active_set.rates;
+        let sticks = |group: &&FrictionGroup<R>| group.mode == ContactMode::Stick;
+        blocks.iter().filter(|block| !block.open).all(|block| {
+            let normal = if block.given.is_some() { 0.0 } else { rates[block.row].lane(0).abs() };
+            let slip = block.groups.iter().flatten().filter(sticks).map(|group| norm(pair(group, rates)));
+            slip.fold(normal, f64::max) <= small.held
+        })
+    }
+
+    /// Law that the solution with held modes violates most; none if it violates none.
+    pub fn worst_law(
+        &self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &[R],
+    ) -> Option<HeldLaw> {
+        let small = Tolerances::of(problem, lambda);
+        let mut worst: (Option<HeldLaw>, f64) = (None, 0.0);
+        let mut look = |law: HeldLaw| {
+            let excess = excess(law, small, &self.active_set.rates, blocks, lambda);
+            if excess > worst.1 {
+                worst = (Some(law), excess);
+            }
+        };
+        for (k, block) in blocks.iter().enumerate() {
+            if block.open {
+                look(HeldLaw::Open(k));
+                continue;
+            }
+            if block.given.is_none() {
+                look(HeldLaw::Unilateral(k));
+            }
+            for (g, group) in block.groups.iter().enumerate() {
+                match group {
+                    Some(group) if group.mode == ContactMode::Stick => look(HeldLaw::Stick(k, g)),
+                    Some(group) if !group.slides => look(HeldLaw::Slip(k, g)),
+                    _ => {}
+                }
+            }
+        }
+        worst.0
+    }
+
+    /// Excess of `law` over its tolerance, relative to the largest force or rate; above zero if it is violated.
+    pub fn excess(
+        &self,
+        law: HeldLaw,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &[R],
+    ) -> f64 {
+        excess(law, Tolerances::of(problem, lambda), &self.active_set.rates, blocks, lambda)
+    }
+
+    /// Finds the rates of `lambda`.
+    pub fn find_rates(&mut self, problem: &ContactProblem<'_, R>, lambda: &[R]) {
+        self.active_set.find_rates(problem, lambda);
+    }
+
+    /// Rates of the last solution.
+    pub fn rates(&self) -> &[R] {
+        &self.active_set.rates
+    }
+}
+
+/// Returns true if `rates` differ from those of another solution of the problem.
+pub(crate) fn is_observable<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], others: &[R]) -> bool {
+    let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
+    rates.iter().zip(others).any(|(x, y)| (*x - *y).lane(0).abs() > OBSERVABLE * largest)
+}
+
+fn excess<R: Real>(
+    law: HeldLaw,
+    small: Tolerances,
+    rates: &[R],
+    blocks: &[UnilateralConstraint<R>],
+    lambda: &[R],
+) -> f64 {
+    let normal = |k: usize| lambda[blocks[k].row].lane(0);
+    let group = |k: usize, g: usize| blocks[k].groups[g].as_ref();
+    match law {
+        HeldLaw::Unilateral(k) => -normal(k) / small.force * SLACK - SLACK,
+        HeldLaw::Open(k) => -rates[blocks[k].row].lane(0) / small.rate * SLACK - SLACK,
+        HeldLaw::Stick(k, g) => group(k, g).map_or(f64::NAN, |group| {
+            let beyond = norm(pair(group, lambda)) - group.coefficient * normal(k).max(0.0);
+            beyond / small.force * SLACK - SLACK
+        }),
+        HeldLaw::Slip(k, g) => group(k, g).map_or(f64::NAN, |group| {
+            let (rate, d) = (pair(group, rates), group.direction.map(|d| d.lane(0)));
+            (rate[0] * d[0] + rate[1] * d[1] - small.held) / small.rate * SLACK
+        }),
+    }
+}
+
+/// Turns friction that slips against its velocity or rate; returns true if any was not turned so yet. A rate that
+/// counts as none for sticking friction gives impending slip no direction.
+fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> bool {
+    small.rate = small.held;
+    let mut turned = false;
+    for block in blocks.iter_mut().filter(|block| !block.open) {
+        let normal = lambda[block.row].lane(0);
+        for group in block.groups.iter_mut().flatten() {
+            turned |= match group.mode {
+                ContactMode::Slip if group.slides => turn_slow_friction(group, normal, rates, lambda),
+                ContactMode::Slip => turn_impending_slip(group, normal.max(0.0), small, rates, lambda) == Some(true),
+                ContactMode::Stick => false,
+            };
+        }
+    }
+    turned
+}

@@ -1,0 +1,213 @@
+//! Events that end a sub-step: zero crossings of drives and contacts, detected at its end and within it, located by
+//! repeating it.
+//!
+//! Modes are held over a sub-step ([`crate::constraint`]), so that a zero crossing is a smooth function of time up to
+//! its event and beyond.
+
+use super::bracket::Bracket;
+use super::{Stop, World};
+use crate::constraint::ModeRule;
+use crate::coupled::CoupledSystem;
+use crate::integrate::Control;
+use crate::mechanism::constraints::ContactEvent;
+
+/// Width to which the instant of an event is located, relative to the step.
+const EVENT_RESOLUTION: f64 = 1e-13;
+
+/// Error of the state by the width to which the instant of an event is located, relative to the accuracy.
+const EVENT_ACCURACY: f64 = 1e-4;
+
+/// Value of a zero crossing that is as good as zero, relative to its terms.
+const VALUE_RESOLUTION: f64 = 1e-14;
+
+/// Distance of the instants within a step that are looked at where a law seems violated, relative to the step.
+const INTERIOR_STEP: f64 = 0.125;
+
+/// Number of kinds of zero crossings.
+pub(super) const MAX_CROSSINGS: usize = 6;
+
+/// Zero crossing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Crossing {
+    /// A saturated drive passes its target velocity.
+    Target(usize),
+    /// The reaction on a locked drive exceeds its limit.
+    Overload(usize),
+    /// A contact or limit.
+    Contact(ContactEvent),
+}
+
+impl World {
+    /// Finds the zero crossings that have happened in the present state, at most one of each kind: a saturated drive
+    /// has passed its target velocity, a locked one exceeds its limit, a contact has changed. Returns one of them.
+    fn find_crossings<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> Option<Crossing> {
+        self.crossings.clear();
+        let passed = (0..self.target_velocities.len()).find(|i| self.has_passed_target(*i));
+        self.crossings.extend(passed.map(Crossing::Target));
+        if self.mechanism.drives.contains(&0.0) || self.is_constrained() {
+            self.evaluate_held(t, system);
+            let n = self.model().n_v();
+            let of_contacts = self.mechanism.contact_events(&self.y[n..2 * n]);
+            self.crossings.extend(of_contacts.into_iter().flatten().map(Crossing::Contact));
+            let overload = self.find_overload();
+            self.crossings.extend(overload.map(Crossing::Overload));
+        }
+        self.crossings.first().copied()
+    }
+
+    /// Zero crossing among those last found that is not located yet: its value is more than as good as zero.
+    fn unlocated_crossing(&mut self) -> Option<Crossing> {
+        (0..self.crossings.len()).find_map(|k| {
+            let crossing = self.crossings[k];
+            let (value, resolution) = (self.crossing_value(crossing), self.crossing_resolution(crossing));
+            // a missing value says nothing
+            (value.is_nan() || value > resolution).then_some(crossing)
+        })
+    }
+
+    /// f(t, y) with held modes into `self.slope`.
+    pub(super) fn evaluate_held<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+        self.mechanism.mark_locked();
+        self.mechanism.set_mode_rule(ModeRule::HeldAndChecked);
+        self.evaluate_slope(t, system);
+        self.mechanism.set_mode_rule(ModeRule::Decided);
+    }
+
+    /// Value of a zero crossing in the present state, last evaluated: above zero where it has happened; NaN if it is
+    /// not known.
+    fn crossing_value(&mut self, crossing: Crossing) -> f64 {
+        match crossing {
+            Crossing::Target(i) => self.target_passage(i),
+            Crossing::Overload(i) => self.mechanism.drive_overload(i),
+            Crossing::Contact(event) => self.mechanism.contact_event_value(event),
+        }
+    }
+
+    /// Time in which no state changes by more than a share of the accuracy, by the slope last evaluated `[s]`.
+    fn time_resolution(&self, control: Option<Control>) -> f64 {
+        let states = self.y.iter().zip(&self.slope);
+        let fastest = states.map(|(y, slope)| slope.abs() / (1.0 + y.abs())).fold(f64::MIN_POSITIVE, f64::max);
+        control.map_or(0.0, |control| EVENT_ACCURACY * control.accuracy) / fastest
+    }
+
+    /// Value of a zero crossing that is as good as zero.
+    fn crossing_resolution(&self, crossing: Crossing) -> f64 {
+        match crossing {
+            Crossing::Target(i) => VALUE_RESOLUTION * self.target_velocities[i].abs(),
+            Crossing::Overload(_) => 0.0,
+            Crossing::Contact(event) => self.mechanism.contact_event_resolution(event),
+        }
+    }
+
+    /// Time after `t` at which a zero crossing has happened `[s]`, with it; none if there is none: at the end of the
+    /// sub-step of length `h`, or at the earliest stage of it at which a law was violated (`violated` after `t`).
+    pub(super) fn find_event<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        (reached, violated): (f64, f64),
+        control: Option<Control>,
+        system: &mut A,
+    ) -> Result<Option<(f64, Crossing)>, (f64, Stop)> {
+        if let Some(crossing) = self.find_crossings(reached, system) {
+            return Ok(Some((h, crossing)));
+        }
+        let violated = violated.min(self.find_passage(reached, h, system));
+        if !(violated > 0.0 && violated < h) {
+            return Ok(None);
+        }
+        // stage and cubic are estimates: what they told is looked at, and the rest of the step from there
+        let mut at = violated;
+        while at < h * (1.0 - 1e-6) {
+            self.repeat_step(t, at, control, system)?;
+            if let Some(crossing) = self.find_crossings(t + at, system) {
+                return Ok(Some((at, crossing)));
+            }
+            at += INTERIOR_STEP * h;
+        }
+        self.repeat_step(t, h, control, system)?;
+        Ok(None)
+    }
+
+    /// Earliest time within the sub-step at which a saturated drive seems to be beyond its target velocity `[s]`.
+    fn find_passage<A: CoupledSystem<f64> + ?Sized>(&mut self, reached: f64, h: f64, system: &mut A) -> f64 {
+        if self.mechanism.drives.iter().all(|saturation| *saturation == 0.0) {
+            return f64::INFINITY;
+        }
+        self.evaluate_held(reached, system);
+        let n = self.model().n_v();
+        self.mechanism.drive_monitor.passage(h, |i| {
+            let dof = self.mechanism.model.drives[i].dof;
+            (self.mechanism.drives[i], self.y[n + dof], self.slope[n + dof])
+        })
+    }
+
+    /// Locates the first instant in (t, t + bad] at which a drive or contact changes mode, goes there and changes it;
+    /// `h` is the length of the sub-step.
+    pub(super) fn locate_event<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (bad, h): (f64, f64),
+        crossing: Crossing,
+        control: Option<Control>,
+        system: &mut A,
+    ) -> Result<f64, (f64, Stop)> {
+        // of the step's own time: t itself may be too coarse
+        let resolution = h * EVENT_RESOLUTION;
+        let at = self.narrow(t, (bad, resolution), crossing, control, system)?;
+        self.repeat_step(t, at, control, system)?;
+        // beyond the event the modes of the sub-step may fit no forces; those after it are found below
+        let report = self.solver_report();
+        self.evaluate_slope(t + at, system);
+        report.into_iter().for_each(|before| self.discard_failures(&before));
+        // saturated drives that have just passed their target velocity, or reach it at the same instant, are brought to
+        // it and locked ones kept there, momentum and impulses consistent
+        let mut reached = false;
+        for i in 0..self.target_velocities.len() {
+            self.jumps[i] = self.has_passed_target(i) || self.reaches_target(i, resolution);
+            reached |= self.jumps[i];
+            self.jumps[i] |= self.mechanism.drives[i] == 0.0;
+        }
+        // under the modes of the sub-step: a contact that slid until now need not slip on when a drive has locked
+        self.project();
+        if reached {
+            self.apply_impulse();
+        }
+        self.resolve_actuator_modes(t + at, h, system);
+        Ok(t + at)
+    }
+
+    /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`.
+    fn narrow<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (bad, resolution): (f64, f64),
+        mut crossing: Crossing,
+        control: Option<Control>,
+        system: &mut A,
+    ) -> Result<f64, (f64, Stop)> {
+        let after = self.crossing_value(crossing);
+        self.restore();
+        self.evaluate_held(t, system);
+        let mut bracket = Bracket::new((0.0, bad), (self.crossing_value(crossing), after));
+        let resolution = resolution.max(self.time_resolution(control));
+        while bracket.width() > resolution {
+            let at = bracket.next(resolution);
+            self.repeat_step(t, at, control, system)?;
+            let has_happened = self.find_crossings(t + at, system).is_some();
+            let unlocated = if has_happened { self.unlocated_crossing() } else { None };
+            if has_happened && unlocated.is_none() {
+                return Ok(at);
+            }
+            // another one has happened before it
+            let other = unlocated.filter(|_| !self.crossings.contains(&crossing));
+            crossing = other.unwrap_or(crossing);
+            let value = self.crossing_value(crossing);
+            bracket.take(at, has_happened, value);
+            if other.is_some() {
+                bracket.forget(value);
+            }
+        }
+        Ok(bracket.after())
+    }
+}
