@@ -8,6 +8,12 @@ use sincro_math::elementary::sin_cos;
 use sincro_sim::Loaded;
 use sincro_testing::SceneFolder;
 
+/// Derivative of a function of one variable.
+type Differentiation<'a> = &'a dyn Fn(&dyn Fn(f64) -> f64) -> f64;
+
+/// Speed [m/s], its four eigenvalues (real, imaginary) [1/s], and the number of printed digits.
+type Published = (f64, [(f64, f64); 4], i32);
+
 const G: f64 = 9.81;
 
 /// Rotation of the world: roll, pitch and yaw in degrees, and its matrix.
@@ -245,8 +251,8 @@ fn a_four_bar_has_the_poles_of_its_one_degree_of_freedom() {
     }
 }
 
-/// Pole squared of a mechanism of one degree of freedom at an equilibrium `at`: −V″/m, from the positions of points with
-/// mass and the rotations of bodies, by differences of eighth order.
+/// Pole squared of a mechanism of one degree of freedom at an equilibrium `at`: −V″/m, from the positions of points
+/// with mass and the rotations of bodies, by differences of eighth order.
 fn pole_squared(
     at: f64,
     potential: impl Fn(f64) -> f64,
@@ -362,7 +368,7 @@ fn bricards_mechanism_has_the_poles_of_its_one_degree_of_freedom() {
         let points = bricard_chain(&angles(first)).1;
         (0..5).map(|k| G * middle(&points, k, 1)).sum()
     };
-    let inertia = |derivative: &dyn Fn(&dyn Fn(f64) -> f64) -> f64| {
+    let inertia = |derivative: Differentiation<'_>| {
         let (along, across) = (1.0 / 600.0, 1.01 / 12.0);
         let now = bricard_chain(&start).0;
         let mut sum = 0.0;
@@ -431,8 +437,8 @@ fn a_regulator_stabilises_the_upright_four_bar() {
     assert!(run.world().statistics().fallback_steps == 0);
 }
 
-/// Benchmark bicycle: rear frame on a free joint, wheels as discs that roll without slipping. Published eigenvalues: key
-/// `meijaard2007`, table 2.
+/// Benchmark bicycle: rear frame on a free joint, wheels as discs that roll without slipping. Published eigenvalues:
+/// key `meijaard2007`, table 2.
 fn bicycle(speed: f64) -> SceneFolder {
     let (s, c) = sin_cos(core::f64::consts::PI / 10.0);
     let wheel = |name: &str, parent: &str, position: [f64; 3], radius: f64, mass: f64, xx: f64, yy: f64| {
@@ -463,7 +469,7 @@ fn bicycle(speed: f64) -> SceneFolder {
 #[test]
 fn the_bicycle_has_its_published_eigenvalues() {
     // (speed, eigenvalues, digits after the point)
-    let published: [(f64, [(f64, f64); 4], i32); 4] = [
+    let published: [Published; 4] = [
         (
             0.0,
             [(-3.13164324790656, 0.0), (3.13164324790656, 0.0), (-5.53094371765393, 0.0), (5.53094371765393, 0.0)],

@@ -113,7 +113,7 @@ fn about(loaded: &Loaded, mut at: LockStep, request: &LinearRequest) -> Result<L
     let (inputs, outputs) = (located("inputs", &request.inputs), located("outputs", &request.outputs));
     let found: Linearization = linearize::linearize(loaded, &at, &Request { inputs, outputs, is_closed })?;
     let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
-    let text = sincro::linearization::json(&analysis);
+    let text = sincro::linearization::json(&analysis, Some(&found.reduction));
     Ok((text, [found.state, found.input, found.output, found.rate], found.notes))
 }
 

@@ -888,7 +888,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "pid=3",
         r##"--set:1:1: error: `pid`: a scene or experiment has no `pid`
-  help: keys: `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint`, `script` and 27 more"##,
+  help: keys: `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint`, `script` and 28 more"##,
     ),
     (
         "diagram.pid=3",
@@ -910,7 +910,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `rest_speed`, `camera`, `script`, `step` and 27 more"##,
+  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `rest_speed`, `camera`, `script`, `step` and 28 more"##,
     ),
     (
         "diagram.sample_time=0.003",

@@ -30,8 +30,8 @@ fn every_scene_loads_without_warnings() {
             "quadrotor-open-loop" => 3,
             // two scene files, and a variant with another inertia
             "quadrotor-robustness" => 3,
-            // its inertia is one that a body can have
-            "quadrotor-lua" => 0,
+            // their inertia is one that a body can have
+            "quadrotor-lua" | "quadrotor-hover" => 0,
             _ if name.starts_with("quadrotor-") => 1,
             _ => 0,
         };

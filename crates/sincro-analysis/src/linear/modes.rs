@@ -128,8 +128,8 @@ const NO_EFFECT: f64 = 1e-13;
 /// out.
 const NULL: f64 = 1e-15;
 
-/// Eigenvalues with those at zero exactly zero: multiple ones, of coordinates that no rate depends on, would come out as
-/// roots of the rounding. The null space is split off by an orthogonal transformation until none is left (key
+/// Eigenvalues with those at zero exactly zero: multiple ones, of coordinates that no rate depends on, would come out
+/// as roots of the rounding. The null space is split off by an orthogonal transformation until none is left (key
 /// `golub2013`, 7.6.5).
 fn deflated_eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     let mut rest = matrix.clone();

@@ -1,8 +1,8 @@
 //! Reduction to independent coordinates at an operating point.
 //!
-//! Equations g(q) = 0 (loops, gears, pressing limits, closed contacts, what friction holds) and W(q) v = u (their rates,
-//! rolling without slipping, velocity motors) leave a manifold of states. Its tangent space is spanned by T, one column
-//! for each independent coordinate and speed: with selection P (P T = 1) the linear system is
+//! Equations g(q) = 0 (loops, gears, pressing limits, closed contacts, what friction holds) and W(q) v = u (their
+//! rates, rolling without slipping, velocity motors) leave a manifold of states. Its tangent space is spanned by T, one
+//! column for each independent coordinate and speed: with selection P (P T = 1) the linear system is
 //!
 //! A = P · Df · T, C = Dh · T,
 //!

@@ -4,9 +4,9 @@
 //! commands that are set free; velocities are zero. All rates must vanish, the velocities that motors ask for too, and
 //! signals that are asked for must have their values. The Jacobian is that of the linearisation, exact.
 //!
-//! Each step of Newton's method is put back onto the closed loops and contacts, in the metric of the mass matrix. A step
-//! that would pass a joint limit or let bodies overlap ends there; then the modes of contacts, limits and drives are
-//! found anew. Joints that friction or a velocity motor holds keep their position, unless signals are asked for.
+//! Each step of Newton's method is put back onto the closed loops and contacts, in the metric of the mass matrix. A
+//! step that would pass a joint limit or let bodies overlap ends there; then the modes of contacts, limits and drives
+//! are found anew. Joints that friction or a velocity motor holds keep their position, unless signals are asked for.
 
 use sincro_dynamics::initial;
 use sincro_dynamics::state::State;
@@ -231,8 +231,8 @@ impl Search<'_> {
                 direction.iter_mut().zip(column).for_each(|(d, c)| *d += share * c);
             }
             // farther than this the loops may close on another branch
-            let farthest = direction[..values.n_v()].iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-            let share = if manifold.rows.is_empty() { 1.0 } else { (MAX_MOVE / farthest).min(1.0) };
+            let largest = direction[..values.n_v()].iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+            let share = if manifold.rows.is_empty() { 1.0 } else { (MAX_MOVE / largest).min(1.0) };
             direction.iter_mut().for_each(|d| *d *= share);
             let slope = 2.0 * share * gradient.dot(&step);
             if gradient.norm() <= 1e-9 * jacobian.norm() * r.norm() {

@@ -28,7 +28,7 @@ pub fn html(analysis: &Analysis) -> String {
     document(&analysis.title, "report", &body.concat())
 }
 
-/// What was eliminated; empty if nothing was.
+/// Text of the reduction; empty if nothing was eliminated.
 fn reduction(analysis: &Analysis) -> String {
     if analysis.reduction.is_empty() {
         return String::new();
