@@ -33,6 +33,9 @@ const LOOK_AHEAD_ULPS: f64 = 1e3;
 /// Block changes without progress before single ones.
 const BLOCK_CHANGES: u32 = 3;
 
+/// Maximum number of kinks whose modes are all tried.
+const MAX_ENUMERATED: usize = 5;
+
 /// Kink of a drive that is at none.
 pub(super) const NO_KINK: usize = usize::MAX;
 
@@ -151,7 +154,7 @@ impl World {
     }
 
     /// Solves the complementarity problem of the kinks by principal pivoting, from their present modes. Returns false
-    /// if it did not end; the modes with the fewest infeasible drives are then kept.
+    /// if no modes were found that fit.
     fn solve_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
         let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
         for _ in 0..16 + 16 * self.kinks.len() {
@@ -163,8 +166,40 @@ impl World {
             }
             self.pivot(infeasible, &mut fewest, &mut left);
         }
-        self.statistics.undecided_modes += 1;
+        let is_decided = self.enumerate_modes(t, system);
+        self.statistics.undecided_modes += u64::from(!is_decided);
+        is_decided
+    }
+
+    /// Tries all modes of the kinks if they are few, and leaves those with the fewest infeasible drives: where contacts
+    /// change with the drives, pivoting need not end. Returns true if none is infeasible.
+    fn enumerate_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
+        if self.kinks.len() > MAX_ENUMERATED {
+            return false;
+        }
+        let (mut best, mut fewest) = (0, usize::MAX);
+        for code in 0..3_usize.pow(self.kinks.len() as u32) {
+            let infeasible = self.try_modes(code, t, system);
+            if infeasible < fewest {
+                (best, fewest) = (code, infeasible);
+            }
+            if infeasible == 0 {
+                return true;
+            }
+        }
+        self.try_modes(best, t, system);
         false
+    }
+
+    /// Number of infeasible drives under the modes with a ternary `code`.
+    fn try_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, mut code: usize, t: f64, system: &mut A) -> usize {
+        for kink in &mut self.kinks {
+            kink.saturation = [0.0, 1.0, -1.0][code % 3];
+            code /= 3;
+        }
+        self.write_modes();
+        self.evaluate_slope(t, system);
+        self.mark_infeasible(Law::Acceleration)
     }
 
     /// Changes the modes of infeasible drives: of all of them, or after some changes without progress of the last one
