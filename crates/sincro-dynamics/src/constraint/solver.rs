@@ -162,7 +162,8 @@ impl<R: Real> Solver<R> {
         self.all_active = all_active;
     }
 
-    /// Active-set iteration from what Gauss–Seidel sweeps find; returns true on convergence.
+    /// Active-set iteration from what Gauss–Seidel sweeps find; returns true on convergence. `explicit` as in
+    /// [`Solver::enumerate`].
     fn sweep(
         &mut self,
         problem: &ContactProblem<'_, R>,
@@ -170,10 +171,7 @@ impl<R: Real> Solver<R> {
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
-        blocks.copy_from_slice(all_active);
-        if explicit {
-            blocks.iter_mut().for_each(fix_slow_sliding);
-        }
+        restart(all_active, explicit, blocks);
         self.swept.clear();
         self.swept.resize(lambda.len(), R::zero());
         self.swept_rates.clear();
@@ -201,10 +199,7 @@ impl<R: Real> Solver<R> {
         }
         // most contacts closed first
         (0..1_u32 << free).rev().any(|closed| {
-            blocks.copy_from_slice(all_active);
-            if explicit {
-                blocks.iter_mut().for_each(fix_slow_sliding);
-            }
+            restart(all_active, explicit, blocks);
             for (k, block) in blocks.iter_mut().filter(|block| block.given.is_none()).enumerate() {
                 block.open = closed >> k & 1 == 0;
             }
@@ -356,6 +351,14 @@ fn update_modes<R: Real>(
         }
     }
     changed
+}
+
+/// Sets all constraints active again; with `explicit` friction that slides slowly is that of its velocity now.
+fn restart<R: Real>(all_active: &[UnilateralConstraint<R>], explicit: bool, blocks: &mut [UnilateralConstraint<R>]) {
+    blocks.copy_from_slice(all_active);
+    if explicit {
+        blocks.iter_mut().for_each(fix_slow_sliding);
+    }
 }
 
 /// Fixes the friction of the groups of a constraint that slide slowly to their velocity now.

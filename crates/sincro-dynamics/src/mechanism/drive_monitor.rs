@@ -1,6 +1,6 @@
 //! Laws of limited drives at one evaluation: overload of a locked drive, passage of a saturated one through its target
-//! velocity, each beyond the rounding of its terms; and a monitor of them at the stages of a step, which notices a law
-//! that is violated within the step and holds again at its end.
+//! velocity, each beyond the rounding of its terms; and a monitor of them, and of the laws of contacts, at the stages
+//! of a step, which notices a law that is violated within the step and holds again at its end.
 
 use sincro_math::Real;
 

@@ -1,7 +1,6 @@
 //! Constraints within a tick: impacts at the start of a sub-step, events that end it, projection after it, and steps at
 //! velocity level as a fallback for Zeno behaviour.
 
-use super::switching::look_ahead_time;
 use super::{Stop, World};
 use crate::actuation::DriveKind;
 use crate::constraint::warm_start::{WarmStart, ZenoFallback};
@@ -95,12 +94,8 @@ impl World {
     /// a mode that is due; state and time stay.
     fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
         let report = self.solver_report();
-        let step = look_ahead_time(t, h);
-        self.present.copy_from_slice(&self.y);
-        for (y, slope) in self.y.iter_mut().zip(&self.slope) {
-            *y += step * slope;
-        }
-        self.evaluate_slope(t + step, system);
+        let ahead = self.move_ahead(t, h);
+        self.evaluate_slope(ahead, system);
         self.y.copy_from_slice(&self.present);
         if self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes()) {
             self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);

@@ -53,9 +53,11 @@ const MAX_IDLE_EVENTS: usize = 20;
 /// Time between events, relative to the tick, that counts as none.
 const IDLE: f64 = 1e-12;
 
-/// Maximum number of sub-steps in a row that make next to no progress, and the length of those, relative to the tick:
-/// sliding friction that turns with a velocity near zero can hold error control back without end.
+/// Maximum number of sub-steps in a row that make next to no progress: sliding friction that turns with a velocity near
+/// zero can hold error control back without end.
 const MAX_CRAWLING_STEPS: usize = 200;
+
+/// Length of a sub-step, relative to the tick, that makes next to no progress.
 const CRAWLING: f64 = 1e-9;
 
 /// Maximum number of steps in which a sub-step, made in one, is repeated.
@@ -623,8 +625,6 @@ impl World {
             let control = if limited { self.control() } else { None };
             if limited {
                 self.save_step_start();
-            }
-            if limited {
                 let band = self.mechanism.velocity_band();
                 self.mechanism.drive_monitor.begin(&self.target_velocities, band);
             }

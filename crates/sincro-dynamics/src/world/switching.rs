@@ -39,11 +39,6 @@ const MAX_ENUMERATED: usize = 5;
 /// Kink of a drive that is at none.
 pub(super) const NO_KINK: usize = usize::MAX;
 
-/// Time by which modes are decided ahead of `t`, for a step of `h` `[s]`.
-pub(super) fn look_ahead_time(t: f64, h: f64) -> f64 {
-    (LOOK_AHEAD * h).max(LOOK_AHEAD_ULPS * f64::EPSILON * t.abs())
-}
-
 /// Limited drives of one degree of freedom at one kink.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kink {
@@ -240,18 +235,25 @@ impl World {
         count
     }
 
-    /// Decides the modes of the kinks a little later than `t`; state and time stay.
-    fn look_ahead<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
-        let step = look_ahead_time(t, h);
-        let n = self.model().n_v();
+    /// Keeps the present state in `present` and moves it a little ahead of `t` along its slope, for a step of `h`.
+    /// Returns the time there `[s]`.
+    pub(super) fn move_ahead(&mut self, t: f64, h: f64) -> f64 {
+        let step = (LOOK_AHEAD * h).max(LOOK_AHEAD_ULPS * f64::EPSILON * t.abs());
         self.present.copy_from_slice(&self.y);
         for (y, slope) in self.y.iter_mut().zip(&self.slope) {
             *y += step * slope;
         }
+        t + step
+    }
+
+    /// Decides the modes of the kinks a little later than `t`; state and time stay.
+    fn look_ahead<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+        let ahead = self.move_ahead(t, h);
+        let n = self.model().n_v();
         for kink in &self.kinks {
             self.y[n + kink.dof] = kink.target;
         }
-        self.solve_modes(t + step, system);
+        self.solve_modes(ahead, system);
         self.y.copy_from_slice(&self.present);
         self.write_modes();
     }
