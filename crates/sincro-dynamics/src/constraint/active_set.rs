@@ -193,6 +193,12 @@ impl<R: Real> ActiveSet<R> {
         }
     }
 
+    /// Rates that the conditions of the unknowns test, of a list over rows.
+    pub fn tests(&self, blocks: &[UnilateralConstraint<R>], rates: &[R], out: &mut Vec<R>) {
+        out.clear();
+        out.extend(self.unknowns.iter().map(|unknown| self.test(*unknown, blocks, rates)));
+    }
+
     /// Derivatives of all rates by one unknown.
     fn answer(
         &self,

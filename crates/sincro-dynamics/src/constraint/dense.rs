@@ -89,6 +89,41 @@ impl<R: Real> Dense<R> {
         R::run_hot(Elimination { dense: self, rank, out });
     }
 
+    /// Combination of unknowns that the last [`Dense::solve`] found to have no effect, number `k` of `n − rank`.
+    pub fn kernel(&self, k: usize, out: &mut [R]) {
+        let (n, free) = (self.n, self.rank + k);
+        out[..n].fill(R::zero());
+        out[self.columns[free]] = R::one();
+        for i in (0..self.rank).rev() {
+            let mut sum = -self.a[i * n + free];
+            for j in i + 1..self.rank {
+                sum -= self.a[i * n + j] * out[self.columns[j]];
+            }
+            out[self.columns[i]] = sum / self.a[i * n + i];
+        }
+        for (x, scale) in out.iter_mut().zip(&self.scale) {
+            *x *= R::splat(*scale);
+        }
+    }
+
+    /// Combination of rows that the last [`Dense::solve`] found to vanish, number `k` of `n − rank`.
+    pub fn left_kernel(&self, k: usize, out: &mut [R]) {
+        let (n, free) = (self.n, self.rank + k);
+        out[..n].fill(R::zero());
+        out[self.rows[free]] = R::one();
+        for i in (0..self.rank).rev() {
+            // elimination leaves the multiples of its pivots below them
+            let mut sum = -self.a[free * n + i];
+            for j in i + 1..self.rank {
+                sum -= self.a[j * n + i] * out[self.rows[j]];
+            }
+            out[self.rows[i]] = sum / self.a[i * n + i];
+        }
+        for (x, scale) in out.iter_mut().zip(&self.scale) {
+            *x *= R::splat(*scale);
+        }
+    }
+
     #[inline(always)]
     fn find(&mut self, rank: f64, out: &mut [R]) {
         self.normalize();

@@ -29,6 +29,33 @@ pub(crate) enum HeldLaw {
     Slip(usize, usize),
 }
 
+/// A solution, kept while another one is sought.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Solution<R> {
+    pub blocks: Vec<UnilateralConstraint<R>>,
+    pub lambda: Vec<R>,
+    pub rates: Vec<R>,
+}
+
+impl<R: Real> Solution<R> {
+    /// Memory for problems of `m` rows.
+    pub fn reserve(&mut self, m: usize) {
+        self.blocks.reserve(m.saturating_sub(self.blocks.len()));
+        for list in [&mut self.lambda, &mut self.rates] {
+            list.reserve(m.saturating_sub(list.len()));
+        }
+    }
+
+    pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R], rates: &[R]) {
+        self.blocks.clear();
+        self.blocks.extend_from_slice(blocks);
+        for (kept, list) in [(&mut self.lambda, lambda), (&mut self.rates, rates)] {
+            kept.clear();
+            kept.extend_from_slice(list);
+        }
+    }
+}
+
 impl<R: Real> Solver<R> {
     /// Finds λ for the modes of `blocks`; returns false if they have no solution. Directions of friction are part of
     /// the solution.

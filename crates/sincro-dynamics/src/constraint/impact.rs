@@ -159,7 +159,6 @@ impl Constraints<f64> {
 
     fn solve_impulses(&mut self) {
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.shares_load = false;
         self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
     }
 

@@ -22,6 +22,7 @@
 //! | `dense` | elimination that reveals the rank |
 //! | `cone` | unilateral constraints, friction groups, contact modes |
 //! | `active_set` | linear system of the current active set |
+//! | `load_share` | least multipliers of redundant constraints |
 //! | `held` | solution with held contact modes; laws that it may violate |
 //! | `admm` | ADMM for the same problem, without an active set |
 //! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
@@ -44,6 +45,7 @@ mod dense;
 mod gauss_seidel;
 mod held;
 mod impact;
+mod load_share;
 mod loop_joint;
 mod projection;
 pub(crate) mod rank;
@@ -67,7 +69,7 @@ use crate::spatial::{Force, Vec3};
 use active_set::ContactProblem;
 use cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 pub(crate) use held::HeldLaw;
-use held::is_observable;
+use held::{Solution, is_observable};
 use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
 use warm_start::WarmStart;
@@ -173,27 +175,8 @@ pub(crate) struct Constraints<R> {
     pub lost_modes: bool,
     /// Law that the held modes violate in the last evaluation.
     pub violation: Option<HeldLaw>,
-    held: HeldSolution<R>,
+    held: Solution<R>,
     pub solver: Solver<R>,
-}
-
-/// Solution with held modes, kept while the problem is solved as a whole.
-#[derive(Clone, Debug, Default)]
-struct HeldSolution<R> {
-    blocks: Vec<UnilateralConstraint<R>>,
-    lambda: Vec<R>,
-    rates: Vec<R>,
-}
-
-impl<R: Real> HeldSolution<R> {
-    fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R], rates: &[R]) {
-        self.blocks.clear();
-        self.blocks.extend_from_slice(blocks);
-        for (kept, list) in [(&mut self.lambda, lambda), (&mut self.rates, rates)] {
-            kept.clear();
-            kept.extend_from_slice(list);
-        }
-    }
 }
 
 impl<R: Real> Constraints<R> {
@@ -233,7 +216,7 @@ impl<R: Real> Constraints<R> {
             mode_rule: ModeRule::Decided,
             lost_modes: false,
             violation: None,
-            held: HeldSolution::default(),
+            held: Solution::default(),
             solver: Solver::default(),
         };
         // more contacts than this at once enlarge the memory, once for every new maximum
@@ -248,9 +231,8 @@ impl<R: Real> Constraints<R> {
         self.rows.reserve(m);
         self.blocks.reserve(m);
         self.kept.reserve(m);
-        self.held.blocks.reserve(m);
-        let held = [&mut self.held.lambda, &mut self.held.rates];
-        for list in [&mut self.residual, &mut self.b, &mut self.lambda, &mut self.before].into_iter().chain(held) {
+        self.held.reserve(m);
+        for list in [&mut self.residual, &mut self.b, &mut self.lambda, &mut self.before] {
             list.reserve(m);
         }
         self.jacobian.reserve(m * n);
@@ -529,7 +511,6 @@ impl<R: Real> Constraints<R> {
 
     fn solve(&mut self) {
         self.find_slow_sliding();
-        self.solver.shares_load = true;
         self.violation = None;
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         let holds = self.mode_rule != ModeRule::Decided;

@@ -1,11 +1,12 @@
 //! Solution of the frictional contact problem w = G λ + b: active set first, then ADMM.
 //!
 //! The active set (contact modes) starts from the warm start; the multipliers follow from one linear system
-//! ([`super::active_set`]), solved with its rank revealed ([`Dense`]), as a correction of the last ones, so that
-//! redundant contacts keep their share. If the multipliers satisfy the complementarity conditions, the problem is
-//! solved. If not, the violated modes are changed, a few times; for slip directions this is Newton's method. If that
-//! does not converge, ADMM ([`super::admm`]) finds the solution without an active set, and the linear system of the
-//! modes it implies makes it exact; the last resorts are Gauss–Seidel sweeps and all sets of closed contacts.
+//! ([`super::active_set`]), solved with its rank revealed ([`Dense`]), as a correction of the last ones; redundant
+//! constraints share the load evenly ([`super::load_share`]). If the multipliers satisfy the complementarity
+//! conditions, the problem is solved. If not, the violated modes are changed, a few times; for slip directions this is
+//! Newton's method. If that does not converge, ADMM ([`super::admm`]) finds the solution without an active set, and the
+//! linear system of the modes it implies makes it exact; the last resorts are Gauss–Seidel sweeps and all sets of
+//! closed contacts.
 
 use sincro_math::Real;
 
@@ -15,6 +16,8 @@ use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint}
 use super::dense::Dense;
 pub(super) use super::dense::RANK;
 use super::gauss_seidel;
+use super::held::Solution;
+use super::load_share::LoadShare;
 
 /// Complementarity tolerance, relative to the largest force or rate.
 pub(super) const SLACK: f64 = 1e-9;
@@ -74,11 +77,12 @@ pub(crate) struct Solver<R> {
     /// Multipliers and rates of Gauss–Seidel sweeps.
     swept: Vec<R>,
     swept_rates: Vec<R>,
+    share: LoadShare<R>,
+    /// Solution found first.
+    found: Solution<R>,
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
     trial: Option<SolverReport>,
-    /// True if contacts that begin to carry load share it evenly, where they are redundant: forces, not impulses.
-    pub shares_load: bool,
     /// Rank tolerance of corrections.
     pub rank: f64,
     /// Smallest scaled pivot of the last linear system.
@@ -95,6 +99,7 @@ impl<R: Real> Solver<R> {
             list.reserve(more(list.len()));
         }
         self.all_active.reserve(more(self.all_active.len()));
+        self.found.reserve(m);
     }
 
     /// Begins a trial step: one that was begun before and not accepted does not count.
@@ -114,16 +119,12 @@ impl<R: Real> Solver<R> {
     pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
         self.report.solved += 1;
         self.rank = RANK;
-        let was_loaded = carries_load(problem, blocks, lambda);
         if self.iterate_active_set(problem, blocks, lambda) {
-            // several contacts that begin to carry load together share it evenly
-            let begins = !was_loaded && self.shares_load && carries_load(problem, blocks, lambda);
-            if !(begins && blocks.iter().filter(|block| block.given.is_none()).count() > 1) {
-                return;
-            }
+            self.engage(problem, blocks, lambda);
+            return;
         }
         self.report.split += 1;
-        // from zero, so that redundant contacts share the load evenly: the warm start did not fit
+        // from zero: the warm start did not fit
         lambda.fill(R::zero());
         activate_all(blocks);
         let mut all_active = core::mem::take(&mut self.all_active);
@@ -155,11 +156,31 @@ impl<R: Real> Solver<R> {
                 self.active_set.take(problem.n_free, blocks, lambda);
                 self.admm.finish(&self.active_set, blocks, lambda);
                 self.record_residual(problem, blocks, lambda);
-                break;
+                self.all_active = all_active;
+                return;
             }
             iterations *= 2;
         }
         self.all_active = all_active;
+        self.engage(problem, blocks, lambda);
+    }
+
+    /// Takes the solution in which open contacts that do not separate are closed, and friction without slip sticks,
+    /// where there is one: of redundant contacts all take part, whatever the warm start was.
+    fn engage(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        let small = Tolerances::of(problem, lambda);
+        if !blocks.iter().any(|block| is_idle(block, small, &self.active_set.rates)) {
+            return;
+        }
+        self.found.keep(blocks, lambda, &self.active_set.rates);
+        for block in blocks.iter_mut() {
+            engage(block, small, &self.found.rates);
+        }
+        if !self.iterate_active_set(problem, blocks, lambda) {
+            blocks.copy_from_slice(&self.found.blocks);
+            lambda.copy_from_slice(&self.found.lambda);
+            self.active_set.find_rates(problem, lambda);
+        }
     }
 
     /// Active-set iteration from what Gauss–Seidel sweeps find; returns true on convergence. `explicit` as in
@@ -262,6 +283,9 @@ impl<R: Real> Solver<R> {
         self.dense.solve(self.rank, &mut self.delta);
         self.smallest_pivot = self.dense.smallest_pivot;
         self.active_set.change(blocks, &self.delta, lambda);
+        if self.dense.rank < self.dense.n {
+            self.share.apply(problem, (&self.dense, &self.active_set), blocks, lambda);
+        }
     }
 
     /// Complementarity residual relative to the largest rate (dimensionless); counted if it exceeds the tolerance.
@@ -315,10 +339,28 @@ impl Tolerances {
     }
 }
 
-/// Returns true if a contact has a normal force beyond rounding.
-fn carries_load<R: Real>(problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &[R]) -> bool {
-    let small = Tolerances::of(problem, lambda).force;
-    blocks.iter().any(|block| block.given.is_none() && lambda[block.row].lane(0) > small)
+/// Returns true if a constraint is open without separating, or friction that could stick slips without a rate.
+fn is_idle<R: Real>(block: &UnilateralConstraint<R>, small: Tolerances, rates: &[R]) -> bool {
+    if block.open {
+        return rates[block.row].lane(0).abs() <= small.held;
+    }
+    block.groups.iter().flatten().any(|group| is_idle_friction(group, small, rates))
+}
+
+fn is_idle_friction<R: Real>(group: &FrictionGroup<R>, small: Tolerances, rates: &[R]) -> bool {
+    !group.slides && group.mode == ContactMode::Slip && norm(pair(group, rates)) <= small.held
+}
+
+/// Closes a constraint that is open without separating, and lets friction that slips without a rate stick.
+fn engage<R: Real>(block: &mut UnilateralConstraint<R>, small: Tolerances, rates: &[R]) {
+    if block.open && is_idle(block, small, rates) {
+        block.open = false;
+    }
+    for group in block.groups.iter_mut().flatten() {
+        if is_idle_friction(group, small, rates) {
+            group.stick();
+        }
+    }
 }
 
 /// Updates the contact modes that violate the complementarity conditions; returns true if any did.

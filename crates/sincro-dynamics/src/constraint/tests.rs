@@ -163,3 +163,75 @@ fn held_modes_go_on_smoothly_beyond_the_laws() {
         }
     }
 }
+
+/// Four legs at the corners of a square share a load at (x, y) as springs of equal stiffness do, whatever the forces
+/// were before: (1 ± x ± y)/4.
+#[test]
+fn four_legs_share_a_load_as_springs_do() {
+    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    // heave, roll and pitch of a plate of mass 1 with both moments of inertia 1
+    let a: Vec<f64> = (0..16)
+        .map(|k| (corners[k / 4], corners[k % 4]))
+        .map(|(one, two)| 1.0 + one[0] * two[0] + one[1] * two[1])
+        .collect();
+    let (x, y) = (0.3, -0.2);
+    let b: Vec<f64> = corners.iter().map(|c| -(1.0 + x * c[0] + y * c[1])).collect();
+    let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+    for before in [[0.0; 4], [0.9, 0.0, 0.4, 0.0]] {
+        let mut legs: Vec<_> = (0..4)
+            .map(|k| UnilateralConstraint { slot: k, row: k, groups: [None; 3], ..contacts(1, 0, 0.0)[0] })
+            .collect();
+        legs.iter_mut().zip(before).for_each(|(leg, force)| leg.open = force == 0.0);
+        let (mut solver, mut lambda) = (Solver::default(), before);
+        solver.solve(&problem, &mut legs, &mut lambda);
+        for (force, c) in lambda.iter().zip(corners) {
+            let expected = (1.0 + x * c[0] + y * c[1]) / 4.0;
+            assert!((force - expected).abs() < 1e-14, "{lambda:?}");
+        }
+    }
+}
+
+/// The share of redundant contacts that stick does not depend on the order of contacts, the tangents, the unit of
+/// force, or the warm start.
+#[test]
+fn redundant_contacts_share_the_load_the_same_in_every_frame() {
+    let mut numbers = Numbers(17);
+    let mut compared = 0;
+    for k in 0..60 {
+        let (count, n) = (3 + k % 4, 6 + k % 3);
+        let m = 3 * count;
+        let a = products(&mut numbers, m, n);
+        let push: Vec<f64> = (0..m).map(|i| if i % 3 == 0 { -1.0 } else { 0.2 * numbers.next() }).collect();
+        let b: Vec<f64> = (0..m).map(|i| (0..m).map(|j| a[i * m + j] * push[j]).sum()).collect();
+        let angles: Vec<f64> = (0..count).map(|_| 3.0 * numbers.next()).collect();
+        // row i of the other frame: coefficients on the rows of this one
+        let rows: Vec<Vec<(usize, f64)>> = (0..m)
+            .map(|i| {
+                let contact = count - 1 - i / 3;
+                let (sin, cos) = (libm::sin(angles[contact]), libm::cos(angles[contact]));
+                let tangents = [3 * contact + 1, 3 * contact + 2];
+                match i % 3 {
+                    0 => vec![(3 * contact, 1.0)],
+                    1 => vec![(tangents[0], cos), (tangents[1], sin)],
+                    _ => vec![(tangents[0], -sin), (tangents[1], cos)],
+                }
+            })
+            .collect();
+        let turned = |x: &dyn Fn(usize) -> f64, i: usize| rows[i].iter().map(|(j, c)| c * x(*j)).sum::<f64>();
+        let a_turned: Vec<f64> = (0..m * m).map(|e| turned(&|i| turned(&|j| a[i * m + j], e % m), e / m)).collect();
+        let b_turned: Vec<f64> = (0..m).map(|i| turned(&|j| b[j], i)).collect();
+        let found = |a: &[f64], b: &[f64], start: f64| {
+            let problem = ContactProblem { a, b, n_free: 0 };
+            let (mut solver, mut lambda) = (Solver::default(), vec![start; m]);
+            solver.solve(&problem, &mut contacts(count, 0, 2.0), &mut lambda);
+            (solver.report.not_converged == 0 && solver.report.split == 0).then_some(lambda)
+        };
+        if let (Some(one), Some(two)) = (found(&a, &b, 0.0), found(&a_turned, &b_turned, 0.1)) {
+            let largest = one.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+            let apart = (0..m).map(|i| (turned(&|j| one[j], i) - two[i]).abs()).fold(0.0, f64::max);
+            assert!(apart < 1e-8 * largest, "problem {k}: {apart:e} of {largest:e}");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 50, "{compared} of 60 compared");
+}
