@@ -17,7 +17,7 @@ fn scene(name: &str) -> sincro_sim::Loaded {
 fn advance(lockstep: &mut LockStep, trace: &mut Trace, n: usize) {
     for _ in 0..n {
         lockstep.advance().unwrap();
-        lockstep.add_to(trace);
+        lockstep.hash_into(trace);
     }
 }
 

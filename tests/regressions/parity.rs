@@ -26,7 +26,7 @@ fn hash_of(loaded: &sincro_sim::Loaded, method: MethodKind) -> Trace {
     let mut trace = run.trace();
     for _ in 0..TICKS {
         run.advance().unwrap();
-        run.add_to(&mut trace);
+        run.hash_into(&mut trace);
     }
     trace
 }

@@ -89,9 +89,9 @@ impl Connections {
         let in_use = slots.open.values().filter(|slot| !slot.is_closing);
         let (n, of_peer) = in_use.fold((0, 0), |(n, m), slot| (n + 1, m + usize::from(slot.network == network)));
         if of_peer >= self.limits.per_address {
-            self.make_room(&mut slots, now, Some(network))?;
+            self.check_stored_size(&mut slots, now, Some(network))?;
         } else if n >= self.limits.total {
-            self.make_room(&mut slots, now, None)?;
+            self.check_stored_size(&mut slots, now, None)?;
         }
         let (id, activity) = (slots.next, Arc::new(Activity::default()));
         activity.last.store(now, Ordering::Relaxed);
@@ -102,7 +102,7 @@ impl Connections {
     }
 
     /// Closes the connection that is least missed, of one network if one is given; none if all are in use.
-    fn make_room(&self, slots: &mut Slots, now: u64, network: Option<IpAddr>) -> Option<()> {
+    fn check_stored_size(&self, slots: &mut Slots, now: u64, network: Option<IpAddr>) -> Option<()> {
         let limit = u64::try_from(self.limits.idle_under_pressure.as_millis()).unwrap_or(u64::MAX);
         if slots.open.values().filter(|slot| slot.is_closing).count() >= MAX_CLOSING {
             return None;

@@ -105,7 +105,7 @@ fn derivatives_agree_with_central_differences() {
         // error of a central difference: h² of the third derivative against 1e-16/h of rounding
         let h = 1e-5;
         for k in 0..n {
-            let at_side = |by: f64| sincro_analysis::linearize::rates_near(&loaded, &at, k, by);
+            let at_side = |by: f64| sincro_analysis::linearize::perturbed_rates(&loaded, &at, k, by);
             let (up, down) = (at_side(h), at_side(-h));
             for i in 0..n {
                 let difference = (up[i] - down[i]) / (2.0 * h);
@@ -240,7 +240,7 @@ fn assert_poles_of_growth(loaded: &Loaded, t: f64, coordinate: usize, (after, n)
     let (mut one, mut two) = (at.fork().lockstep, at.fork().lockstep);
     let mut state = two.state().clone();
     state.q[coordinate] += 1e-4;
-    two.place(state, &[]);
+    two.set_state(state, &[]);
     let mut series = Vec::new();
     for k in 0..after + n {
         for _ in 0..found.period {

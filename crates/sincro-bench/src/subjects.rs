@@ -14,7 +14,7 @@ use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
 use sincro_dynamics::{aba, rnea};
-use sincro_scene::camera::{Lens, NOTHING, Optics};
+use sincro_scene::camera::{Lens, NO_PIECE, Optics};
 use sincro_scene::experiment::{ErrorBar, Experiment, Integrator};
 use sincro_scene::scene::{Camera, ObjectKind, Scene};
 use sincro_sim::rollout::rollout;
@@ -68,10 +68,10 @@ pub(super) fn picture(scene: &Scene) -> Subject {
     let optics = Optics { resolution: [256, 256], near: 0.01, far: 100.0, lens };
     let camera = Camera::looking_at(scene, optics, [1.6, -2.6, 1.6], [0.0, 0.0, 0.7]);
     let (mut camera, q) = (camera.expect("it stands beside the robot"), scene.initial.q.clone());
-    let seen = camera.look(&q).pieces().iter().filter(|piece| **piece != NOTHING).count();
+    let seen = camera.render(&q).pieces().iter().filter(|piece| **piece != NO_PIECE).count();
     let note = format!("{seen} of 65536 pixels show something");
     Subject::new(move || {
-        black_box(camera.look(black_box(&q)));
+        black_box(camera.render(black_box(&q)));
     })
     .with_note(note)
 }

@@ -91,7 +91,7 @@ pub struct Parameter {
     /// Key in files.
     pub name: &'static str,
     /// Type and range of the value.
-    pub takes: Takes,
+    pub takes: ValueKind,
     /// Meaning, with its unit in brackets, as a phrase or as the sentence of a doc comment; see [`Parameter::meaning`].
     pub doc: &'static str,
     /// Default as it would be written; `None` if the parameter must be given.
@@ -101,7 +101,7 @@ pub struct Parameter {
 /// Type and range of a parameter's value. Wherever a number stands, a formula of the diagram's parameters may stand as
 /// text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Takes {
+pub enum ValueKind {
     /// A number.
     Number,
     /// A number greater than zero.
@@ -129,13 +129,13 @@ pub enum Takes {
 impl Parameter {
     /// A parameter that must be given.
     #[must_use]
-    pub const fn required(name: &'static str, takes: Takes, doc: &'static str) -> Self {
+    pub const fn required(name: &'static str, takes: ValueKind, doc: &'static str) -> Self {
         Self { name, takes, doc, default: None }
     }
 
     /// A parameter with a default.
     #[must_use]
-    pub const fn optional(name: &'static str, takes: Takes, doc: &'static str, default: &'static str) -> Self {
+    pub const fn optional(name: &'static str, takes: ValueKind, doc: &'static str, default: &'static str) -> Self {
         Self { name, takes, doc, default: Some(default) }
     }
 
@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn a_sentence_becomes_a_phrase_and_a_phrase_stays() {
-        let meaning = |doc: &'static str| Parameter::required("x", Takes::Number, doc).meaning();
+        let meaning = |doc: &'static str| Parameter::required("x", ValueKind::Number, doc).meaning();
         assert_eq!(meaning("Instant of the jump `[s]`."), "instant of the jump [s]");
         assert_eq!(meaning("CSV file `[a]` beside `y[3]`."), "CSV file [a] beside `y[3]`");
         assert_eq!(meaning("Lua text with `y[3]`"), "Lua text with `y[3]`");

@@ -14,15 +14,15 @@
 //! | [`Text`], [`File`] | `String` | a text, a file of the scene folder |
 //! | [`Texts`] | `Vec<String>` | texts |
 //! | [`Choice`] | an enum of [`choice!`](crate::choice) | one of its words |
-//! | [`Given`] | `Option` of another type | `None` if it is left out |
+//! | [`OptionalParameter`] | `Option` of another type | `None` if it is left out |
 
-use crate::kind::{Parameter, Takes};
+use crate::kind::{Parameter, ValueKind};
 use crate::reader::{Matrix, Reader};
 
 /// Type and range of a parameter that is held as a `T`.
 pub trait ParameterType<T> {
     /// Description for the reference, the schema and messages.
-    const TAKES: Takes;
+    const VALUE_KIND: ValueKind;
 
     /// Reads the parameter `key`. Errors are noted in the reader, and a value that does no harm is returned.
     fn read(reader: &mut Reader<'_>, key: &str) -> T;
@@ -41,7 +41,7 @@ macro_rules! parameter_types {
         pub enum $name {}
 
         impl ParameterType<$type> for $name {
-            const TAKES: Takes = $takes;
+            const VALUE_KIND: ValueKind = $takes;
 
             fn read(reader: &mut Reader<'_>, key: &str) -> $type {
                 reader.$read(key)
@@ -57,37 +57,37 @@ macro_rules! parameter_types {
 
 parameter_types! {
     /// A finite number.
-    Number: f64, Takes::Number, number;
+    Number: f64, ValueKind::Number, number;
     /// A number that may be infinite, written as `inf` or `-inf`.
-    Limit: f64, Takes::Number, limit;
+    Limit: f64, ValueKind::Number, limit;
     /// A number greater than zero.
-    Positive: f64, Takes::Positive, positive;
+    Positive: f64, ValueKind::Positive, positive;
     /// A whole number from 0 on.
-    Count: usize, Takes::Count, count;
+    Count: usize, ValueKind::Count, count;
     /// A whole number from 1 on.
-    PositiveCount: usize, Takes::Count, positive_count;
+    PositiveCount: usize, ValueKind::Count, positive_count;
     /// Number of inputs, from 1 to 1000.
-    InputCount: usize, Takes::Count, input_count;
+    InputCount: usize, ValueKind::Count, input_count;
     /// Number of inputs, from 1 on and at most [`MAX_PORTS`](crate::reader::MAX_PORTS).
-    PortCount: usize, Takes::Count, positive_port_count;
+    PortCount: usize, ValueKind::Count, positive_port_count;
     /// A finite number for all components, or one for each.
-    PerComponent: Vec<f64>, Takes::Numbers, numbers, length;
+    PerComponent: Vec<f64>, ValueKind::Numbers, numbers, length;
     /// As [`PerComponent`], each of which may be infinite.
-    Limits: Vec<f64>, Takes::Numbers, limits, length;
+    Limits: Vec<f64>, ValueKind::Numbers, limits, length;
     /// As [`PerComponent`], each greater than zero.
-    Positives: Vec<f64>, Takes::Numbers, positives, length;
+    Positives: Vec<f64>, ValueKind::Numbers, positives, length;
     /// Finite numbers, at least one, that have nothing to do with components.
-    List: Vec<f64>, Takes::Numbers, numbers;
+    List: Vec<f64>, ValueKind::Numbers, numbers;
     /// Rows of numbers of equal length.
-    Rows: Matrix, Takes::Matrix, matrix;
+    Rows: Matrix, ValueKind::Matrix, matrix;
     /// True or false.
-    Flag: bool, Takes::Flag, flag;
+    Flag: bool, ValueKind::Flag, flag;
     /// A text.
-    Text: String, Takes::Text, text;
+    Text: String, ValueKind::Text, text;
     /// The name of a file of the scene folder.
-    File: String, Takes::File, text;
+    File: String, ValueKind::File, text;
     /// A list of texts.
-    Texts: Vec<String>, Takes::Texts, texts;
+    Texts: Vec<String>, ValueKind::Texts, texts;
 }
 
 fn length(list: &[f64]) -> Option<usize> {
@@ -96,10 +96,10 @@ fn length(list: &[f64]) -> Option<usize> {
 
 /// Another type, `None` if the parameter is left out; its default stands in the reference only.
 #[derive(Clone, Copy, Debug)]
-pub struct Given<P>(P);
+pub struct OptionalParameter<P>(P);
 
-impl<T, P: ParameterType<T>> ParameterType<Option<T>> for Given<P> {
-    const TAKES: Takes = P::TAKES;
+impl<T, P: ParameterType<T>> ParameterType<Option<T>> for OptionalParameter<P> {
+    const VALUE_KIND: ValueKind = P::VALUE_KIND;
 
     fn read(reader: &mut Reader<'_>, key: &str) -> Option<T> {
         reader.has(key).then(|| P::read(reader, key))
@@ -115,7 +115,7 @@ impl<T, P: ParameterType<T>> ParameterType<Option<T>> for Given<P> {
 pub enum Choice {}
 
 impl<T: Words> ParameterType<T> for Choice {
-    const TAKES: Takes = Takes::Choice(T::WORDS);
+    const VALUE_KIND: ValueKind = ValueKind::Choice(T::WORDS);
 
     fn read(reader: &mut Reader<'_>, key: &str) -> T {
         T::ALL[reader.choice(key)]
@@ -204,7 +204,7 @@ macro_rules! declare_parameters {
         impl $crate::parameter::ParameterSet for $set {
             const PARAMETERS: &'static [$crate::kind::Parameter] = &[$($crate::kind::Parameter {
                 name: stringify!($parameter),
-                takes: <$takes as $crate::parameter::ParameterType<$type>>::TAKES,
+                takes: <$takes as $crate::parameter::ParameterType<$type>>::VALUE_KIND,
                 doc: (concat!($($doc),+) as &str).trim_ascii(),
                 default: $crate::parameter::first(&[$($default)?]),
             }),*];

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use sincro_math::expression::{Expression, is_name};
 
-use crate::kind::{Kind, Takes};
+use crate::kind::{Kind, ValueKind};
 use crate::suggest;
 
 /// A parameter as it is given: what every file format can say.
@@ -430,7 +430,7 @@ impl<'a> Reader<'a> {
     /// One of the words that the description lists; its index.
     pub fn choice(&mut self, key: &str) -> usize {
         let parameter = self.kind.parameters.iter().find(|p| p.name == key);
-        let Some(Takes::Choice(words)) = parameter.map(|p| p.takes) else {
+        let Some(ValueKind::Choice(words)) = parameter.map(|p| p.takes) else {
             panic!("`{}` describes no choice `{key}`", self.kind.name)
         };
         let text = self.text(key);
@@ -625,12 +625,12 @@ fn plain(x: f64) -> String {
 }
 
 /// A default as it stands in a description.
-fn default_value(text: &str, takes: Takes) -> Value {
+fn default_value(text: &str, takes: ValueKind) -> Value {
     match takes {
-        Takes::Flag => Value::Flag(text == "true"),
-        Takes::Texts | Takes::Matrix if text == "[]" => Value::List(Vec::new()),
-        Takes::Names => Value::Table(Vec::new()),
-        Takes::Text | Takes::Choice(_) | Takes::File => Value::Text(text.to_owned()),
+        ValueKind::Flag => Value::Flag(text == "true"),
+        ValueKind::Texts | ValueKind::Matrix if text == "[]" => Value::List(Vec::new()),
+        ValueKind::Names => Value::Table(Vec::new()),
+        ValueKind::Text | ValueKind::Choice(_) | ValueKind::File => Value::Text(text.to_owned()),
         _ if text == "[]" => Value::List(Vec::new()),
         _ => text.parse().map_or_else(|_| Value::Text(text.to_owned()), Value::Number),
     }

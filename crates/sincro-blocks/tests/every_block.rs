@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::{Content, Diagram};
 use sincro_blocks::instance::DynBlock;
-use sincro_blocks::kind::{Kind, Takes};
+use sincro_blocks::kind::{Kind, ValueKind};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::library::{Item, all};
 use sincro_blocks::reader::{Files, ParameterError, Reader, Value};
@@ -23,16 +23,16 @@ impl Files for AnyFile {
 }
 
 /// A plausible value of a parameter.
-fn plausible(takes: Takes) -> Value {
+fn plausible(takes: ValueKind) -> Value {
     match takes {
-        Takes::Number | Takes::Positive | Takes::Numbers | Takes::Matrix => Value::Number(0.5),
-        Takes::Count => Value::Number(1.0),
-        Takes::Flag => Value::Flag(true),
-        Takes::Text => "u1".into(),
-        Takes::Texts => vec!["u1"].into(),
-        Takes::Names => Value::Table(vec![("a".into(), Value::Number(1.0))]),
-        Takes::Choice(words) => words[0].into(),
-        Takes::File => "data.csv".into(),
+        ValueKind::Number | ValueKind::Positive | ValueKind::Numbers | ValueKind::Matrix => Value::Number(0.5),
+        ValueKind::Count => Value::Number(1.0),
+        ValueKind::Flag => Value::Flag(true),
+        ValueKind::Text => "u1".into(),
+        ValueKind::Texts => vec!["u1"].into(),
+        ValueKind::Names => Value::Table(vec![("a".into(), Value::Number(1.0))]),
+        ValueKind::Choice(words) => words[0].into(),
+        ValueKind::File => "data.csv".into(),
     }
 }
 
@@ -84,7 +84,7 @@ fn every_block_is_described() {
         for parameter in kind.parameters {
             assert!(!parameter.meaning().is_empty(), "{}: {}", kind.name, parameter.name);
             assert!(keys.insert(parameter.name), "{}: two parameters {}", kind.name, parameter.name);
-            if let (Takes::Choice(words), Some(default)) = (parameter.takes, parameter.default) {
+            if let (ValueKind::Choice(words), Some(default)) = (parameter.takes, parameter.default) {
                 assert!(words.contains(&default), "{}: {default}", kind.name);
             }
         }

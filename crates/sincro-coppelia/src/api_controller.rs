@@ -70,7 +70,7 @@ impl ApiController {
     /// # Errors
     ///
     /// If a script fails.
-    pub fn tell_scripts(lockstep: &mut LockStep, phase: Phase) -> Result<(), Halt> {
+    pub fn notify_scripts(lockstep: &mut LockStep, phase: Phase) -> Result<(), Halt> {
         let (tick, t) = (lockstep.tick(), lockstep.t());
         let Some((api, world)) = Self::of(lockstep) else { return Ok(()) };
         if !api.is_started() {

@@ -337,7 +337,7 @@ fn intermediate_updates_are_called_between_base_steps_and_may_return_early() {
     };
     let position = fmu
         .catalogue
-        .pick(|role| matches!(role, sincro_fmu::variables::Role::Output(0)).then_some(()))
+        .with_role(|role| matches!(role, sincro_fmu::variables::Role::Output(0)).then_some(()))
         .next()
         .unwrap()
         .0;
@@ -393,11 +393,11 @@ fn model_exchange_gives_the_equations() {
     assert_eq!(rates[..n / 2], x[n / 2..]);
     // the matrix of a mechanism: a displaced velocity displaces the rate of its coordinate as much
     let state =
-        fmu.catalogue.pick(|role| if let sincro_fmu::variables::Role::State(k) = role { Some(*k) } else { None });
+        fmu.catalogue.with_role(|role| if let sincro_fmu::variables::Role::State(k) = role { Some(*k) } else { None });
     let velocity = state.filter(|(_, _, k)| *k == n / 2).map(|(vr, ..)| vr).next().unwrap();
     let rate = fmu
         .catalogue
-        .pick(|role| matches!(role, sincro_fmu::variables::Role::Derivative(0)).then_some(()))
+        .with_role(|role| matches!(role, sincro_fmu::variables::Role::Derivative(0)).then_some(()))
         .next()
         .unwrap()
         .0;

@@ -124,7 +124,7 @@ impl Catalogue {
     }
 
     /// Value references and variables with a role that `pick` knows.
-    pub fn pick<T>(&self, pick: impl Fn(&Role) -> Option<T>) -> impl Iterator<Item = (u32, &Variable, T)> {
+    pub fn with_role<T>(&self, pick: impl Fn(&Role) -> Option<T>) -> impl Iterator<Item = (u32, &Variable, T)> {
         let numbered = self.variables.iter().enumerate();
         numbered.filter_map(move |(k, variable)| Some((u32::try_from(k).ok()?, variable, pick(&variable.role)?)))
     }

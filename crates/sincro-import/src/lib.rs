@@ -58,7 +58,7 @@ use std::path::{Path, PathBuf};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 
 pub use report::Report;
-pub use source::{Entry, Fate};
+pub use source::{ElementStatus, Entry};
 
 use findings::Findings;
 use mesh::Content;

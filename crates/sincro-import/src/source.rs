@@ -30,7 +30,7 @@ impl SourceFile {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, Diagnostic> {
         let shown = path.display();
-        let refuse = |message: String| Diagnostic::nowhere(message);
+        let refuse = |message: String| Diagnostic::without_location(message);
         let metadata = std::fs::metadata(path).map_err(|e| refuse(format!("`{shown}` cannot be read: {e}")))?;
         if !metadata.is_file() {
             return Err(refuse(format!("`{shown}` is not a file")));
@@ -152,7 +152,7 @@ impl Lines {
 /// Fate of an element of the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Fate {
+pub enum ElementStatus {
     /// It is in the scene as it stands in the source.
     Kept,
     /// It is in the scene in another form; the words say which.
@@ -166,7 +166,7 @@ pub enum Fate {
 struct Mark {
     attributes: Vec<String>,
     text: bool,
-    fate: Option<Fate>,
+    status: Option<ElementStatus>,
     words: Vec<String>,
 }
 
@@ -179,10 +179,10 @@ impl Ledger {
         change(self.0.borrow_mut().entry(key).or_default());
     }
 
-    /// Adds to the fate of an element: a change or drop outweighs that it was kept.
-    pub fn judge_place(&self, key: (usize, u32), fate: Fate, words: &str) {
+    /// Adds to the status of an element: a change or drop outweighs that it was kept.
+    pub fn judge_place(&self, key: (usize, u32), status: ElementStatus, words: &str) {
         self.mark(key, |mark| {
-            mark.fate = Some(mark.fate.map_or(fate, |old| old.max(fate)));
+            mark.status = Some(mark.status.map_or(status, |old| old.max(status)));
             if !words.is_empty() && !mark.words.iter().any(|w| w == words) {
                 mark.words.push(words.to_owned());
             }
@@ -206,10 +206,10 @@ impl Ledger {
                 let key = (file, node.id().get());
                 let mark = marks.get(&key);
                 let entry = entry_of(node, mark, (&name, &lines), inside, reason);
-                if entry.fate == Fate::Dropped && dropped_above.is_empty() {
+                if entry.status == ElementStatus::Dropped && dropped_above.is_empty() {
                     dropped_above.push((node, entry.element.clone()));
                 }
-                let is_read = entry.fate != Fate::Dropped;
+                let is_read = entry.status != ElementStatus::Dropped;
                 entries.push(entry);
                 if is_read {
                     entries.extend(unread_attributes(node, mark, (&name, &lines), reason));
@@ -233,7 +233,7 @@ pub struct Entry {
     /// Path of the element, names in brackets; attributes begin with `@`.
     pub element: String,
     /// Fate.
-    pub fate: Fate,
+    pub status: ElementStatus,
     /// Form in the scene, or reason of the loss; empty for what is kept.
     pub words: String,
     /// True inside an element that is dropped as a whole.
@@ -248,18 +248,18 @@ fn entry_of(
     inside: Option<String>,
     reason: Reason,
 ) -> Entry {
-    let (fate, words) = match (mark, &inside) {
-        (_, Some(above)) => (Fate::Dropped, format!("with `{above}`")),
-        (None, None) => (Fate::Dropped, reason_of(node, None, reason)),
+    let (status, words) = match (mark, &inside) {
+        (_, Some(above)) => (ElementStatus::Dropped, format!("with `{above}`")),
+        (None, None) => (ElementStatus::Dropped, reason_of(node, None, reason)),
         (Some(mark), None) => {
             let text = node.children().any(|c| c.is_text() && c.text().is_some_and(|t| !t.trim().is_empty()));
-            let fate = mark.fate.unwrap_or(Fate::Kept);
+            let status = mark.status.unwrap_or(ElementStatus::Kept);
             let mut words = mark.words.clone();
-            if text && !mark.text && fate == Fate::Kept {
+            if text && !mark.text && status == ElementStatus::Kept {
                 words.push("its text is not read".into());
-                (Fate::Changed, words.join("; "))
+                (ElementStatus::Changed, words.join("; "))
             } else {
-                (fate, words.join("; "))
+                (status, words.join("; "))
             }
         }
     };
@@ -267,7 +267,7 @@ fn entry_of(
         file: file.to_owned(),
         line: lines.of(node.range().start),
         element: path_of(node),
-        fate,
+        status,
         words,
         inside: inside.is_some(),
     }
@@ -285,7 +285,7 @@ fn unread_attributes(
         file: file.to_owned(),
         line: lines.of(a.range().start),
         element: format!("{}/@{}", path_of(node), a.name()),
-        fate: Fate::Dropped,
+        status: ElementStatus::Dropped,
         words: reason_of(node, Some(a.name()), reason),
         inside: false,
     };
@@ -410,17 +410,17 @@ impl<'d> Element<'d> {
 
     /// Notes that it is read.
     pub fn keep(&self) {
-        self.ledger.judge_place(self.key(), Fate::Kept, "");
+        self.ledger.judge_place(self.key(), ElementStatus::Kept, "");
     }
 
     /// Notes that it is in the scene in another form.
     pub fn change(&self, words: &str) {
-        self.ledger.judge_place(self.key(), Fate::Changed, words);
+        self.ledger.judge_place(self.key(), ElementStatus::Changed, words);
     }
 
     /// Notes that it is not in the scene.
     pub fn drop(&self, words: &str) {
-        self.ledger.judge_place(self.key(), Fate::Dropped, words);
+        self.ledger.judge_place(self.key(), ElementStatus::Dropped, words);
     }
 
     /// Numbers of an attribute, separated by white space.

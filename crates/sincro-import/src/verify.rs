@@ -19,8 +19,10 @@ pub(crate) fn compare(
     link_paths: &[Option<String>],
     options: &Options,
 ) -> Result<(), Diagnostics> {
-    let folder = Temporary::new().map_err(|e| Diagnostic::nowhere(format!("no temporary folder: {e}")))?;
-    imported.write_scene(&folder.0).map_err(|e| Diagnostic::nowhere(format!("the scene cannot be written: {e}")))?;
+    let folder = Temporary::new().map_err(|e| Diagnostic::without_location(format!("no temporary folder: {e}")))?;
+    imported
+        .write_scene(&folder.0)
+        .map_err(|e| Diagnostic::without_location(format!("the scene cannot be written: {e}")))?;
     let opened = sincro_scene::open::open(&folder.0, &[], Loaders::default(), true).map_err(refused)?;
     let scene = &opened.scene;
     let report = &mut imported.report;
@@ -58,7 +60,7 @@ fn refused(found: Diagnostics) -> Diagnostics {
                     diagnostic.help.clone()
                 };
                 let message = format!("the scene of this robot is refused: {}", diagnostic.message);
-                Diagnostic { help, ..Diagnostic::nowhere(message) }
+                Diagnostic { help, ..Diagnostic::without_location(message) }
             })
             .collect(),
     )

@@ -2,7 +2,7 @@
 //! with what friction.
 
 use mlua::{Error, Function, Lua, Table, Value};
-use sincro_coppelia::session::{Answer, Handle};
+use sincro_coppelia::session::{ContactOverride, Handle};
 
 use crate::shared::{Shared, handle_of};
 
@@ -28,9 +28,9 @@ pub(crate) fn ask(
     }
     let passes = is_set(&given, "collisionResponse")? == Some(false);
     let (friction, restitution) = coefficients(&given)?;
-    let answer = Answer { passes, friction, restitution };
+    let answer = ContactOverride { passes, friction, restitution };
     let own = handle_of(&shared.scripts[index]);
-    shared.with_sim(own, |sim| sim.answer(bodies, answer)).map_err(|error| wrong(error.0))?;
+    shared.with_sim(own, |sim| sim.override_contact(bodies, answer)).map_err(|error| wrong(error.0))?;
     Ok(true)
 }
 

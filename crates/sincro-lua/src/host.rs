@@ -8,7 +8,7 @@ use sincro_coppelia::session::{ApiError, Handle, Value};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_scene::script::{Kind, Law, LawSpec, Script, ScriptError, ScriptParser};
+use sincro_scene::script::{Kind, Script, ScriptError, ScriptParser, ScriptedLaw, ScriptedLawSpec};
 use sincro_sim::Loaded;
 use sincro_sim::ScriptEngine;
 use sincro_sim::controller::Controller;
@@ -34,7 +34,7 @@ impl ScriptParser for Lua54 {
         compiled.map_err(|error| fault::of(script, &guard, &error))
     }
 
-    fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String> {
+    fn law(&self, spec: &ScriptedLawSpec) -> Result<Box<dyn ScriptedLaw>, String> {
         Ok(Box::new(LuaLaw::new(spec)?))
     }
 }
@@ -160,7 +160,7 @@ impl Scripts {
         let Some(first) = self.machines.iter().position(Machine::has_contact) else { return Ok(()) };
         let own = crate::shared::handle_of(&self.shared.scripts[first]);
         // a table is there while scripts are called
-        let near = self.shared.with_sim(own, |sim| Ok(sim.near_bodies())).unwrap_or_default();
+        let near = self.shared.with_sim(own, |sim| Ok(sim.candidate_pairs())).unwrap_or_default();
         for bodies in near {
             for machine in self.machines.iter_mut().filter(|m| m.has_contact()) {
                 if machine.call_contact(bodies)? {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use mlua::chunk::ChunkMode;
 use mlua::{Error, Function, Lua, MultiValue, Table, Value};
-use sincro_scene::script::{Law, LawSpec};
+use sincro_scene::script::{ScriptedLaw, ScriptedLawSpec};
 
 use crate::guard::Guard;
 use crate::sandbox::{self, CHUNK, Services};
@@ -21,7 +21,7 @@ const MAX_INSTRUCTIONS: u64 = 20_000_000;
 
 /// Law of a diagram block written in Lua.
 pub(crate) struct LuaLaw {
-    spec: LawSpec,
+    spec: ScriptedLawSpec,
     guard: Arc<Guard>,
     output: Function,
     update: Option<Function>,
@@ -40,13 +40,13 @@ impl fmt::Debug for LuaLaw {
 
 impl LuaLaw {
     /// Reads the text.
-    pub fn new(spec: &LawSpec) -> Result<Self, String> {
+    pub fn new(spec: &ScriptedLawSpec) -> Result<Self, String> {
         let guard = Guard::new(MAX_INSTRUCTIONS);
         guard.begin(false);
         Self::read(spec, guard).map_err(|error| told(&spec.code, &error))
     }
 
-    fn read(spec: &LawSpec, guard: Arc<Guard>) -> mlua::Result<Self> {
+    fn read(spec: &ScriptedLawSpec, guard: Arc<Guard>) -> mlua::Result<Self> {
         let lua = sandbox::new(&guard, MAX_MEMORY)?;
         let services =
             Services { time: Box::new(|| 0.0), signal: Box::new(|_, _| Ok(Value::Nil)), print: Box::new(drop) };
@@ -170,7 +170,7 @@ fn told(code: &str, error: &Error) -> String {
     }
 }
 
-impl Law for LuaLaw {
+impl ScriptedLaw for LuaLaw {
     fn output(&mut self, t: f64, inputs: &[Vec<f64>], memory: &[f64], y: &mut [f64]) -> Result<(), String> {
         self.evaluate(t, inputs, memory, y).map_err(|error| told(&self.spec.code, &error))
     }
@@ -179,7 +179,7 @@ impl Law for LuaLaw {
         self.advance(t, inputs, memory).map_err(|error| told(&self.spec.code, &error))
     }
 
-    fn boxed_clone(&self) -> Box<dyn Law> {
+    fn boxed_clone(&self) -> Box<dyn ScriptedLaw> {
         Box::new(Self::new(&self.spec).expect("the text was read before"))
     }
 }

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use sincro::{Campaign, Override, Verdict};
 use sincro_scene::experiment::ErrorBar;
 use sincro_sim::Loaded;
-use sincro_sim::campaign::{Done, run_campaign};
+use sincro_sim::campaign::{CompletedRun, run_campaign};
 use sincro_sim::results::Status;
 use sincro_sim::run::RunError;
 
@@ -79,7 +79,7 @@ pub struct Run {
 }
 
 impl Run {
-    fn done(&self, py: Python<'_>, variant: Option<&str>) -> PyResult<&Done> {
+    fn done(&self, py: Python<'_>, variant: Option<&str>) -> PyResult<&CompletedRun> {
         let Some(name) = variant else { return Ok(&self.campaign.main) };
         let found = self.campaign.variants.iter().find(|(v, _)| v.name == name).map(|(_, done)| done);
         let names: Vec<&str> = self.campaign.variants.iter().map(|(v, _)| v.name.as_str()).collect();

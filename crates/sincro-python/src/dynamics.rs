@@ -152,9 +152,9 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &WantedTrim) -> Result<(S
 
 /// Imports a robot file into a folder that is absent or empty; returns the report as JSON and the warnings.
 pub fn import(robot: &Path, folder: &Path, options: &ImportRequest) -> Result<(String, Vec<String>), Diagnostics> {
-    let refuse = |message: String| Diagnostics::from(Diagnostic::nowhere(message));
+    let refuse = |message: String| Diagnostics::from(Diagnostic::without_location(message));
     if std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
-        let found = Diagnostic::nowhere(format!("the folder `{}` is not empty", folder.display()));
+        let found = Diagnostic::without_location(format!("the folder `{}` is not empty", folder.display()));
         return Err(found.with_help("name a folder that is absent or empty").into());
     }
     let mut repairs = Vec::new();

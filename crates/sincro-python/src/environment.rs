@@ -110,7 +110,7 @@ impl Worlds {
                 }
             };
             let mut camera = Camera::of_scene(scene, index, PICTURE).ok_or_else(Vec::new)?;
-            Ok(camera.look(&q).rgb().to_vec())
+            Ok(camera.render(&q).rgb().to_vec())
         })?;
         let pixels: Vec<u8> = found.map_err(|cameras: Vec<String>| {
             let words = match cameras.is_empty() {

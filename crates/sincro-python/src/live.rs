@@ -158,10 +158,10 @@ impl Live {
         }
         self.remember();
         match self.lockstep.advance() {
-            Ok(()) => self.lockstep.add_to(&mut self.trace),
+            Ok(()) => self.lockstep.hash_into(&mut self.trace),
             Err(halt) => {
                 if halt.is_after_step() {
-                    self.lockstep.add_to(&mut self.trace);
+                    self.lockstep.hash_into(&mut self.trace);
                 }
                 return Err(self.end(halt));
             }
@@ -211,7 +211,7 @@ impl Live {
         let mut state = self.lockstep.state().clone();
         state.q = q.unwrap_or(state.q);
         state.v = v.unwrap_or(state.v);
-        self.lockstep.place(state, &[]);
+        self.lockstep.set_state(state, &[]);
     }
 
     /// The present moment, to go back to.

@@ -102,7 +102,7 @@ impl Diagnostic {
 
     /// An error that no text can be shown for.
     #[must_use]
-    pub fn nowhere(message: impl Into<String>) -> Self {
+    pub fn without_location(message: impl Into<String>) -> Self {
         Self { severity: Severity::Error, source: None, span: None, message: message.into(), help: None }
     }
 

@@ -16,7 +16,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
 /// A value of TOML that JSON cannot hold.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Odd {
+pub enum NonJson {
     /// `inf`, `-inf`, or a number too large.
     Infinite {
         /// Greater than zero.
@@ -47,7 +47,7 @@ pub struct Document {
     /// Its content; always a table.
     pub root: Value,
     places: BTreeMap<String, Place>,
-    odd: BTreeMap<String, Odd>,
+    odd: BTreeMap<String, NonJson>,
 }
 
 impl Document {
@@ -115,7 +115,7 @@ impl Document {
 
     /// Part of the value at a pointer that JSON cannot hold.
     #[must_use]
-    pub fn odd(&self, pointer: &str) -> Option<&Odd> {
+    pub fn non_json(&self, pointer: &str) -> Option<&NonJson> {
         self.odd.get(pointer)
     }
 
@@ -184,7 +184,7 @@ struct Reader<'a> {
     /// Start of the parsed text in the source.
     shift: usize,
     places: BTreeMap<String, Place>,
-    odd: BTreeMap<String, Odd>,
+    odd: BTreeMap<String, NonJson>,
 }
 
 impl Reader<'_> {
@@ -211,10 +211,10 @@ impl Reader<'_> {
             DeValue::Boolean(truth) => Value::Bool(*truth),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
                 Ok(number) => number.into(),
-                Err(_) => self.odd(pointer, Odd::TooLarge),
+                Err(_) => self.non_json(pointer, NonJson::TooLarge),
             },
             DeValue::Float(digits) => self.float(digits.as_str(), pointer),
-            DeValue::Datetime(_) => self.odd(pointer, Odd::Date),
+            DeValue::Datetime(_) => self.non_json(pointer, NonJson::Date),
             DeValue::Array(list) => {
                 let items = list.iter().enumerate();
                 items.map(|(k, item)| self.value(item, &format!("{pointer}/{k}"), None)).collect()
@@ -226,15 +226,15 @@ impl Reader<'_> {
     fn float(&mut self, digits: &str, pointer: &str) -> Value {
         let number: f64 = digits.parse().unwrap_or(f64::NAN);
         if number.is_nan() {
-            return self.odd(pointer, Odd::NotANumber);
+            return self.non_json(pointer, NonJson::NotANumber);
         }
         match serde_json::Number::from_f64(number) {
             Some(number) => Value::Number(number),
-            None => self.odd(pointer, Odd::Infinite { positive: number > 0.0 }),
+            None => self.non_json(pointer, NonJson::Infinite { positive: number > 0.0 }),
         }
     }
 
-    fn odd(&mut self, pointer: &str, odd: Odd) -> Value {
+    fn non_json(&mut self, pointer: &str, odd: NonJson) -> Value {
         self.odd.insert(pointer.to_owned(), odd);
         Value::Null
     }
@@ -264,12 +264,12 @@ mod tests {
         let doc =
             Document::parse(&source("a = [inf, -inf, nan, 1e999]\nd = 2020-01-01\ni = 99999999999999999999")).unwrap();
         assert_eq!(doc.get("/a/0"), Some(&Value::Null));
-        assert_eq!(doc.odd("/a/0"), Some(&Odd::Infinite { positive: true }));
-        assert_eq!(doc.odd("/a/1"), Some(&Odd::Infinite { positive: false }));
-        assert_eq!(doc.odd("/a/2"), Some(&Odd::NotANumber));
-        assert_eq!(doc.odd("/a/3"), Some(&Odd::Infinite { positive: true }));
-        assert_eq!(doc.odd("/d"), Some(&Odd::Date));
-        assert_eq!(doc.odd("/i"), Some(&Odd::TooLarge));
+        assert_eq!(doc.non_json("/a/0"), Some(&NonJson::Infinite { positive: true }));
+        assert_eq!(doc.non_json("/a/1"), Some(&NonJson::Infinite { positive: false }));
+        assert_eq!(doc.non_json("/a/2"), Some(&NonJson::NotANumber));
+        assert_eq!(doc.non_json("/a/3"), Some(&NonJson::Infinite { positive: true }));
+        assert_eq!(doc.non_json("/d"), Some(&NonJson::Date));
+        assert_eq!(doc.non_json("/i"), Some(&NonJson::TooLarge));
     }
 
     #[test]

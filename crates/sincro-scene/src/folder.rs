@@ -60,7 +60,7 @@ impl Folder {
 
     /// Text of a file of the folder that is named nowhere in a file.
     pub fn read(&self, name: &str) -> Result<Arc<SourceText>, Diagnostic> {
-        self.text(name).map_err(Diagnostic::nowhere)
+        self.text(name).map_err(Diagnostic::without_location)
     }
 
     /// Text of a file that is named in a file, there where it is named.

@@ -113,7 +113,7 @@ fn find_folder(path: &Path) -> Result<PathBuf, Diagnostics> {
     let shown = path.display();
     let help = "name a folder with an `experiment.toml`";
     let Ok(metadata) = std::fs::metadata(path) else {
-        return Err(Diagnostic::nowhere(format!("there is no folder `{shown}`")).with_help(help).into());
+        return Err(Diagnostic::without_location(format!("there is no folder `{shown}`")).with_help(help).into());
     };
     if metadata.is_dir() {
         if path.join(EXPERIMENT).exists() {
@@ -121,13 +121,17 @@ fn find_folder(path: &Path) -> Result<PathBuf, Diagnostics> {
         }
         let found = experiments_below(path);
         let help = if found.is_empty() { help.to_owned() } else { format!("there is one in {}", found.join(", ")) };
-        return Err(Diagnostic::nowhere(format!("the folder `{shown}` has no `{EXPERIMENT}`")).with_help(help).into());
+        return Err(Diagnostic::without_location(format!("the folder `{shown}` has no `{EXPERIMENT}`"))
+            .with_help(help)
+            .into());
     }
     if path.file_name().is_some_and(|name| name == EXPERIMENT) {
         let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
         return Ok(parent.unwrap_or(Path::new(".")).to_owned());
     }
-    Err(Diagnostic::nowhere(format!("`{shown}` is not a folder and not an `{EXPERIMENT}`")).with_help(help).into())
+    Err(Diagnostic::without_location(format!("`{shown}` is not a folder and not an `{EXPERIMENT}`"))
+        .with_help(help)
+        .into())
 }
 
 /// Up to five folders in a folder that are experiments.

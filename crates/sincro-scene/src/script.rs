@@ -101,7 +101,7 @@ impl ScriptError {
         let message = format!("script of `{}`: {}", self.object, self.message);
         let diagnostic = match &self.at {
             Some(at) => Diagnostic::error(at, message),
-            None => Diagnostic::nowhere(message),
+            None => Diagnostic::without_location(message),
         };
         match &self.help {
             Some(help) => diagnostic.with_help(help.clone()),
@@ -123,7 +123,7 @@ impl fmt::Display for ScriptError {
 
 /// A law in a script's language, for a block of a diagram.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LawSpec {
+pub struct ScriptedLawSpec {
     /// Its text.
     pub code: String,
     /// Names of its inputs.
@@ -137,7 +137,7 @@ pub struct LawSpec {
 }
 
 /// A law in memory. It keeps nothing between calls but what it is given.
-pub trait Law: Send + Sync + fmt::Debug {
+pub trait ScriptedLaw: Send + Sync + fmt::Debug {
     /// Outputs, one after the other, at time `t` `[s]`.
     ///
     /// # Errors
@@ -153,10 +153,10 @@ pub trait Law: Send + Sync + fmt::Debug {
     fn update(&mut self, t: f64, inputs: &[Vec<f64>], memory: &mut [f64]) -> Result<(), String>;
 
     /// Another one of the same.
-    fn boxed_clone(&self) -> Box<dyn Law>;
+    fn boxed_clone(&self) -> Box<dyn ScriptedLaw>;
 }
 
-impl Clone for Box<dyn Law> {
+impl Clone for Box<dyn ScriptedLaw> {
     fn clone(&self) -> Self {
         self.boxed_clone()
     }
@@ -176,5 +176,5 @@ pub trait ScriptParser: Send + Sync + fmt::Debug {
     /// # Errors
     ///
     /// What is wrong with its text.
-    fn law(&self, spec: &LawSpec) -> Result<Box<dyn Law>, String>;
+    fn law(&self, spec: &ScriptedLawSpec) -> Result<Box<dyn ScriptedLaw>, String>;
 }

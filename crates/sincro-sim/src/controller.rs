@@ -1,7 +1,7 @@
 //! Controllers in lock-step: everything that acts on the world at its own sample time, while the world waits for it.
 //!
 //! [`crate::run::LockStep::advance`] calls them, the diagram first, then those that were attached, in their order.
-//! Which of them gives a command is decided in [`Commands::set`]. A Rust closure is one by [`Law`].
+//! Which of them gives a command is decided in [`Commands::set`]. A Rust closure is one by [`ClosureController`].
 
 use std::any::Any;
 use std::fmt;
@@ -266,19 +266,19 @@ pub trait Controller: Any + Send + fmt::Debug {
 }
 
 /// A control law as a closure: it sees the world at each tick and holds commands.
-pub struct Law<F> {
+pub struct ClosureController<F> {
     name: String,
     law: F,
     held: Vec<Option<f64>>,
 }
 
-impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> Law<F> {
+impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> ClosureController<F> {
     /// A law that is called at every base step with the commands that it holds; none gives a command back.
     ///
     /// ```
-    /// use sincro_sim::controller::{Instant, Law};
+    /// use sincro_sim::controller::{Instant, ClosureController};
     ///
-    /// let pd = Law::new("pd", |at: Instant<'_>, held: &mut [Option<f64>]| {
+    /// let pd = ClosureController::new("pd", |at: Instant<'_>, held: &mut [Option<f64>]| {
     ///     let (q, v) = (at.world.state.q[0], at.world.state.v[0]);
     ///     held[0] = Some(-20.0 * q - 4.0 * v);
     /// });
@@ -288,13 +288,13 @@ impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> Law<F> {
     }
 }
 
-impl<F> fmt::Debug for Law<F> {
+impl<F> fmt::Debug for ClosureController<F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Law").field("name", &self.name).field("held", &self.held).finish_non_exhaustive()
+        f.debug_struct("ClosureController").field("name", &self.name).field("held", &self.held).finish_non_exhaustive()
     }
 }
 
-impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> Controller for Law<F> {
+impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> Controller for ClosureController<F> {
     fn name(&self) -> &str {
         &self.name
     }

@@ -120,7 +120,7 @@ impl<R: Number> DiagramController<R> {
 /// Access for linearisation: everything continuous is evaluated, whether or not the integrator needs it.
 impl<R: Number> DiagramController<R> {
     /// The same diagram in the same state on other numbers, without derivatives.
-    pub fn like(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
+    pub fn cast_from(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
         let mut new = Self::new(&other.wiring, model);
         let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
         let state = &other.runner.state;
@@ -132,7 +132,7 @@ impl<R: Number> DiagramController<R> {
     }
 
     /// As [`CoupledSystem::find_commands`]; `perturbed` is a signal and its change.
-    pub fn drive_whole(
+    pub fn find_all_commands(
         &mut self,
         seen: &mut StateView<'_, R>,
         z: &[R],
@@ -146,7 +146,7 @@ impl<R: Number> DiagramController<R> {
     }
 
     /// As [`CoupledSystem::slope`].
-    pub fn slope_whole(
+    pub fn all_derivatives(
         &mut self,
         seen: &mut StateView<'_, R>,
         response: MechanismResponse<'_, R>,

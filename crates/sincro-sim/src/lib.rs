@@ -90,4 +90,4 @@ pub mod task;
 pub mod trace;
 pub mod validity;
 
-pub use load::{ControllerFactory, Extensions, Loaded, ScriptEngine, load, load_alone};
+pub use load::{ControllerFactory, Extensions, Loaded, ScriptEngine, load, load_without_variants};

@@ -90,7 +90,11 @@ pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Re
 /// # Errors
 ///
 /// As [`load`].
-pub fn load_alone(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
+pub fn load_without_variants(
+    folder: &Path,
+    overrides: &[Override],
+    extensions: Extensions,
+) -> Result<Loaded, Diagnostics> {
     with(folder, overrides, extensions, false)
 }
 
@@ -114,7 +118,7 @@ impl Loaded {
     /// # Errors
     ///
     /// As [`load`].
-    pub fn alone_with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
+    pub fn with_overrides_without_variants(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
         let opened = open_in(&self.folder, overrides, self.extensions.loaders(), false)?;
         Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, self.extensions) })
     }

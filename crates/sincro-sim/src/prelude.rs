@@ -5,8 +5,8 @@ pub use sincro_scene::overrides::Override;
 
 pub use crate::campaign::{Campaign, run_campaign};
 pub use crate::check::Verdict;
-pub use crate::controller::{Commands, Controller, Instant, Law};
-pub use crate::load::{Extensions, Loaded, ScriptEngine, load, load_alone};
+pub use crate::controller::{ClosureController, Commands, Controller, Instant};
+pub use crate::load::{Extensions, Loaded, ScriptEngine, load, load_without_variants};
 pub use crate::results::{RunReport, Status};
 pub use crate::run::{Halt, LockStep, RunError, RunMonitor, RunOptions, Simulated, method_for, simulate};
 pub use crate::snapshot::Snapshot;

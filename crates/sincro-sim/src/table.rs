@@ -70,7 +70,7 @@ impl Table {
 
     /// This table with the columns of other runs beside its own, as `name:column`, where they have all its times.
     #[must_use]
-    pub fn beside(&self, others: &[(&str, &Self)]) -> Self {
+    pub fn with_columns_of(&self, others: &[(&str, &Self)]) -> Self {
         let mut joined = self.clone();
         for (name, other) in others {
             let Some(rows) = self.rows_in(other) else { continue };

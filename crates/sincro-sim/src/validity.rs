@@ -7,7 +7,7 @@ use sincro_dynamics::world::World;
 
 /// One rotor outside its theory for one reason.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outside {
+pub struct ValidityViolation {
     /// Its path.
     pub rotor: String,
     /// Reason.
@@ -59,13 +59,13 @@ impl Register {
     }
 
     /// Returns the violations, rotor by rotor.
-    pub fn close(&self, model: &Model<f64>, step: f64) -> Vec<Outside> {
+    pub fn close(&self, model: &Model<f64>, step: f64) -> Vec<ValidityViolation> {
         let mut found = Vec::new();
         for (rotor, counts) in model.names().rotors.iter().zip(&self.counts) {
             for (&reason, &(steps, first, last)) in Validity::REASONS.iter().zip(counts) {
                 if steps > 0 {
                     let duration = steps as f64 * step;
-                    found.push(Outside { rotor: rotor.clone(), reason, steps, duration, first, last });
+                    found.push(ValidityViolation { rotor: rotor.clone(), reason, steps, duration, first, last });
                 }
             }
         }
@@ -74,7 +74,7 @@ impl Register {
 }
 
 /// One sentence for each reason and time, with all rotors that it is about.
-pub(crate) fn words(found: &[Outside], n_steps: u64) -> Vec<String> {
+pub(crate) fn words(found: &[ValidityViolation], n_steps: u64) -> Vec<String> {
     let mut sentences = Vec::new();
     let mut said = vec![false; found.len()];
     for k in 0..found.len() {
@@ -82,8 +82,9 @@ pub(crate) fn words(found: &[Outside], n_steps: u64) -> Vec<String> {
             continue;
         }
         let one = &found[k];
-        let is_same =
-            |o: &Outside| (o.reason, o.steps, o.first, o.last) == (one.reason, one.steps, one.first, one.last);
+        let is_same = |o: &ValidityViolation| {
+            (o.reason, o.steps, o.first, o.last) == (one.reason, one.steps, one.first, one.last)
+        };
         let names: Vec<String> = (k..found.len())
             .filter(|&i| is_same(&found[i]))
             .map(|i| {
@@ -116,7 +117,7 @@ mod tests {
 
     #[test]
     fn rotors_that_left_together_are_told_together() {
-        let outside = |rotor: &str, reason, steps| Outside {
+        let outside = |rotor: &str, reason, steps| ValidityViolation {
             rotor: rotor.into(),
             reason,
             steps,

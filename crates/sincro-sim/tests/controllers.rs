@@ -1,7 +1,7 @@
 //! Controllers in lock-step: a closure as one, whose commands win, and what a fork cannot copy.
 
 use sincro_dynamics::world::MethodKind;
-use sincro_sim::controller::{Controller, Instant, Law, Source};
+use sincro_sim::controller::{ClosureController, Controller, Instant, Source};
 use sincro_sim::run::LockStep;
 use sincro_testing::scenes;
 
@@ -12,7 +12,7 @@ fn lockstep() -> LockStep {
 
 /// A law that holds the only command at `rate`.
 fn constant(name: &str, rate: f64) -> Box<dyn Controller> {
-    Box::new(Law::new(name, move |_: Instant<'_>, held: &mut [Option<f64>]| held[0] = Some(rate)))
+    Box::new(ClosureController::new(name, move |_: Instant<'_>, held: &mut [Option<f64>]| held[0] = Some(rate)))
 }
 
 #[test]
@@ -32,7 +32,9 @@ fn last_attached_controller_gives_the_command() {
 #[test]
 fn closure_that_repeats_the_scene_gives_the_same_bits() {
     let (mut of_scene, mut of_law) = (lockstep(), lockstep());
-    of_law.attach(Box::new(Law::new("ramp", |at: Instant<'_>, held: &mut [Option<f64>]| held[0] = Some(at.t))));
+    of_law.attach(Box::new(ClosureController::new("ramp", |at: Instant<'_>, held: &mut [Option<f64>]| {
+        held[0] = Some(at.t)
+    })));
     for run in [&mut of_scene, &mut of_law] {
         run.start().unwrap();
         (0..20).for_each(|_| run.advance().unwrap());

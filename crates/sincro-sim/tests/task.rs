@@ -43,7 +43,9 @@ fn episodes_depend_on_their_seeds_alone() {
 fn a_continuous_diagram_leaves_commands_of_controllers_alone() {
     let loaded = load(&scene("cart-pole-lqr"), &[], Extensions::default()).unwrap();
     let mut lockstep = LockStep::new(&loaded, method_for(&loaded).0, false);
-    lockstep.attach(Box::new(Law::new("push", |_: Instant<'_>, held: &mut [Option<f64>]| held[0] = Some(2.0))));
+    lockstep.attach(Box::new(ClosureController::new("push", |_: Instant<'_>, held: &mut [Option<f64>]| {
+        held[0] = Some(2.0)
+    })));
     lockstep.start().unwrap();
     lockstep.advance().unwrap();
     assert_eq!(lockstep.state().commands[0], 2.0);

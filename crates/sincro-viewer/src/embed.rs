@@ -28,7 +28,7 @@ fn section(film_json: &str, before: &str, style: &str, script: &str) -> String {
     format!(
         "<div id=\"sincro-viewer\" class=\"sv-embedded\">{before}<noscript>The replay needs JavaScript; everything else on this page \
          does not.</noscript></div>\n{style}\n<script type=\"application/json\" id=\"sincro-film\">{}</script>\n{script}\n",
-        inert(film_json)
+        escape_for_html(film_json)
     )
 }
 
@@ -44,7 +44,7 @@ pub fn assets() -> [(&'static str, &'static str); 2] {
 
 /// JSON that no HTML parser finds a tag in.
 #[must_use]
-pub fn inert(json: &str) -> String {
+pub fn escape_for_html(json: &str) -> String {
     json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
@@ -57,7 +57,7 @@ mod tests {
         let evil = "{\"title\":\"</script><script>alert(1)</script><!--\"}";
         let page = replay(evil);
         assert!(!page.contains("alert(1)</script>") && !page.contains("<!--"), "a tag came through");
-        let back: serde_json::Value = serde_json::from_str(&inert(evil)).unwrap();
+        let back: serde_json::Value = serde_json::from_str(&escape_for_html(evil)).unwrap();
         assert_eq!(back["title"], "</script><script>alert(1)</script><!--");
     }
 }

@@ -7,7 +7,7 @@
 
 use serde::Serialize;
 use sincro_sim::Loaded;
-use sincro_sim::campaign::{Campaign, Done};
+use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::check::Outcome;
 use sincro_sim::replay::{CONTACT, Property, SceneView, Trajectory, properties};
 use sincro_sim::results::Status;
@@ -104,7 +104,8 @@ impl Replay {
     #[must_use]
     pub fn of_campaign(loaded: &Loaded, campaign: &Campaign, diagram: Option<String>) -> Self {
         let variants = campaign.variants.iter().map(|(v, done)| (v.name.as_str(), v.description.as_str(), done));
-        let all: Vec<(&str, &str, &Done)> = std::iter::once(("main", "", &campaign.main)).chain(variants).collect();
+        let all: Vec<(&str, &str, &CompletedRun)> =
+            std::iter::once(("main", "", &campaign.main)).chain(variants).collect();
         let share = 1.0 / all.len() as f64;
         let mut views = Vec::new();
         let runs = all.iter().map(|(name, about, done)| replay_run(name, about, done, share, &mut views)).collect();
@@ -136,7 +137,7 @@ pub(crate) fn plots(loaded: &Loaded) -> Vec<(String, Vec<String>)> {
     loaded.experiment.plots.iter().map(|p| (p.title.clone(), names(p))).collect()
 }
 
-fn replay_run(name: &str, about: &str, done: &Done, share: f64, views: &mut Vec<SceneView>) -> ReplayRun {
+fn replay_run(name: &str, about: &str, done: &CompletedRun, share: f64, views: &mut Vec<SceneView>) -> ReplayRun {
     let view = match views.iter().position(|known| *known == done.view) {
         Some(k) => k,
         None => {

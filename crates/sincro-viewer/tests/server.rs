@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use sincro_sim::Extensions;
 use sincro_sim::load;
 use sincro_testing::SceneFolder;
-use sincro_viewer::live::{Board, Command, Engine, Source};
-use sincro_viewer::server::{Server, Show};
+use sincro_viewer::live::{Command, Engine, LiveState, Source};
+use sincro_viewer::server::{Server, ViewerContent};
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Message, WebSocket};
 
@@ -19,7 +19,7 @@ fn scene(name: &str) -> PathBuf {
     sincro_testing::repository_scene(name)
 }
 
-fn engine(name: &str) -> (Arc<Board>, SyncSender<Command>) {
+fn engine(name: &str) -> (Arc<LiveState>, SyncSender<Command>) {
     let source = Source {
         folder: scene(name),
         settings: Vec::new(),
@@ -27,7 +27,7 @@ fn engine(name: &str) -> (Arc<Board>, SyncSender<Command>) {
         draw: Box::new(|_| String::new()),
     };
     let engine = Engine::open(source).unwrap();
-    (engine.board(), engine.start())
+    (engine.live_state(), engine.start())
 }
 
 /// A server that ends with the test's process: where it listens, and the query with its token.
@@ -39,7 +39,7 @@ struct Served {
 }
 
 /// A server on loopback.
-fn serve(show: Show) -> Served {
+fn serve(show: ViewerContent) -> Served {
     let server = Server::bind(SocketAddr::from(([127, 0, 0, 1], 0)), show).unwrap();
     let (url, single_use_url) = (server.url(), server.single_use_url());
     std::thread::spawn(move || server.run());
@@ -89,14 +89,14 @@ fn next(line: &mut Line, kind: &str) -> serde_json::Value {
 }
 
 /// Waits until the present run has come to its end; its hash.
-fn finish(board: &Board, run: usize) -> String {
+fn finish(live_state: &LiveState, run: usize) -> String {
     let begin = Instant::now();
     loop {
-        let standing = board.read().standing.clone();
-        if standing.run == run && standing.done && !standing.playing {
-            return standing.trace;
+        let engine = live_state.read().engine.clone();
+        if engine.run == run && engine.done && !engine.playing {
+            return engine.trace;
         }
-        assert!(begin.elapsed() < Duration::from_secs(60), "{standing:?}");
+        assert!(begin.elapsed() < Duration::from_secs(60), "{engine:?}");
         std::thread::sleep(Duration::from_millis(5));
     }
 }
@@ -112,7 +112,7 @@ fn hash_of(name: &str) -> String {
 
 #[test]
 fn only_this_page_is_let_in() {
-    let served = serve(Show::Replay("{\"format\":\"sincro-film-2\"}".into()));
+    let served = serve(ViewerContent::Replay("{\"format\":\"sincro-film-2\"}".into()));
     let Served { address, token, .. } = &served;
     assert!(get(&served, "/", "").0.contains("200"));
     assert!(get(&served, "/film.json", "").1.contains("sincro-film-2"));
@@ -130,7 +130,7 @@ fn only_this_page_is_let_in() {
 
 #[test]
 fn another_user_of_the_machine_lacks_the_token() {
-    let served = serve(Show::Replay("{\"format\":\"sincro-film-2\"}".into()));
+    let served = serve(ViewerContent::Replay("{\"format\":\"sincro-film-2\"}".into()));
     for token in ["", "token=", "token=00000000000000000000000000000000", "ticket=", "ticket=0"] {
         let guessed = Served { token: token.to_owned(), ..served.clone() };
         for path in ["/", "/film.json", "/live"] {
@@ -155,7 +155,7 @@ fn another_user_of_the_machine_lacks_the_token() {
 
 #[test]
 fn heads_that_do_not_come_and_silent_connections_keep_nobody_out() {
-    let served = serve(Show::Replay("{}".into()));
+    let served = serve(ViewerContent::Replay("{}".into()));
     let silent: Vec<TcpStream> = (0..200).filter_map(|_| TcpStream::connect(served.address).ok()).collect();
     assert!(silent.len() > 100);
     assert!(get(&served, "/", "").0.contains("200"));
@@ -172,7 +172,7 @@ fn heads_that_do_not_come_and_silent_connections_keep_nobody_out() {
 
 #[test]
 fn who_lacks_the_token_locks_nobody_out() {
-    let served = serve(Show::Replay("{}".into()));
+    let served = serve(ViewerContent::Replay("{}".into()));
     let style = format!("GET /viewer.css HTTP/1.1\r\nHost: {}\r\n\r\n", served.address);
     // as many connections as one address may have, each of them kept alive by what needs no token
     let mut strangers: Vec<TcpStream> = (0..64).map(|_| TcpStream::connect(served.address).unwrap()).collect();
@@ -187,7 +187,7 @@ fn who_lacks_the_token_locks_nobody_out() {
 
 #[test]
 fn a_reader_that_takes_nothing_is_closed() {
-    let served = serve(Show::Replay("{}".into()));
+    let served = serve(ViewerContent::Replay("{}".into()));
     let mut slow = TcpStream::connect(served.address).unwrap();
     slow.set_write_timeout(Some(Duration::from_secs(1))).unwrap();
     let script = format!("GET /viewer.js HTTP/1.1\r\nHost: {}\r\n\r\n", served.address);
@@ -216,7 +216,7 @@ fn a_reader_that_takes_nothing_is_closed() {
 
 #[test]
 fn what_could_be_read_in_two_ways_is_refused() {
-    let served = serve(Show::Replay("{}".into()));
+    let served = serve(ViewerContent::Replay("{}".into()));
     let Served { address, token, .. } = &served;
     for head in [
         format!("GET /?{token} HTTP/1.1\r\nHost: {address}\r\nHost: evil.example\r\n"),
@@ -237,7 +237,7 @@ fn what_could_be_read_in_two_ways_is_refused() {
 
 #[test]
 fn no_path_leads_to_a_file() {
-    let served = serve(Show::Replay("{}".into()));
+    let served = serve(ViewerContent::Replay("{}".into()));
     for path in [
         "/Cargo.toml",
         "/../Cargo.toml",
@@ -255,8 +255,8 @@ fn no_path_leads_to_a_file() {
 
 #[test]
 fn a_live_line_is_refused_to_other_sites() {
-    let (board, commands) = engine("free-body");
-    let Served { address, token, .. } = serve(Show::Live(board, commands));
+    let (live_state, commands) = engine("free-body");
+    let Served { address, token, .. } = serve(ViewerContent::Live(live_state, commands));
     let upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
     let attempts = [
         (format!("/live?{token}"), "Origin: http://evil.example\r\n"),
@@ -275,8 +275,8 @@ fn a_live_line_is_refused_to_other_sites() {
 
 #[test]
 fn malformed_messages_are_refused_and_the_run_goes_on() {
-    let (board, commands) = engine("motor-step");
-    let served = serve(Show::Live(board.clone(), commands.clone()));
+    let (live_state, commands) = engine("motor-step");
+    let served = serve(ViewerContent::Live(live_state.clone(), commands.clone()));
     let mut line = connect(&served);
     for text in
         ["", "play", "{\"do\":\"fly\"}", "{\"do\":\"play\",\"now\":1}", "{\"do\":\"speed\",\"speed\":-1}", "[1e999]"]
@@ -293,7 +293,7 @@ fn malformed_messages_are_refused_and_the_run_goes_on() {
     assert!(next(&mut line, "refused")["message"].as_str().unwrap().contains("/nobody"));
     send(&commands, r#"{"do":"speed","speed":null}"#);
     send(&commands, r#"{"do":"play"}"#);
-    assert_eq!(finish(&board, 0), hash_of("motor-step"));
+    assert_eq!(finish(&live_state, 0), hash_of("motor-step"));
 }
 
 #[test]
@@ -301,19 +301,19 @@ fn viewers_neither_change_nor_slow_a_run() {
     let name = "two-dof-position";
     let expected = hash_of(name);
     for n_viewers in [0, 1, 5] {
-        let (board, commands) = engine(name);
-        let served = serve(Show::Live(board.clone(), commands.clone()));
+        let (live_state, commands) = engine(name);
+        let served = serve(ViewerContent::Live(live_state.clone(), commands.clone()));
         // one of them reads, the others stop after the handshake
         let mut lines: Vec<Line> = (0..n_viewers).map(|_| connect(&served)).collect();
         let begin = Instant::now();
         send(&commands, r#"{"do":"speed","speed":null}"#);
         send(&commands, r#"{"do":"play"}"#);
-        assert_eq!(finish(&board, 0), expected, "{n_viewers} viewers");
+        assert_eq!(finish(&live_state, 0), expected, "{n_viewers} viewers");
         // far more than the lines of those who do not read can hold
         for k in 1..=8 * n_viewers {
             send(&commands, r#"{"do":"restart"}"#);
             send(&commands, r#"{"do":"play"}"#);
-            assert_eq!(finish(&board, k), expected, "{n_viewers} viewers, run {k}");
+            assert_eq!(finish(&live_state, k), expected, "{n_viewers} viewers, run {k}");
         }
         assert!(begin.elapsed() < Duration::from_secs(60), "{n_viewers} viewers");
         if let Some(line) = lines.first_mut() {
@@ -331,26 +331,26 @@ fn viewers_neither_change_nor_slow_a_run() {
 #[test]
 fn a_branch_without_a_change_is_the_same_run() {
     for name in ["two-dof-position", "quadrotor-open-loop", "flexible-position"] {
-        let (board, commands) = engine(name);
+        let (live_state, commands) = engine(name);
         send(&commands, r#"{"do":"speed","speed":null}"#);
         send(&commands, r#"{"do":"play"}"#);
-        let whole = finish(&board, 0);
+        let whole = finish(&live_state, 0);
         send(&commands, r#"{"do":"branch","run":0,"t":0.7,"set":[],"joints":[],"play":true}"#);
-        assert_eq!(finish(&board, 1), whole, "{name}");
-        assert!(board.read().runs[1].times[0] > 0.5, "{name}: it starts where the other one was");
+        assert_eq!(finish(&live_state, 1), whole, "{name}");
+        assert!(live_state.read().runs[1].times[0] > 0.5, "{name}: it starts where the other one was");
     }
 }
 
 #[test]
 fn a_changed_number_makes_another_run_and_the_first_one_stays() {
-    let (board, commands) = engine("quadrotor-open-loop");
+    let (live_state, commands) = engine("quadrotor-open-loop");
     send(&commands, r#"{"do":"speed","speed":null}"#);
     send(&commands, r#"{"do":"play"}"#);
-    let first = finish(&board, 0);
+    let first = finish(&live_state, 0);
     let heavier = r#"{"do":"branch","run":0,"t":2.0,"set":[["/air/quadrotor.mass","12"]],"joints":[],"play":true}"#;
     send(&commands, heavier);
-    assert_ne!(finish(&board, 1), first);
-    let content = board.read();
+    assert_ne!(finish(&live_state, 1), first);
+    let content = live_state.read();
     let end = |run: usize| content.runs[run].times.len();
     assert!(end(0) > end(1) && content.runs[1].times[0] >= 1.9);
 }
@@ -370,8 +370,8 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
         draw: Box::new(|_| String::new()),
     })
     .unwrap();
-    let (board, commands) = (engine.board(), engine.start());
-    let mut changes = board.watch();
+    let (live_state, commands) = (engine.live_state(), engine.start());
+    let mut changes = live_state.watch();
     changes.mark_unchanged();
     for set in [
         r#"[["/air/quadrotor.mass","12"]]"#,
@@ -381,8 +381,8 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
         send(&commands, &format!(r#"{{"do":"save","set":{set}}}"#));
     }
     let begin = Instant::now();
-    while board.read().last_words() < 3 {
-        assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", board.read().words);
+    while live_state.read().last_words() < 3 {
+        assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", live_state.read().words);
         std::thread::sleep(Duration::from_millis(5));
     }
     let text = std::fs::read_to_string(top.join("quadrotor-edited/scene.toml")).unwrap();
@@ -390,12 +390,12 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
     let second = std::fs::read_to_string(top.join("quadrotor-edited-2/experiment.toml")).unwrap();
     assert!(second.contains("duration = 2 ") && second.contains("# Ts [s] [T]"), "{second}");
     assert!(!top.join("quadrotor-edited-3").exists(), "what is no number is refused");
-    assert!(board.read().words[2].1.contains("refused"));
+    assert!(live_state.read().words[2].1.contains("refused"));
 }
 
 /// A signal of a run at its frames.
-fn signal(board: &Board, run: usize, name: &str) -> Vec<f64> {
-    let content = board.read();
+fn signal(live_state: &LiveState, run: usize, name: &str) -> Vec<f64> {
+    let content = live_state.read();
     let log = &content.runs[run];
     let header: serde_json::Value = serde_json::from_str(&log.header).unwrap();
     let columns = header["columns"].as_array().unwrap();
@@ -405,23 +405,23 @@ fn signal(board: &Board, run: usize, name: &str) -> Vec<f64> {
 
 #[test]
 fn a_hand_pulls_a_body_while_it_holds_it() {
-    let (board, commands) = engine("quadrotor-open-loop");
+    let (live_state, commands) = engine("quadrotor-open-loop");
     send(&commands, r#"{"do":"push","object":1,"point":[0,0,0],"force":[30,0,0]}"#);
     send(&commands, r#"{"do":"step"}"#);
     send(&commands, r#"{"do":"release"}"#);
     send(&commands, r#"{"do":"step"}"#);
     send(&commands, r#"{"do":"step"}"#);
     let begin = Instant::now();
-    while board.read().runs[0].times.len() < 4 {
+    while live_state.read().runs[0].times.len() < 4 {
         assert!(begin.elapsed() < Duration::from_secs(20));
         std::thread::sleep(Duration::from_millis(2));
     }
     // F·h/m after one step, and no more afterwards
-    let v = signal(&board, 0, "/air.velocity.x");
+    let v = signal(&live_state, 0, "/air.velocity.x");
     assert!((v[1] - 30.0 * 0.05 / 10.305).abs() < 1e-9, "{v:?}");
     assert!((v[3] - v[1]).abs() < 1e-9, "{v:?}");
     send(&commands, r#"{"do":"push","object":99,"point":[0,0,0],"force":[1,0,0]}"#);
-    while board.read().last_words() == 0 {
+    while live_state.read().last_words() == 0 {
         assert!(begin.elapsed() < Duration::from_secs(20));
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -429,15 +429,15 @@ fn a_hand_pulls_a_body_while_it_holds_it() {
 
 #[test]
 fn a_joint_is_placed_where_the_reader_puts_it() {
-    let (board, commands) = engine("two-dof-open-loop");
+    let (live_state, commands) = engine("two-dof-open-loop");
     send(&commands, r#"{"do":"branch","run":0,"t":0,"set":[],"joints":[[0,0.5]],"play":false}"#);
     let begin = Instant::now();
-    while board.read().runs.len() < 2 || board.read().runs[1].times.is_empty() {
+    while live_state.read().runs.len() < 2 || live_state.read().runs[1].times.is_empty() {
         assert!(begin.elapsed() < Duration::from_secs(20));
         std::thread::sleep(Duration::from_millis(2));
     }
-    assert_eq!(signal(&board, 1, "/shoulder.position")[0], 0.5);
-    assert_eq!(signal(&board, 1, "/shoulder.velocity")[0], 0.0);
+    assert_eq!(signal(&live_state, 1, "/shoulder.position")[0], 0.5);
+    assert_eq!(signal(&live_state, 1, "/shoulder.velocity")[0], 0.0);
 }
 
 /// The numbers of the first message of frames that has some of them.
@@ -451,8 +451,8 @@ fn next_frames(line: &mut Line) -> Vec<u8> {
 
 #[test]
 fn points_of_contact_travel_with_their_frames() {
-    let (board, commands) = engine("gripper");
-    let served = serve(Show::Live(board, commands.clone()));
+    let (live_state, commands) = engine("gripper");
+    let served = serve(ViewerContent::Live(live_state, commands.clone()));
     let mut line = connect(&served);
     let run = next(&mut line, "run");
     let surfaces = run["view"]["surfaces"].as_array().unwrap().clone();

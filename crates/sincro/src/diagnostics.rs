@@ -50,7 +50,7 @@ pub(crate) fn refuse_import(diagnostics: &Diagnostics) -> Exit {
 
 /// Prints one message without a place in a file.
 pub(crate) fn refuse(message: &str, help: Option<&str>) -> Exit {
-    let diagnostic = Diagnostic::nowhere(message);
+    let diagnostic = Diagnostic::without_location(message);
     print_diagnostics(&[match help {
         Some(help) => diagnostic.with_help(help),
         None => diagnostic,

@@ -7,7 +7,7 @@ use sincro_figures::plot::{Size, svg};
 use sincro_figures::report::{self, Card, Page};
 use sincro_scene::camera::png;
 use sincro_scene::scene::Camera;
-use sincro_sim::campaign::{Campaign, Done};
+use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::file::{FileError, prepare};
 use sincro_sim::replay::Trajectory;
 use sincro_sim::{Loaded, file};
@@ -112,7 +112,7 @@ fn half_way(campaign: &Campaign) -> String {
 /// # Errors
 ///
 /// A file cannot be written.
-pub fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
+pub fn write_frames(done: &CompletedRun, out: &Path) -> Result<(), FileError> {
     let Some(trajectory) = &done.simulated.trajectory else { return Ok(()) };
     let folder = out.join("frames");
     prepare(&folder)?;
@@ -128,15 +128,15 @@ pub fn write_frames(done: &Done, out: &Path) -> Result<(), FileError> {
 /// # Errors
 ///
 /// A file cannot be written.
-pub fn write_camera_frames(loaded: &Loaded, done: &Done, camera: usize, out: &Path) -> Result<(), FileError> {
+pub fn write_camera_frames(loaded: &Loaded, done: &CompletedRun, camera: usize, out: &Path) -> Result<(), FileError> {
     let Some(trajectory) = &done.simulated.trajectory else { return Ok(()) };
     let resolution = [FRAME.0 as usize, FRAME.1 as usize];
     let Some(mut camera) = Camera::of_scene(&loaded.scene, camera, resolution) else { return Ok(()) };
     let folder = out.join("frames");
     prepare(&folder)?;
-    for (n, k) in trajectory.spread(FRAMES.0, FRAMES.1).into_iter().enumerate() {
+    for (n, k) in trajectory.evenly_spaced(FRAMES.0, FRAMES.1).into_iter().enumerate() {
         let q: Vec<f64> = trajectory.layout.coordinates(trajectory.frame(k)).iter().copied().map(f64::from).collect();
-        let image = camera.look(&q);
+        let image = camera.render(&q);
         let bytes = png::encode(image.rgb(), image.resolution(), png::Channels::Rgb);
         file::write_atomically(&folder.join(format!("{:04}.png", n + 1)), &bytes)?;
     }
@@ -148,7 +148,7 @@ pub fn write_camera_frames(loaded: &Loaded, done: &Done, camera: usize, out: &Pa
 /// # Errors
 ///
 /// The file cannot be written.
-pub fn write_mcap(done: &Done, path: &Path) -> Result<(), FileError> {
+pub fn write_mcap(done: &CompletedRun, path: &Path) -> Result<(), FileError> {
     sincro_viewer::mcap::write(done, path)
 }
 

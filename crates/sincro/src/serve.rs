@@ -1,7 +1,7 @@
 //! A scene for clients of V-REP and CoppeliaSim.
 //!
 //! [`open`] makes a session, [`Server::start`] serves it until the server is dropped, and its
-//! [`events`](Server::events) give the runs that clients made, which a [`Recorder`] writes as any other run.
+//! [`events`](Server::events) give the runs that clients made, which a [`RunArchive`] writes as any other run.
 
 use std::collections::VecDeque;
 use std::io::ErrorKind;
@@ -33,7 +33,7 @@ pub fn open(scene: &Path, overrides: &[Override], sample_time: Option<f64>) -> R
 
 /// Extent of what is kept of a run that clients made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Record {
+pub enum ArchiveLevel {
     /// Nothing.
     None,
     /// `signals.csv` and `run.json`.
@@ -46,9 +46,9 @@ pub enum Record {
 /// Folders `run-1`, `run-2` … of the runs that clients made, the newest ones kept. Folders that were there before are
 /// neither written into nor deleted: numbers go on behind them.
 #[derive(Debug)]
-pub struct Recorder {
+pub struct RunArchive {
     out: PathBuf,
-    record: Record,
+    record: ArchiveLevel,
     keep: usize,
     n_runs: usize,
     /// Number of the next folder that may be free.
@@ -57,19 +57,19 @@ pub struct Recorder {
     kept: VecDeque<PathBuf>,
 }
 
-/// Outcome of [`Recorder::store`].
+/// Outcome of [`RunArchive::store`].
 #[derive(Debug)]
-pub struct Stored {
+pub struct ArchivedRun {
     /// Number of the run among those of this recorder, from 1.
     pub number: usize,
     /// File to look at first; none if nothing is kept.
     pub path: Option<PathBuf>,
 }
 
-impl Recorder {
-    /// Recorder into folders below `out`; of the runs that it stores the newest `keep` stay.
+impl RunArchive {
+    /// RunArchive into folders below `out`; of the runs that it stores the newest `keep` stay.
     #[must_use]
-    pub fn new(out: PathBuf, record: Record, keep: NonZeroUsize) -> Self {
+    pub fn new(out: PathBuf, record: ArchiveLevel, keep: NonZeroUsize) -> Self {
         Self { out, record, keep: keep.get(), n_runs: 0, next: 1, kept: VecDeque::new() }
     }
 
@@ -78,13 +78,13 @@ impl Recorder {
     /// # Errors
     ///
     /// A file cannot be written, or the oldest folder not be deleted.
-    pub fn store(&mut self, finished: &Finished) -> Result<Stored, FileError> {
+    pub fn store(&mut self, finished: &Finished) -> Result<ArchivedRun, FileError> {
         self.n_runs += 1;
         let number = self.n_runs;
         let file = match self.record {
-            Record::None => return Ok(Stored { number, path: None }),
-            Record::Signals => "signals.csv",
-            Record::Full => "report.html",
+            ArchiveLevel::None => return Ok(ArchivedRun { number, path: None }),
+            ArchiveLevel::Signals => "signals.csv",
+            ArchiveLevel::Full => "report.html",
         };
         let out = self.next_folder()?;
         write_run(finished, &out, self.record)?;
@@ -95,7 +95,7 @@ impl Recorder {
                 delete(&oldest)?;
             }
         }
-        Ok(Stored { number, path })
+        Ok(ArchivedRun { number, path })
     }
 
     /// Makes the next folder of which nothing is there, not even a link.
@@ -132,12 +132,12 @@ fn delete(folder: &Path) -> Result<(), FileError> {
     }
 }
 
-fn write_run(finished: &Finished, out: &Path, record: Record) -> Result<(), FileError> {
+fn write_run(finished: &Finished, out: &Path, record: ArchiveLevel) -> Result<(), FileError> {
     prepare(out)?;
     let loaded = &finished.loaded;
     let scene = loaded.experiment.scene_path.parent().unwrap_or(Path::new("."));
     finished.simulated.table.write_csv(&out.join("signals.csv"))?;
     let campaign = judge(scene, loaded, finished.simulated.clone());
     campaign.report.write(out)?;
-    if record == Record::Full { results::write_one_of_many(loaded, &campaign, out) } else { Ok(()) }
+    if record == ArchiveLevel::Full { results::write_one_of_many(loaded, &campaign, out) } else { Ok(()) }
 }

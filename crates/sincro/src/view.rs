@@ -9,7 +9,7 @@ use sincro_scene::overrides::Override;
 use sincro_viewer::live::{Engine, Source};
 use sincro_viewer::replay::FORMAT;
 
-pub use sincro_viewer::server::{Server, Show};
+pub use sincro_viewer::server::{Server, ViewerContent};
 
 use crate::load::{extensions, scene_name};
 
@@ -41,7 +41,7 @@ pub fn is_finished_run(folder: &Path) -> bool {
 /// # Errors
 ///
 /// The folder has no `replay.json`, or one of another version.
-pub fn replay(run: &Path) -> Result<Show, ReplayError> {
+pub fn replay(run: &Path) -> Result<ViewerContent, ReplayError> {
     let file = run.join("replay.json");
     let text = std::fs::read_to_string(&file).map_err(|e| ReplayError {
         message: format!("`{}` cannot be read: {e}", file.display()),
@@ -51,7 +51,7 @@ pub fn replay(run: &Path) -> Result<Show, ReplayError> {
         let message = format!("`{}` is no replay that this version of sincro shows", file.display());
         return Err(ReplayError { message, help: "run the scene again with this version" });
     }
-    Ok(Show::Replay(text.into()))
+    Ok(ViewerContent::Replay(text.into()))
 }
 
 /// Starts a live run of a scene, stopped at its start, to be given to [`Server::bind`]. It lives as long as the result.
@@ -59,13 +59,13 @@ pub fn replay(run: &Path) -> Result<Show, ReplayError> {
 /// # Errors
 ///
 /// All problems of the scene and the overrides.
-pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Diagnostics> {
+pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<ViewerContent, Diagnostics> {
     let world = scene_name(scene);
     let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
     let engine =
         Engine::open(Source { folder: scene.to_owned(), settings: overrides, extensions: extensions(), draw })?;
-    let board = engine.board();
-    Ok(Show::Live(board, engine.start()))
+    let live_state = engine.live_state();
+    Ok(ViewerContent::Live(live_state, engine.start()))
 }
 
 /// Path of a camera of what is shown, named by its path or by the last part of that.
@@ -73,7 +73,7 @@ pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<Show, Diagnostics>
 /// # Errors
 ///
 /// The paths of all cameras, if none has that name.
-pub fn camera(show: &Show, name: &str) -> Result<String, Vec<String>> {
+pub fn camera(show: &ViewerContent, name: &str) -> Result<String, Vec<String>> {
     let cameras = show.cameras();
     let found = cameras.iter().find(|path| *path == name || path.rsplit('/').next() == Some(name));
     found.cloned().ok_or(cameras)

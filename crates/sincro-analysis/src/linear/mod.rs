@@ -21,8 +21,8 @@ pub use error::LinearError;
 pub use lqr::{Regulator, dlqr, lqr};
 pub use modes::{Mode, Stability};
 pub use nalgebra::{Complex, DMatrix, DVector};
-pub use step::{StepFacts, StepResponse};
-pub use structure::Reach;
+pub use step::{StepInfo, StepResponse};
+pub use structure::SubspaceRank;
 
 /// Name and unit of a state, an input or an output.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

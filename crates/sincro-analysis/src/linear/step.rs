@@ -26,12 +26,12 @@ pub struct StepResponse {
     /// Final value; `None` if it does not settle.
     pub final_value: Option<f64>,
     /// Characteristics of the response; `None` if it does not settle, or settles at zero.
-    pub facts: Option<StepFacts>,
+    pub info: Option<StepInfo>,
 }
 
 /// Characteristics of a step response that settles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepFacts {
+pub struct StepInfo {
     /// From 10 % to 90 % of the final value `[s]`.
     pub rise_time: f64,
     /// After this it stays within 2 % of the final value `[s]`.
@@ -89,14 +89,14 @@ impl StateSpace {
             }
         };
         let mut x = DVector::zeros(n);
-        let mut response = StepResponse { times: Vec::new(), values: Vec::new(), final_value: None, facts: None };
+        let mut response = StepResponse { times: Vec::new(), values: Vec::new(), final_value: None, info: None };
         for k in 0..n_points {
             response.times.push(step * k as f64);
             response.values.push(self.c.row(output).transpose().dot(&x) + self.d[(output, input)]);
             x = &phi * x + &gamma;
         }
         response.final_value = if self.minimal(input, output).is_stable() { self.gain(input, output) } else { None };
-        response.facts = response.final_value.and_then(|end| facts(&response, end));
+        response.info = response.final_value.and_then(|end| info(&response, end));
         response
     }
 }
@@ -118,7 +118,7 @@ fn rounded_up(duration: f64) -> f64 {
     nice.into_iter().map(decimal).find(|&candidate| candidate >= duration * (1.0 - 1e-12)).unwrap_or(duration)
 }
 
-fn facts(response: &StepResponse, end: f64) -> Option<StepFacts> {
+fn info(response: &StepResponse, end: f64) -> Option<StepInfo> {
     (end != 0.0).then_some(())?;
     let share: Vec<f64> = response.values.iter().map(|value| value / end).collect();
     let at = |k: usize| response.times[k];
@@ -146,7 +146,7 @@ fn facts(response: &StepResponse, end: f64) -> Option<StepFacts> {
             peak = k;
         }
     }
-    Some(StepFacts {
+    Some(StepInfo {
         rise_time: reaches(0.9)? - reaches(0.1)?,
         settling_time,
         overshoot: (share[peak] - 1.0).max(0.0),

@@ -11,7 +11,7 @@ const NOTHING: f64 = 1e-11;
 
 /// Dimension of the controllable or observable subspace.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reach {
+pub struct SubspaceRank {
     /// Dimension of the subspace.
     pub rank: usize,
     /// Number of states; the system is controllable (or observable) if `rank` is the same.
@@ -20,7 +20,7 @@ pub struct Reach {
     pub outside: Vec<usize>,
 }
 
-impl Reach {
+impl SubspaceRank {
     /// Returns true if it is the whole space.
     #[must_use]
     pub fn is_full(&self) -> bool {
@@ -31,13 +31,13 @@ impl Reach {
 impl StateSpace {
     /// Controllable subspace.
     #[must_use]
-    pub fn controllability(&self) -> Reach {
+    pub fn controllability(&self) -> SubspaceRank {
         reach(&self.a, &self.b)
     }
 
     /// Observable subspace.
     #[must_use]
-    pub fn observability(&self) -> Reach {
+    pub fn observability(&self) -> SubspaceRank {
         reach(&self.a.transpose(), &self.c.transpose())
     }
 
@@ -73,12 +73,12 @@ fn within(
     (q.transpose() * a * &q, q.transpose() * b, c * q)
 }
 
-fn reach(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Reach {
+fn reach(a: &DMatrix<f64>, b: &DMatrix<f64>) -> SubspaceRank {
     let n_states = a.nrows();
     let basis = span(a, b);
     let share = |state: usize| basis.iter().map(|q| q[state] * q[state]).sum::<f64>();
     let outside = (0..n_states).filter(|&state| share(state) <= NOTHING).collect();
-    Reach { rank: basis.len(), n_states, outside }
+    SubspaceRank { rank: basis.len(), n_states, outside }
 }
 
 /// An orthonormal basis of what B reaches through A.

@@ -230,21 +230,21 @@ fn step_response_is_the_closed_form_at_every_point() {
         let expected = 1.0 - exp(-z * w * t).0 * (cosine + z * w / damped * sine);
         assert!((y - expected).abs() < 1e-12, "{t}: {y} {expected}");
     }
-    let facts = response.facts.unwrap();
+    let info = response.info.unwrap();
     // exp(−π ζ / √(1 − ζ²)), between two points of the grid
     let overshoot = exp(-std::f64::consts::PI * z * w / damped).0;
-    assert!(facts.overshoot <= overshoot && facts.overshoot > overshoot - 1e-4);
-    assert!((facts.peak_time - std::f64::consts::PI / damped).abs() < 0.02);
+    assert!(info.overshoot <= overshoot && info.overshoot > overshoot - 1e-4);
+    assert!((info.peak_time - std::f64::consts::PI / damped).abs() < 0.02);
 }
 
 #[test]
 fn a_lag_rises_and_settles_as_its_time_constant_says() {
     let response = transfer(&[3.0], &[1.0], 0.0).step_response(0, 0, None);
-    let facts = response.facts.unwrap();
+    let info = response.info.unwrap();
     // ln 9 and ln 50
-    assert!((facts.rise_time - 2.197_224_577_336_219).abs() < 1e-4);
-    assert!((facts.settling_time - 3.912_023_005_428_146).abs() < 1e-4);
-    assert_eq!((facts.overshoot, response.final_value), (0.0, Some(3.0)));
+    assert!((info.rise_time - 2.197_224_577_336_219).abs() < 1e-4);
+    assert!((info.settling_time - 3.912_023_005_428_146).abs() < 1e-4);
+    assert_eq!((info.overshoot, response.final_value), (0.0, Some(3.0)));
 }
 
 #[test]

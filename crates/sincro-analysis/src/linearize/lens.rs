@@ -95,7 +95,7 @@ impl<R: Number> Lens<R> {
         let cast = Model::<R>::pack(&[at.world().model()]).expect("one model has one structure");
         let mut mechanism = Mechanism::new(cast, true);
         mechanism.take_constraint_modes(at.world().mechanism());
-        let control = at.control().filter(|_| names.is_closed).map(|c| DiagramController::<R>::like(c, &model));
+        let control = at.control().filter(|_| names.is_closed).map(|c| DiagramController::<R>::cast_from(c, &model));
         let z: Vec<f64> = if names.is_closed {
             at.control().map_or(Vec::new(), |c| c.runner.state.continuous.clone())
         } else {
@@ -377,7 +377,7 @@ impl<R: Number> CoupledSystem<R> for LoopSystem<R> {
 
     fn find_commands(&mut self, seen: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {
         if let Some(control) = &mut self.control {
-            control.drive_whole(seen, z, commands, self.perturbed);
+            control.find_all_commands(seen, z, commands, self.perturbed);
             // sampled commands are part of the operating point, with whatever was added to them
             for command in &control.wiring().program().commands {
                 if !command.is_continuous {
@@ -389,7 +389,7 @@ impl<R: Number> CoupledSystem<R> for LoopSystem<R> {
 
     fn slope(&mut self, seen: &mut StateView<'_, R>, response: MechanismResponse<'_, R>, _: &[R], slope: &mut [R]) {
         if let Some(control) = &mut self.control {
-            control.slope_whole(seen, response, slope, self.perturbed);
+            control.all_derivatives(seen, response, slope, self.perturbed);
         }
         kinematics::motions(seen.model, seen.q, seen.v, response.accelerations, seen.scratch);
         let view = probe::View::of(seen);

@@ -141,7 +141,7 @@ fn refuse_improper(tangent: &Tangent, names: &Names) -> Result<(), Diagnostics> 
                 );
                 let help =
                     "name positions and velocities as outputs, or other inputs: a step of that velocity is an impulse";
-                diagnostics.push(Diagnostic::nowhere(message).with_help(help));
+                diagnostics.push(Diagnostic::without_location(message).with_help(help));
             }
         }
     }
@@ -172,7 +172,7 @@ fn refuse_open_tangent(model: &Model<f64>, q: &[f64], tangent: &Tangent) -> Resu
         if near > 2.0 * before + 2e-9 && far < 8.0 * near {
             let message = "the equations of the loops that the run uses are dependent at this position";
             let help = "linearise nearer to where the scene starts, or start it nearer to this position (`initial`)";
-            return Err(Diagnostic::nowhere(message).with_help(help).into());
+            return Err(Diagnostic::without_location(message).with_help(help).into());
         }
     }
     Ok(())
@@ -235,7 +235,7 @@ pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> 
 /// Rates with state `k` changed by `by` about where a run is: for whoever wants to check derivatives by differences.
 /// The diagram is not in the loop.
 #[must_use]
-pub fn rates_near(loaded: &Loaded, at: &LockStep, k: usize, by: f64) -> Vec<f64> {
+pub fn perturbed_rates(loaded: &Loaded, at: &LockStep, k: usize, by: f64) -> Vec<f64> {
     let names = Names::default();
     let mut lens = Lens::<f64>::new(loaded, &mut point::settle(loaded, at, &names), &names);
     let mut change = vec![0.0; lens.n_full()];

@@ -76,7 +76,8 @@ pub(super) fn resolve(loaded: &Loaded, at: &LockStep, request: &Request) -> Resu
         || names.inputs.iter().any(|i| matches!(i.what, InputKind::Signal(_)))
     {
         let message = "signals of the diagram are in the closed loop only";
-        diagnostics.push(Diagnostic::nowhere(message).with_help("add --closed-loop, or name signals of the world"));
+        diagnostics
+            .push(Diagnostic::without_location(message).with_help("add --closed-loop, or name signals of the world"));
     }
     let in_diagram = at.control().map_or(0, |c| c.wiring().program().n_states);
     if !names.is_closed && loaded.scene.model.n_v() == 0 && in_diagram > 0 {

@@ -25,7 +25,7 @@ pub struct Request {
 pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Diagnostic> {
     let n = (t / loaded.experiment.step).round();
     if !(0.0..1e12).contains(&n) {
-        let diagnostic = Diagnostic::nowhere(format!("there is no operating point at {t} s"));
+        let diagnostic = Diagnostic::without_location(format!("there is no operating point at {t} s"));
         return Err(diagnostic.with_help("give a time from 0 on"));
     }
     let (method, _) = method_for(loaded);
@@ -38,7 +38,7 @@ pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Diagnostic> 
         go = run.advance();
     }
     if go.is_err() {
-        let diagnostic = Diagnostic::nowhere(format!("the run stops before {t} s, at {} s", run.t()));
+        let diagnostic = Diagnostic::without_location(format!("the run stops before {t} s, at {} s", run.t()));
         return Err(diagnostic.with_help("`sincro run` says why"));
     }
     run.latch();
@@ -69,7 +69,7 @@ pub(super) fn settle(loaded: &Loaded, at: &LockStep, names: &Names) -> LockStep 
     }
     if change.iter().any(|x| *x != 0.0) {
         let (state, _) = lens.displaced(&change);
-        settled.place(state, &[]);
+        settled.set_state(state, &[]);
         initialize(&mut settled);
     }
     settled

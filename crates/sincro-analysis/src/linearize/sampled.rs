@@ -101,7 +101,7 @@ fn period(loaded: &Loaded, at: &LockStep) -> Result<u64, Diagnostic> {
     });
     period.ok_or_else(|| {
         let message = format!("the sample times have no common multiple of {MAX_PERIOD} base steps or less");
-        Diagnostic::nowhere(message).with_help("choose sample times that are multiples of one another")
+        Diagnostic::without_location(message).with_help("choose sample times that are multiples of one another")
     })
 }
 
@@ -196,7 +196,9 @@ impl<'a> PeriodMap<'a> {
         if let (Some(control), Some(diagram)) = (self.run.control(), &mut snapshot.diagram) {
             let (mut control, tick, t) = (control.clone(), self.run.tick(), self.run.t());
             let measured = control.evaluate(self.run.world(), tick, t);
-            measured.map_err(|_| Diagnostic::nowhere("a block of the diagram gives what is not a finite number"))?;
+            measured.map_err(|_| {
+                Diagnostic::without_location("a block of the diagram gives what is not a finite number")
+            })?;
             *diagram = control.runner.state.clone();
             self.run.restore(&snapshot);
         }
@@ -257,5 +259,5 @@ fn turn_between(a: &[f64], b: &[f64]) -> [f64; 3] {
 
 fn stopped(halt: &Halt) -> Diagnostic {
     let after = if halt.is_after_step() { "after a step" } else { "within a step" };
-    Diagnostic::nowhere(format!("the run stops {after} of a period")).with_help("`sincro run` says why")
+    Diagnostic::without_location(format!("the run stops {after} of a period")).with_help("`sincro run` says why")
 }

@@ -119,11 +119,11 @@ fn close(loaded: &Loaded, at: &mut LockStep) -> Result<(), Diagnostics> {
     let Some(q) = initial::assemble(model, at.state()) else {
         let (name, gap) = openings(loaded, at.state());
         let message = format!("loop `{name}` is open by {gap:.3e} and does not close near where the search starts");
-        return Err(Diagnostic::nowhere(message).with_help("start where it is closed").into());
+        return Err(Diagnostic::without_location(message).with_help("start where it is closed").into());
     };
     let mut state = at.state().clone();
     state.q = q;
-    at.place(state, &[]);
+    at.set_state(state, &[]);
     Ok(())
 }
 
@@ -150,12 +150,15 @@ fn check(loaded: &Loaded, at: &LockStep) -> Result<(), Diagnostics> {
     let model = &loaded.scene.model;
     let (name, gap) = openings(loaded, at.state());
     if gap > 1e-9 {
-        return Err(Diagnostic::nowhere(format!("no equilibrium found: loop `{name}` stays open by {gap:.3e}")).into());
+        return Err(Diagnostic::without_location(format!(
+            "no equilibrium found: loop `{name}` stays open by {gap:.3e}"
+        ))
+        .into());
     }
     match initial::limit_violations(model, at.state()).first() {
         Some(v) => {
             let message = format!("no equilibrium found: `{}` would be at {}, beyond {}", v.joint, v.position, v.limit);
-            Err(Diagnostic::nowhere(message).into())
+            Err(Diagnostic::without_location(message).into())
         }
         None => Ok(()),
     }
@@ -242,7 +245,7 @@ impl Search<'_> {
                 return Err(self.failure(&now, "every step makes it greater, or leads beyond a limit"));
             };
             let (state, z) = values.displaced(&change);
-            at.place(state, &z);
+            at.set_state(state, &z);
             self.iterations += 1;
         }
     }
@@ -352,7 +355,7 @@ impl Search<'_> {
         let message = format!("no equilibrium found: {size:.3e} is left over in {}; {why}", now.labels[worst]);
         let help = "commands are held as they are at that time: set them free (--free NAME) or give others (--set); or start nearer \
                     (`initial` of the joints), or ask for less (--want)";
-        Diagnostic::nowhere(message).with_help(help).into()
+        Diagnostic::without_location(message).with_help(help).into()
     }
 }
 

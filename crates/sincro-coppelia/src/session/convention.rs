@@ -58,14 +58,14 @@ pub fn pose_of_matrix(m: &[f64; 12]) -> Pose<f64> {
 
 /// Seven numbers: position, then x, y, z, w.
 #[must_use]
-pub fn seven_of(pose: &Pose<f64>) -> [f64; 7] {
+pub fn numbers_of_pose(pose: &Pose<f64>) -> [f64; 7] {
     let (p, q) = (&pose.pos, quaternion_of(&pose.rot));
     [p[0], p[1], p[2], q[0], q[1], q[2], q[3]]
 }
 
 /// The pose of seven numbers; none if the quaternion has no direction.
 #[must_use]
-pub fn pose_of_seven([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
+pub fn pose_of_numbers([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
     let rot = rotation_of_quaternion([qx, qy, qz, qw])?;
     Some(Pose { rot, pos: Vec3([x, y, z]) })
 }
@@ -105,7 +105,7 @@ mod tests {
             assert!(close(&rotation_of_quaternion(quaternion_of(&rot)).unwrap(), &rot));
             let pose = Pose { rot, pos: Vec3([1.0, 2.0, 3.0]) };
             assert_eq!(pose_of_matrix(&matrix_of(&pose)), pose);
-            assert!(close(&pose_of_seven(seven_of(&pose)).unwrap().rot, &rot));
+            assert!(close(&pose_of_numbers(numbers_of_pose(&pose)).unwrap().rot, &rot));
         }
     }
 

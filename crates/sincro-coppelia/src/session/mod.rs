@@ -58,7 +58,7 @@ pub use files::Files;
 pub use find::Search;
 pub use graphs::{Graphs, Stream};
 pub use motions::{Motion, MotionStep};
-pub use pairs::Answer;
+pub use pairs::ContactOverride;
 pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry, Request};
 pub use signals::Signals;
 pub use sim_api::{Reference, SimApi};
@@ -171,7 +171,8 @@ impl Session {
         let (method, warnings) = method_for(&loaded);
         let mut registry = ObjectRegistry::new(&loaded, loaded.experiment.simulation_ticks);
         if let Some(dt) = sample_time {
-            let refused = |ApiError(message)| Diagnostics::from(sincro_scene::diagnostic::Diagnostic::nowhere(message));
+            let refused =
+                |ApiError(message)| Diagnostics::from(sincro_scene::diagnostic::Diagnostic::without_location(message));
             registry.set_sample_time(dt).map_err(refused)?;
         }
         let lockstep = fresh(&loaded, method, registry);
@@ -345,7 +346,7 @@ impl Session {
         match self.phase() {
             Phase::Running => return Ok(()),
             Phase::Paused => {
-                self.tell_scripts(host::Phase::Resume)?;
+                self.notify_scripts(host::Phase::Resume)?;
                 self.registry().phase = Phase::Running;
                 return Ok(());
             }
@@ -398,7 +399,7 @@ impl Session {
         let initial = &self.loaded.scene.initial;
         if q != initial.q || v != initial.v {
             // nothing of what was settled for other numbers is kept
-            self.lockstep.place(State { q, v, ..initial.clone() }, &[]);
+            self.lockstep.set_state(State { q, v, ..initial.clone() }, &[]);
         }
         self.restore();
     }
@@ -410,7 +411,7 @@ impl Session {
     /// A script fails in `sysCall_suspend`: the run has ended.
     pub fn pause(&mut self) -> Result<(), ApiError> {
         if self.phase() == Phase::Running {
-            self.tell_scripts(host::Phase::Suspend)?;
+            self.notify_scripts(host::Phase::Suspend)?;
             self.registry().phase = Phase::Paused;
         }
         Ok(())
@@ -426,13 +427,13 @@ impl Session {
         if self.phase() != Phase::Paused {
             return Ok(());
         }
-        self.tell_scripts(host::Phase::Suspended)?;
+        self.notify_scripts(host::Phase::Suspended)?;
         self.do_requests()
     }
 
     /// Tells the scripts of the run of a pause.
-    fn tell_scripts(&mut self, phase: host::Phase) -> Result<(), ApiError> {
-        ApiController::tell_scripts(&mut self.lockstep, phase).map_err(|halt| {
+    fn notify_scripts(&mut self, phase: host::Phase) -> Result<(), ApiError> {
+        ApiController::notify_scripts(&mut self.lockstep, phase).map_err(|halt| {
             let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
             self.fail(status)
         })
@@ -576,7 +577,7 @@ impl Session {
         registry.end_run(run.before);
         registry.phase = Phase::Stopped;
         self.lockstep = fresh(&self.loaded, self.method, registry);
-        self.lockstep.place(run.start, &[]);
+        self.lockstep.set_state(run.start, &[]);
         self.restore();
         self.steps = 0;
     }

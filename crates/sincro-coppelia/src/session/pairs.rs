@@ -17,7 +17,7 @@ pub(super) struct Pair {
 
 /// Answer of a script about a pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Answer {
+pub struct ContactOverride {
     /// They pass through each other.
     pub passes: bool,
     /// Coefficient of friction of the pair, if it is not the scene's.
@@ -44,7 +44,7 @@ pub(super) fn pairs_of(loaded: &Loaded, registry: &ObjectRegistry) -> Vec<Pair> 
 impl SimApi<'_> {
     /// Pairs of bodies that may come to touch within the coming step, each once, in the order of the scene. From now on
     /// each does what the scene says.
-    pub fn near_bodies(&mut self) -> Vec<[Handle; 2]> {
+    pub fn candidate_pairs(&mut self) -> Vec<[Handle; 2]> {
         self.restore_pairs();
         let mut near = Vec::new();
         let step = self.registry.sample_time();
@@ -60,12 +60,12 @@ impl SimApi<'_> {
         bodies
     }
 
-    /// Sets the contact law of two bodies until the next [`SimApi::near_bodies`].
+    /// Sets the contact law of two bodies until the next [`SimApi::candidate_pairs`].
     ///
     /// # Errors
     ///
     /// A coefficient is none.
-    pub fn answer(&mut self, bodies: [Handle; 2], answer: Answer) -> Result<(), ApiError> {
+    pub fn override_contact(&mut self, bodies: [Handle; 2], answer: ContactOverride) -> Result<(), ApiError> {
         if let Some(x) = answer.friction.filter(|x| !(x.is_finite() && *x >= 0.0)) {
             return Err(ApiError(format!("friction {x} of a contact, expected 0 or more")));
         }

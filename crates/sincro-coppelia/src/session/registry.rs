@@ -479,7 +479,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// They would.
-    pub fn make_room(&self, n: usize) -> Result<(), ApiError> {
+    pub fn check_stored_size(&self, n: usize) -> Result<(), ApiError> {
         let stored = self.strings.total() + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
         if stored + n > MAX_BYTES {
             let mib = MAX_BYTES >> 20;

@@ -123,7 +123,7 @@ impl Vision {
     }
 
     /// Refuses pixels that would be too many together with those of all sensors but `except`.
-    fn make_room(&self, optics: &Optics, except: Option<usize>) -> Result<(), ApiError> {
+    fn check_stored_size(&self, optics: &Optics, except: Option<usize>) -> Result<(), ApiError> {
         let area = |optics: &Optics| optics.resolution[0] * optics.resolution[1];
         let others = self.slots.iter().enumerate().filter(|(k, slot)| !slot.is_removed && Some(*k) != except);
         let taken: usize = others.map(|(_, slot)| area(&slot.sensor.optics)).sum();
@@ -178,7 +178,7 @@ impl ObjectRegistry {
         let mut sensor = self.vision.slots[k].sensor.clone();
         change(&mut sensor);
         checked(&sensor.optics)?;
-        self.vision.make_room(&sensor.optics, Some(k))?;
+        self.vision.check_stored_size(&sensor.optics, Some(k))?;
         let slot = &mut self.vision.slots[k];
         if slot.sensor.optics != sensor.optics {
             (slot.shows, slot.image) = (ImageState::Nothing, None);
@@ -194,7 +194,7 @@ impl ObjectRegistry {
     /// There are too many objects or pixels, or its pictures could not be drawn.
     pub fn create_vision_sensor(&mut self, sensor: VisionSensor) -> Result<Handle, ApiError> {
         checked(&sensor.optics)?;
-        self.vision.make_room(&sensor.optics, None)?;
+        self.vision.check_stored_size(&sensor.optics, None)?;
         let handle = self.create_dummy("VisionSensor")?;
         self.entry_mut(handle).kind = Kind::Vision(self.vision.add(sensor, true));
         Ok(handle)
@@ -356,7 +356,7 @@ impl SimApi<'_> {
         self.world.state.q = q;
         let image = std::mem::replace(&mut self.registry.vision.slots[k].image, kept);
         let image = image.ok_or_else(|| ApiError::new("nothing was drawn"))?;
-        let is_seen = image.pieces().iter().any(|piece| *piece != sincro_scene::camera::NOTHING);
+        let is_seen = image.pieces().iter().any(|piece| *piece != sincro_scene::camera::NO_PIECE);
         Ok((is_seen, image))
     }
 

@@ -272,13 +272,13 @@ impl World {
         control: Control,
         tracks_totals: bool,
     ) -> Self {
-        Self::with_attachment(model, state, kind, control, tracks_totals, 0)
+        Self::with_coupled_states(model, state, kind, control, tracks_totals, 0)
     }
 
     /// As [`World::with_totals`], for a [`CoupledSystem`] with `n_states` states, to be given to
     /// [`World::advance_with`].
     #[must_use]
-    pub fn with_attachment(
+    pub fn with_coupled_states(
         model: Model<f64>,
         state: State<f64>,
         kind: MethodKind,
@@ -449,7 +449,7 @@ impl World {
     }
 
     /// As [`World::advance`], together with a coupled system; the world was made for as many states
-    /// ([`World::with_attachment`]).
+    /// ([`World::with_coupled_states`]).
     ///
     /// # Errors
     ///

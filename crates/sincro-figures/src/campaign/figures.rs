@@ -5,7 +5,7 @@
 
 use sincro_scene::experiment::{Plot, Variant, path_components};
 use sincro_sim::Loaded;
-use sincro_sim::campaign::{Campaign, Done};
+use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::check::{Outcome, Series as Expected};
 use sincro_sim::table::{Column, Table};
 
@@ -242,7 +242,7 @@ fn comparison(drawn: &[Drawn<'_>], unit: &str, wanted: Below<'_>, campaign: &Cam
 struct Drawn<'a> {
     name: &'a str,
     column: &'a Column,
-    done: &'a Done,
+    done: &'a CompletedRun,
     of_variant: bool,
 }
 
@@ -299,7 +299,7 @@ fn add_reference(
 }
 
 /// The error bar of the run around zero difference.
-fn add_band(error: &mut Panel, signal: usize, column: &Column, done: &Done, times: &[f64]) {
+fn add_band(error: &mut Panel, signal: usize, column: &Column, done: &CompletedRun, times: &[f64]) {
     let bar = done.columns.iter().find(|c| c.path == column.name).and_then(|c| c.error_bar);
     let (Some(bar), Some(first), Some(last)) = (bar, times.first(), times.last()) else { return };
     if bar > 0.0 && bar.is_finite() {

@@ -7,7 +7,7 @@ mod figures;
 mod page;
 mod text;
 
-use sincro_analysis::linear::{Bode, Complex, LinearError, Mode, Reach, StateSpace, StepResponse};
+use sincro_analysis::linear::{Bode, Complex, LinearError, Mode, StateSpace, StepResponse, SubspaceRank};
 
 pub use figures::all as figures;
 pub use page::html;
@@ -26,9 +26,9 @@ pub struct Analysis<'a> {
     /// Poles with damping ratio and natural frequency [rad/s], slowest first.
     pub poles: Vec<Mode>,
     /// Controllability: the dimensions that the inputs reach.
-    pub controllability: Reach,
+    pub controllability: SubspaceRank,
     /// Observability: the dimensions that the outputs see.
-    pub observability: Reach,
+    pub observability: SubspaceRank,
     /// Transfer functions of every input to every output that depends on it, input by input.
     pub channels: Vec<Channel>,
     /// Inputs without an effect on an output: a message for each such pair.

@@ -53,16 +53,16 @@ fn channel_section(analysis: &Analysis, channel: &Channel) -> String {
 
 /// Rise time, overshoot and settling time of the step response, in one sentence.
 fn step_words(channel: &Channel) -> String {
-    let Some(facts) = channel.step.facts else { return String::new() };
+    let Some(info) = channel.step.info else { return String::new() };
     let value = |x: f64| significant(x, 3);
-    let overshoot = match facts.overshoot {
+    let overshoot = match info.overshoot {
         share if share < 1e-3 => "without overshoot".to_owned(),
-        share => format!("overshoots by {} % at {} s", value(100.0 * share), value(facts.peak_time)),
+        share => format!("overshoots by {} % at {} s", value(100.0 * share), value(info.peak_time)),
     };
     format!(
         "It rises from 10 % to 90 % in {} s, {overshoot}, and stays within 2 % from {} s on.",
-        value(facts.rise_time),
-        value(facts.settling_time)
+        value(info.rise_time),
+        value(info.settling_time)
     )
 }
 

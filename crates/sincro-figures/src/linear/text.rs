@@ -1,6 +1,6 @@
 //! A linearised scene in words and tables, for the terminal. The page takes its cells from here.
 
-use sincro_analysis::linear::{Axis, Complex, DMatrix, Mode, Reach, Stability};
+use sincro_analysis::linear::{Axis, Complex, DMatrix, Mode, Stability, SubspaceRank};
 
 use super::{Analysis, Channel};
 use crate::plot::number::{short, significant};
@@ -168,7 +168,7 @@ pub(super) fn stability(analysis: &Analysis) -> &'static str {
 
 /// Controllability and observability in words.
 pub(super) fn reach_lines(analysis: &Analysis) -> [String; 2] {
-    let line = |reach: &Reach, whole: &str, act: &str| {
+    let line = |reach: &SubspaceRank, whole: &str, act: &str| {
         if reach.is_full() {
             return format!("{whole}: yes, all {} dimensions", reach.n_states);
         }

@@ -84,9 +84,9 @@ fn structure(xml: &mut Xml, of: &Description<'_>) {
         xml.element(name, &[text("valueReference", k.to_string()), ("dependencies", dependencies)]);
     };
     let outputs: Vec<u32> =
-        of.catalogue.pick(|role| matches!(role, Role::Output(_)).then_some(())).map(|(vr, ..)| vr).collect();
+        of.catalogue.with_role(|role| matches!(role, Role::Output(_)).then_some(())).map(|(vr, ..)| vr).collect();
     let derivatives: Vec<u32> =
-        of.catalogue.pick(|role| matches!(role, Role::Derivative(_)).then_some(())).map(|(vr, ..)| vr).collect();
+        of.catalogue.with_role(|role| matches!(role, Role::Derivative(_)).then_some(())).map(|(vr, ..)| vr).collect();
     xml.begin("ModelStructure", &[]);
     for vr in &outputs {
         // in co-simulation an output is that of the last base step: no input acts on it before the next one

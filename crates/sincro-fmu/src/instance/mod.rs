@@ -15,7 +15,7 @@ use sincro_scene::record::Recorder;
 use sincro_sim::results::Status;
 use sincro_sim::run::{Halt, LockStep, method_for};
 use sincro_sim::trace::Trace;
-use sincro_sim::{Extensions, Loaded, load_alone};
+use sincro_sim::{Extensions, Loaded, load_without_variants};
 
 use crate::manifest::Manifest;
 use crate::tunable::Tuning;
@@ -89,8 +89,8 @@ impl Instance {
             ));
         }
         let base = manifest.overrides();
-        let loaded =
-            load_alone(&resources.join(&manifest.scene), &base, extensions).map_err(|found| found.to_string())?;
+        let loaded = load_without_variants(&resources.join(&manifest.scene), &base, extensions)
+            .map_err(|found| found.to_string())?;
         let catalogue =
             Catalogue::new(&loaded, &base, manifest.outputs, manifest.has_states).map_err(|found| found.to_string())?;
         let values = starts(&catalogue);
@@ -145,10 +145,10 @@ impl Instance {
             self.loaded.clone()
         } else {
             let all: Vec<Override> = self.base.iter().cloned().chain(changed).collect();
-            self.loaded.alone_with_overrides(&all).map_err(|found| found.to_string())?
+            self.loaded.with_overrides_without_variants(&all).map_err(|found| found.to_string())?
         };
         let mut run = Run::new(loaded, &self.catalogue, self.values.clone())?;
-        for (vr, _, command) in self.catalogue.pick(as_input) {
+        for (vr, _, command) in self.catalogue.with_role(as_input) {
             run.lockstep.hold_command(command, self.values[vr as usize]);
         }
         self.run = Some(run);
@@ -441,7 +441,7 @@ impl Instance {
 
     /// Parameters that differ from what the FMU was exported with.
     fn changed_parameters(&self) -> Vec<Override> {
-        let parameters = self.catalogue.pick(|role| match role {
+        let parameters = self.catalogue.with_role(|role| match role {
             Role::Fixed(path) | Role::Tunable(path, _) => Some(path.clone()),
             _ => None,
         });
@@ -515,7 +515,7 @@ impl Run {
         self.is_observed = false;
         let made = advanced.as_ref().map_or_else(Halt::is_after_step, |()| true);
         if made {
-            self.lockstep.add_to(&mut self.trace);
+            self.lockstep.hash_into(&mut self.trace);
         }
         let reason = match advanced {
             Err(halt) => explain(halt, &mut self.lockstep, &self.loaded),

@@ -2,7 +2,7 @@
 
 use super::Report;
 use crate::number::short;
-use crate::source::Fate;
+use crate::source::ElementStatus;
 
 const STYLE: &str = include_str!("style.css");
 /// Elements that the page lists; the JSON file has all.
@@ -141,10 +141,10 @@ fn elements(out: &mut String, report: &Report) {
              <label><input type=\"checkbox\" id=\"show-dropped\" checked> <span class=\"dropped\">dropped</span></label></div>\n\
              <div class=\"wide\"><table><tr><th class=\"n\">line</th><th>element</th><th>fate</th><th>how, why</th></tr>\n";
     for entry in report.elements.iter().take(MAX_ROWS) {
-        let (class, word) = match entry.fate {
-            Fate::Kept => ("kept", "kept"),
-            Fate::Changed => ("changed", "changed"),
-            Fate::Dropped => ("dropped", "dropped"),
+        let (class, word) = match entry.status {
+            ElementStatus::Kept => ("kept", "kept"),
+            ElementStatus::Changed => ("changed", "changed"),
+            ElementStatus::Dropped => ("dropped", "dropped"),
         };
         let inside = if entry.inside { " inside" } else { "" };
         *out += &format!(

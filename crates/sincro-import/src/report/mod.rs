@@ -6,7 +6,7 @@ use serde::Serialize;
 use sincro_scene::diagnostic::{Diagnostic, Location};
 
 use crate::Repair;
-use crate::source::{Entry, Fate};
+use crate::source::{ElementStatus, Entry};
 
 /// Report of an import: `import-report.json`, and as a page `import-report.html`.
 #[derive(Clone, Debug, Serialize)]
@@ -148,8 +148,8 @@ impl From<&Diagnostic> for Warning {
 impl Counts {
     /// Counts the entries.
     pub(crate) fn of(entries: &[Entry]) -> Self {
-        let n = |fate: Fate| entries.iter().filter(|e| e.fate == fate).count();
-        Self { kept: n(Fate::Kept), changed: n(Fate::Changed), dropped: n(Fate::Dropped) }
+        let n = |fate: ElementStatus| entries.iter().filter(|e| e.status == fate).count();
+        Self { kept: n(ElementStatus::Kept), changed: n(ElementStatus::Changed), dropped: n(ElementStatus::Dropped) }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::mesh::MeshUse;
 use crate::number::{list, number, quoted};
 use crate::policy;
 use crate::robot::{Geometry, JointKind, Link, Placement, Robot, Shape};
-use crate::source::Fate;
+use crate::source::ElementStatus;
 
 /// Friction coefficient where the source gives none.
 pub(super) const FRICTION: f64 = 1.0;
@@ -26,14 +26,14 @@ pub(super) fn gather_collisions(robot: &mut Robot, fixed: &[bool], context: &Con
                 Some((body, pose)) => {
                     let words =
                         format!("it touches as part of `{}`: its own link has no mass", robot.links[*body].name);
-                    context.ledger.judge_place(piece.element, Fate::Changed, &words);
+                    context.ledger.judge_place(piece.element, ElementStatus::Changed, &words);
                     let pose = pose.then(&piece.pose);
                     robot.links[*body].collisions.push(Geometry { pose, ..piece });
                 }
                 None => {
                     context.ledger.judge_place(
                         piece.element,
-                        Fate::Dropped,
+                        ElementStatus::Dropped,
                         "its link has no mass: nothing can touch it",
                     );
                 }
@@ -163,7 +163,7 @@ impl Writer<'_> {
                     }
                 }
                 Err(why) => {
-                    self.context.ledger.judge_place(piece.element, Fate::Dropped, &why);
+                    self.context.ledger.judge_place(piece.element, ElementStatus::Dropped, &why);
                     let kind = if shows { "visual" } else { "collision" };
                     self.written.warnings.push((piece.at.clone(), format!("{kind} geometry is left out: {why}")));
                     if !shows && let Shape::Mesh { uri, .. } = &piece.shape {
@@ -192,7 +192,11 @@ impl Writer<'_> {
             }
             Shape::Ellipsoid(axes) if positive(axes) => {
                 let file = self.meshes.ellipsoid();
-                self.context.ledger.judge_place(piece.element, Fate::Changed, "an ellipsoid: a mesh of 320 triangles");
+                self.context.ledger.judge_place(
+                    piece.element,
+                    ElementStatus::Changed,
+                    "an ellipsoid: a mesh of 320 triangles",
+                );
                 let used = MeshUse { file, scale: *axes, color: None };
                 Ok(vec![(mesh_text(&used, shows), None)])
             }
@@ -204,7 +208,7 @@ impl Writer<'_> {
                 let placed =
                     if shows { self.meshes.visual(&path, *scale) } else { self.meshes.collision(&path, *scale) }?;
                 if let Some(change) = &placed.change {
-                    self.context.ledger.judge_place(piece.element, Fate::Changed, change);
+                    self.context.ledger.judge_place(piece.element, ElementStatus::Changed, change);
                 }
                 Ok(placed.uses.iter().map(|used| (mesh_text(used, shows), used.color)).collect())
             }

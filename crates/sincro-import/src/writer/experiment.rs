@@ -3,7 +3,7 @@
 use super::{Writer, one_line};
 use crate::number::{list, number, quoted};
 use crate::robot::Keyframe;
-use crate::source::Fate;
+use crate::source::ElementStatus;
 
 /// Joints that are recorded at most; more can be added by hand.
 const MAX_RECORDED: usize = 32;
@@ -41,7 +41,7 @@ pub(super) fn text(writer: &Writer<'_>) -> String {
         let coordinates = match coordinates(writer, keyframe) {
             Ok(coordinates) => coordinates,
             Err(why) => {
-                writer.context.ledger.judge_place(keyframe.element, Fate::Dropped, &why);
+                writer.context.ledger.judge_place(keyframe.element, ElementStatus::Dropped, &why);
                 continue;
             }
         };
@@ -54,7 +54,7 @@ pub(super) fn text(writer: &Writer<'_>) -> String {
         if settings.is_empty() || !used.insert(name.clone()) {
             writer.context.ledger.judge_place(
                 keyframe.element,
-                Fate::Dropped,
+                ElementStatus::Dropped,
                 "there is one of that name, or it is empty",
             );
             continue;

@@ -4,7 +4,7 @@ use super::{Context, Writer, last};
 use crate::Motors;
 use crate::number::{list, number, quoted};
 use crate::robot::{Joint, JointKind, MotorLaw, Robot};
-use crate::source::Fate;
+use crate::source::ElementStatus;
 
 /// Velocity a unit of error of the motors that hold [1/s].
 const HOLDING_GAIN: f64 = 10.0;
@@ -36,11 +36,11 @@ pub(super) fn starts(robot: &mut Robot, context: &Context<'_>) -> Vec<f64> {
                 "it starts at {}, outside its limits from {lower} to {upper}, which are left out",
                 number(*start)
             );
-            context.ledger.judge_place(joint.element, Fate::Changed, &words);
+            context.ledger.judge_place(joint.element, ElementStatus::Changed, &words);
             joint.limits = None;
         } else if *start != 0.0 && joint.initial.is_none() && robot.gears.iter().all(|g| joint.name != g.name) {
             let words = format!("zero is outside its limits: it starts at {}", number(*start));
-            context.ledger.judge_place(joint.element, Fate::Changed, &words);
+            context.ledger.judge_place(joint.element, ElementStatus::Changed, &words);
         }
     }
     starts
@@ -60,7 +60,11 @@ impl Writer<'_> {
         let joint = &self.robot.joints[k];
         let path = self.unique(parent, &joint.name);
         if last(&path) != joint.name {
-            self.context.ledger.judge_place(joint.element, Fate::Changed, &format!("its name is `{}`", last(&path)));
+            self.context.ledger.judge_place(
+                joint.element,
+                ElementStatus::Changed,
+                &format!("its name is `{}`", last(&path)),
+            );
         }
         self.line("[[joint]]");
         self.line(&format!("name = {}", quoted(last(&path))));

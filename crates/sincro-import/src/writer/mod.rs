@@ -17,7 +17,7 @@ use crate::number::{list, name, number, quoted};
 use crate::policy;
 use crate::resolve::Resolver;
 use crate::robot::{JointKind, Loop, LoopKind, Placement, Robot, Rotation, SensorKind};
-use crate::source::{Fate, Ledger};
+use crate::source::{ElementStatus, Ledger};
 use crate::{Motors, Options};
 
 /// A soft loop joint that is open by more than this at the start is left out `[m]`, `[rad]`.
@@ -217,7 +217,7 @@ impl Writer<'_> {
             let pose = joint.pose.then(&own);
             self.context.ledger.judge_place(
                 joint.element,
-                Fate::Changed,
+                ElementStatus::Changed,
                 "a fixed joint: the place of the body in its parent",
             );
             self.link(joint.child, &parent, pose, Some(k));
@@ -289,7 +289,7 @@ impl Writer<'_> {
             let open = self.opening(closure, &self.starts);
             if closure.is_soft && open > OPEN {
                 let words = format!("it is soft and open at the start by {open:.3e}: nothing hard can stand for it");
-                self.context.ledger.judge_place(closure.element, Fate::Dropped, &words);
+                self.context.ledger.judge_place(closure.element, ElementStatus::Dropped, &words);
                 self.written.warnings.push((closure.at.clone(), format!("`{}` is left out: {words}", closure.name)));
                 continue;
             }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sincro_import::{Entry, Fate, Imported, Options, import};
+use sincro_import::{ElementStatus, Entry, Imported, Options, import};
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::fmu::Loaders;
 use sincro_scene::open::{Opened, open};
@@ -63,7 +63,7 @@ pub fn entry<'a>(imported: &'a Imported, ending: &str) -> &'a Entry {
 
 /// Entries that are dropped and not inside another one.
 pub fn dropped(imported: &Imported) -> Vec<String> {
-    let of = imported.report.elements.iter().filter(|e| e.fate == Fate::Dropped && !e.inside);
+    let of = imported.report.elements.iter().filter(|e| e.status == ElementStatus::Dropped && !e.inside);
     of.map(|e| e.element.clone()).collect()
 }
 

@@ -1,6 +1,6 @@
 //! URDF.
 
-use sincro_import::{Fate, Motors, Options, Repair};
+use sincro_import::{ElementStatus, Motors, Options, Repair};
 use sincro_scene::scene::ObjectKind;
 
 use crate::folder::{Folder, dropped, entry, tetrahedron};
@@ -75,13 +75,13 @@ fn nothing_that_is_not_read_stays_untold() {
     let text = ARM.replace("<link name=\"base\"/>", "<link name=\"base\"><aura strength=\"3\"/></link>");
     folder.file("arm/meshes/t.stl", tetrahedron());
     let imported = folder.import("arm/urdf/arm.urdf", &text).unwrap();
-    assert_eq!(entry(&imported, "link[base]/aura").fate, Fate::Dropped);
+    assert_eq!(entry(&imported, "link[base]/aura").status, ElementStatus::Dropped);
     let text = text
         .replace("<aura strength=\"3\"/>", "")
         .replace("k_velocity", "x")
         .replace("damping=", "viscosity=\"1\" damping=");
     let imported = folder.import("arm/urdf/arm.urdf", &text).unwrap();
-    assert_eq!(entry(&imported, "dynamics/@viscosity").fate, Fate::Dropped);
+    assert_eq!(entry(&imported, "dynamics/@viscosity").status, ElementStatus::Dropped);
 }
 
 #[test]

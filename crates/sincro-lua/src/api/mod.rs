@@ -89,7 +89,7 @@ impl ApiContext<'_> {
     /// A function of the session.
     fn of_session(&self, module: &'static str, function: &'static api::Function) -> mlua::Result<Function> {
         let (shared, own) = (self.shared.clone(), self.own);
-        let is_setter = function.name.starts_with("set") && !api::is_for_show(function.name);
+        let is_setter = function.name.starts_with("set") && !api::is_display_only(function.name);
         self.lua.create_function(move |lua, arguments: MultiValue| {
             let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
             // a client's nil may be a number that is none; a script's is a mistake

@@ -10,7 +10,7 @@ use mlua::{Function, Lua, MultiValue, Table, Value};
 /// Names in the registry: all metatables (weak), the `__close` of those that lost it, the function in its place.
 const METATABLES: &str = "metatables";
 const CLOSERS: &str = "closers";
-const NOTHING: &str = "closes nothing";
+const NO_PIECE: &str = "closes nothing";
 
 /// Begins to remember metatables; returns the table that they are remembered in.
 pub(super) fn install(lua: &Lua) -> mlua::Result<Table> {
@@ -18,7 +18,7 @@ pub(super) fn install(lua: &Lua) -> mlua::Result<Table> {
     mode.raw_set("__mode", "k")?;
     metatables.set_metatable(Some(mode))?;
     lua.set_named_registry_value(METATABLES, &metatables)?;
-    lua.set_named_registry_value(NOTHING, lua.create_function(|_, _: MultiValue| Ok(()))?)?;
+    lua.set_named_registry_value(NO_PIECE, lua.create_function(|_, _: MultiValue| Ok(()))?)?;
     // of strings: the only values with a metatable that `setmetatable` did not give them
     let of_strings: Value = lua.load("return getmetatable('')").set_name("=sincro").eval()?;
     if let Value::Table(of_strings) = of_strings {
@@ -43,7 +43,7 @@ pub(crate) fn disarm(lua: &Lua) -> mlua::Result<()> {
 
 fn take_all(lua: &Lua) -> mlua::Result<()> {
     let Some(metatables) = lua.named_registry_value::<Option<Table>>(METATABLES)? else { return Ok(()) };
-    let nothing: Function = lua.named_registry_value(NOTHING)?;
+    let nothing: Function = lua.named_registry_value(NO_PIECE)?;
     let closers = match lua.named_registry_value::<Option<Table>>(CLOSERS)? {
         Some(closers) => closers,
         None => lua.create_table()?,

@@ -36,7 +36,7 @@ fn what_a_block_remembers_is_in_the_snapshot() {
     let go = |run: &mut LockStep, trace: &mut _, n: usize| {
         for _ in 0..n {
             run.advance().unwrap();
-            run.add_to(trace);
+            run.hash_into(trace);
         }
     };
     go(&mut run, &mut trace, 50);

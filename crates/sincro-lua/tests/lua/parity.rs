@@ -19,7 +19,7 @@ fn trace(loaded: &Loaded, mut law: impl FnMut(&mut LockStep)) -> Trace {
     for _ in 0..TICKS {
         law(&mut run);
         run.advance().unwrap();
-        run.add_to(&mut trace);
+        run.hash_into(&mut trace);
     }
     assert!(run.state().q[0].abs() < 0.1, "the law does nothing");
     trace

@@ -96,7 +96,7 @@ fn the_printed_script_gives_what_its_formulas_give() {
         for v in &mut state.v[..6] {
             *v = if k % 50 == 0 { 0.0 } else { random.between(-15.0, 15.0) };
         }
-        run.place(state, &[]);
+        run.set_state(state, &[]);
         let mut sim = ApiController::sim(&mut run).unwrap();
         let propeller = sim.registry.find("/air/propeller", Search::default()).unwrap();
         let joint = sim.registry.find("propeller_joint", Search::default()).unwrap();

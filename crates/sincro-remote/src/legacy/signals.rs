@@ -46,13 +46,13 @@ pub(super) fn text(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
 
 pub(super) fn set_text(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let (name, of_run) = (call.name()?, sim.is_running());
-    sim.registry.make_room(call.data.len())?;
+    sim.registry.check_stored_size(call.data.len())?;
     after(sim.registry.strings.set(name, call.data.to_vec(), of_run))
 }
 
 pub(super) fn append_text(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let (name, of_run) = (call.name()?, sim.is_running());
-    sim.registry.make_room(call.data.len())?;
+    sim.registry.check_stored_size(call.data.len())?;
     after(sim.registry.strings.append(name, call.data, of_run))
 }
 

@@ -1,6 +1,6 @@
 //! A picture: what each pixel shows, and parts of it as bytes.
 
-use super::render::NOTHING;
+use super::render::NO_PIECE;
 use super::{BACKGROUND, Optics};
 
 /// A picture, row by row from the bottom, each from left to right.
@@ -13,7 +13,7 @@ pub struct Image {
     pub(super) rgb: Vec<u8>,
     /// Along the camera's z `[m]`; `far` where nothing is.
     pub(super) depth: Vec<f64>,
-    /// Index of the piece; [`NOTHING`] where there is none.
+    /// Index of the piece; [`NO_PIECE`] where there is none.
     pub(super) piece: Vec<u32>,
 }
 
@@ -69,7 +69,7 @@ impl Image {
         self.depth.clear();
         self.depth.resize(n, optics.far);
         self.piece.clear();
-        self.piece.resize(n, NOTHING);
+        self.piece.resize(n, NO_PIECE);
     }
 
     /// Columns and rows.
@@ -106,7 +106,7 @@ impl Image {
         &self.depth
     }
 
-    /// Which piece of the scenery each pixel shows, [`NOTHING`] if none.
+    /// Which piece of the scenery each pixel shows, [`NO_PIECE`] if none.
     #[must_use]
     pub fn pieces(&self) -> &[u32] {
         &self.piece

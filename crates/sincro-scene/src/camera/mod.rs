@@ -22,7 +22,7 @@ mod render;
 mod tests;
 
 pub use image::{Image, Layer, Part};
-pub use render::{NOTHING, Renderer};
+pub use render::{NO_PIECE, Renderer};
 
 use sincro_math::elementary;
 
@@ -118,52 +118,52 @@ impl Optics {
     /// # Errors
     ///
     /// What is wrong first.
-    pub fn check(&self) -> Result<(), Wrong> {
-        self.wrongs().into_iter().next().map_or(Ok(()), Err)
+    pub fn check(&self) -> Result<(), InvalidSetting> {
+        self.invalid_settings().into_iter().next().map_or(Ok(()), Err)
     }
 
     /// Everything that is wrong.
     #[must_use]
-    pub fn wrongs(&self) -> Vec<Wrong> {
+    pub fn invalid_settings(&self) -> Vec<InvalidSetting> {
         [self.wrong_resolution(), self.wrong_near(), self.wrong_far(), self.wrong_lens()]
             .into_iter()
             .flatten()
             .collect()
     }
 
-    fn wrong_resolution(&self) -> Option<Wrong> {
+    fn wrong_resolution(&self) -> Option<InvalidSetting> {
         let [columns, rows] = self.resolution;
         let sides = [columns, rows].iter().all(|n| (1..=MAX_SIDE).contains(n));
-        (!sides || columns * rows > MAX_PIXELS).then(|| Wrong {
+        (!sides || columns * rows > MAX_PIXELS).then(|| InvalidSetting {
             key: "resolution",
             found: format!("a resolution of {columns} × {rows} pixels"),
             expected: format!("1 to {MAX_SIDE} columns and rows, and at most {MAX_PIXELS} pixels in all"),
         })
     }
 
-    fn wrong_near(&self) -> Option<Wrong> {
+    fn wrong_near(&self) -> Option<InvalidSetting> {
         let fits = self.near > 0.0 && self.near < MAX_LENGTH;
         let found = || format!("a picture that begins at {} m", self.near);
-        (!fits).then(|| Wrong { key: "near", found: found(), expected: "more than 0 m".into() })
+        (!fits).then(|| InvalidSetting { key: "near", found: found(), expected: "more than 0 m".into() })
     }
 
-    fn wrong_far(&self) -> Option<Wrong> {
+    fn wrong_far(&self) -> Option<InvalidSetting> {
         let fits = self.far > self.near && self.far <= MAX_LENGTH;
-        (!fits).then(|| Wrong {
+        (!fits).then(|| InvalidSetting {
             key: "far",
             found: format!("a picture that ends at {} m", self.far),
             expected: format!("more than where it begins, {} m, and at most {MAX_LENGTH} m", self.near),
         })
     }
 
-    fn wrong_lens(&self) -> Option<Wrong> {
+    fn wrong_lens(&self) -> Option<InvalidSetting> {
         match self.lens {
-            Lens::Perspective(angle) if !(angle > 0.0 && angle < 170_f64.to_radians()) => Some(Wrong {
+            Lens::Perspective(angle) if !(angle > 0.0 && angle < 170_f64.to_radians()) => Some(InvalidSetting {
                 key: "field_of_view_deg",
                 found: format!("a field of view of {:.4}°", angle.to_degrees()),
                 expected: "more than 0° and less than 170° from the upper to the lower edge".into(),
             }),
-            Lens::Orthographic(height) if !(height > 0.0 && height <= MAX_LENGTH) => Some(Wrong {
+            Lens::Orthographic(height) if !(height > 0.0 && height <= MAX_LENGTH) => Some(InvalidSetting {
                 key: "orthographic_height",
                 found: format!("a picture {height} m high"),
                 expected: format!("more than 0 m and at most {MAX_LENGTH} m"),
@@ -175,7 +175,7 @@ impl Optics {
 
 /// Invalid setting of a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wrong {
+pub struct InvalidSetting {
     /// The key of the scene file that says it.
     pub key: &'static str,
     /// Value found.

@@ -16,7 +16,7 @@ use super::{Image, Lens, Optics};
 use crate::scenery::Piece;
 
 /// Object index of a pixel that shows the background.
-pub const NOTHING: u32 = u32::MAX;
+pub const NO_PIECE: u32 = u32::MAX;
 
 /// Draws pictures; keeps what it can use again.
 #[derive(Clone, Debug)]

@@ -287,7 +287,7 @@ fn what_cannot_be_drawn_is_refused() {
     assert_eq!(wrong(|o| o.near = f64::NAN).key, "near");
     assert_eq!(wrong(|o| o.far = 0.1).key, "far");
     assert_eq!(wrong(|o| o.far = f64::INFINITY).key, "far");
-    let all = Optics { resolution: [0, 1], near: -1.0, far: -2.0, lens: Lens::Orthographic(0.0) }.wrongs();
+    let all = Optics { resolution: [0, 1], near: -1.0, far: -2.0, lens: Lens::Orthographic(0.0) }.invalid_settings();
     let keys: Vec<&str> = all.iter().map(|wrong| wrong.key).collect();
     assert_eq!(keys, ["resolution", "near", "far", "orthographic_height"]);
     assert_eq!(wrong(|o| o.lens = Lens::Perspective(f64::NAN)).key, "field_of_view_deg");

@@ -7,7 +7,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use sincro_blocks::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
-use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
 use sincro_blocks::unit::Unit;
 use sincro_math::Real;
@@ -39,10 +39,10 @@ impl Described for FmuBlock {
         summary: "A functional mock-up unit (FMI 2.0 or 3.0) in co-simulation, with a step at each sample.",
         equation: "y = outputs of the FMU at t; then it steps to the next sample under u",
         parameters: &[
-            Parameter::required("file", Takes::Text, "FMU of the scene folder; its code runs in this program"),
-            Parameter::optional("inputs", Takes::Texts, "names of its inputs that are ports", "none"),
-            Parameter::optional("outputs", Takes::Texts, "names of its outputs that are ports", "none"),
-            Parameter::optional("parameters", Takes::Names, "start values of its parameters", "none"),
+            Parameter::required("file", ValueKind::Text, "FMU of the scene folder; its code runs in this program"),
+            Parameter::optional("inputs", ValueKind::Texts, "names of its inputs that are ports", "none"),
+            Parameter::optional("outputs", ValueKind::Texts, "names of its outputs that are ports", "none"),
+            Parameter::optional("parameters", ValueKind::Names, "start values of its parameters", "none"),
         ],
     };
 

@@ -6,20 +6,20 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use sincro_blocks::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
-use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
 use sincro_math::Real;
 
 use super::robot::Item;
-use crate::script::{Law, LawSpec, ScriptParser};
+use crate::script::{ScriptParser, ScriptedLaw, ScriptedLawSpec};
 
 /// See the head of this file.
 #[derive(Clone, Debug)]
 pub struct LuaBlock {
-    spec: LawSpec,
+    spec: ScriptedLawSpec,
     initial: Vec<f64>,
     /// The law as it was read; copies are made for every run.
-    law: Option<Box<dyn Law>>,
+    law: Option<Box<dyn ScriptedLaw>>,
     fault: Arc<Mutex<Option<String>>>,
 }
 
@@ -35,30 +35,30 @@ impl Described for LuaBlock {
         parameters: &[
             Parameter::optional(
                 "code",
-                Takes::Text,
+                ValueKind::Text,
                 "Lua text with `output` and, if there is memory, `update`",
                 "none",
             ),
-            Parameter::optional("file", Takes::Text, "Lua file of the scene folder, in place of `code`", "none"),
+            Parameter::optional("file", ValueKind::Text, "Lua file of the scene folder, in place of `code`", "none"),
             Parameter::optional(
                 "inputs",
-                Takes::Texts,
+                ValueKind::Texts,
                 "names of the inputs: `u.NAME` is a number, of a vector a list",
                 "u",
             ),
             Parameter::optional(
                 "outputs",
-                Takes::Texts,
+                ValueKind::Texts,
                 "names of the outputs in the order of their return, `y[3]` a list of three",
                 "y",
             ),
             Parameter::optional(
                 "memory",
-                Takes::Names,
+                ValueKind::Names,
                 "numbers that it keeps, `memory.NAME`, and where they start",
                 "none",
             ),
-            Parameter::optional("parameters", Takes::Names, "numbers that the text knows by name", "none"),
+            Parameter::optional("parameters", ValueKind::Names, "numbers that the text knows by name", "none"),
         ],
     };
 
@@ -87,14 +87,14 @@ impl LuaBlock {
             p.check_name(if inputs.contains(name) { "inputs" } else { "outputs" }, name);
         }
         let (names, initial) = memory.into_iter().unzip();
-        let spec = LawSpec { code, inputs, outputs, memory: names, parameters };
+        let spec = ScriptedLawSpec { code, inputs, outputs, memory: names, parameters };
         let law = if spec.code.is_empty() { None } else { law(p, parser, &spec) };
         Self { spec, initial, law, fault: Arc::default() }
     }
 }
 
 /// The law of a text; what is wrong with it is noted.
-fn law(p: &mut Reader<'_>, parser: Option<&dyn ScriptParser>, spec: &LawSpec) -> Option<Box<dyn Law>> {
+fn law(p: &mut Reader<'_>, parser: Option<&dyn ScriptParser>, spec: &ScriptedLawSpec) -> Option<Box<dyn ScriptedLaw>> {
     let key = if p.has("file") { "file" } else { "code" };
     let Some(parser) = parser else {
         p.fault(key, "this program cannot run Lua", "it was built without `sincro-lua`; use the `sincro` command");
@@ -130,7 +130,7 @@ fn width_of(p: &mut Reader<'_>, text: &str) -> (String, usize) {
 /// A law at work with room for numbers on their way in and out.
 #[derive(Debug, Default)]
 pub struct Work {
-    law: Option<Box<dyn Law>>,
+    law: Option<Box<dyn ScriptedLaw>>,
     inputs: Vec<Vec<f64>>,
     memory: Vec<f64>,
     outputs: Vec<f64>,

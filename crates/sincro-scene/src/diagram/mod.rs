@@ -29,7 +29,7 @@ pub use ports::is_known_at_ticks_only;
 use read::{DiagramReader, Origin};
 pub use reference::reference;
 pub use schema::diagram_schema;
-pub use wiring::{Reading, Wiring};
+pub use wiring::{MeasuredSignals, Wiring};
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::Document;
@@ -95,7 +95,7 @@ fn shortened(diagnostics: Diagnostics) -> Diagnostics {
     let n_more = diagnostics.0.len().saturating_sub(MAX_DIAGNOSTICS);
     if n_more > 0 {
         diagnostics.0.truncate(MAX_DIAGNOSTICS);
-        diagnostics.push(Diagnostic::nowhere(format!("{n_more} more problems of the diagram are not shown")));
+        diagnostics.push(Diagnostic::without_location(format!("{n_more} more problems of the diagram are not shown")));
     }
     diagnostics
 }
@@ -148,7 +148,7 @@ impl ControlDiagram {
 
     /// The block whose continuous state decays fastest at the start, and how fast [1/s]; none if nothing does.
     #[must_use]
-    pub fn fastest(&self) -> Option<(String, f64)> {
+    pub fn fastest_decay(&self) -> Option<(String, f64)> {
         let program = self.wiring.program();
         let mut runner = Runner::<f64>::new(program.clone());
         let mut decay = vec![0.0; program.n_states];

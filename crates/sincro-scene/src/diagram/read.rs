@@ -13,7 +13,7 @@ use sincro_blocks::reader::{Files, NoFiles, ParameterError, Reader, Value};
 use super::file::{BlockFile, DefinitionFile, DiagramFile};
 use super::robot;
 use crate::diagnostic::{Diagnostic, Diagnostics, Location};
-use crate::document::{Document, Odd, escape};
+use crate::document::{Document, NonJson, escape};
 use crate::folder::Folder;
 use crate::series;
 use crate::suggest;
@@ -364,10 +364,10 @@ impl<'a> DiagramReader<'a> {
     /// A JSON value as a parameter.
     fn value(&self, json: &Json, pointer: &str) -> Value {
         match json {
-            Json::Null => match self.document.odd(pointer) {
-                Some(Odd::Infinite { positive: true }) => Value::Number(f64::INFINITY),
-                Some(Odd::Infinite { positive: false }) => Value::Number(f64::NEG_INFINITY),
-                Some(Odd::NotANumber) => Value::Number(f64::NAN),
+            Json::Null => match self.document.non_json(pointer) {
+                Some(NonJson::Infinite { positive: true }) => Value::Number(f64::INFINITY),
+                Some(NonJson::Infinite { positive: false }) => Value::Number(f64::NEG_INFINITY),
+                Some(NonJson::NotANumber) => Value::Number(f64::NAN),
                 // a date, or an integer beyond 64 bits: fits nowhere
                 _ => Value::Table(Vec::new()),
             },

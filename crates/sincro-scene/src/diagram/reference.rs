@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use sincro_blocks::instance::DynBlock;
-use sincro_blocks::kind::{Category, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Kind, Parameter, ValueKind};
 use sincro_blocks::library;
 use sincro_blocks::reader::{NoFiles, Reader, Value};
 use sincro_dynamics::model::Model;
@@ -96,15 +96,15 @@ fn example(kind: &Kind) -> String {
 /// Something that a parameter could be.
 fn written(parameter: &Parameter) -> String {
     match parameter.takes {
-        Takes::Choice(words) => format!("\"{}\"", words[0]),
-        Takes::Number | Takes::Positive | Takes::Numbers => "1.0".into(),
-        Takes::Count => "1".into(),
-        Takes::Matrix => "[[1.0]]".into(),
-        Takes::Flag => "true".into(),
-        Takes::Text => "\"…\"".into(),
-        Takes::Texts => "[\"…\"]".into(),
-        Takes::Names => "{ x = 1.0 }".into(),
-        Takes::File => "\"table.csv\"".into(),
+        ValueKind::Choice(words) => format!("\"{}\"", words[0]),
+        ValueKind::Number | ValueKind::Positive | ValueKind::Numbers => "1.0".into(),
+        ValueKind::Count => "1".into(),
+        ValueKind::Matrix => "[[1.0]]".into(),
+        ValueKind::Flag => "true".into(),
+        ValueKind::Text => "\"…\"".into(),
+        ValueKind::Texts => "[\"…\"]".into(),
+        ValueKind::Names => "{ x = 1.0 }".into(),
+        ValueKind::File => "\"table.csv\"".into(),
     }
 }
 
@@ -122,12 +122,12 @@ fn ports(kind: &'static Kind) -> Option<(String, String)> {
 /// The block with as few parameters as it needs.
 fn least(kind: &'static Kind) -> Option<Box<dyn DynBlock>> {
     let value = |p: &Parameter| match p.takes {
-        Takes::Choice(words) => Value::from(words[0]),
-        Takes::Flag => Value::Flag(true),
-        Takes::Text | Takes::File => Value::from("u"),
-        Takes::Texts => vec!["u"].into(),
-        Takes::Names => Value::Table(Vec::new()),
-        Takes::Matrix => Value::List(vec![vec![1.0].into()]),
+        ValueKind::Choice(words) => Value::from(words[0]),
+        ValueKind::Flag => Value::Flag(true),
+        ValueKind::Text | ValueKind::File => Value::from("u"),
+        ValueKind::Texts => vec!["u"].into(),
+        ValueKind::Names => Value::Table(Vec::new()),
+        ValueKind::Matrix => Value::List(vec![vec![1.0].into()]),
         _ => Value::Number(1.0),
     };
     let required = kind.parameters.iter().filter(|p| p.default.is_none());
@@ -167,25 +167,25 @@ fn one_joint() -> Option<Model<f64>> {
 /// The default as it is shown; empty if it means that nothing is given, none if the parameter must be given.
 fn default(parameter: &Parameter) -> Option<String> {
     parameter.default.map(|text| match text {
-        "none" if !matches!(parameter.takes, Takes::Choice(_)) => String::new(),
+        "none" if !matches!(parameter.takes, ValueKind::Choice(_)) => String::new(),
         "" | "[]" => String::new(),
         text => text.to_owned(),
     })
 }
 
-fn takes(takes: Takes) -> String {
+fn takes(takes: ValueKind) -> String {
     match takes {
-        Takes::Number => "number".into(),
-        Takes::Positive => "number > 0".into(),
-        Takes::Count => "whole number".into(),
-        Takes::Numbers => "number or list".into(),
-        Takes::Matrix => "rows of numbers".into(),
-        Takes::Flag => "true or false".into(),
-        Takes::Text => "text".into(),
-        Takes::Texts => "list of texts".into(),
-        Takes::Names => "names and values".into(),
-        Takes::Choice(words) => words.join(", "),
-        Takes::File => "CSV file".into(),
+        ValueKind::Number => "number".into(),
+        ValueKind::Positive => "number > 0".into(),
+        ValueKind::Count => "whole number".into(),
+        ValueKind::Numbers => "number or list".into(),
+        ValueKind::Matrix => "rows of numbers".into(),
+        ValueKind::Flag => "true or false".into(),
+        ValueKind::Text => "text".into(),
+        ValueKind::Texts => "list of texts".into(),
+        ValueKind::Names => "names and values".into(),
+        ValueKind::Choice(words) => words.join(", "),
+        ValueKind::File => "CSV file".into(),
     }
 }
 

@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use serde_json::{Map, Value, json};
-use sincro_blocks::kind::{Kind, Parameter, Takes};
+use sincro_blocks::kind::{Kind, Parameter, ValueKind};
 use sincro_blocks::library;
 
 use super::{DiagramFile, robot};
@@ -43,14 +43,14 @@ fn rule(kind: &Kind) -> Value {
 fn schema_of(parameter: &Parameter) -> Value {
     let number = json!(["number", "string"]);
     let mut schema = match parameter.takes {
-        Takes::Number | Takes::Positive | Takes::Count => json!({"type": number}),
-        Takes::Numbers => json!({"type": ["number", "string", "array"], "items": {"type": number}}),
-        Takes::Matrix => json!({"type": ["number", "string", "array"]}),
-        Takes::Flag => json!({"type": "boolean"}),
-        Takes::Text | Takes::File => json!({"type": "string"}),
-        Takes::Texts => json!({"type": ["string", "array"], "items": {"type": ["string", "number", "array"]}}),
-        Takes::Names => json!({"type": "object"}),
-        Takes::Choice(words) => json!({"enum": words}),
+        ValueKind::Number | ValueKind::Positive | ValueKind::Count => json!({"type": number}),
+        ValueKind::Numbers => json!({"type": ["number", "string", "array"], "items": {"type": number}}),
+        ValueKind::Matrix => json!({"type": ["number", "string", "array"]}),
+        ValueKind::Flag => json!({"type": "boolean"}),
+        ValueKind::Text | ValueKind::File => json!({"type": "string"}),
+        ValueKind::Texts => json!({"type": ["string", "array"], "items": {"type": ["string", "number", "array"]}}),
+        ValueKind::Names => json!({"type": "object"}),
+        ValueKind::Choice(words) => json!({"enum": words}),
     };
     let description = match parameter.default {
         Some(default) => format!("{} (default {default})", parameter.meaning()),

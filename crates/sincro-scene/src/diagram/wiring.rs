@@ -10,7 +10,7 @@ use crate::record::probe;
 
 /// A measurement in use: its components and their places among the signals.
 #[derive(Clone, Debug)]
-pub struct Reading {
+pub struct MeasuredSignals {
     /// Its components.
     pub probes: Vec<Probe>,
     /// Place of the first among the signals.
@@ -24,23 +24,23 @@ pub struct Reading {
 pub struct Wiring {
     program: Arc<Program>,
     /// Measurements that are functions of the state.
-    pub early: Vec<Reading>,
+    pub early: Vec<MeasuredSignals>,
     /// Measurements that depend on accelerations, and with them on the commands.
-    pub late: Vec<Reading>,
+    pub late: Vec<MeasuredSignals>,
     /// True if any measurement needs poses and twists: at ticks, and between them.
     pub needs_poses: [bool; 2],
 }
 
 impl Wiring {
     pub(super) fn new(program: Arc<Program>, measurements: &[Measurement]) -> Self {
-        let reading = |m: &Measured| Reading {
+        let reading = |m: &Measured| MeasuredSignals {
             probes: measurements[m.terminal].probes.clone(),
             at: m.out.start,
             is_minor: m.is_minor,
         };
-        let early: Vec<Reading> = program.early.iter().map(reading).collect();
+        let early: Vec<MeasuredSignals> = program.early.iter().map(reading).collect();
         let late = program.late.iter().map(reading).collect();
-        let needs = |r: &Reading| r.probes.iter().any(|p| probe::needs_kinematics(*p));
+        let needs = |r: &MeasuredSignals| r.probes.iter().any(|p| probe::needs_kinematics(*p));
         let needs_poses = [early.iter().any(needs), early.iter().any(|r| r.is_minor && needs(r))];
         Self { early, late, needs_poses, program }
     }

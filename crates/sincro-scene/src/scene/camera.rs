@@ -110,7 +110,7 @@ pub(super) fn sensor(
         },
     };
     // a wrong field of view is said of every camera
-    for wrong in optics.wrongs().into_iter().filter(|wrong| wrong.key != "field_of_view_deg") {
+    for wrong in optics.invalid_settings().into_iter().filter(|wrong| wrong.key != "field_of_view_deg") {
         let at = document.at(&format!("{pointer}/{}", wrong.key));
         let diagnostic = Diagnostic::error(&at, format!("camera `{name}` has {}", wrong.found));
         diagnostics.push(diagnostic.with_help(format!("expected {}", wrong.expected)));

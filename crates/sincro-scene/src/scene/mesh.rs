@@ -156,7 +156,8 @@ fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Diagnostic> {
     } else if lower.ends_with(".obj") {
         text_of(bytes).and_then(|text| obj(text, &source(text)))
     } else {
-        Err(Diagnostic::nowhere("a mesh is an STL or an OBJ file").with_help("name a file that ends in .stl or .obj"))
+        Err(Diagnostic::without_location("a mesh is an STL or an OBJ file")
+            .with_help("name a file that ends in .stl or .obj"))
     }
 }
 
@@ -240,7 +241,8 @@ fn triple(p: &[f64; 3]) -> String {
 }
 
 fn text_of(bytes: &[u8]) -> Result<&str, Diagnostic> {
-    let refused = |_| Diagnostic::nowhere("it is not UTF-8 text").with_help("an OBJ file is text; export it again");
+    let refused =
+        |_| Diagnostic::without_location("it is not UTF-8 text").with_help("an OBJ file is text; export it again");
     std::str::from_utf8(bytes).map_err(refused)
 }
 
@@ -269,7 +271,7 @@ fn stl(bytes: &[u8], source: &dyn Fn(&str) -> Arc<SourceText>) -> Result<Triangl
     }
     match std::str::from_utf8(bytes) {
         Ok(text) if text.trim_start().starts_with("solid") => text_stl(text, &source(text)),
-        _ => Err(Diagnostic::nowhere(match count {
+        _ => Err(Diagnostic::without_location(match count {
             Some(n) => format!(
                 "it is no STL file: its head tells of {n} triangles, which take {} bytes, and it has {}",
                 STL_HEAD + n * STL_TRIANGLE,

@@ -62,7 +62,7 @@ impl Camera {
     }
 
     /// Renders the image at coordinates `q`.
-    pub fn look(&mut self, q: &[f64]) -> &Image {
+    pub fn render(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);
         let pieces = placed(self.scenery.pieces.iter(), &self.scratch);

@@ -3,20 +3,20 @@
 use serde_json::{Map, Value};
 
 use super::{alternatives, exclusive_keys};
-use crate::document::Odd;
+use crate::document::NonJson;
 
 /// Longest text of a value that is quoted whole.
 const QUOTED: usize = 40;
 
 /// Description of the value found, such as `the string "abc"` or `a list of 3`.
-pub(super) fn found(value: &Value, odd: Option<&Odd>) -> String {
+pub(super) fn found(value: &Value, odd: Option<&NonJson>) -> String {
     match value {
         Value::Null => match odd {
-            Some(Odd::Infinite { positive: true }) => "infinite".into(),
-            Some(Odd::Infinite { positive: false }) => "minus infinite".into(),
-            Some(Odd::Date) => "a date".into(),
-            Some(Odd::TooLarge) => "a whole number of more than 64 bits".into(),
-            Some(Odd::NotANumber) | None => "not a number".into(),
+            Some(NonJson::Infinite { positive: true }) => "infinite".into(),
+            Some(NonJson::Infinite { positive: false }) => "minus infinite".into(),
+            Some(NonJson::Date) => "a date".into(),
+            Some(NonJson::TooLarge) => "a whole number of more than 64 bits".into(),
+            Some(NonJson::NotANumber) | None => "not a number".into(),
         },
         Value::Bool(truth) => truth.to_string(),
         Value::Number(number) => format!("the number {number}"),

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use super::describe::{self, expected, found, quoted};
 use super::{alternatives, exclusive_keys, property, property_names};
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::document::{Document, Odd, escape, unescape};
+use crate::document::{Document, NonJson, escape, unescape};
 use crate::suggest;
 
 /// Everything in `document` that does not fit `schema`.
@@ -47,13 +47,13 @@ impl<'a> Walker<'a> {
 
     fn may_be_infinite(&self, pointer: &str, schema: &Value) -> bool {
         let allowed = schema.get("x-infinite").is_some_and(|x| *x == Value::Bool(true));
-        allowed && self.document.odd(pointer) == Some(&Odd::Infinite { positive: true })
+        allowed && self.document.non_json(pointer) == Some(&NonJson::Infinite { positive: true })
     }
 
     fn mismatch(&mut self, pointer: &str, value: &Value, schema: &Value) {
-        let found = found(value, self.document.odd(pointer));
-        let expected = match self.document.odd(pointer) {
-            Some(Odd::Infinite { .. } | Odd::NotANumber) => {
+        let found = found(value, self.document.non_json(pointer));
+        let expected = match self.document.non_json(pointer) {
+            Some(NonJson::Infinite { .. } | NonJson::NotANumber) => {
                 expected(self.root, schema).replacen("a number", "a finite number", 1)
             }
             _ => expected(self.root, schema),

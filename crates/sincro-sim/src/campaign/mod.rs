@@ -32,7 +32,7 @@ use sincro_scene::scene::{ObjectKind, Scene};
 
 /// One run of a campaign with its judgement.
 #[derive(Clone, Debug)]
-pub struct Done {
+pub struct CompletedRun {
     /// Result of the run.
     pub simulated: Simulated,
     /// Columns with their error bars.
@@ -55,9 +55,9 @@ pub struct Done {
 #[derive(Clone, Debug)]
 pub struct Campaign {
     /// The main run.
-    pub main: Done,
+    pub main: CompletedRun,
     /// The variants, each with its name and description.
-    pub variants: Vec<(Variant, Done)>,
+    pub variants: Vec<(Variant, CompletedRun)>,
     /// The sweep and its checks.
     pub sweep: Option<(Sweep, Vec<Outcome>)>,
     /// All of it as it stands in `run.json`.
@@ -84,7 +84,7 @@ pub fn run_campaign(
 ) -> Result<Campaign, RunError> {
     let csv = out_dir.map(|dir| dir.join("signals.csv"));
     let main = one_run(loaded, None, &[], csv.as_deref(), (interrupt, "run", &mut *progress))?;
-    let interrupted = |done: &Done| matches!(done.simulated.status, Status::Interrupted { .. });
+    let interrupted = |done: &CompletedRun| matches!(done.simulated.status, Status::Interrupted { .. });
 
     let mut variants = Vec::new();
     for variant in &loaded.experiment.variants {
@@ -100,7 +100,7 @@ pub fn run_campaign(
         let csv = dir.map(|dir| dir.join("signals.csv"));
         let words = format!("variant {}", variant.name);
         let before: Vec<(&str, &Table)> = std::iter::once(("main", &main.simulated.table))
-            .chain(variants.iter().map(|(v, done): &(Variant, Done)| (v.name.as_str(), &done.simulated.table)))
+            .chain(variants.iter().map(|(v, done): &(Variant, CompletedRun)| (v.name.as_str(), &done.simulated.table)))
             .collect();
         let observer = (interrupt, words.as_str(), &mut *progress);
         let done = one_run(&other, Some(&variant.name), &before, csv.as_deref(), observer)?;
@@ -133,7 +133,7 @@ pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     let controller = loaded.controller.clone();
     let view = SceneView::new(&loaded.scene);
     let audit = audit(loaded, &simulated, None);
-    let main = Done { simulated, columns, audit, outcomes, settings, model_hash, controller, view };
+    let main = CompletedRun { simulated, columns, audit, outcomes, settings, model_hash, controller, view };
     let report = report(folder, loaded, &main, &[], None);
     Campaign { main, variants: Vec::new(), sweep: None, report }
 }
@@ -148,7 +148,7 @@ fn one_run(
     before: &[(&str, &Table)],
     csv: Option<&Path>,
     observer: Observer<'_, '_>,
-) -> Result<Done, RunError> {
+) -> Result<CompletedRun, RunError> {
     let (scene, experiment) = (&loaded.scene, &loaded.experiment);
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
@@ -163,7 +163,7 @@ fn one_run(
     let outcomes = match variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) {
         None => evaluate(&experiment.checks, &simulated.table, stopped),
         Some(variant) => {
-            let table = simulated.table.beside(before);
+            let table = simulated.table.with_columns_of(before);
             let mut outcomes = evaluate(&variant.checks, &table, stopped);
             if variant.inherit_checks {
                 outcomes.extend(evaluate(&experiment.checks, &table, stopped));
@@ -175,7 +175,7 @@ fn one_run(
     let model_hash = model_hash(&scene.model);
     let controller = loaded.controller.clone();
     let view = SceneView::new(scene);
-    Ok(Done { simulated, columns, audit, outcomes, settings, model_hash, controller, view })
+    Ok(CompletedRun { simulated, columns, audit, outcomes, settings, model_hash, controller, view })
 }
 
 fn settings(experiment: &Experiment, run: &Simulated) -> Settings {
@@ -282,8 +282,8 @@ fn parameter_unit(scene: &Scene, path: &str) -> &'static str {
 fn report(
     folder: &Path,
     loaded: &Loaded,
-    main: &Done,
-    variants: &[(Variant, Done)],
+    main: &CompletedRun,
+    variants: &[(Variant, CompletedRun)],
     sweep: Option<&(Sweep, Vec<Outcome>)>,
 ) -> RunReport {
     let scene = sincro_scene::open::folder_name(folder);
@@ -327,7 +327,7 @@ fn message_report(message: &Message) -> MessageReport {
     MessageReport { t: message.t, object: message.object.clone(), text: message.text.clone() }
 }
 
-fn variant_report((variant, done): &(Variant, Done)) -> VariantReport {
+fn variant_report((variant, done): &(Variant, CompletedRun)) -> VariantReport {
     let set = variant.set.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
     VariantReport {
         name: variant.name.clone(),

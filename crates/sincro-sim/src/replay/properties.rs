@@ -209,7 +209,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::{Extensions, load, load_alone};
+    use crate::{Extensions, load, load_without_variants};
 
     #[test]
     fn every_number_on_offer_can_be_set() {
@@ -219,7 +219,7 @@ mod tests {
             assert!(all.len() > 10, "{scene}: {}", all.len());
             for one in &all {
                 let same = Override::new(&one.path, &one.value.to_string());
-                let loaded = load_alone(&folder, std::slice::from_ref(&same), Extensions::default())
+                let loaded = load_without_variants(&folder, std::slice::from_ref(&same), Extensions::default())
                     .unwrap_or_else(|p| panic!("{}: {p}", one.path));
                 let again = properties(&loaded, &[same]);
                 let numbers = |list: &[Property]| list.iter().map(|p| (p.path.clone(), p.value)).collect::<Vec<_>>();

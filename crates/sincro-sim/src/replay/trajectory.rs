@@ -186,7 +186,7 @@ impl Trajectory {
 
     /// Frames evenly over the run: at most `rate` a simulated second, `most` in all, the first and the last among them.
     #[must_use]
-    pub fn spread(&self, rate: f64, most: usize) -> Vec<usize> {
+    pub fn evenly_spaced(&self, rate: f64, most: usize) -> Vec<usize> {
         let (Some(start), Some(end)) = (self.times.first(), self.times.last()) else { return Vec::new() };
         let n = (((end - start) * rate) as usize + 1).min(most.max(1));
         let at = |k: usize| {

@@ -15,7 +15,7 @@ use crate::check::{Outcome, Verdict};
 use crate::file::{self, FileError};
 use crate::sweep::Sweep;
 use crate::table::Table;
-use crate::validity::Outside;
+use crate::validity::ValidityViolation;
 use sincro_scene::experiment::check::Sense;
 
 /// The whole file.
@@ -54,7 +54,7 @@ pub struct RunReport {
     pub variants: Vec<VariantReport>,
     /// Rotors outside the validity of their theory; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub outside_theory: Vec<OutsideReport>,
+    pub outside_theory: Vec<ValidityReport>,
     /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
     /// Messages of scripts, if there are any.
@@ -73,7 +73,7 @@ pub struct RunReport {
 
 /// One rotor outside what its theory holds for, for one reason.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OutsideReport {
+pub struct ValidityReport {
     /// Its path.
     pub rotor: String,
     /// Reason in words: `steep descent`.
@@ -88,8 +88,8 @@ pub struct OutsideReport {
     pub last: f64,
 }
 
-impl From<&Outside> for OutsideReport {
-    fn from(o: &Outside) -> Self {
+impl From<&ValidityViolation> for ValidityReport {
+    fn from(o: &ValidityViolation) -> Self {
         let (rotor, reason) = (o.rotor.clone(), o.reason.word().to_owned());
         Self { rotor, reason, steps: o.steps, duration: o.duration, first: o.first, last: o.last }
     }
@@ -393,7 +393,7 @@ pub struct VariantReport {
     pub checks: Vec<CheckReport>,
     /// Rotors outside the validity of their theory; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub outside_theory: Vec<OutsideReport>,
+    pub outside_theory: Vec<ValidityReport>,
     /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
     /// Wall time `[s]`.

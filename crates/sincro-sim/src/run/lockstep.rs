@@ -197,8 +197,8 @@ impl LockStep {
         self.world.mark_changed();
     }
 
-    /// Puts the world into another state, and the diagram's continuous states with it (none to leave them).
-    pub fn place(&mut self, state: State<f64>, continuous: &[f64]) {
+    /// Sets the state of the world and the continuous states of the diagram; empty `continuous` leaves the latter.
+    pub fn set_state(&mut self, state: State<f64>, continuous: &[f64]) {
         self.world.state = state;
         self.world.mark_changed();
         if let Some(control) = &mut self.control
@@ -446,7 +446,7 @@ impl LockStep {
     }
 
     /// Adds the present state to a hash.
-    pub fn add_to(&self, trace: &mut Trace) {
+    pub fn hash_into(&self, trace: &mut Trace) {
         trace.add(&self.world.state);
         trace.add_continuous(self.continuous());
     }

@@ -22,7 +22,7 @@ use sincro_dynamics::world::{MethodKind, StepStatistics, World};
 
 use crate::audit::Finding;
 use crate::trace::Trace;
-use crate::validity::Outside;
+use crate::validity::ValidityViolation;
 pub use lockstep::{Halt, LockStep};
 pub use recording::Recording;
 
@@ -71,7 +71,7 @@ pub struct Simulated {
     /// Sub-steps and events.
     pub statistics: StepStatistics,
     /// Rotors outside the validity of their theory.
-    pub outside: Vec<Outside>,
+    pub outside: Vec<ValidityViolation>,
     /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
     /// Messages of scripts.
@@ -205,7 +205,7 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         return (kind, warnings);
     };
     let step = loaded.experiment.step;
-    if let Some((block, rate)) = controller.fastest()
+    if let Some((block, rate)) = controller.fastest_decay()
         && kind == MethodKind::DormandPrince
         && rate * step > SLOW_FROM
     {
@@ -275,7 +275,7 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
     let accuracy = if refined { finer_accuracy(experiment.accuracy) } else { experiment.accuracy };
     let first_step = (experiment.step * 0.1).min(1e-3);
     let (model, control) = ((*scene.model).clone(), Control::new(accuracy, first_step));
-    let mut world = World::with_attachment(model, scene.initial.clone(), kind, control, true, n_states);
+    let mut world = World::with_coupled_states(model, scene.initial.clone(), kind, control, true, n_states);
     world.set_substeps(if refined { 2 } else { 1 });
     world
 }

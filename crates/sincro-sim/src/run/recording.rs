@@ -108,7 +108,7 @@ impl Recording {
     /// The CSV file cannot be written.
     pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<Option<String>, FileError> {
         let mut end = None;
-        lockstep.add_to(&mut self.trace);
+        lockstep.hash_into(&mut self.trace);
         let (tick, t) = (lockstep.tick(), lockstep.t());
         self.validity.update(lockstep.world(), t);
         self.audit.tick(lockstep.world(), t);

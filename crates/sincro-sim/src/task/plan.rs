@@ -98,7 +98,7 @@ impl Plan {
     /// The experiment has no task, or a number that is drawn cannot be set.
     pub fn new(loaded: &Loaded) -> Result<Self, Diagnostics> {
         let Some(task) = loaded.experiment.task.clone() else {
-            let found = Diagnostic::nowhere("the experiment has no task");
+            let found = Diagnostic::without_location("the experiment has no task");
             return Err(found.with_help("add a table `[task]` to `experiment.toml`: docs/python.md").into());
         };
         let model = &*loaded.scene.model;
@@ -135,7 +135,7 @@ impl Plan {
         plan.lanes_refused = plan.obstacle().map(ToOwned::to_owned);
         let middle = plan.drawn(0, 0);
         if !middle.overrides.is_empty() {
-            loaded.alone_with_overrides(&middle.overrides)?;
+            loaded.with_overrides_without_variants(&middle.overrides)?;
         }
         Ok(plan)
     }

@@ -48,7 +48,7 @@ impl SingleWorld {
         let varied: Option<Loaded> = match drawn.overrides.is_empty() {
             true => None,
             // what the files refuse for this draw ends the episode at once, as any world that cannot go on
-            false => match plan.loaded.alone_with_overrides(&drawn.overrides) {
+            false => match plan.loaded.with_overrides_without_variants(&drawn.overrides) {
                 Ok(loaded) => Some(loaded),
                 Err(_) => {
                     self.is_good = false;
@@ -68,7 +68,7 @@ impl SingleWorld {
         for (now, (drawn, nominal)) in state.v.iter_mut().zip(drawn.state.v.iter().zip(&nominal.v)) {
             *now = if drawn == nominal { *now } else { *drawn };
         }
-        lockstep.place(state, &[]);
+        lockstep.set_state(state, &[]);
         self.is_good = lockstep.start().is_ok();
         let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&plan.task.signals, &loaded.scene.model, &entries);

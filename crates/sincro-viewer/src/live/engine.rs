@@ -1,4 +1,4 @@
-//! The engine: advances the present run by the wall clock, does what viewers ask, and writes to the board.
+//! The engine: advances the present run by the wall clock, does what viewers ask, and writes to the live state.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::check::{Expected, Subject};
 use sincro_scene::overrides::Override;
 use sincro_sim::replay::{SceneView, properties};
-use sincro_sim::{Extensions, load, load_alone};
+use sincro_sim::{Extensions, load, load_without_variants};
 
-use super::board::{Board, RunLog};
 use super::command::Command;
+use super::live_state::{LiveState, RunLog};
 use super::track::{Taken, Track};
 use crate::replay::{FORMAT, Replay, plots};
 use crate::save::save_scene;
@@ -42,7 +42,7 @@ pub struct Source {
 /// A live scene with its runs.
 pub struct Engine {
     source: Source,
-    board: Arc<Board>,
+    live_state: Arc<LiveState>,
     tracks: Vec<Track>,
     playing: bool,
     speed: Option<f64>,
@@ -71,18 +71,18 @@ impl Engine {
             diagram: loaded.controller.as_ref().map(|c| (source.draw)(c)),
             runs: Vec::new(),
         };
-        let board = Arc::new(Board::new(replay.to_json()));
+        let live_state = Arc::new(LiveState::new(replay.to_json()));
         let first = Track::new(loaded, source.settings.clone())?;
         let since = (Instant::now(), 0.0);
-        let mut engine = Self { source, board, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
+        let mut engine = Self { source, live_state, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
         engine.begin(first, "main", "");
         Ok(engine)
     }
 
     /// Board that viewers read.
     #[must_use]
-    pub fn board(&self) -> Arc<Board> {
-        self.board.clone()
+    pub fn live_state(&self) -> Arc<LiveState> {
+        self.live_state.clone()
     }
 
     /// Starts the engine's thread; it ends when the last sender is gone.
@@ -164,10 +164,10 @@ impl Engine {
             }
             Command::Release {} => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
             Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set), self.source.extensions)
-                .map(|folder| self.board.say("saved", &format!("saved as {}", folder.display()))),
+                .map(|folder| self.live_state.say("saved", &format!("saved as {}", folder.display()))),
         };
         if let Err(message) = done {
-            self.board.say("refused", &message);
+            self.live_state.say("refused", &message);
         }
     }
 
@@ -201,7 +201,7 @@ impl Engine {
     fn take_if_new(&mut self) {
         let track = self.tracks.last_mut().expect("there is a run from the start on");
         let t = track.lockstep.t();
-        let is_new = self.board.read().runs.last().is_none_or(|run| run.times.last().is_none_or(|last| *last < t));
+        let is_new = self.live_state.read().runs.last().is_none_or(|run| run.times.last().is_none_or(|last| *last < t));
         if is_new {
             let taken = track.take(false);
             self.publish(taken);
@@ -210,7 +210,7 @@ impl Engine {
 
     fn restart(&mut self) -> Result<(), String> {
         let settings = self.present().settings.clone();
-        let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
+        let loaded = load_without_variants(&self.source.folder, &settings, self.source.extensions)
             .map_err(|diagnostics| diagnostics.to_string())?;
         let track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         self.begin_next(track, "from the start");
@@ -232,7 +232,7 @@ impl Engine {
         let from = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
         let settings = self.settings(set);
         let snapshot = from.snapshot_at(t).filter(|s| s.state.tick > 0 || !joints.is_empty()).cloned();
-        let loaded = load_alone(&self.source.folder, &settings, self.source.extensions)
+        let loaded = load_without_variants(&self.source.folder, &settings, self.source.extensions)
             .map_err(|diagnostics| diagnostics.to_string())?;
         let mut track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         if let Some(snapshot) = &snapshot {
@@ -254,7 +254,7 @@ impl Engine {
         self.begin(track, &name, about);
     }
 
-    /// Puts a new run on the board.
+    /// Adds a new run to the live state.
     fn begin(&mut self, mut track: Track, name: &str, about: &str) {
         let header = header(&track, self.tracks.len(), name, about);
         let log = RunLog { header, n_columns: track.columns.len(), width: track.layout.width(), ..RunLog::default() };
@@ -262,14 +262,14 @@ impl Engine {
         self.tracks.push(track);
         let share = SNAPSHOT_BYTES / self.tracks.len();
         self.tracks.iter_mut().for_each(|track| track.keep_snapshots(share));
-        self.board.write(|content| content.runs.push(log));
+        self.live_state.write(|content| content.runs.push(log));
         self.publish(taken);
         self.stand();
     }
 
     fn publish(&mut self, taken: Taken) {
-        self.board.write(|content| {
-            let run = content.runs.last_mut().expect("the run stands on the board");
+        self.live_state.write(|content| {
+            let run = content.runs.last_mut().expect("the run is in the live state");
             run.times.push(taken.t);
             run.rows.extend(taken.row);
             run.frames.extend(taken.frame);
@@ -277,7 +277,7 @@ impl Engine {
         });
         let factor = self.factor(taken.t);
         // told ten times a second is enough
-        self.board.read().standing.factor = factor;
+        self.live_state.read().engine.factor = factor;
     }
 
     fn factor(&self, t: f64) -> Option<f64> {
@@ -291,8 +291,8 @@ impl Engine {
         let (stop, done, trace) = (track.stop.clone(), track.is_done(), track.trace.to_string());
         let factor = self.factor(track.lockstep.t());
         let (run, playing, speed) = (self.tracks.len() - 1, self.playing, self.speed);
-        self.board.write(|content| {
-            content.standing = super::board::Standing { run, playing, speed, factor, stop, done, trace };
+        self.live_state.write(|content| {
+            content.engine = super::live_state::EngineState { run, playing, speed, factor, stop, done, trace };
         });
     }
 }

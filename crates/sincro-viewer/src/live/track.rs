@@ -42,7 +42,7 @@ pub(super) struct Track {
     push: Option<Push<f64>>,
 }
 
-/// Content that a frame adds to the board.
+/// Content that a frame adds to the live state.
 pub(super) struct Taken {
     pub t: f64,
     pub row: Vec<f64>,
@@ -100,7 +100,7 @@ impl Track {
         if !joints.is_empty() {
             let mut state = self.lockstep.state().clone();
             joints.iter().for_each(|(index, value)| state.q[*index] = *value);
-            self.lockstep.place(state, &[]);
+            self.lockstep.set_state(state, &[]);
             self.lockstep.stop();
         }
         self.stop.clear();
@@ -128,7 +128,7 @@ impl Track {
         self.lockstep.world().release();
         let is_world_halt = matches!(advanced, Err(sincro_sim::run::Halt::World { .. }));
         if !is_world_halt {
-            self.lockstep.add_to(&mut self.trace);
+            self.lockstep.hash_into(&mut self.trace);
         }
         if let Err(halt) = advanced {
             self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));

@@ -23,7 +23,7 @@ use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 use protobuf::Package;
 use serde_json::{Value, json};
-use sincro_sim::campaign::Done;
+use sincro_sim::campaign::CompletedRun;
 use sincro_sim::file::FileError;
 use sincro_sim::replay::{ObjectView, SceneView, Trajectory};
 use sincro_sim::table::Table;
@@ -42,7 +42,7 @@ struct Recording {
 /// # Errors
 ///
 /// The file cannot be written.
-pub fn write(done: &Done, path: &Path) -> Result<(), FileError> {
+pub fn write(done: &CompletedRun, path: &Path) -> Result<(), FileError> {
     let failed = |e: io::Error| FileError::new("write", path, e);
     let file = std::fs::File::create(path).map_err(failed)?;
     let options = WriteOptions::new().compression(None).library("sincro");

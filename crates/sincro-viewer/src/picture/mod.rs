@@ -57,7 +57,7 @@ pub fn strip(view: &SceneView, trajectory: &Trajectory, (rate, most): (f64, usiz
         let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"");
         picture.replacen("<svg", &head, 1).replacen('>', "><rect width=\"100%\" height=\"100%\" fill=\"#f7f8fa\"/>", 1)
     };
-    trajectory.spread(rate, most).into_iter().map(one).collect()
+    trajectory.evenly_spaced(rate, most).into_iter().map(one).collect()
 }
 
 /// Everything but planes.

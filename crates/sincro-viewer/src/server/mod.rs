@@ -35,29 +35,29 @@ use sincro_access::{Guard, guard};
 use connection::Line;
 
 use crate::embed::{SCRIPT, STYLE};
-use crate::live::{Board, Command};
+use crate::live::{Command, LiveState};
 
 /// Largest message of a viewer [bytes].
 const MAX_BYTES: usize = 1 << 18;
 
 /// Content that a server shows.
 #[derive(Clone)]
-pub enum Show {
+pub enum ViewerContent {
     /// Finished runs, as JSON.
     Replay(Arc<str>),
     /// A live run.
-    Live(Arc<Board>, SyncSender<Command>),
+    Live(Arc<LiveState>, SyncSender<Command>),
 }
 
-impl Show {
+impl ViewerContent {
     /// Paths of the cameras of what is shown.
     #[must_use]
     pub fn cameras(&self) -> Vec<String> {
         let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
         let view = match self {
             Self::Replay(text) => parse(text)["views"][0].take(),
-            Self::Live(board, _) => {
-                board.read().runs.first().map_or(Value::Null, |run| parse(&run.header)["view"].take())
+            Self::Live(live_state, _) => {
+                live_state.read().runs.first().map_or(Value::Null, |run| parse(&run.header)["view"].take())
             }
         };
         let objects = view["objects"].as_array().into_iter().flatten();
@@ -67,7 +67,7 @@ impl Show {
 
 #[derive(Clone)]
 struct Shared {
-    show: Show,
+    show: ViewerContent,
     guard: Arc<Guard>,
 }
 
@@ -75,7 +75,7 @@ struct Shared {
 pub struct Server {
     listener: TcpListener,
     guard: Arc<Guard>,
-    show: Show,
+    show: ViewerContent,
 }
 
 impl Server {
@@ -84,7 +84,7 @@ impl Server {
     /// # Errors
     ///
     /// The address cannot be had.
-    pub fn bind(address: SocketAddr, show: Show) -> io::Result<Self> {
+    pub fn bind(address: SocketAddr, show: ViewerContent) -> io::Result<Self> {
         let listener = TcpListener::bind(address)?;
         listener.set_nonblocking(true)?;
         let guard = Arc::new(Guard::for_page(listener.local_addr()?));
@@ -200,8 +200,8 @@ fn asked(request: &Request) -> Result<guard::Request<'_>, guard::Refused> {
 
 async fn page(State(shared): State<Shared>) -> Html<String> {
     let source = match shared.show {
-        Show::Replay(_) => "film",
-        Show::Live(..) => "live",
+        ViewerContent::Replay(_) => "film",
+        ViewerContent::Live(..) => "live",
     };
     Html(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
@@ -214,8 +214,10 @@ async fn page(State(shared): State<Shared>) -> Html<String> {
 
 async fn replay(State(shared): State<Shared>) -> Response {
     match shared.show {
-        Show::Replay(replay) => ([(header::CONTENT_TYPE, "application/json")], replay.to_string()).into_response(),
-        Show::Live(..) => (StatusCode::NOT_FOUND, "this is a live run").into_response(),
+        ViewerContent::Replay(replay) => {
+            ([(header::CONTENT_TYPE, "application/json")], replay.to_string()).into_response()
+        }
+        ViewerContent::Live(..) => (StatusCode::NOT_FOUND, "this is a live run").into_response(),
     }
 }
 
@@ -225,10 +227,10 @@ async fn live(
     upgrade: WebSocketUpgrade,
 ) -> Response {
     match shared.show {
-        Show::Replay(_) => (StatusCode::NOT_FOUND, "these are finished runs").into_response(),
-        Show::Live(board, commands) => upgrade
+        ViewerContent::Replay(_) => (StatusCode::NOT_FOUND, "these are finished runs").into_response(),
+        ViewerContent::Live(live_state, commands) => upgrade
             .max_message_size(MAX_BYTES)
             .max_frame_size(MAX_BYTES)
-            .on_upgrade(move |socket| socket::attend(socket, line, board, commands)),
+            .on_upgrade(move |socket| socket::attend(socket, line, live_state, commands)),
     }
 }

@@ -1,4 +1,4 @@
-//! One viewer's line: everything that is on the board and that it has not seen, at its own pace.
+//! One viewer's line: everything of the live state and that it has not seen, at its own pace.
 //!
 //! A frame message is, little endian: `u32` 2, run, number of frames n, number of signals m, number of points of
 //! contact c, 0; n times `[s]` as `f64`; n·m signals as `f64`; n frames as `f32`; n numbers of points as `u32`; c
@@ -13,7 +13,7 @@ use sincro_sim::replay::CONTACT;
 use tokio::time::{Instant, interval, sleep_until, timeout};
 
 use super::connection::Line;
-use crate::live::{Board, Command};
+use crate::live::{Command, LiveState};
 
 /// Least time between two messages of frames.
 const PAUSE: Duration = Duration::from_millis(16);
@@ -32,7 +32,7 @@ struct Seen {
     /// Frames of each run.
     frames: Vec<usize>,
     words: u64,
-    standing: String,
+    engine: String,
 }
 
 /// Sends a message; false if the viewer is gone or does not take it in time.
@@ -41,30 +41,35 @@ async fn send(socket: &mut WebSocket, message: Message) -> bool {
 }
 
 /// Serves one viewer until it goes or its line must be closed.
-pub(super) async fn attend(socket: WebSocket, line: Arc<Line>, board: Arc<Board>, commands: SyncSender<Command>) {
+pub(super) async fn attend(
+    socket: WebSocket,
+    line: Arc<Line>,
+    live_state: Arc<LiveState>,
+    commands: SyncSender<Command>,
+) {
     tokio::select! {
-        () = show(socket, &line, board, commands) => {}
+        () = show(socket, &line, live_state, commands) => {}
         () = line.closed() => {}
     }
 }
 
-async fn show(mut socket: WebSocket, line: &Line, board: Arc<Board>, commands: SyncSender<Command>) {
-    let mut changes = board.watch();
+async fn show(mut socket: WebSocket, line: &Line, live_state: Arc<LiveState>, commands: SyncSender<Command>) {
+    let mut changes = live_state.watch();
     let (replay, words) = {
-        let content = board.read();
+        let content = live_state.read();
         (content.replay.clone(), content.last_words())
     };
     if !send(&mut socket, Message::text(replay)).await {
         return;
     }
-    let mut seen = Seen { frames: Vec::new(), words, standing: String::new() };
+    let mut seen = Seen { frames: Vec::new(), words, engine: String::new() };
     let mut has_complained = false;
     let (mut ping, mut heard) = (interval(PING), Instant::now());
     loop {
         let started = Instant::now();
         changes.mark_unchanged();
         loop {
-            let news = seen.news(&board);
+            let news = seen.news(&live_state);
             if news.is_empty() {
                 break;
             }
@@ -138,9 +143,9 @@ fn refuse(reason: &str, has_complained: &mut bool) -> String {
 }
 
 impl Seen {
-    /// Content of the board that was not sent yet, a bounded part of it.
-    fn news(&mut self, board: &Board) -> Vec<Message> {
-        let content = board.read();
+    /// Content of the live state that was not sent yet, a bounded part of it.
+    fn news(&mut self, live_state: &LiveState) -> Vec<Message> {
+        let content = live_state.read();
         let mut news = Vec::new();
         for (id, run) in content.runs.iter().enumerate() {
             if id == self.frames.len() {
@@ -159,12 +164,12 @@ impl Seen {
             self.words = *number;
             news.push(Message::text(text.clone()));
         }
-        let mut standing = serde_json::to_value(&content.standing).expect("plain data has a JSON form");
-        standing["type"] = "state".into();
-        let standing = standing.to_string();
-        if standing != self.standing {
-            self.standing.clone_from(&standing);
-            news.push(Message::text(standing));
+        let mut engine = serde_json::to_value(&content.engine).expect("plain data has a JSON form");
+        engine["type"] = "state".into();
+        let engine = engine.to_string();
+        if engine != self.engine {
+            self.engine.clone_from(&engine);
+            news.push(Message::text(engine));
         }
         news
     }

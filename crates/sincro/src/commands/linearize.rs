@@ -182,12 +182,12 @@ fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Dia
         [("--lqr-q", arguments.lqr_q.len(), system.n_states()), ("--lqr-r", arguments.lqr_r.len(), system.n_inputs())]
     {
         if given != wanted {
-            let diagnostic = Diagnostic::nowhere(format!("{flag} has {given} weights for {wanted}"));
+            let diagnostic = Diagnostic::without_location(format!("{flag} has {given} weights for {wanted}"));
             return Err(diagnostic.with_help("give one for each state (--lqr-q) and each input (--lqr-r)"));
         }
     }
     let design = lqr(&system.a, &system.b, &diagonal(&arguments.lqr_q), &diagonal(&arguments.lqr_r))
-        .map_err(|e| Diagnostic::nowhere(format!("there is no regulator: {e}")))?;
+        .map_err(|e| Diagnostic::without_location(format!("there is no regulator: {e}")))?;
     let mut words = String::from("\nlinear-quadratic regulator u = −K·x");
     for (i, input) in system.inputs.iter().enumerate() {
         let row: Vec<String> = design.k.row(i).iter().map(|x| format!("{x:?}")).collect();

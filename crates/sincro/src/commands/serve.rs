@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use sincro::scene_name;
-use sincro::serve::{Deadlines, Event, Options, Record, Recorder, Server, Stored, open, received_folder};
+use sincro::serve::{ArchiveLevel, ArchivedRun, Deadlines, Event, Options, RunArchive, Server, open, received_folder};
 use sincro_access::printable;
 use sincro_coppelia::session::{Files, Finished, Grants, Session};
 use sincro_sim::results::Status;
@@ -99,7 +99,7 @@ enum RecordFlag {
     Full,
 }
 
-impl From<RecordFlag> for Record {
+impl From<RecordFlag> for ArchiveLevel {
     fn from(flag: RecordFlag) -> Self {
         match flag {
             RecordFlag::None => Self::None,
@@ -142,7 +142,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     };
     print_ports(&title, &server);
     let interrupt = interrupt();
-    let recorder = Recorder::new(out, arguments.record.into(), arguments.keep);
+    let recorder = RunArchive::new(out, arguments.record.into(), arguments.keep);
     let mut watch = Watch { recorder, clients: 0, told: Instant::now(), step: 0 };
     while !interrupt.load(Ordering::Relaxed) {
         match server.events().recv_timeout(POLL_INTERVAL) {
@@ -223,7 +223,7 @@ fn print_ports(title: &str, server: &Server) {
 
 /// State of the terminal output, and count of the runs that were written.
 struct Watch {
-    recorder: Recorder,
+    recorder: RunArchive,
     clients: usize,
     told: Instant,
     step: u64,
@@ -269,7 +269,7 @@ impl Watch {
             Status::Completed | Status::Interrupted { .. } => "ended".to_owned(),
         };
         match self.recorder.store(&finished) {
-            Ok(Stored { number, path }) => say!(
+            Ok(ArchivedRun { number, path }) => say!(
                 "  run {number} {how} after {} of clients, {} s recorded, trace {hash}{}",
                 diagnostics::count(n as usize, "step"),
                 console::short(t),

@@ -5,7 +5,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use sincro::view::{self, Server, Show};
+use sincro::view::{self, Server, ViewerContent};
 
 use super::robot_file::SceneSource;
 use super::run::parse_settings;
@@ -68,17 +68,17 @@ pub(crate) fn replay(arguments: &ReplayArguments) -> Exit {
     show.map_or_else(|exit| exit, |show| serve(show, address, arguments.camera.as_deref(), arguments.no_browser))
 }
 
-fn replay_of(run: &Path) -> Result<Show, Exit> {
+fn replay_of(run: &Path) -> Result<ViewerContent, Exit> {
     view::replay(run).map_err(|error| diagnostics::refuse(&error.message, Some(error.help)))
 }
 
-fn live(arguments: &Arguments, scene: &Path) -> Result<Show, Exit> {
+fn live(arguments: &Arguments, scene: &Path) -> Result<ViewerContent, Exit> {
     let overrides =
         parse_settings(&arguments.set).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))?;
     view::live(scene, overrides).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))
 }
 
-fn serve(show: Show, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {
+fn serve(show: ViewerContent, address: SocketAddr, camera: Option<&str>, no_browser: bool) -> Exit {
     let camera = match camera.map(|name| view::camera(&show, name).map_err(|all| (name, all))).transpose() {
         Ok(camera) => camera,
         Err((name, all)) => return diagnostics::refuse_camera(name, &all),

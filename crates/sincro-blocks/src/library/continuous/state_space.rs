@@ -25,11 +25,11 @@ impl Described for StateSpace {
         summary: "A linear system given by its four matrices.",
         equation: "x' = a x + b u, y = c x + d u, x(0) = initial",
         parameters: &[
-            Parameter::required("a", Takes::Matrix, "system matrix, n × n [1/s]"),
-            Parameter::required("b", Takes::Matrix, "input matrix, n × inputs; of one input, a list will do"),
-            Parameter::required("c", Takes::Matrix, "output matrix, outputs × n"),
-            Parameter::optional("d", Takes::Matrix, "feedthrough matrix, outputs × inputs; zero if left out", "[]"),
-            Parameter::optional("initial", Takes::Numbers, "x at the start, one for all or one for each", "0"),
+            Parameter::required("a", ValueKind::Matrix, "system matrix, n × n [1/s]"),
+            Parameter::required("b", ValueKind::Matrix, "input matrix, n × inputs; of one input, a list will do"),
+            Parameter::required("c", ValueKind::Matrix, "output matrix, outputs × n"),
+            Parameter::optional("d", ValueKind::Matrix, "feedthrough matrix, outputs × inputs; zero if left out", "[]"),
+            Parameter::optional("initial", ValueKind::Numbers, "x at the start, one for all or one for each", "0"),
         ],
     };
 

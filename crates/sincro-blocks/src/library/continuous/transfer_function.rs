@@ -41,9 +41,9 @@ impl Described for TransferFunction {
         summary: "A linear system given by the polynomials of its transfer function.",
         equation: "y = numerator(s)/denominator(s)·u",
         parameters: &[
-            Parameter::required("numerator", Takes::Numbers, "coefficients, highest power of s first"),
-            Parameter::required("denominator", Takes::Numbers, "coefficients, highest power of s first"),
-            Parameter::optional("initial_output", Takes::Numbers, "y at the start, at rest", "0"),
+            Parameter::required("numerator", ValueKind::Numbers, "coefficients, highest power of s first"),
+            Parameter::required("denominator", ValueKind::Numbers, "coefficients, highest power of s first"),
+            Parameter::optional("initial_output", ValueKind::Numbers, "y at the start, at rest", "0"),
         ],
     };
 

@@ -72,7 +72,7 @@ impl DiscretePid {
 /// Parameters of the continuous controller, and the method.
 const PARAMETERS: [Parameter; PidLaw::PARAMETERS.len() + 1] = {
     let doc = "rule of the integral";
-    let mut all = [Parameter::optional("method", Takes::Choice(Method::WORDS), doc, "forward-euler"); _];
+    let mut all = [Parameter::optional("method", ValueKind::Choice(Method::WORDS), doc, "forward-euler"); _];
     let mut k = 0;
     while k < PidLaw::PARAMETERS.len() {
         all[k] = PidLaw::PARAMETERS[k];

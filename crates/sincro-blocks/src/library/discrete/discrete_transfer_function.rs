@@ -67,8 +67,8 @@ impl Described for DiscreteTransferFunction {
         summary: "A linear recursion given by the polynomials in z of its transfer function.",
         equation: "y = numerator(z)/denominator(z)·u",
         parameters: &[
-            Parameter::required("numerator", Takes::Numbers, "coefficients, highest power of z first"),
-            Parameter::required("denominator", Takes::Numbers, "coefficients, highest power of z first"),
+            Parameter::required("numerator", ValueKind::Numbers, "coefficients, highest power of z first"),
+            Parameter::required("denominator", ValueKind::Numbers, "coefficients, highest power of z first"),
         ],
     };
 

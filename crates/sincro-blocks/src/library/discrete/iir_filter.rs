@@ -50,11 +50,11 @@ impl Described for IirFilter {
         summary: "A recursive filter, given by its coefficients or by sections of second order.",
         equation: "a[0]·y[k] = Σ b[j]·u[k−j] − Σ a[j]·y[k−j]",
         parameters: &[
-            Parameter::optional("b", Takes::Numbers, "coefficients of u[k], u[k−1] …", "1"),
-            Parameter::optional("a", Takes::Numbers, "coefficients of y[k], y[k−1] …", "1"),
+            Parameter::optional("b", ValueKind::Numbers, "coefficients of u[k], u[k−1] …", "1"),
+            Parameter::optional("a", ValueKind::Numbers, "coefficients of y[k], y[k−1] …", "1"),
             Parameter::optional(
                 "sections",
-                Takes::Matrix,
+                ValueKind::Matrix,
                 "instead of b and a: a row b0, b1, b2, a0, a1, a2 for each section",
                 "[]",
             ),

@@ -10,7 +10,7 @@ declare_block! {
         /// The comparison.
         pub operator: Comparison as Choice,
         /// Constant to compare the input with; if it is left out, there is a second input in its place.
-        pub constant: Option<Vec<f64>> as Given<PerComponent> = "none",
+        pub constant: Option<Vec<f64>> as OptionalParameter<PerComponent> = "none",
     }
 }
 

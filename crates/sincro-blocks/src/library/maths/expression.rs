@@ -104,14 +104,14 @@ impl Described for Expression {
         parameters: &[
             Parameter::optional(
                 "expression",
-                Takes::Text,
+                ValueKind::Text,
                 "formula such as `k*(u1 - u2)^2`; t is the time [s]",
                 "none",
             ),
-            Parameter::optional("expressions", Takes::Texts, "instead: a formula for every component of y", "[]"),
+            Parameter::optional("expressions", ValueKind::Texts, "instead: a formula for every component of y", "[]"),
             Parameter::optional(
                 "inputs",
-                Takes::Texts,
+                ValueKind::Texts,
                 "names of the inputs; if left out, the names in the formulas in the order in which they first appear, \
                  but for `t` and the diagram's parameters",
                 "[]",

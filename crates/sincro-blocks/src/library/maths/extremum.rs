@@ -14,7 +14,7 @@ pub type Min = Extremum<false>;
 /// Greatest of its inputs, `y = max(u1, u2, …)`; of a single input its greatest component, `y = max uᵢ`.
 pub type Max = Extremum<true>;
 
-const INPUTS: &[Parameter] = &[Parameter::optional("inputs", Takes::Count, "number of inputs", "2")];
+const INPUTS: &[Parameter] = &[Parameter::optional("inputs", ValueKind::Count, "number of inputs", "2")];
 
 const KINDS: [Kind; 2] = [
     Kind {

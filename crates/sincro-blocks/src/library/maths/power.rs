@@ -8,7 +8,7 @@ declare_block! {
     /// A negative number to a power that is not whole is not a number: the run stops and names this block.
     pub struct Power("power", Maths): "y = u^exponent; without the parameter y = u1^u2" {
         /// Exponent; if it is left out, there is a second input in its place.
-        pub exponent: Option<Vec<f64>> as Given<PerComponent> = "none",
+        pub exponent: Option<Vec<f64>> as OptionalParameter<PerComponent> = "none",
     }
 }
 

@@ -11,9 +11,9 @@ declare_block! {
         /// Fastest rise `[unit of u / s]`.
         pub rising: Vec<f64> as Limits,
         /// Fastest fall, a positive number `[unit of u / s]`.
-        pub falling: Option<Vec<f64>> as Given<Limits> = "rising",
+        pub falling: Option<Vec<f64>> as OptionalParameter<Limits> = "rising",
         /// y before the start.
-        pub initial: Option<Vec<f64>> as Given<PerComponent> = "u",
+        pub initial: Option<Vec<f64>> as OptionalParameter<PerComponent> = "u",
     }
 }
 

@@ -77,16 +77,16 @@ struct Row {
 
 const CONVENTION: Parameter = Parameter::optional(
     "convention",
-    Takes::Choice(Convention::WORDS),
+    ValueKind::Choice(Convention::WORDS),
     "zyx: roll, pitch, yaw with R = Rz(yaw)·Ry(pitch)·Rx(roll); xyz: α, β, γ with R = Rx(α)·Ry(β)·Rz(γ), as in V-REP",
     "zyx",
 );
-const INVERSE: Parameter = Parameter::optional("inverse", Takes::Flag, "turns back", "false");
+const INVERSE: Parameter = Parameter::optional("inverse", ValueKind::Flag, "turns back", "false");
 const WORLD: Parameter =
-    Parameter::optional("world", Takes::Flag, "takes the angular velocity in the axes of the world", "false");
+    Parameter::optional("world", ValueKind::Flag, "takes the angular velocity in the axes of the world", "false");
 const TRANSPOSED: Parameter = Parameter::optional(
     "transposed",
-    Takes::Flag,
+    ValueKind::Flag,
     "transposes the matrix, as for torques and in the laws of Lyapunov's method",
     "false",
 );
@@ -251,7 +251,7 @@ impl<const MAP: usize> Described for Rotation<MAP> {
         let mut new = Self::default();
         for parameter in Self::KIND.parameters {
             match parameter.takes {
-                Takes::Flag => new.option = p.flag(parameter.name),
+                ValueKind::Flag => new.option = p.flag(parameter.name),
                 _ => new.convention = <Choice as ParameterType<Convention>>::read(p, parameter.name),
             }
         }

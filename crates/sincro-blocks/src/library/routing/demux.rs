@@ -23,7 +23,7 @@ impl Described for Demux {
         category: Category::Routing,
         summary: "Cuts a vector into pieces.",
         equation: "[y1, y2, …] = u",
-        parameters: &[Parameter::required("sizes", Takes::Numbers, "number of components of y1, y2 …")],
+        parameters: &[Parameter::required("sizes", ValueKind::Numbers, "number of components of y1, y2 …")],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {

@@ -23,7 +23,7 @@ impl Described for Selector {
         category: Category::Routing,
         summary: "Takes components of a vector, in any order and as often as wanted.",
         equation: "y = [u[i₀], u[i₁], …], i = indices",
-        parameters: &[Parameter::required("indices", Takes::Numbers, "components, counted from 0")],
+        parameters: &[Parameter::required("indices", ValueKind::Numbers, "components, counted from 0")],
     };
 
     fn read(p: &mut Reader<'_>) -> Self {

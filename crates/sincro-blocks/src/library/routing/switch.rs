@@ -20,7 +20,7 @@ declare_block! {
 enum Criterion {}
 
 impl ParameterType<Comparison> for Criterion {
-    const TAKES: Takes = Takes::Choice(&[">", ">=", "!="]);
+    const VALUE_KIND: ValueKind = ValueKind::Choice(&[">", ">=", "!="]);
 
     fn read(reader: &mut Reader<'_>, key: &str) -> Comparison {
         [Comparison::Greater, Comparison::GreaterEqual, Comparison::NotEqual][reader.choice(key)]

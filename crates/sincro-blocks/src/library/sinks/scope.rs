@@ -26,9 +26,9 @@ impl Described for Scope {
         summary: "A plot of its inputs over time.",
         equation: "u1, u2, … are recorded and plotted",
         parameters: &[
-            Parameter::optional("title", Takes::Text, "heading of the plot; if empty, the name of the block", ""),
-            Parameter::optional("inputs", Takes::Count, "number of inputs", "1"),
-            Parameter::optional("names", Takes::Texts, "names of the inputs, instead of their number", "[]"),
+            Parameter::optional("title", ValueKind::Text, "heading of the plot; if empty, the name of the block", ""),
+            Parameter::optional("inputs", ValueKind::Count, "number of inputs", "1"),
+            Parameter::optional("names", ValueKind::Texts, "names of the inputs, instead of their number", "[]"),
         ],
     };
 

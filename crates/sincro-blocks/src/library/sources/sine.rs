@@ -13,9 +13,9 @@ declare_block! {
         /// Amplitude of y.
         pub amplitude: Vec<f64> as PerComponent = "1",
         /// ω `[rad/s]`; this or `frequency_hz`.
-        pub angular_frequency: Option<Vec<f64>> as Given<PerComponent> = "none",
+        pub angular_frequency: Option<Vec<f64>> as OptionalParameter<PerComponent> = "none",
         /// Frequency `[Hz]`; this or `angular_frequency`.
-        pub frequency_hz: Option<Vec<f64>> as Given<PerComponent> = "none",
+        pub frequency_hz: Option<Vec<f64>> as OptionalParameter<PerComponent> = "none",
         /// Phase at t = 0 `[rad]`.
         pub phase: Vec<f64> as PerComponent = "0",
         /// Mean of y.

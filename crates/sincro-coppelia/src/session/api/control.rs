@@ -164,7 +164,7 @@ fn keep_named(sim: &mut SimApi<'_>, a: Arguments<'_>, bytes: impl AsRef<[u8]>) -
     if sim.registry.named.len() >= 1_000 && !sim.registry.named.contains_key(name) {
         return Err(crate::session::ApiError::new("there are 1000 named parameters already"));
     }
-    sim.registry.make_room(bytes.len())?;
+    sim.registry.check_stored_size(bytes.len())?;
     sim.registry.named.insert(name.to_owned(), bytes.to_vec());
     done()
 }

@@ -41,7 +41,7 @@ use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
 pub use waiting::{MOVES, Move};
-pub use windows::is_for_show;
+pub use windows::is_display_only;
 
 /// Result of a function.
 pub type Outcome = Result<Vec<Value>, ApiError>;

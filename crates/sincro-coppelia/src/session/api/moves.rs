@@ -11,7 +11,7 @@ use super::motions::{MIN_ACCELERATION, MIN_VELOCITY, synchronization};
 use super::rotations::rotation_vector;
 use super::{Function, Outcome, done, plain};
 use crate::motion::{Axis, Goal, Limits, Point};
-use crate::session::convention::{matrix_of, pose_of_matrix, pose_of_seven, seven_of};
+use crate::session::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
 use crate::session::ik::Element;
 use crate::session::{ApiError, Arguments, Handle, Motion, Reference, SimApi, Value};
 
@@ -190,7 +190,7 @@ fn pose(fields: &Fields, name: &str) -> Result<Pose<f64>, ApiError> {
     if let Some(x) = numbers.iter().find(|x| !x.is_finite()) {
         return Err(ApiError(format!("`{name}` has {x}, expected finite numbers")));
     }
-    pose_of_seven(numbers).ok_or_else(|| ApiError(format!("`{name}` has a quaternion without direction")))
+    pose_of_numbers(numbers).ok_or_else(|| ApiError(format!("`{name}` has a quaternion without direction")))
 }
 
 /// Reference frame of the pose of an object.
@@ -256,7 +256,7 @@ fn begin_pose(sim: &mut SimApi<'_>, mut fields: Fields) -> Outcome {
 
 fn place(fields: &mut Fields, pose: &Pose<f64>) {
     fields.set_list("matrix", matrix_of(pose));
-    fields.set_list("pose", seven_of(pose));
+    fields.set_list("pose", numbers_of_pose(pose));
 }
 
 fn matrix(fields: &Fields, name: &str) -> Result<Pose<f64>, ApiError> {

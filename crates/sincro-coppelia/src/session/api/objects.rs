@@ -357,7 +357,7 @@ fn write_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     } else if sim.registry.data.len() >= 10_000 && !sim.registry.data.contains_key(&key) {
         return Err(ApiError::new("there are 10000 blocks of data already"));
     } else {
-        sim.registry.make_room(a.bytes(2)?.len())?;
+        sim.registry.check_stored_size(a.bytes(2)?.len())?;
         sim.registry.data.insert(key, a.bytes(2)?.to_vec());
     }
     done()

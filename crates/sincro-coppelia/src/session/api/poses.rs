@@ -108,7 +108,7 @@ fn quaternion(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    list(convention::seven_of(&read(sim, a)?))
+    list(convention::numbers_of_pose(&read(sim, a)?))
 }
 
 fn matrix(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
@@ -137,7 +137,7 @@ fn set_quaternion(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn set_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, _, against, value) = before(sim, a)?;
-    let pose = convention::pose_of_seven(a.reals(value)?);
+    let pose = convention::pose_of_numbers(a.reals(value)?);
     let pose = pose.ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
     sim.set_pose(own, &pose, against)?;
     done()
@@ -161,14 +161,14 @@ fn set_child_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         return Err(ApiError::new("the pose of a joint is its position: use sim.setJointPosition"));
     }
     let pose =
-        convention::pose_of_seven(a.reals(1)?).ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
+        convention::pose_of_numbers(a.reals(1)?).ok_or_else(|| ApiError::new("the quaternion has no direction"))?;
     sim.set_pose(own, &pose, Reference::Parent)?;
     done()
 }
 
 fn child_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    list(convention::seven_of(&sim.joint_pose(own)?))
+    list(convention::numbers_of_pose(&sim.joint_pose(own)?))
 }
 
 fn velocity(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

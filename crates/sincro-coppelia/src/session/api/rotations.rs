@@ -5,7 +5,7 @@ use sincro_math::elementary::atan2;
 
 use super::transforms::any;
 use super::{Function, Outcome, list};
-use crate::session::convention::{matrix_of, seven_of};
+use crate::session::convention::{matrix_of, numbers_of_pose};
 use crate::session::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -17,7 +17,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "interpolatePoses",
         tip: "float[7] poseOut=sim.interpolatePoses(float[7] poseIn1,float[7] poseIn2,float interpolFactor)",
-        run: |_, a| list(seven_of(&between(a)?)),
+        run: |_, a| list(numbers_of_pose(&between(a)?)),
     },
     Function {
         name: "getRotationAxis",
@@ -67,7 +67,7 @@ fn rotate(a: Arguments<'_>) -> Outcome {
     let turn = Quat::exp(axis.scale(a.real(3)? / length)).matrix();
     let rotated = Pose { rot: turn.mul(&pose.rot), pos: turn.mul_vec(pose.pos - point) + point };
     if matches!(a.get(0), Value::List(numbers) if numbers.len() == 7) {
-        list(seven_of(&rotated))
+        list(numbers_of_pose(&rotated))
     } else {
         list(matrix_of(&rotated))
     }

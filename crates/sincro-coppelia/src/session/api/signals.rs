@@ -60,7 +60,7 @@ fn float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn set_string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    sim.registry.make_room(a.bytes(1)?.len())?;
+    sim.registry.check_stored_size(a.bytes(1)?.len())?;
     sim.registry.strings.set(a.text(0)?, a.bytes(1)?.to_vec(), sim.registry.phase.is_on())?;
     done()
 }

@@ -4,8 +4,8 @@ use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
 use super::{Function, Outcome, list};
 use crate::session::convention::{
-    euler_of, matrix_of, pose_of_matrix, pose_of_seven, quaternion_of, rotation_of_euler, rotation_of_quaternion,
-    seven_of,
+    euler_of, matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers, quaternion_of, rotation_of_euler,
+    rotation_of_quaternion,
 };
 use crate::session::{ApiError, Arguments, Value};
 
@@ -28,7 +28,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "buildPose",
         tip: "float[7] pose=sim.buildPose(float[3] position,float[3] eulerAngles)",
-        run: |_, a| list(seven_of(&of_euler(a)?)),
+        run: |_, a| list(numbers_of_pose(&of_euler(a)?)),
     },
     Function {
         name: "multiplyMatrices",
@@ -38,7 +38,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "multiplyPoses",
         tip: "float[7] resultPose=sim.multiplyPoses(float[7] poseIn1,float[7] poseIn2)",
-        run: |_, a| list(seven_of(&any(a, 0)?.compose(&any(a, 1)?))),
+        run: |_, a| list(numbers_of_pose(&any(a, 0)?.compose(&any(a, 1)?))),
     },
     Function {
         name: "multiplyVector",
@@ -53,12 +53,12 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "getPoseInverse",
         tip: "float[7] pose=sim.getPoseInverse(float[7] pose)",
-        run: |_, a| list(seven_of(&any(a, 0)?.inverse())),
+        run: |_, a| list(numbers_of_pose(&any(a, 0)?.inverse())),
     },
     Function {
         name: "matrixToPose",
         tip: "float[7] pose=sim.matrixToPose(float[12] matrix)",
-        run: |_, a| list(seven_of(&any(a, 0)?)),
+        run: |_, a| list(numbers_of_pose(&any(a, 0)?)),
     },
     Function {
         name: "poseToMatrix",
@@ -90,7 +90,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
 /// A matrix or a pose, distinguished by the count of numbers.
 pub(super) fn any(a: Arguments<'_>, k: usize) -> Result<Pose<f64>, ApiError> {
     match a.get(k).as_reals().map(|list| list.len()) {
-        Some(7) => pose_of_seven(a.reals(k)?).ok_or_else(|| ApiError::new("the quaternion has no direction")),
+        Some(7) => pose_of_numbers(a.reals(k)?).ok_or_else(|| ApiError::new("the quaternion has no direction")),
         _ => Ok(pose_of_matrix(&a.reals(k)?)),
     }
 }

@@ -8,7 +8,7 @@
 
 use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
-use crate::session::convention::{pose_of_matrix, seven_of};
+use crate::session::convention::{numbers_of_pose, pose_of_matrix};
 use crate::session::{ApiError, Arguments, Reference, SimApi, Value};
 
 /// A function that waits.
@@ -175,7 +175,7 @@ fn pose(a: Arguments<'_>) -> Result<Value, ApiError> {
         match a.get(k).as_reals().map(|list| list.len()) {
             Some(12) => {
                 let numbers = a.reals::<12>(k)?;
-                fields.set_list(name, seven_of(&pose_of_matrix(&numbers)));
+                fields.set_list(name, numbers_of_pose(&pose_of_matrix(&numbers)));
                 if k == 1 {
                     fields.set("useMatrices", true);
                 }
@@ -240,7 +240,7 @@ fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Value, ApiError> {
         -11 => Reference::Parent,
         other => Reference::Object(super::plain(sim, other)?),
     };
-    let mut seven = seven_of(&sim.pose(object, against)?);
+    let mut seven = numbers_of_pose(&sim.pose(object, against)?);
     if a.has(8) {
         seven[..3].copy_from_slice(&a.reals::<3>(8)?);
     }

@@ -61,6 +61,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
 
 /// Returns true if a function is one of these: whatever it is given is as good.
 #[must_use]
-pub fn is_for_show(name: &str) -> bool {
+pub fn is_display_only(name: &str) -> bool {
     FUNCTIONS.iter().any(|f| f.name == name)
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::block::{At, Block, Ports};
-use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
@@ -46,10 +46,10 @@ impl Described for ForwardKinematics {
         summary: "Where a body or frame is in the world, and how fast it moves if asked for.",
         equation: "position = p(q), quaternion = (w, x, y, z) of R(q); velocity = ṗ, angular_velocity = ω, world axes",
         parameters: &[
-            Parameter::required("frame", Takes::Text, "path of the body or frame"),
+            Parameter::required("frame", ValueKind::Text, "path of the body or frame"),
             Parameter::optional(
                 "velocity",
-                Takes::Flag,
+                ValueKind::Flag,
                 "whether there is an input `v` and outputs for velocities",
                 "false",
             ),

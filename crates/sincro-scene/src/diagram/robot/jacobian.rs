@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::block::{At, Block, Ports};
-use sincro_blocks::kind::{Category, Described, Kind, Parameter, Takes};
+use sincro_blocks::kind::{Category, Described, Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
@@ -65,8 +65,8 @@ impl Described for Jacobian {
         summary: "The Jacobian of a body or frame: from joint velocities to its velocity in the world, row by row.",
         equation: "[ω; ṗ] = J(q)·v, world axes, y = rows of J",
         parameters: &[
-            Parameter::required("frame", Takes::Text, "path of the body or frame"),
-            Parameter::optional("rows", Takes::Choice(&["all", "angular", "linear"]), "which rows", "all"),
+            Parameter::required("frame", ValueKind::Text, "path of the body or frame"),
+            Parameter::optional("rows", ValueKind::Choice(&["all", "angular", "linear"]), "which rows", "all"),
         ],
     };
 

@@ -12,7 +12,7 @@ use sincro_math::Real;
 use sincro_math::expression::Expression;
 
 use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
-use crate::kind::{Category, Described, Kind, Parameter, Takes};
+use crate::kind::{Category, Described, Kind, Parameter, ValueKind};
 use crate::reader::{NoFiles, ParameterError, Reader, Value};
 
 /// Differential equations of first and second order, written as text.
@@ -161,22 +161,37 @@ impl Described for Equations {
         summary: "A plant written as differential equations of first and second order, or with a mass matrix.",
         equation: "x' = f(x, u, t), q'' = f(q, q', u, t), mass_matrix(q)·q'' = forces(q, q', u, t)",
         parameters: &[
-            Parameter::optional("inputs", Takes::Texts, "names of the inputs, each a scalar", "[]"),
-            Parameter::optional("equations", Takes::Texts, "such as \"x' = -a*x + u\" or \"q'' = u/J\"", "[]"),
-            Parameter::optional("coordinates", Takes::Texts, "names q whose accelerations the mass matrix gives", "[]"),
-            Parameter::optional("mass_matrix", Takes::Matrix, "rows of formulas, one row for each coordinate", "[]"),
-            Parameter::optional("forces", Takes::Texts, "formulas of mass_matrix·q'', one for each coordinate", "[]"),
-            Parameter::optional("parameters", Takes::Names, "numbers that formulas know by name", "{}"),
-            Parameter::optional("where", Takes::Names, "formulas with a name, each may use those before it", "{}"),
+            Parameter::optional("inputs", ValueKind::Texts, "names of the inputs, each a scalar", "[]"),
+            Parameter::optional("equations", ValueKind::Texts, "such as \"x' = -a*x + u\" or \"q'' = u/J\"", "[]"),
+            Parameter::optional(
+                "coordinates",
+                ValueKind::Texts,
+                "names q whose accelerations the mass matrix gives",
+                "[]",
+            ),
+            Parameter::optional(
+                "mass_matrix",
+                ValueKind::Matrix,
+                "rows of formulas, one row for each coordinate",
+                "[]",
+            ),
+            Parameter::optional(
+                "forces",
+                ValueKind::Texts,
+                "formulas of mass_matrix·q'', one for each coordinate",
+                "[]",
+            ),
+            Parameter::optional("parameters", ValueKind::Names, "numbers that formulas know by name", "{}"),
+            Parameter::optional("where", ValueKind::Names, "formulas with a name, each may use those before it", "{}"),
             Parameter::optional(
                 "initial",
-                Takes::Names,
+                ValueKind::Names,
                 "states at the start, such as { q = 0.1, \"q'\" = 0 }; else 0",
                 "{}",
             ),
             Parameter::optional(
                 "outputs",
-                Takes::Names,
+                ValueKind::Names,
                 "formulas of the outputs; else every state, q' as q_dot",
                 "{}",
             ),

@@ -1,4 +1,4 @@
-//! Board that viewers read: the scene, the runs so far, the state of the engine, its messages.
+//! Live state that viewers read: the scene, the runs so far, the state of the engine, its messages.
 
 use std::sync::{Mutex, MutexGuard};
 
@@ -6,17 +6,17 @@ use serde::Serialize;
 use sincro_sim::replay::Contacts;
 use tokio::sync::watch;
 
-/// Words that are kept for viewers; older ones have been read or never will be.
+/// Messages that are kept for viewers; older ones have been read or never will be.
 const MAX_WORDS: usize = 200;
 
-/// The board.
+/// State of a live run, shared by the engine, which writes it, and its viewers.
 #[derive(Debug)]
-pub struct Board {
+pub struct LiveState {
     content: Mutex<Content>,
     changed: watch::Sender<u64>,
 }
 
-/// Content of the board.
+/// Content of the live state.
 #[derive(Debug, Default)]
 pub struct Content {
     /// The scene and everything that does not change, as JSON.
@@ -24,7 +24,7 @@ pub struct Content {
     /// The runs, in the order of their numbers.
     pub runs: Vec<RunLog>,
     /// State of the engine.
-    pub standing: Standing,
+    pub engine: EngineState,
     /// Its messages as JSON, with running numbers.
     pub words: Vec<(u64, String)>,
     n_words: u64,
@@ -51,7 +51,7 @@ pub struct RunLog {
 
 /// State of the engine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Standing {
+pub struct EngineState {
     /// Number of the run that goes on.
     pub run: usize,
     /// True if it does so now.
@@ -68,7 +68,7 @@ pub struct Standing {
     pub trace: String,
 }
 
-impl Board {
+impl LiveState {
     /// An empty one.
     #[must_use]
     pub fn new(replay: String) -> Self {
@@ -82,7 +82,7 @@ impl Board {
     ///
     /// If a thread panicked while it wrote.
     pub fn read(&self) -> MutexGuard<'_, Content> {
-        self.content.lock().expect("no thread panics while it writes to the board")
+        self.content.lock().expect("no thread panics while it writes to the live state")
     }
 
     /// Changes the content and tells the viewers.
