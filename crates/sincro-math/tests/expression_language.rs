@@ -115,10 +115,14 @@ fn refusals_name_the_place_the_fault_and_the_cure() {
         ("1 + * 2", "column 5: a value is missing before `*`"),
         ("sin()", "column 1: `sin` takes 1 argument, not 0\nhelp: write `sin(x)`"),
         ("min(1)", "column 1: `min` takes at least 2 arguments, not 1\nhelp: write `min(a, b, ...)`"),
+        ("min(1, 2", "column 4: `(` is never closed"),
+        ("min(1 2)", "column 7: missing operator before `2`\nhelp: a product is written `a*b`"),
         ("max(1,)", "column 7: a value is missing before `)`"),
         ("2*(x + 1", "column 3: `(` is never closed"),
         ("x)", "column 2: `)` closes nothing"),
         ("2x", "column 1: missing operator between `2` and `x`\nhelp: a product is written `2*x`"),
+        ("1e", "column 1: missing operator between `1` and `e`\nhelp: a product is written `1*e`"),
+        ("2e-x", "column 1: missing operator between `2` and `e`\nhelp: a product is written `2*e`"),
         ("x y", "column 3: missing operator before `y`\nhelp: a product is written `a*b`"),
         ("1,5", "column 2: `,` outside the arguments of a function\nhelp: decimals are written with a point: `1.5`"),
         ("x(2)", "column 1: `x` is a value, not a function\nhelp: a product is written `x*(...)`"),
@@ -127,6 +131,8 @@ fn refusals_name_the_place_the_fault_and_the_cure() {
         ("sqr(x)", "column 1: unknown function `sqr`\nhelp: did you mean `sqrt`?"),
         ("log(x)", "column 1: unknown function `log`\nhelp: `ln` is the natural logarithm, `log10` the decimal one"),
         ("e^x", "column 1: unknown name `e`\nhelp: Euler's number is `exp(1)`, a power of ten `1e3`"),
+        ("true", "column 1: unknown name `true`\nhelp: true is 1, false is 0"),
+        ("not false", "column 5: unknown name `false`\nhelp: true is 1, false is 0"),
         ("0 < x < 1", "column 7: comparisons do not chain\nhelp: write `a < b and b < c`"),
         ("1 + not x", "column 5: `not` binds weaker than what stands before it\nhelp: write `(not ...)`"),
         ("x**2", "column 2: unexpected `**`\nhelp: a power is written `x^2`"),
@@ -142,9 +148,58 @@ fn refusals_name_the_place_the_fault_and_the_cure() {
 }
 
 #[test]
+fn symbols_of_other_notations_are_explained() {
+    for (symbol, help) in [
+        ("**", "a power is written `x^2`"),
+        ("²", "a power is written `x^2`"),
+        ("&&", "write `and`"),
+        ("&", "write `and`"),
+        ("||", "write `or`"),
+        ("|", "write `or`"),
+        ("!", "write `not`, or `!=` for unequal"),
+        ("=", "equality is written `==`"),
+        ("≤", "write `<=`"),
+        ("≥", "write `>=`"),
+        ("≠", "write `!=`"),
+        ("×", "a product is written `*`"),
+        ("−", "minus is written `-`"),
+        ("–", "minus is written `-`"),
+        ("÷", "a quotient is written `/`"),
+        ("√", "write `sqrt(x)`"),
+        ("[", "only round brackets group"),
+        ("}", "only round brackets group"),
+        ("%", "a remainder is written `mod(x, modulus)`"),
+        (";", "arguments are separated by `,`, decimals by `.`"),
+    ] {
+        let error = refusal(&format!("x {symbol} y"));
+        assert_eq!((error.message, error.help.as_deref()), (format!("unexpected `{symbol}`"), Some(help)));
+        assert_eq!((error.column, error.span), (3, 2..2 + symbol.len()), "{symbol}");
+    }
+    assert_eq!(refusal("x # y").help, None);
+}
+
+#[test]
 fn columns_count_characters_and_spans_bytes() {
     let error = Expression::parse("θ + ψ", &["θ"]).expect_err("one name is unknown");
     assert_eq!((error.column, error.span), (5, 5..7));
+    for (text, span) in [("x + 20omega*y", 4..11), ("x + 1.2.3", 4..8), ("x + 1e999", 4..9), ("2*min(1)", 2..8)] {
+        assert_eq!(refusal(text).span, span, "{text}");
+    }
+}
+
+#[test]
+fn powers_with_small_whole_exponents_are_products() {
+    let formula = |text: &str| Expression::parse(text, &["x"]).expect("it is a formula");
+    let power = |text: &str, x: f64| formula(text).eval(&[x], &mut Vec::new());
+    for k in 1..200 {
+        let x = 0.37 * f64::from(k);
+        assert_eq!(power("x^3", x), x * (x * x));
+        assert_eq!(power("x^-2", -x), 1.0 / (x * x));
+        assert_eq!(power("x^5", x), x * ((x * x) * (x * x)));
+    }
+    // the derivative of a power of zero is a number
+    let slope = formula("x^2").eval(&[sincro_math::Dual::<1>::variable(0.0, 0)], &mut Vec::new());
+    assert_eq!(slope.partials, [0.0]);
 }
 
 #[test]

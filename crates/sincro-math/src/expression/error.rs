@@ -96,9 +96,18 @@ mod tests {
 
     #[test]
     fn distance_counts_edits() {
-        for (a, b, distance) in
-            [("", "abc", 3), ("omega", "omga", 1), ("sni", "sin", 1), ("Sin", "sin", 0), ("ab", "xy", 2)]
-        {
+        for (a, b, distance) in [
+            ("", "abc", 3),
+            ("omega", "omga", 1),
+            ("Sin", "sin", 0),
+            ("ab", "xy", 2),
+            // neighbours swapped at the beginning, in the middle, at the end
+            ("ba", "ab", 1),
+            ("sni", "sin", 1),
+            ("omgea", "omega", 1),
+            ("torqeu", "torque", 1),
+            ("stiffnses", "stiffness", 1),
+        ] {
             assert_eq!(edit_distance(a, b), distance, "{a} {b}");
             assert_eq!(edit_distance(b, a), distance, "{b} {a}");
         }

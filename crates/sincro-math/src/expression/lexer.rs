@@ -89,7 +89,7 @@ fn number(text: &str, start: usize) -> Result<(Token<'_>, usize), ParseError> {
     }
     if matches!(bytes.get(end), Some(b'e' | b'E')) {
         let signed = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-        let digits = bytes.get(end + 1 + signed..).map_or(0, |_| digits_from(end + 1 + signed));
+        let digits = digits_from(end + 1 + signed);
         if digits > 0 {
             end += 1 + signed + digits;
         }

@@ -132,10 +132,12 @@ impl<'t> Parser<'t, '_> {
         let slot = match &mut self.names {
             Names::Known(names) => names.iter().position(|known| *known == name),
             Names::Collected(_) if name == "pi" || Function::named(name).is_some() => None,
-            Names::Collected(found) => Some(found.iter().position(|known| known == name).unwrap_or_else(|| {
-                found.push(name.to_owned());
-                found.len() - 1
-            })),
+            Names::Collected(found) => {
+                if !found.iter().any(|known| known == name) {
+                    found.push(name.to_owned());
+                }
+                Some(0) // the program of a formula whose names are collected is never run
+            }
         };
         match slot {
             Some(slot) => self.emit(Op::Value(u32::try_from(slot).expect("fewer than 2^32 names"))),
