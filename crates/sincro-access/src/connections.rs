@@ -62,7 +62,7 @@ pub struct Permit {
 }
 
 impl Connections {
-    /// No connections yet.
+    /// Creates the table of connections to one server, without any; `limits` holds their greatest numbers.
     #[must_use]
     pub fn new(limits: ConnectionLimits) -> Arc<Self> {
         Arc::new(Self { limits, start: Instant::now(), slots: Mutex::default() })

@@ -37,7 +37,8 @@ pub struct EvaluationPoint {
     pub torque: Vec<f64>,
 }
 
-/// Evaluates the terms at a point.
+/// Evaluates the terms of the equations of motion at one point: one entry for each degree of freedom, in SI units
+/// `[N]`, `[N·m]`, `[kg]`, `[kg·m²]`; derivatives where `at` asks for them.
 ///
 /// # Errors
 ///

@@ -122,18 +122,20 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
         Ok(())
     }
 
-    /// Writes the initial continuous states and memory (both zero before).
+    /// Writes the initial continuous states and memory, both zero before and as long as [`Block::memory`] says.
     fn start<R: Real>(&self, _node: &Node, _states: &mut [R], _memory: &mut [R]) {}
 
-    /// Buffers for intermediate results.
+    /// Buffers for intermediate results; made once for each instance, so that no evaluation allocates.
     fn work<R: Real>(&self) -> Self::Work<R> {
         Self::Work::default()
     }
 
-    /// Computes the outputs, one after the other in `y`. May read only inputs with direct feedthrough.
+    /// Computes the outputs into `y`, the components of all ports one after the other. May read only inputs with direct
+    /// feedthrough.
     fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Self::Work<R>, y: &mut [R]);
 
-    /// Computes the time derivatives `f(x, u, t)` of the continuous states `x`.
+    /// Computes the time derivatives `f(x, u, t)` of the continuous states `x` `[unit of the state / s]`; as many as
+    /// there are states.
     fn derivatives<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _derivatives: &mut [R]) {}
 
     /// Diagonal of `−∂f/∂x` [1/s], `f` as in [`Block::derivatives`]: implicit integrators damp the new state by it, and
@@ -236,11 +238,11 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// No state.
+    /// Memory of a block without states.
     pub const NONE: Self = Self { continuous: 0, discrete: 0 };
-    /// One continuous state.
+    /// Memory of a block with one continuous state.
     pub const CONTINUOUS: Self = Self { continuous: 1, discrete: 0 };
-    /// One discrete state.
+    /// Memory of a block with one discrete state.
     pub const DISCRETE: Self = Self { continuous: 0, discrete: 1 };
 }
 
@@ -294,7 +296,7 @@ pub struct At<'a, R> {
 }
 
 impl<'a, R: Real> At<'a, R> {
-    /// Components of input `k`.
+    /// Components of input port `k`, counted from 0, in the unit of the signal.
     #[must_use]
     #[inline(always)]
     pub fn input(&self, k: usize) -> &'a [R] {
@@ -302,14 +304,14 @@ impl<'a, R: Real> At<'a, R> {
         &self.signals[start as usize..(start + len) as usize]
     }
 
-    /// First component of input `k`.
+    /// First component of input port `k`, in the unit of the signal.
     #[must_use]
     #[inline(always)]
     pub fn scalar(&self, k: usize) -> R {
         self.signals[self.ports[k].0 as usize]
     }
 
-    /// Component `i` of input `k`; a scalar stands for a vector of equal components.
+    /// Component `i` of input port `k`, in the unit of the signal; a scalar stands for a vector of equal components.
     #[must_use]
     #[inline(always)]
     pub fn component(&self, k: usize, i: usize) -> R {
@@ -318,7 +320,7 @@ impl<'a, R: Real> At<'a, R> {
         self.signals[start as usize + i]
     }
 
-    /// Copies input `k` component by component; a scalar stands for a vector of equal components.
+    /// Copies input port `k` into `to`, component by component; a scalar stands for a vector of equal components.
     #[inline(always)]
     pub fn copy_input(&self, k: usize, to: &mut [R]) {
         for (i, x) in to.iter_mut().enumerate() {
@@ -336,14 +338,14 @@ impl<'a, R: Real> At<'a, R> {
 /// Times closer than this are the same instant `[s]`: ticks are exact multiples, typed numbers are not.
 pub const SAME_INSTANT: f64 = 1e-9;
 
-/// Component `i` of a parameter; one number stands for all.
+/// Component `i` of a parameter, in its unit; one number stands for all components.
 #[must_use]
 #[inline(always)]
 pub fn of(parameter: &[f64], i: usize) -> f64 {
     if parameter.len() == 1 { parameter[0] } else { parameter[i] }
 }
 
-/// Writes component `i` of a parameter into entry `i`; one number stands for all.
+/// Writes component `i` of a parameter into entry `i` of `to`, in its unit; one number stands for all.
 pub fn fill<R: Real>(to: &mut [R], parameter: &[f64]) {
     for (i, x) in to.iter_mut().enumerate() {
         *x = R::splat(of(parameter, i));

@@ -73,7 +73,7 @@ impl Diagram {
         Self::default()
     }
 
-    /// Adds a block.
+    /// Adds a block under a name that no other entry has; continuous, or with the sample time of its inputs.
     pub fn block(&mut self, name: &str, block: impl DynBlock + 'static) -> &mut Self {
         self.add(name, Content::Block(Box::new(block)), None)
     }
@@ -89,7 +89,7 @@ impl Diagram {
         self.add(name, Content::Diagram(name.to_owned(), Box::new(inner)), sample_time)
     }
 
-    /// Adds anything.
+    /// Adds a block, a subsystem or a terminal; `sample_time` is its own `[s]`, none to take that of its inputs.
     pub fn add(&mut self, name: &str, content: Content, sample_time: Option<f64>) -> &mut Self {
         self.entries.push(Entry { name: name.to_owned(), content, sample_time, unit: None });
         self

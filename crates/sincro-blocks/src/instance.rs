@@ -67,7 +67,7 @@ pub trait DynBlock: Debug + Send + Sync {
     fn fault(&self) -> Option<String>;
     /// Text in its box in a drawing; see [`Block::label`].
     fn label(&self) -> String;
-    /// Instance that runs on `f64`.
+    /// Instance of the block that runs on `f64`, in its initial state.
     fn on_numbers(&self) -> Box<dyn RunningBlock<f64>>;
     /// Instance that runs on dual numbers.
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;

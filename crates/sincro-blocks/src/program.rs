@@ -70,7 +70,7 @@ pub struct Commanded {
     pub is_continuous: bool,
 }
 
-/// A compiled diagram.
+/// A compiled diagram: its blocks in the order of evaluation, with the places of their signals, states and memory.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// All blocks in the order of evaluation.

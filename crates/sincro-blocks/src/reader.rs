@@ -121,7 +121,8 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Creates a reader of the parameters `given` to a block of `kind`; formulas in them know the names of `scope`.
+    /// Creates a reader of the parameters `given` to a block of `kind`; formulas in them know the names of `scope`,
+    /// whose values are in SI units.
     #[must_use]
     pub fn new(
         kind: &'static Kind,
@@ -156,7 +157,7 @@ impl<'a> Reader<'a> {
         self.faults
     }
 
-    /// The names that formulas may use.
+    /// Names that formulas may use, with their values in SI units.
     #[must_use]
     pub fn scope(&self) -> &'a BTreeMap<String, f64> {
         self.scope
@@ -244,7 +245,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A number greater than zero (1 after a fault).
+    /// Reads a finite number greater than zero, in the parameter's unit (1 after a fault).
     pub fn positive(&mut self, key: &str) -> f64 {
         let x = self.number(key);
         if x <= 0.0 {
@@ -295,7 +296,7 @@ impl<'a> Reader<'a> {
         n.clamp(1, 1000)
     }
 
-    /// One number, or one for each component; never empty.
+    /// Reads one finite number, or one for each component, in the parameter's unit; never empty.
     pub fn numbers(&mut self, key: &str) -> Vec<f64> {
         match self.value(key) {
             Some(Value::List(list)) => {
@@ -364,7 +365,7 @@ impl<'a> Reader<'a> {
         Matrix { rows: rows.len(), columns, entries: rows.concat() }
     }
 
-    /// True or false.
+    /// Reads `true` or `false` (`false` after a fault).
     pub fn flag(&mut self, key: &str) -> bool {
         match self.value(key) {
             Some(Value::Flag(flag)) => flag,
@@ -376,7 +377,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A text.
+    /// Reads a text (empty after a fault).
     pub fn text(&mut self, key: &str) -> String {
         match self.value(key) {
             Some(Value::Text(text)) => text,
@@ -445,7 +446,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Names with numbers, in their order.
+    /// Reads a table of names with finite numbers, in the order in which they were written.
     pub fn named_numbers(&mut self, key: &str) -> Vec<(String, f64)> {
         match self.value(key) {
             Some(Value::Table(table)) => {
@@ -519,7 +520,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Two columns of a CSV file: what a table over time or over an argument is made from.
+    /// Reads the parameter `column` of a block that takes a series from `file`: the finite numbers of that column, row
+    /// by row.
     pub fn column(&mut self, key: &str, file: &str, column: &str) -> Vec<f64> {
         match self.files.column(file, column) {
             Ok(numbers) => numbers,
@@ -586,7 +588,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Creates a matrix from rows of equal length.
+    /// Creates a matrix from rows of equal length; entries keep their units.
     ///
     /// # Panics
     ///
@@ -598,7 +600,7 @@ impl Matrix {
         Self { rows: rows.len(), columns, entries: rows.concat() }
     }
 
-    /// The entry in row `i` and column `k`.
+    /// Entry in row `i` and column `k`, both counted from 0, in the unit in which it was given.
     #[must_use]
     #[inline(always)]
     pub fn at(&self, i: usize, k: usize) -> f64 {

@@ -86,20 +86,20 @@ impl<R: Number> Runner<R> {
         runner
     }
 
-    /// The compiled diagram.
+    /// Compiled diagram that is run.
     #[must_use]
     pub fn program(&self) -> &Arc<Program> {
         &self.program
     }
 
-    /// All signals.
+    /// All signals one after the other, each in its own unit, as they were last evaluated.
     #[must_use]
     #[inline(always)]
     pub fn signals(&self) -> &[R] {
         &self.state.signals
     }
 
-    /// All signals, to write measurements into.
+    /// All signals one after the other, each in its own unit, to write measurements into.
     #[inline(always)]
     pub fn signals_mut(&mut self) -> &mut [R] {
         &mut self.state.signals
@@ -111,7 +111,7 @@ impl<R: Number> Runner<R> {
         self.evaluate_range(0..self.program.n_early, tick, t);
     }
 
-    /// Goes back to a state after the evaluation of a tick.
+    /// Goes back to a state as it was after the evaluation of tick `tick`, counted in base steps.
     pub fn resume(&mut self, state: State<R>, tick: u64) {
         self.state = state;
         self.find_due(tick);
@@ -123,7 +123,8 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// The rest of the outputs at a tick.
+    /// Evaluates the outputs at tick `tick`, at time `t` `[s]`, that depend on measurements written since
+    /// [`Runner::evaluate`].
     pub fn evaluate_late(&mut self, tick: u64, t: f64) {
         self.evaluate_range(self.program.n_early..self.instances.len(), tick, t);
     }
@@ -153,7 +154,8 @@ impl<R: Number> Runner<R> {
         self.instances[k].output(&at, &mut out[..step.out.len()]);
     }
 
-    /// Memory for the next tick, from the signals of this one. To be called once for every evaluated tick.
+    /// Computes the memory for the next tick, from the signals of this one, at time `t` `[s]`. To be called once for
+    /// every evaluated tick.
     pub fn update(&mut self, tick: u64, t: f64) {
         if self.with_memory.is_empty() {
             return;
@@ -190,7 +192,8 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// The rest of the outputs between ticks.
+    /// Evaluates the outputs between ticks, at time `t` `[s]`, that depend on measurements written since
+    /// [`Runner::minor`].
     pub fn minor_late(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor_late.len() {
             self.output(self.minor_late[i], t, time_event, tick);
@@ -213,7 +216,8 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// Rates of the continuous states, from the signals as they now are.
+    /// Computes the rates of the continuous states `[unit of the state / s]` at time `t` `[s]`, from the signals as
+    /// they now are; `derivatives` is as long as there are states.
     pub fn derivatives(&mut self, tick: u64, t: f64, time_event: f64, derivatives: &mut [R]) {
         self.with_each_state(tick, t, time_event, |instance, at, states| {
             instance.derivatives(at, &mut derivatives[states])

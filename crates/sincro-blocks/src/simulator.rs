@@ -34,7 +34,7 @@ impl Simulator {
         Ok(Self { runner, tick: 0, derivatives, start: zero })
     }
 
-    /// Time `[s]`.
+    /// Present time `[s]`.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.tick as f64 * self.runner.program().step
@@ -64,7 +64,8 @@ impl Simulator {
         self.runner.evaluate(self.tick, now);
     }
 
-    /// The present output of a block, such as `pid` or `loop/pid` (of several: `block.port`).
+    /// Present output of a block, such as `pid` or `loop/pid` (of several: `block.port`): its components in the unit of
+    /// the signal.
     ///
     /// # Panics
     ///
@@ -76,7 +77,8 @@ impl Simulator {
         &self.runner.signals()[range]
     }
 
-    /// Advances `n` base steps and gives the first component of an output at every tick, the start included.
+    /// Advances `n` base steps and returns the first component of an output at every tick, the start included: `n + 1`
+    /// numbers in the unit of the signal.
     pub fn record(&mut self, name: &str, n: usize) -> Vec<f64> {
         let mut rows = vec![self.output(name)[0]];
         for _ in 0..n {

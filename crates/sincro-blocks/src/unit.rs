@@ -8,7 +8,7 @@ use core::fmt;
 /// Base quantities: kilogram, metre, second, ampere, kelvin, radian.
 const N_BASES: usize = 6;
 
-/// A unit.
+/// A unit as a text that a person wrote, with its powers of the SI base units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
     /// Text as it was written.

@@ -148,7 +148,7 @@ impl<R: Real> SteppedLanes<R> {
         Ok(Self { lanes: LaneWorlds { y: vec![R::zero(); dim], reach_target_velocities, mechanism }, method })
     }
 
-    /// Puts one lane into a state: coordinates, velocities, rotors.
+    /// Sets the state of one lane: coordinates (n_q), velocities (n_v), rotors, in SI units.
     pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
         let LaneWorlds { mechanism, y, .. } = &mut self.lanes;
         let with = |old: R, new: f64| R::from_lanes(|k| if k == lane { new } else { old.lane(k) });
@@ -164,7 +164,7 @@ impl<R: Real> SteppedLanes<R> {
         }
     }
 
-    /// Commands of all lanes, held until they are set again.
+    /// Commands of all lanes in SI units, one for each motor and rotor, held until they are set again.
     pub fn commands(&mut self) -> &mut [R] {
         &mut self.lanes.mechanism.commands
     }
@@ -188,7 +188,8 @@ impl<R: Real> SteppedLanes<R> {
         }
     }
 
-    /// State of all lanes as it can be observed; poses and twists of links are found if `with_kinematics`.
+    /// State of all lanes as it can be observed; poses `[m]` and twists `[rad/s]`, `[m/s]` of links are computed if
+    /// `with_kinematics`.
     #[inline(always)]
     pub fn view(&mut self, with_kinematics: bool) -> StateView<'_, R> {
         let LaneWorlds { mechanism, y, reach_target_velocities: zeros } = &mut self.lanes;

@@ -14,16 +14,18 @@ use crate::scratch::Scratch;
 
 /// Coupled system: continuous states z that are integrated together with a mechanism.
 pub trait CoupledSystem<R: Real> {
-    /// States z, as they are between steps.
+    /// Continuous states z of the system, as they are between steps, each in its own unit.
     fn states(&mut self) -> &mut [R];
 
-    /// Announces a sub-step: the time event at its end if there is one, else infinity.
+    /// Announces a sub-step: the time event at its end `[s]` if there is one, else infinity.
     fn set_time_event(&mut self, event: f64);
 
-    /// Next time event: the first instant after `t` at which the system is discontinuous because of time alone.
+    /// Next time event: the first instant after `t` `[s]` at which the system is discontinuous because of time alone;
+    /// infinity if there is none.
     fn next_time_event(&self, t: f64) -> f64;
 
-    /// Writes the commands that the system determines at this instant, with the states `z`; the others are held.
+    /// Writes the commands that the system determines at this instant, with the states `z`, each in the unit of its
+    /// actuator; the others are held.
     fn find_commands(&mut self, state_view: &mut StateView<'_, R>, z: &[R], commands: &mut [R]);
 
     /// Writes the derivatives of `z`, with the accelerations and motor torques that follow from the commands just
@@ -69,7 +71,7 @@ pub struct MechanismResponse<'a, R> {
     pub motor_torque: &'a [R],
 }
 
-/// No coupling.
+/// The coupled system without states that leaves all commands as they are.
 #[derive(Clone, Copy, Debug)]
 pub struct NoCoupling;
 

@@ -8,7 +8,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 
-/// Mechanical energy `[J]`.
+/// Mechanical energy of all bodies, by kind `[J]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy<R> {
     /// ½ vᵀ M v, armature included.
@@ -63,7 +63,7 @@ pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
     sum
 }
 
-/// Energy at a state; recomputes the kinematics.
+/// Mechanical energy `[J]` at coordinates `q` (n_q) and velocities `v` (n_v); recomputes the kinematics in `scratch`.
 #[must_use]
 pub fn energy_at(model: &Model<f64>, q: &[f64], v: &[f64], scratch: &mut Scratch<f64>) -> Energy<f64> {
     kinematics::motions(model, q, v, v, scratch);

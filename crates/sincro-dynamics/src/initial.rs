@@ -69,7 +69,7 @@ fn placed(model: &Model<f64>, x: &State<f64>) -> (Mechanism<f64>, Vec<f64>) {
     (mechanism, y)
 }
 
-/// Constraint residuals of every loop joint and gear in a state.
+/// Constraint residuals of every loop joint and gear in a state `[m]`, `[rad]`.
 #[must_use]
 pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintResidual> {
     let set = model.constraints();
@@ -86,7 +86,8 @@ pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<Constrain
     loop_joints.chain(gears).collect()
 }
 
-/// Coordinates near those of a state that satisfy all loop joints and gears; none if there are none nearby.
+/// Coordinates (n_q) `[rad]`, `[m]` near those of a state that satisfy all loop joints and gears; none if there are
+/// none nearby.
 #[must_use]
 pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     let (mut mechanism, mut y) = placed(model, x);
@@ -101,7 +102,7 @@ pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     (all && closed.q.iter().all(|q| q.is_finite())).then_some(closed.q)
 }
 
-/// Pairs of bodies that penetrate, each with its greatest depth; compliant pairs left out.
+/// Pairs of bodies that penetrate in a state, each with its greatest depth `[m]`; compliant pairs left out.
 #[must_use]
 pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     let set = model.constraints();
@@ -121,7 +122,7 @@ pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     found
 }
 
-/// Joints outside of their limits by more than rounding.
+/// Joints outside of their limits by more than rounding, with the excess `[rad]`, `[m]`.
 #[must_use]
 pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolation> {
     let beyond = model.constraints().limits.iter().filter_map(|limit| {

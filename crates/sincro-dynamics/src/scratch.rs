@@ -65,7 +65,7 @@ impl<R: Real> Scratch<R> {
         self.links[link].v
     }
 
-    /// Memory for `model`.
+    /// Allocates the working memory for `model`, filled with zeros.
     #[must_use]
     pub fn new(model: &Model<R>) -> Self {
         Self {

@@ -93,7 +93,7 @@ impl Signal {
         }
     }
 
-    /// The value, if it is the same at all times.
+    /// Value in the signal's unit, if it is the same at all times.
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
         match *self {

@@ -27,8 +27,8 @@ pub struct Stiffness {
     pub inertia: f64,
 }
 
-/// Returns the fastest spring or damper at a state, none if there is none. Joints with ideal velocity motors are left
-/// out.
+/// Fastest spring or damper at a state, with its rate `[1/s]`; none if there is none. Joints with ideal velocity motors
+/// are left out.
 #[must_use]
 pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     let inertias = joint_inertias(model, state);

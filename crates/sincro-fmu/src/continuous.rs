@@ -4,7 +4,7 @@ use sincro_blocks::runner::Runner;
 use sincro_scene::record::{Probe, catalogue};
 use sincro_sim::Loaded;
 
-/// A continuous state.
+/// A continuous state of an FMU of model exchange, with its unit and initial value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContinuousState {
     /// Name of the signal that it is, or of its block.

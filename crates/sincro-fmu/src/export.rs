@@ -40,7 +40,7 @@ pub struct ExportRequest<'a> {
     pub documentation: &'a [ArchiveFile],
 }
 
-/// An exported FMU.
+/// An exported FMU: the file, its variables and its platforms.
 #[derive(Debug)]
 pub struct Exported {
     /// The file's bytes.

@@ -77,7 +77,7 @@ impl Platform {
         None
     }
 
-    /// Folder below `binaries`.
+    /// Name of the folder below `binaries` in the archive.
     #[must_use]
     pub fn folder(self, version: FmiVersion) -> &'static str {
         use {Machine as M, System as S};

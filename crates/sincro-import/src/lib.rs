@@ -91,7 +91,7 @@ pub enum Repair {
 }
 
 impl Repair {
-    /// All repairs.
+    /// All repairs, in the order of the command line's help.
     pub const ALL: [Self; 2] = [Self::MinInertia, Self::PositiveInertia];
 
     /// Its name on the command line.
@@ -220,7 +220,7 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
 }
 
 impl Imported {
-    /// Text of `scene.toml`.
+    /// Text of the scene file, `scene.toml`.
     #[must_use]
     pub fn scene(&self) -> &str {
         &self.scene

@@ -31,14 +31,14 @@ pub struct Dual<const N: usize> {
 }
 
 impl<const N: usize> Dual<N> {
-    /// A number that depends on none of the inputs.
+    /// Number of the given value, in any unit, that depends on none of the inputs: all partial derivatives are zero.
     #[inline(always)]
     #[must_use]
     pub fn constant(value: f64) -> Self {
         Self { value, partials: [0.0; N] }
     }
 
-    /// The input number `index` itself, at `value`.
+    /// Input `index` itself (0 to N − 1), at `value` in its unit: its own partial derivative is 1, the others are 0.
     ///
     /// # Panics
     ///

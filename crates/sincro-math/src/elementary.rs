@@ -169,44 +169,44 @@ pub fn acos(x: f64) -> (f64, f64) {
     (libm::acos(x), -1.0 / ((1.0 - x) * (1.0 + x)).sqrt())
 }
 
-/// Angle in (−π/2, π/2) of a tangent, and its derivative.
+/// Angle in (−π/2, π/2) `[rad]` of a tangent, and its derivative.
 #[must_use]
 pub fn atan(x: f64) -> (f64, f64) {
     (libm::atan(x), 1.0 / (1.0 + x * x))
 }
 
-/// Exponential and its derivative.
+/// Exponential of a dimensionless number, and its derivative.
 #[must_use]
 pub fn exp(x: f64) -> (f64, f64) {
     let e = libm::exp(x);
     (e, e)
 }
 
-/// Natural logarithm and its derivative; NaN below zero.
+/// Natural logarithm of a dimensionless number, and its derivative; NaN below zero.
 #[must_use]
 pub fn ln(x: f64) -> (f64, f64) {
     (libm::log(x), 1.0 / x)
 }
 
-/// Decimal logarithm and its derivative; NaN below zero.
+/// Decimal logarithm of a dimensionless number, and its derivative; NaN below zero.
 #[must_use]
 pub fn log10(x: f64) -> (f64, f64) {
     (libm::log10(x), core::f64::consts::LOG10_E / x)
 }
 
-/// Hyperbolic sine and its derivative.
+/// Hyperbolic sine of a dimensionless number, and its derivative.
 #[must_use]
 pub fn sinh(x: f64) -> (f64, f64) {
     (libm::sinh(x), libm::cosh(x))
 }
 
-/// Hyperbolic cosine and its derivative.
+/// Hyperbolic cosine of a dimensionless number, and its derivative.
 #[must_use]
 pub fn cosh(x: f64) -> (f64, f64) {
     (libm::cosh(x), libm::sinh(x))
 }
 
-/// Hyperbolic tangent and its derivative.
+/// Hyperbolic tangent of a dimensionless number, and its derivative.
 #[must_use]
 pub fn tanh(x: f64) -> (f64, f64) {
     // 1 − tanh² would lose all digits in the tails
@@ -221,7 +221,8 @@ pub fn atan2(y: f64, x: f64) -> (f64, f64, f64) {
     (libm::atan2(y, x), x / square, -y / square)
 }
 
-/// Distance of the point `(x, y)` from the origin and its derivatives by `x` and by `y`, taken as zero at the origin.
+/// Distance of the point `(x, y)` from the origin, in their unit, and its derivatives by `x` and by `y`
+/// (dimensionless), taken as zero at the origin.
 #[must_use]
 pub fn hypot(x: f64, y: f64) -> (f64, f64, f64) {
     let h = libm::hypot(x, y);

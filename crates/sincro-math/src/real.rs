@@ -27,13 +27,13 @@ pub trait Real:
     /// Number of lanes: 1 for `f64` and dual numbers.
     const LANES: usize;
 
-    /// The constant `x`, in every lane and without derivatives.
+    /// Constant `x`, in its unit, in every lane and without derivatives.
     fn splat(x: f64) -> Self;
 
-    /// A number made lane by lane, without derivatives.
+    /// Number made lane by lane (`f` is given the index of the lane), without derivatives; the units are the caller's.
     fn from_lanes(f: impl FnMut(usize) -> f64) -> Self;
 
-    /// The value in lane `k`, derivatives dropped. `k < LANES`.
+    /// Value in lane `k < LANES`, in its unit, derivatives dropped.
     fn lane(self, k: usize) -> f64;
 
     /// Square root; NaN below zero.
@@ -42,7 +42,7 @@ pub trait Real:
     /// Sine and cosine of an angle `[rad]`, absolute error below 1.8e-16, one polynomial for every kind of number.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Absolute value.
+    /// Absolute value, in the same unit; its derivative at zero is that from above.
     fn abs(self) -> Self;
 
     /// `then` where `self < bound`, else `otherwise`, lane by lane. A NaN compares as not less.
@@ -65,13 +65,13 @@ pub trait Real:
         task.run()
     }
 
-    /// Zero.
+    /// The number 0, of any unit, without derivatives.
     #[inline(always)]
     fn zero() -> Self {
         Self::splat(0.0)
     }
 
-    /// One.
+    /// The number 1, dimensionless, without derivatives.
     #[inline(always)]
     fn one() -> Self {
         Self::splat(1.0)

@@ -14,7 +14,7 @@ pub use sincro_coppelia::session::cbor::encode;
 
 use crate::limits::DEPTH;
 
-/// Error of decoding.
+/// Error of decoding CBOR, with the offset of the byte.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CborError {
     /// Offset from the start of the message.

@@ -119,7 +119,8 @@ impl Hub {
         guard
     }
 
-    /// Locks the session if it becomes free within `timeout`: a script that does not return may hold it.
+    /// Locks the session if it becomes free within `timeout` (a length of time, in any unit of [`Duration`]): a script
+    /// that does not return may hold it.
     pub fn try_enter(&self, timeout: Duration) -> Option<MutexGuard<'_, SessionGuard>> {
         let begin = Instant::now();
         self.waiting.fetch_add(1, Ordering::SeqCst);
@@ -285,7 +286,7 @@ impl SessionGuard {
         }
     }
 
-    /// Clients attached.
+    /// Number of clients attached.
     #[must_use]
     pub fn n_clients(&self) -> usize {
         self.clients.len()

@@ -72,7 +72,7 @@ pub struct Located<T> {
     pub at: Location,
 }
 
-/// One finding.
+/// A finding about the user's files: severity, message, place, and help where there is some.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// Error or warning.
@@ -161,7 +161,7 @@ impl Diagnostics {
         Self::default()
     }
 
-    /// Adds one.
+    /// Adds a finding.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.0.push(diagnostic);
     }

@@ -39,7 +39,7 @@ pub struct Place {
     pub value: Location,
 }
 
-/// A parsed text.
+/// A parsed TOML text that knows the place of every key and value.
 #[derive(Clone, Debug)]
 pub struct Document {
     /// The text.

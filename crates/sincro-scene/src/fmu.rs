@@ -17,7 +17,7 @@ pub struct Loaders {
     pub fmus: Option<&'static dyn FmuLoader>,
 }
 
-/// Loader of FMUs.
+/// Loader of FMUs for blocks of diagrams, given to the scene from above.
 pub trait FmuLoader: Send + Sync + fmt::Debug {
     /// Reads an FMU; none of its code runs yet.
     ///
@@ -49,14 +49,15 @@ pub trait FmuModel: Send + Sync + fmt::Debug {
 
 /// An instance of an FMU.
 pub trait FmuInstance: Send + fmt::Debug {
-    /// Sets variables, by their places.
+    /// Sets variables by their places in [`FmuModel::variables`], one value for each, in the units of the description.
     ///
     /// # Errors
     ///
     /// The call fails.
     fn set(&mut self, places: &[usize], values: &[f64]) -> Result<(), String>;
 
-    /// Gets variables, by their places.
+    /// Reads variables by their places in [`FmuModel::variables`] into `values`, one for each, in the units of the
+    /// description.
     ///
     /// # Errors
     ///

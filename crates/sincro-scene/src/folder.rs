@@ -101,7 +101,7 @@ impl Folder {
         texts.chain(bytes.iter().map(|(path, bytes)| (path.clone(), (**bytes).clone()))).collect()
     }
 
-    /// The folder itself.
+    /// Path of the folder itself.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Located, Location, SourceText};
 
-/// One setting.
+/// A setting `PATH=VALUE` that changes a value of the scene's files before they are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Override {
     /// Path of the number that is set.

@@ -28,7 +28,7 @@ pub struct Scenery {
     pub pieces: Vec<Piece>,
 }
 
-/// Pieces with their poses in the world, after `scratch` has the poses of the links.
+/// Pieces with their poses in the world `[m]`, after `scratch` has the poses of the links.
 pub fn placed<'a>(
     pieces: impl Iterator<Item = &'a Piece>,
     scratch: &Scratch<f64>,

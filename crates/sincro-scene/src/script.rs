@@ -145,7 +145,7 @@ pub trait ScriptedLaw: Send + Sync + fmt::Debug {
     /// The law failed: where and why.
     fn output(&mut self, t: f64, inputs: &[Vec<f64>], memory: &[f64], y: &mut [f64]) -> Result<(), String>;
 
-    /// The memory for the next tick.
+    /// Computes the memory for the next tick at time `t` `[s]`; `inputs` holds the components of each input.
     ///
     /// # Errors
     ///

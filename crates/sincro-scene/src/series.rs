@@ -17,7 +17,7 @@ pub struct Query<'a> {
     pub column: &'a Located<String>,
 }
 
-/// Reads two columns; none, with problems noted, if they are not there or are not numbers.
+/// Reads two columns of finite numbers; none, with problems noted, if they are not there or are not numbers.
 pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -> Option<(Vec<f64>, Vec<f64>)> {
     let source = match folder.read_named(query.file) {
         Ok(source) => source,
@@ -35,7 +35,7 @@ pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -
     }
 }
 
-/// One column, in the order of the rows.
+/// Reads one column of finite numbers, in the order of the rows.
 ///
 /// # Errors
 ///

@@ -72,7 +72,8 @@ pub struct Commands<'a> {
 }
 
 impl<'a> Commands<'a> {
-    /// The commands of a world, as the scene's signals give them at an instant; `sources` has one place for each.
+    /// Commands of a world in the units of their actuators, as the scene's signals give them at an instant; `sources`
+    /// has one place for each.
     pub fn of_scene(values: &'a mut [f64], sources: &'a mut [Source]) -> Self {
         sources.fill(Source::Scene);
         Self { values, sources, source: Source::Scene }
@@ -83,7 +84,8 @@ impl<'a> Commands<'a> {
         Commands { values: self.values, sources: self.sources, source }
     }
 
-    /// Sets a command, unless a stronger source has set it at this instant.
+    /// Sets the command of that index, in the unit of its actuator, unless a stronger source has set it at this
+    /// instant.
     pub fn set(&mut self, command: usize, value: f64) {
         let wins = match (self.sources[command], self.source) {
             (Source::Scene, _) => true,
@@ -143,7 +145,7 @@ pub enum Forked {
 /// do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of threads: the same
 /// calls give the same bits.
 pub trait Controller: Any + Send + fmt::Debug {
-    /// Name in messages.
+    /// Name of the controller in messages.
     fn name(&self) -> &str;
 
     /// Before the first tick, or again where a snapshot was restored.
@@ -167,7 +169,8 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Sets the commands that it determines.
     fn latch(&self, _: &mut Commands<'_>) {}
 
-    /// The commands of the step are latched: its memory becomes that of the next tick.
+    /// Called when the commands of the step at tick `tick`, time `t` `[s]`, are latched: its memory becomes that of the
+    /// next tick.
     fn latched(&mut self, _tick: u64, _t: f64) {}
 
     /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been
@@ -201,8 +204,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         Ok(())
     }
 
-    /// Writes its continuous outputs as they were last evaluated, so that they are observed at the start, before they
-    /// act; sampled ones are not written.
+    /// Writes its continuous outputs, in the units of the commands, as they were last evaluated, so that they are
+    /// observed at the start, before they act; sampled ones are not written.
     fn write_outputs(&self, _commands: &mut [f64]) {}
 
     /// After the last tick, if it was started.
@@ -235,7 +238,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Result of the proximity sensor that is object `sensor` of the scene.
     fn detected(&mut self, _sensor: usize, _found: Option<Detection>) {}
 
-    /// Value of a float signal that it has set, to be recorded.
+    /// Value of a float signal that it has set, to be recorded; it carries no unit.
     fn float_signal(&self, _name: &str) -> Option<f64> {
         None
     }

@@ -41,7 +41,7 @@ pub struct DiagramController<R: Number> {
 }
 
 impl<R: Number> DiagramController<R> {
-    /// At the start of a run of `model`.
+    /// Creates the controller of a compiled diagram, at the start of a run of `model`.
     #[must_use]
     pub fn new(wiring: &Arc<Wiring>, model: &Model<f64>) -> Self {
         let zeros = |n: usize| vec![R::zero(); n];
@@ -244,7 +244,7 @@ impl DiagramController<f64> {
         self.impulse.copy_from_slice(&totals[2..]);
     }
 
-    /// The signals of the diagram as they were last evaluated at a tick.
+    /// Signals of the diagram one after the other, each in its unit, as they were last evaluated at a tick.
     #[must_use]
     pub fn signals(&self) -> &[f64] {
         self.runner.signals()

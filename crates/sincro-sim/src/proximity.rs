@@ -44,7 +44,7 @@ pub struct Detection {
 }
 
 impl Detection {
-    /// As it would be at another distance, in the same direction.
+    /// The same detection at another distance `[m]`, in the same direction.
     #[must_use]
     pub fn at_distance(self, distance: f64) -> Self {
         let k = if self.distance > 0.0 { distance / self.distance } else { 0.0 };

@@ -57,7 +57,8 @@ impl Sweep {
         }
     }
 
-    /// Adds a run that came to its end, with the final values of the signals in their order.
+    /// Adds a run at `value` of the parameter that came to its end, with the final values of the signals in their
+    /// order, all in the units of [`Sweep::new`].
     ///
     /// # Panics
     ///

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::file::{FileError, partial, put_in_place};
 
-/// One recorded signal.
+/// A recorded signal: its name, its unit, one value a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its path: `/shoulder.position`.
@@ -56,7 +56,7 @@ impl Table {
         Self { columns }
     }
 
-    /// Adds a row: one value a column, in their order.
+    /// Adds a row: one value a column, in the order and the units of the columns.
     ///
     /// # Panics
     ///
@@ -93,7 +93,7 @@ impl Table {
         self.times().iter().map(find).collect()
     }
 
-    /// Number of rows.
+    /// Number of rows so far.
     #[must_use]
     pub fn n_rows(&self) -> usize {
         self.times().len()
@@ -111,7 +111,7 @@ impl Table {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// Copies a row, one value a column, to `row`, whose memory is used again.
+    /// Copies a row, one value a column in its unit, to `row`, whose memory is used again.
     pub fn copy_row(&self, row_idx: usize, row: &mut Vec<f64>) {
         row.clear();
         row.extend(self.columns.iter().map(|column| column.values[row_idx]));

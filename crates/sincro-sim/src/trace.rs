@@ -15,7 +15,7 @@ use crate::load::Loaded;
 pub struct Trace(pub u64);
 
 impl Trace {
-    /// With the initial state.
+    /// Creates the hash of a run that begins in `state`.
     #[must_use]
     pub fn start(state: &State<f64>) -> Self {
         let mut trace = Self(0);
@@ -23,7 +23,7 @@ impl Trace {
         trace
     }
 
-    /// Adds the state after one more tick.
+    /// Adds the state after one more tick to the hash.
     pub fn add(&mut self, state: &State<f64>) {
         let mut hasher = XxHash3_64::with_seed(self.0);
         let parts = [&state.q, &state.v, &state.commands, &state.drives, &state.contacts, &state.totals, &state.rotors];
@@ -54,7 +54,7 @@ impl fmt::Display for Trace {
     }
 }
 
-/// Hash of a compiled model: every number and name in it.
+/// Hash of a compiled model, 16 hexadecimal digits: every number and name in it.
 #[must_use]
 pub fn model_hash(model: &Model<f64>) -> String {
     let mut hasher = XxHash3_64::with_seed(0);

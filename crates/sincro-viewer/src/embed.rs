@@ -2,7 +2,7 @@
 
 /// The page's program, built from `page/`.
 pub const SCRIPT: &str = include_str!("../page/dist/viewer.js");
-/// The page's style.
+/// Style sheet of the viewer's page.
 pub const STYLE: &str = include_str!("../page/dist/viewer.css");
 
 /// HTML of a replay with all that it takes to show it.

@@ -23,7 +23,7 @@ const MAX_FRAME_BYTES: usize = 450_000;
 /// Bytes that the signals of all runs in a replay may have, before base 64.
 const MAX_SIGNAL_BYTES: usize = 450_000;
 
-/// The whole text.
+/// Content of a replay: the scene and its runs, as the page reads them.
 #[derive(Clone, Debug, Serialize)]
 pub struct Replay {
     /// [`FORMAT`].
@@ -124,7 +124,7 @@ impl Replay {
         }
     }
 
-    /// As text.
+    /// Text of the replay in JSON, as the page reads it.
     #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("plain data has a JSON form")

@@ -129,8 +129,8 @@ impl StateSpace {
         self.outputs.len()
     }
 
-    /// Static gain from an input to an output: `D − C A⁻¹ B`, or `D + C (I − A)⁻¹ B` if it is sampled; modes that the
-    /// channel does not show do not count.
+    /// Static gain from an input to an output `[unit of the output / unit of the input]`: `D − C A⁻¹ B`, or `D + C (I −
+    /// A)⁻¹ B` if it is sampled; modes that the channel does not show do not count.
     ///
     /// `None`: the channel integrates.
     #[must_use]

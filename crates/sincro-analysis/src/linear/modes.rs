@@ -159,7 +159,8 @@ fn deflated_eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     found
 }
 
-/// Eigenvalues of a real square matrix, ordered by modulus, then real part, then imaginary part from above.
+/// Eigenvalues of a real square matrix, in its units (`[1/s]` for that of a continuous system), ordered by modulus,
+/// then real part, then imaginary part from above.
 ///
 /// # Panics
 ///

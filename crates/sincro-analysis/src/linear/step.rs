@@ -154,7 +154,7 @@ fn info(response: &StepResponse, end: f64) -> Option<StepInfo> {
     })
 }
 
-/// `exp(M)`: the approximant `D⁻¹ N` of `M / 2ˢ`, squared s times.
+/// Matrix exponential `exp(M)` of a square, dimensionless `M`: the approximant `D⁻¹ N` of `M / 2ˢ`, squared s times.
 #[must_use]
 pub fn exponential(m: &DMatrix<f64>) -> DMatrix<f64> {
     const B: [f64; 14] = [

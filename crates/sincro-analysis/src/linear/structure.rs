@@ -29,13 +29,13 @@ impl SubspaceRank {
 }
 
 impl StateSpace {
-    /// Controllable subspace.
+    /// Dimension of the controllable subspace, and the states outside of it.
     #[must_use]
     pub fn controllability(&self) -> SubspaceRank {
         reach(&self.a, &self.b)
     }
 
-    /// Observable subspace.
+    /// Dimension of the observable subspace, and the states outside of it.
     #[must_use]
     pub fn observability(&self) -> SubspaceRank {
         reach(&self.a.transpose(), &self.c.transpose())

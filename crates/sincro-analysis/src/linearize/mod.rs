@@ -59,7 +59,8 @@ pub struct Linearization {
 }
 
 impl Linearization {
-    /// Greatest rate at the operating point: how far it is from an equilibrium.
+    /// Greatest magnitude among the rates of the states at the operating point `[unit of the state / s]`; 0 at an
+    /// equilibrium.
     #[must_use]
     pub fn drift(&self) -> f64 {
         self.rate.iter().fold(0.0_f64, |worst, r| worst.max(r.abs()))
@@ -232,8 +233,8 @@ pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> 
     fastest(true).zip(fastest(false)).filter(|(closed, open)| closed.is_finite() && open.is_finite())
 }
 
-/// Rates with state `k` changed by `by` about where a run is: for whoever wants to check derivatives by differences.
-/// The diagram is not in the loop.
+/// Rates of all states `[unit of the state / s]` with state `k` changed by `by` `[its unit]` about the state of a run,
+/// to check derivatives by differences. The diagram is not in the loop.
 #[must_use]
 pub fn perturbed_rates(loaded: &Loaded, at: &LockStep, k: usize, by: f64) -> Vec<f64> {
     let names = Names::default();

@@ -32,7 +32,7 @@ impl Scripts {
         Self { host, messages: Vec::new(), n_dropped: 0, is_started: false }
     }
 
-    /// Calls them.
+    /// Calls the functions of all scripts for a phase of the step at tick `tick`, at time `t` `[s]`.
     ///
     /// # Errors
     ///
@@ -72,7 +72,7 @@ impl Scripts {
         done
     }
 
-    /// Runs a text in the script on an object.
+    /// Runs a text in the script on an object, at tick `tick` and time `t` `[s]`.
     ///
     /// # Errors
     ///

@@ -46,7 +46,8 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The same either way.
+    /// Creates limits of velocity `[1/s]`, acceleration `[1/s²]` and jerk `[1/s³]`, times the coordinate's unit, that
+    /// are the same in both directions.
     #[must_use]
     pub fn symmetric(velocity: f64, acceleration: f64, jerk: f64) -> Self {
         Self {
@@ -134,7 +135,7 @@ impl Profile {
         Self { start, pieces, end, duration: pieces.duration() }
     }
 
-    /// Duration `[s]`.
+    /// Duration of the whole motion `[s]`.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.duration

@@ -20,14 +20,14 @@ pub fn euler_of(rot: &Mat3<f64>) -> [f64; 3] {
     }
 }
 
-/// The rotation Rx(α)·Ry(β)·Rz(γ).
+/// Rotation Rx(α)·Ry(β)·Rz(γ) of three angles `[rad]`.
 #[must_use]
 pub fn rotation_of_euler(angles: [f64; 3]) -> Mat3<f64> {
     let [(sa, ca), (sb, cb), (sc, cc)] = angles.map(sin_cos);
     Mat3::rotation::<0>(sa, ca).mul(&Mat3::rotation::<1>(sb, cb)).mul(&Mat3::rotation::<2>(sc, cc))
 }
 
-/// x, y, z, w of a rotation.
+/// Unit quaternion of a rotation, dimensionless, in the order x, y, z, w.
 #[must_use]
 pub fn quaternion_of(rot: &Mat3<f64>) -> [f64; 4] {
     let q = Quat::from_matrix(rot);
@@ -42,28 +42,28 @@ pub fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Option<Mat3<f64>> {
     usable.then(|| Quat { w, xyz: Vec3([x, y, z]) }.normalized().matrix())
 }
 
-/// Twelve numbers: the upper 3×4 part, row by row.
+/// Twelve numbers of a pose: the upper 3×4 part of its matrix, row by row; the last column is the position `[m]`.
 #[must_use]
 pub fn matrix_of(pose: &Pose<f64>) -> [f64; 12] {
     let (r, p) = (&pose.rot.0, &pose.pos);
     [r[0][0], r[0][1], r[0][2], p[0], r[1][0], r[1][1], r[1][2], p[1], r[2][0], r[2][1], r[2][2], p[2]]
 }
 
-/// The pose of twelve numbers, its rotation as it is given.
+/// Pose of the twelve numbers of [`matrix_of`], positions in `[m]`; the rotation is taken as it is given.
 #[must_use]
 pub fn pose_of_matrix(m: &[f64; 12]) -> Pose<f64> {
     let rot = Mat3([[m[0], m[1], m[2]], [m[4], m[5], m[6]], [m[8], m[9], m[10]]]);
     Pose { rot, pos: Vec3([m[3], m[7], m[11]]) }
 }
 
-/// Seven numbers: position, then x, y, z, w.
+/// Seven numbers of a pose: position `[m]`, then the quaternion x, y, z, w.
 #[must_use]
 pub fn numbers_of_pose(pose: &Pose<f64>) -> [f64; 7] {
     let (p, q) = (&pose.pos, quaternion_of(&pose.rot));
     [p[0], p[1], p[2], q[0], q[1], q[2], q[3]]
 }
 
-/// The pose of seven numbers; none if the quaternion has no direction.
+/// Pose of seven numbers, position `[m]` and quaternion x, y, z, w; none if the quaternion has no direction.
 #[must_use]
 pub fn pose_of_numbers([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
     let rot = rotation_of_quaternion([qx, qy, qz, qw])?;

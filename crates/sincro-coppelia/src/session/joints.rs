@@ -74,7 +74,7 @@ impl SimApi<'_> {
         Ok(before.map(|before| (before - self.world.state.totals[2 + motor]) / self.registry.sample_time()))
     }
 
-    /// Present parameters of the motor of a joint; none without motor.
+    /// Present parameters of the motor of a joint, in SI units; none without motor.
     ///
     /// # Errors
     ///

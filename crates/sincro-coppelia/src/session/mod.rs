@@ -219,7 +219,7 @@ impl Session {
         ApiController::sim(&mut self.lockstep).expect("a session's lock-step has a registry")
     }
 
-    /// The objects.
+    /// Objects of the scene and runtime objects, with all that clients and scripts store.
     pub fn registry(&mut self) -> &mut ObjectRegistry {
         self.sim().registry
     }

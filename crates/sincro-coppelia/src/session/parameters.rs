@@ -75,7 +75,7 @@ impl SimApi<'_> {
         self.set_joint_mode(handle, mode)
     }
 
-    /// A number of an object.
+    /// Number of an object, in the unit of the parameter `id`.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl SimApi<'_> {
         }
     }
 
-    /// Sets a number of an object: gains and limits of its motor.
+    /// Sets a number of an object, in the unit of the parameter `id`: gains and limits of its motor.
     ///
     /// # Errors
     ///

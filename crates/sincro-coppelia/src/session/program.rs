@@ -187,7 +187,7 @@ impl SimApi<'_> {
         }
     }
 
-    /// A number of the simulator.
+    /// Number of the simulator, in the unit of the parameter `id`.
     ///
     /// # Errors
     ///

@@ -57,7 +57,7 @@ pub enum Kind {
     Proximity,
 }
 
-/// An object.
+/// An object of the scene or a runtime object, as clients and scripts find it.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// Its handle.
@@ -409,7 +409,7 @@ impl ObjectRegistry {
         self.step
     }
 
-    /// Sets the step of clients and scripts, while stopped.
+    /// Sets the step of clients and scripts `[s]`, while stopped.
     ///
     /// # Errors
     ///
@@ -436,12 +436,12 @@ impl ObjectRegistry {
         tick.is_multiple_of(self.sample_ticks)
     }
 
-    /// Holds a command from outside; none gives it back to the scene.
+    /// Sets a command from outside, in its unit, over what scene and diagram give, until it is set to none.
     pub fn hold(&mut self, command: usize, value: Option<f64>) {
         self.held[command] = value;
     }
 
-    /// Held value of a command.
+    /// Value in the command's unit that was set from outside; none if scene or diagram give it.
     #[must_use]
     pub fn held(&self, command: usize) -> Option<f64> {
         self.held[command]

@@ -31,7 +31,7 @@ pub struct ShapeInfo {
 }
 
 impl SimApi<'_> {
-    /// Makes a shape in the world's origin of parts, each with its place.
+    /// Makes a shape in the world's origin of parts, each with its pose in the shape `[m]`.
     ///
     /// # Errors
     ///
@@ -179,7 +179,7 @@ impl SimApi<'_> {
         Ok(all)
     }
 
-    /// Makes a shape larger or smaller in all directions, about its own origin.
+    /// Scales a shape in all directions, about its own origin, by a dimensionless factor.
     ///
     /// # Errors
     ///
@@ -203,7 +203,7 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Colours an object, for sensors that see colours: red, green, blue from 0 to 1.
+    /// Colours an object, for sensors that see colours: red, green, blue, dimensionless from 0 to 1.
     ///
     /// # Errors
     ///

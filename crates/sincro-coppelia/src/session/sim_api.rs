@@ -96,7 +96,8 @@ impl<'a> SimApi<'a> {
         Ok(self.place(&frame))
     }
 
-    /// Pose of an object. Joints have their axis along z; the frame is that on their parent's side.
+    /// Pose of an object against a reference, position in `[m]`. Joints have their axis along z; the frame is that on
+    /// their parent's side.
     ///
     /// # Errors
     ///
@@ -108,7 +109,7 @@ impl<'a> SimApi<'a> {
         Ok(if reference == Reference::World { x_wo } else { x_wr.inverse().compose(&x_wo) })
     }
 
-    /// The moving frame of a joint against its other one: its position as a pose.
+    /// Pose of the moving frame of a joint in its fixed one: its position as a pose, lengths in `[m]`.
     ///
     /// # Errors
     ///

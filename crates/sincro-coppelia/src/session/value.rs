@@ -25,7 +25,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// A list of numbers.
+    /// Argument `k` as a list of exactly `N` numbers.
     pub fn reals(list: impl IntoIterator<Item = f64>) -> Self {
         Self::List(list.into_iter().map(Self::Real).collect())
     }
@@ -106,7 +106,7 @@ impl Value {
         }
     }
 
-    /// As a list of numbers.
+    /// As a list of numbers; none if any entry is no number.
     #[must_use]
     pub fn as_reals(&self) -> Option<Vec<f64>> {
         let Self::List(list) = self else { return None };
@@ -208,7 +208,7 @@ impl<'a> Arguments<'a> {
         if self.has(k) { self.int(k) } else { Ok(default) }
     }
 
-    /// A number; nil in a given place is not a number.
+    /// Argument `k` as a number; nil in a given place is not a number.
     ///
     /// # Errors
     ///

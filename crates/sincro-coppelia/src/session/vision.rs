@@ -284,8 +284,8 @@ impl SimApi<'_> {
         }))
     }
 
-    /// Statistics of the image of a vision sensor: least, greatest and mean of intensity, red, green, blue and depth.
-    /// None before its first handling.
+    /// Statistics of the image of a vision sensor: least, greatest and mean of intensity, red, green, blue and depth,
+    /// in this order, dimensionless from 0 to 1. None before its first handling.
     ///
     /// # Errors
     ///

@@ -75,7 +75,7 @@ pub struct Push<R> {
 }
 
 impl<R: Real> Push<R> {
-    /// As a wrench about the link's origin, link axes; `r_wl` takes link to world axes.
+    /// Wrench about the link's origin `[N·m]`, `[N]`, in link axes; `r_wl` takes link to world axes.
     #[inline(always)]
     pub fn wrench(&self, r_wl: &crate::spatial::Mat3<R>) -> Force<R> {
         let lin = r_wl.tr_mul_vec(self.force);

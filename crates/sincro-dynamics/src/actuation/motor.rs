@@ -54,7 +54,7 @@ impl Motor<f64> {
         Self { dof: 0, mode, max_torque: inf, kp: 0.0, max_velocity: inf, stiffness: 0.0, damping: 0.0 }
     }
 
-    /// Every number with its name.
+    /// Every number of the motor with its name, in SI units.
     #[must_use]
     pub fn numbers(&self) -> [(&'static str, f64); 5] {
         [

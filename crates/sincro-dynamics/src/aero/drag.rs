@@ -53,7 +53,7 @@ impl<R: Real> AirDrag<R> {
         velocity_in_air(&self.pose, twist, x_wl, air)
     }
 
-    /// Force and dissipation at a velocity in the air, both in the axes of the element.
+    /// Force `[N]` and dissipation `[W]` at a velocity `u` in the air `[m/s]`, both vectors in the axes of the element.
     #[inline(always)]
     pub fn resistance(&self, u: Vec3<R>) -> Resistance<R> {
         // below that the root has no slope, and 0 · ∞ would be the derivative
@@ -63,7 +63,8 @@ impl<R: Real> AirDrag<R> {
         Resistance { force, dissipation: -force.dot(u) }
     }
 
-    /// A force on the centre of pressure as a wrench about the link's origin, link axes.
+    /// Wrench about the link's origin `[N·m]`, `[N]`, in link axes, of a force on the centre of pressure `[N]` in the
+    /// axes of the element.
     #[inline(always)]
     pub fn wrench(&self, force: Vec3<R>) -> Force<R> {
         let lin = self.pose.rot.mul_vec(force);

@@ -44,8 +44,8 @@ impl DormandPrince {
         Self { control, k: std::array::from_fn(|_| zero.clone()), stage: zero.clone(), error: zero }
     }
 
-    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and
-    /// after.
+    /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`; returns its length `[s]`. `y` is in a
+    /// fresh chart before and after.
     ///
     /// # Errors
     ///

@@ -84,8 +84,8 @@ impl<R: Real> FixedStep<R> for Extrapolated<R> {
 }
 
 impl Extrapolated<f64> {
-    /// Makes one accepted step from `t`, no longer than `h_max`; returns its length. `y` is in a fresh chart before and
-    /// after.
+    /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`; returns its length `[s]`. `y` is in a
+    /// fresh chart before and after.
     ///
     /// # Errors
     ///

@@ -26,13 +26,14 @@ use sincro_math::Real;
 
 /// System of ordinary differential equations dy/dt = f(t, y) in local coordinates.
 pub trait System<R: Real> {
-    /// Length of y.
+    /// Length of the vector y.
     fn dim(&self) -> usize;
 
     /// Returns true if an entry of y takes part in error control; the others are quadratures that nothing depends on.
     fn is_controlled(&self, k: usize) -> bool;
 
-    /// `slope = f(t, y)`.
+    /// Computes `slope = f(t, y)` at time `t` `[s]`; both vectors have [`System::dim`] entries, `slope` those of `y`
+    /// per second.
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]);
 
     /// One linearly implicit Euler step of length `h` from `y`: `slope` such that the new y is `y + h·slope`. Its
@@ -48,14 +49,15 @@ pub trait System<R: Real> {
         SingularStages::None
     }
 
-    /// Removes from an error estimate what does not matter: what lies across the manifold of the system at `y`, which
-    /// projection takes away after the step.
+    /// Removes from an error estimate, in the units of `y`, the part that does not matter: across the manifold of the
+    /// system at `y`, which projection takes away after the step.
     fn project_error(&mut self, _y: &[R], _error: &mut [R]) {}
 
-    /// Lays a new chart at `y`, after which the same state is described by what `y` then holds.
+    /// Centres the chart at `y`, in place: afterwards `y` describes the same state in the new chart; units stay.
     fn rechart(&mut self, y: &mut [R]);
 
-    /// Typical magnitude of each controlled entry, for relative errors: the state's own, not the chart's.
+    /// Typical magnitude of controlled entry `k`, in its unit, for relative errors: that of the state, not of the
+    /// chart.
     fn magnitude(&self, y: &[R], k: usize) -> f64;
 }
 
@@ -81,7 +83,7 @@ pub enum Implicit {
 
 /// A fixed-step method: y is in a fresh chart before and after.
 pub trait FixedStep<R: Real> {
-    /// Advances `y` from `t` by `h`.
+    /// Advances `y` from time `t` `[s]` by `h` `[s]`.
     fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]);
 }
 

@@ -216,17 +216,17 @@ impl ModelBuilder {
         NodeId(u32::try_from(self.nodes.len() - 1).expect("fewer than 2^32 objects"))
     }
 
-    /// Adds a joint whose frame stands at `pose` in its parent; what is hung on it moves.
+    /// Adds a joint whose frame stands at `pose` in its parent's `[m]`; whatever has it as its parent moves with it.
     pub fn joint(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: JointSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Joint(Box::new(spec)))
     }
 
-    /// Adds a body whose frame stands at `pose` in its parent.
+    /// Adds a body whose frame stands at `pose` in its parent's `[m]`.
     pub fn body(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: BodySpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Body(spec))
     }
 
-    /// Adds a frame: a named point without mass.
+    /// Adds a frame, a named point without mass, at `pose` in its parent's `[m]`.
     pub fn frame(&mut self, name: &str, parent: NodeId, pose: Pose<f64>) -> NodeId {
         self.add(name, parent, pose, NodeKind::Frame)
     }
@@ -236,12 +236,12 @@ impl ModelBuilder {
         self.wind = Some(Arc::new(wind));
     }
 
-    /// Adds a rotor whose hub frame stands at `pose` in its parent's.
+    /// Adds a rotor whose hub frame stands at `pose` in its parent's `[m]`.
     pub fn rotor(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: RotorSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Rotor(Box::new(spec)))
     }
 
-    /// Adds a drag element whose axes and centre of pressure stand at `pose` in its parent's frame.
+    /// Adds a drag element whose axes and centre of pressure stand at `pose` in its parent's frame `[m]`.
     pub fn drag(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: DragSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Drag(Box::new(spec)))
     }
@@ -251,7 +251,7 @@ impl ModelBuilder {
         self.add(name, parent, Pose::identity(), NodeKind::Force(Box::new(spec)))
     }
 
-    /// Adds a surface that can touch others, at `pose` in a body or frame.
+    /// Adds a surface that can touch others, at `pose` `[m]` in the frame of a body or frame.
     pub fn collider(&mut self, on: NodeId, pose: Pose<f64>, surface: Surface, material: Material) {
         self.colliders.push((on, pose, surface, material));
     }

@@ -31,7 +31,7 @@ pub enum LoopJointKind {
 }
 
 impl LoopJointKind {
-    /// Number of rows.
+    /// Number of constraint rows.
     #[must_use]
     pub fn rows(self) -> usize {
         match self {
@@ -71,7 +71,7 @@ pub struct GearConstraint {
     pub offset: f64,
 }
 
-/// Joint limit.
+/// A lower or an upper limit of the coordinate of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     /// Degree of freedom.

@@ -75,19 +75,19 @@ impl<R: Real> Model<R> {
         self.dofs.len()
     }
 
-    /// The moving links, parents before children.
+    /// Moving links, parents before children; their numbers in SI units.
     #[must_use]
     pub fn links(&self) -> &[Link<R>] {
         &self.links
     }
 
-    /// Passive properties, one entry a degree of freedom.
+    /// Passive properties in SI units, one entry a degree of freedom (n_v).
     #[must_use]
     pub fn dofs(&self) -> &[Dof<R>] {
         &self.dofs
     }
 
-    /// The motors, in the order of their commands.
+    /// Motors in the order of their commands, their numbers in SI units.
     #[must_use]
     pub fn motors(&self) -> &[Motor<R>] {
         &self.motors
@@ -107,13 +107,13 @@ impl<R: Real> Model<R> {
         self.rotors.iter().filter(|r| r.speed.state().is_some()).count()
     }
 
-    /// The rotors.
+    /// Rotors, in the order of their ids.
     #[must_use]
     pub fn rotors(&self) -> &[MountedRotor<R>] {
         &self.rotors
     }
 
-    /// Motor of that id.
+    /// Motor of that id, its numbers in SI units.
     ///
     /// # Panics
     ///
@@ -123,7 +123,7 @@ impl<R: Real> Model<R> {
         &self.motors[id.index()]
     }
 
-    /// Rotor of that id.
+    /// Rotor of that id, its numbers in SI units.
     ///
     /// # Panics
     ///
@@ -133,7 +133,7 @@ impl<R: Real> Model<R> {
         &self.rotors[id.index()]
     }
 
-    /// The drag elements.
+    /// Drag elements, in the order in which they were added.
     #[must_use]
     pub fn drags(&self) -> &[AirDrag<R>] {
         &self.drags
@@ -156,7 +156,7 @@ impl<R: Real> Model<R> {
         !self.rotors.is_empty() || !self.drags.is_empty()
     }
 
-    /// The external forces on links, in the order in which they were added.
+    /// External forces on links `[N]`, `[N·m]`, in the order in which they were added.
     #[must_use]
     pub fn wrenches(&self) -> &[AppliedWrench<R>] {
         &self.wrenches
@@ -179,7 +179,7 @@ impl<R: Real> Model<R> {
         &self.constraints
     }
 
-    /// Number of drives.
+    /// Number of drives: ideal motors and joint frictions.
     #[must_use]
     pub fn n_drives(&self) -> usize {
         self.drives.len()

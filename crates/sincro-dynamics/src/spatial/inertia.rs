@@ -43,7 +43,7 @@ impl<R: Real> RigidInertia<R> {
         Self { mass, moment: com.scale(mass), rotational: inertia.plus(&steiner) }
     }
 
-    /// Momentum of the body moving with `v`: `I·v`.
+    /// Momentum `[kg·m²/s]`, `[kg·m/s]` of the body moving with `v` `[rad/s]`, `[m/s]`: `I·v`.
     #[inline(always)]
     pub fn mul(&self, v: &Motion<R>) -> Force<R> {
         Force {
@@ -83,7 +83,7 @@ impl<R: Real> RigidInertia<R> {
         Self { mass: self.mass, moment: e.mul_vec(self.moment), rotational: e.congruence_sym(&self.rotational) }
     }
 
-    /// The general form.
+    /// The same inertia in the general form of articulated bodies.
     #[inline(always)]
     pub fn articulated(&self) -> ArticulatedInertia<R> {
         ArticulatedInertia {
@@ -115,7 +115,8 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// `self − u·(ku)ᵀ`: what is left when one degree of freedom gives way. `ku` is a multiple of `u`.
+    /// `self − u·(ku)ᵀ` `[kg]`, `[kg·m]`, `[kg·m²]`: the inertia that is left when one degree of freedom gives way.
+    /// `ku` is a multiple of `u`.
     #[inline(always)]
     pub fn minus_outer(&self, u: &Force<R>, ku: &Force<R>) -> Self {
         let mut coupling = self.coupling;

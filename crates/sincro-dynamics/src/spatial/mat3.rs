@@ -10,25 +10,25 @@ use super::sym3::{ELEMENTS, Sym3};
 pub struct Mat3<R>(pub [[R; 3]; 3]);
 
 impl<R: Real> Mat3<R> {
-    /// The identity.
+    /// Identity matrix, dimensionless.
     #[inline(always)]
     pub fn identity() -> Self {
         let (o, l) = (R::zero(), R::one());
         Self([[l, o, o], [o, l, o], [o, o, l]])
     }
 
-    /// The null matrix.
+    /// Matrix of zeros, of any unit.
     #[inline(always)]
     pub fn zero() -> Self {
         Self([[R::zero(); 3]; 3])
     }
 
-    /// Constants lifted into `R`.
+    /// Matrix of constants, lifted into `R`; row by row, the units stay.
     pub fn splat(m: [[f64; 3]; 3]) -> Self {
         Self(m.map(|row| row.map(R::splat)))
     }
 
-    /// Rotation about coordinate axis `A` by the angle with the given sine and cosine.
+    /// Rotation about coordinate axis `A` (0, 1, 2) by the angle with the given sine and cosine; dimensionless.
     #[inline(always)]
     pub fn rotation<const A: usize>(sin: R, cos: R) -> Self {
         let (b, c) = ((A + 1) % 3, (A + 2) % 3);
@@ -40,20 +40,20 @@ impl<R: Real> Mat3<R> {
         m
     }
 
-    /// The skew matrix of `v`: `skew(v)·b = v × b`.
+    /// Skew-symmetric matrix of `v`, in its unit: `skew(v)·b = v × b`.
     #[inline(always)]
     pub fn skew(v: Vec3<R>) -> Self {
         let o = R::zero();
         Self([[o, -v[2], v[1]], [v[2], o, -v[0]], [-v[1], v[0], o]])
     }
 
-    /// Column `k`.
+    /// Column `k` (0, 1, 2), in the unit of the entries.
     #[inline(always)]
     pub fn col(&self, k: usize) -> Vec3<R> {
         Vec3([self.0[0][k], self.0[1][k], self.0[2][k]])
     }
 
-    /// Row `k`.
+    /// Row `k` (0, 1, 2), in the unit of the entries.
     #[inline(always)]
     pub fn row(&self, k: usize) -> Vec3<R> {
         Vec3(self.0[k])
@@ -65,13 +65,13 @@ impl<R: Real> Mat3<R> {
         Self([self.col(0).0, self.col(1).0, self.col(2).0])
     }
 
-    /// Matrix times vector.
+    /// Product of the matrix with a vector; the units multiply.
     #[inline(always)]
     pub fn mul_vec(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3([self.row(0).dot(v), self.row(1).dot(v), self.row(2).dot(v)])
     }
 
-    /// Transposed matrix times vector.
+    /// Product of the transposed matrix with a vector; the units multiply.
     #[inline(always)]
     pub fn tr_mul_vec(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
@@ -89,7 +89,7 @@ impl<R: Real> Mat3<R> {
         out
     }
 
-    /// `self + b`.
+    /// Sum `self + b` of matrices of one unit.
     #[inline(always)]
     pub fn plus(&self, b: &Self) -> Self {
         let mut out = *self;
@@ -101,7 +101,7 @@ impl<R: Real> Mat3<R> {
         out
     }
 
-    /// `self · m · selfᵀ` of a symmetric `m`.
+    /// Product `self · m · selfᵀ` with a symmetric `m`, in its unit if `self` is a rotation.
     #[inline(always)]
     pub fn congruence_sym(&self, m: &Sym3<R>) -> Sym3<R> {
         let t = [m.mul_vec(self.row(0)), m.mul_vec(self.row(1)), m.mul_vec(self.row(2))];

@@ -43,7 +43,8 @@ impl<R: Real> Motion<R> {
         Self { ang: self.ang.cross(m.ang), lin: self.ang.cross(m.lin) + self.lin.cross(m.ang) }
     }
 
-    /// `self ×* f`: how the force `f`, fixed in a frame that moves with `self`, changes.
+    /// Rate `self ×* f` `[N·m/s]`, `[N/s]` of a force `f` that is fixed in a frame moving with `self` `[rad/s]`,
+    /// `[m/s]`.
     #[inline(always)]
     pub fn cross_force(&self, f: &Force<R>) -> Force<R> {
         Force { ang: self.ang.cross(f.ang) + self.lin.cross(f.lin), lin: self.ang.cross(f.lin) }
@@ -57,7 +58,7 @@ impl<R: Real> Force<R> {
         Self { ang: Vec3::zero(), lin: Vec3::zero() }
     }
 
-    /// Product with a scalar.
+    /// Product with a scalar; the units multiply.
     #[inline(always)]
     pub fn scale(&self, k: R) -> Self {
         Self { ang: self.ang.scale(k), lin: self.lin.scale(k) }

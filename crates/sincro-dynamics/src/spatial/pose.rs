@@ -15,30 +15,30 @@ pub struct Pose<R> {
 }
 
 impl<R: Real> Pose<R> {
-    /// Both frames coincide.
+    /// Pose of a frame that coincides with its reference.
     #[inline(always)]
     pub fn identity() -> Self {
         Self { rot: Mat3::identity(), pos: Vec3::zero() }
     }
 
-    /// Parallel axes, origin at `pos`.
+    /// Pose of a frame with parallel axes and its origin at `pos` `[m]`.
     pub fn translation(pos: Vec3<R>) -> Self {
         Self { rot: Mat3::identity(), pos }
     }
 
-    /// `x_ab * x_bc`.
+    /// Product `x_ac = x_ab * x_bc` of two poses, `self` being `x_ab`, lengths in `[m]`.
     #[inline(always)]
     pub fn compose(&self, b: &Self) -> Self {
         Self { rot: self.rot.mul(&b.rot), pos: self.pos + self.rot.mul_vec(b.pos) }
     }
 
-    /// `x_ba` of `x_ab`.
+    /// Inverse pose: `x_ba` of `x_ab`, lengths in `[m]`.
     #[inline(always)]
     pub fn inverse(&self) -> Self {
         Self { rot: self.rot.transpose(), pos: -self.rot.tr_mul_vec(self.pos) }
     }
 
-    /// A point given in B, in A.
+    /// Coordinates in A of a point `p` that is given in B, both `[m]`.
     #[inline(always)]
     pub fn point(&self, p: Vec3<R>) -> Vec3<R> {
         self.pos + self.rot.mul_vec(p)

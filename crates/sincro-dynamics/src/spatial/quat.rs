@@ -14,18 +14,18 @@ pub struct Quat<R> {
 }
 
 impl<R: Real> Quat<R> {
-    /// No rotation.
+    /// Unit quaternion of no rotation, dimensionless: w = 1.
     pub fn identity() -> Self {
         Self { w: R::one(), xyz: Vec3::zero() }
     }
 
-    /// From four coordinates (w, x, y, z).
+    /// Quaternion of four coordinates in the order w, x, y, z; dimensionless.
     #[inline(always)]
     pub fn from_slice(q: &[R]) -> Self {
         Self { w: q[0], xyz: Vec3([q[1], q[2], q[3]]) }
     }
 
-    /// Into four coordinates (w, x, y, z).
+    /// Writes the four coordinates in the order w, x, y, z; dimensionless.
     #[inline(always)]
     pub fn write(&self, q: &mut [R]) {
         q[0] = self.w;
@@ -76,7 +76,7 @@ impl<R: Real> Quat<R> {
         Self { w: self.w * k, xyz: self.xyz.scale(k) }
     }
 
-    /// The rotation matrix.
+    /// Rotation matrix, dimensionless, of a unit quaternion.
     #[inline(always)]
     pub fn matrix(&self) -> Mat3<R> {
         let (w, [x, y, z]) = (self.w, self.xyz.0);
@@ -92,8 +92,8 @@ impl<R: Real> Quat<R> {
 }
 
 impl<R: Real> Quat<R> {
-    /// The quaternion of a rotation matrix, w ≥ 0; exact to rounding for any rotation (Shepperd's choice of pivot). For
-    /// numbers of one lane.
+    /// Unit quaternion of a rotation matrix, dimensionless, w ≥ 0; exact to rounding for any rotation (Shepperd's
+    /// choice of pivot). For numbers of one lane.
     pub fn from_matrix(m: &Mat3<R>) -> Self {
         debug_assert!(R::LANES == 1, "lanes can differ in their pivot");
         let m = &m.0;

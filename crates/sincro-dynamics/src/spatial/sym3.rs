@@ -15,61 +15,61 @@ const PACKED: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 pub(super) const ELEMENTS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
 impl<R: Real> Sym3<R> {
-    /// The null matrix.
+    /// Symmetric matrix of zeros, of any unit.
     #[inline(always)]
     pub fn zero() -> Self {
         Self([R::zero(); 6])
     }
 
-    /// `k` times the identity.
+    /// Product of `k` with the identity, in its unit.
     #[inline(always)]
     pub fn scalar(k: R) -> Self {
         let o = R::zero();
         Self([k, o, o, k, o, k])
     }
 
-    /// Constants lifted into `R`.
+    /// Symmetric matrix of constants xx, yy, zz, xy, xz, yz lifted into `R`; the units stay.
     pub fn splat(m: [f64; 6]) -> Self {
         Self(m.map(R::splat))
     }
 
-    /// The matrix with elements `f(i, j)`, asked for i ≤ j only.
+    /// Symmetric matrix with elements `f(i, j)` in one unit, asked for i ≤ j only.
     #[inline(always)]
     pub fn from_fn(f: impl Fn(usize, usize) -> R) -> Self {
         Self([f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2)])
     }
 
-    /// Element (i, j).
+    /// Element (i, j), indices 0, 1, 2, in the unit of the entries.
     #[inline(always)]
     pub fn at(&self, i: usize, j: usize) -> R {
         self.0[PACKED[i][j]]
     }
 
-    /// Sets elements (i, j) and (j, i).
+    /// Sets elements (i, j) and (j, i), indices 0, 1, 2, in the unit of the entries.
     #[inline(always)]
     pub fn set(&mut self, i: usize, j: usize, x: R) {
         self.0[PACKED[i][j]] = x;
     }
 
-    /// Column (or row) `k`.
+    /// Column (or row) `k` (0, 1, 2), in the unit of the entries.
     #[inline(always)]
     pub fn col(&self, k: usize) -> Vec3<R> {
         Vec3([self.at(0, k), self.at(1, k), self.at(2, k)])
     }
 
-    /// Matrix times vector.
+    /// Product of the matrix with a vector; the units multiply.
     #[inline(always)]
     pub fn mul_vec(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
     }
 
-    /// The same as a full matrix.
+    /// The same matrix with all nine entries, in their unit.
     #[inline(always)]
     pub fn full(&self) -> Mat3<R> {
         Mat3([self.col(0).0, self.col(1).0, self.col(2).0])
     }
 
-    /// `self + b`.
+    /// Sum `self + b` of matrices of one unit.
     #[inline(always)]
     pub fn plus(&self, b: &Self) -> Self {
         let mut out = *self;

@@ -9,19 +9,19 @@ use sincro_math::Real;
 pub struct Vec3<R>(pub [R; 3]);
 
 impl<R: Real> Vec3<R> {
-    /// The vector (x, y, z).
+    /// Vector (x, y, z), the components in one unit.
     #[inline(always)]
     pub fn new(x: R, y: R, z: R) -> Self {
         Self([x, y, z])
     }
 
-    /// The null vector.
+    /// Vector of zeros, of any unit.
     #[inline(always)]
     pub fn zero() -> Self {
         Self([R::zero(); 3])
     }
 
-    /// `length` along coordinate axis `axis` (0, 1, 2).
+    /// Vector of a length in any unit along coordinate axis `axis` (0, 1, 2).
     #[inline(always)]
     pub fn along(axis: usize, length: R) -> Self {
         let mut v = Self::zero();
@@ -29,13 +29,13 @@ impl<R: Real> Vec3<R> {
         v
     }
 
-    /// Constants lifted into `R`.
+    /// Vector of constants (x, y, z) lifted into `R`; the units stay.
     #[inline(always)]
     pub fn splat(v: [f64; 3]) -> Self {
         Self(v.map(R::splat))
     }
 
-    /// Dot product.
+    /// Dot product with `b`; the units multiply.
     #[inline(always)]
     pub fn dot(self, b: Self) -> R {
         self[0] * b[0] + self[1] * b[1] + self[2] * b[2]
@@ -48,7 +48,7 @@ impl<R: Real> Vec3<R> {
         Self([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
     }
 
-    /// `self × (r e_K)`: cross product with a vector along coordinate axis `K`.
+    /// Cross product `self × (r e_K)` with a vector along coordinate axis `K`; the units multiply.
     #[inline(always)]
     pub fn cross_along<const K: usize>(self, r: R) -> Self {
         let (b, c) = ((K + 1) % 3, (K + 2) % 3);
@@ -58,13 +58,13 @@ impl<R: Real> Vec3<R> {
         out
     }
 
-    /// Product with a scalar.
+    /// Product with a scalar; the units multiply.
     #[inline(always)]
     pub fn scale(self, k: R) -> Self {
         Self([self[0] * k, self[1] * k, self[2] * k])
     }
 
-    /// Euclidean length.
+    /// Euclidean length, in the unit of the components.
     #[inline(always)]
     pub fn norm(self) -> R {
         self.dot(self).sqrt()

@@ -178,7 +178,7 @@ pub struct Size {
 }
 
 impl Axis {
-    /// A linear axis.
+    /// Creates a linear axis with a label and a unit as it is shown, such as `m/s`; empty for none.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { label: label.into(), unit: unit.into(), ..Self::default() }
     }

@@ -35,14 +35,14 @@ pub(crate) fn coordinate(x: f64) -> String {
     if matches!(text, "-0" | "") { "0".into() } else { text.into() }
 }
 
-/// A number for readers with a fixed count of decimals: `−0.50`.
+/// Text of a dimensionless number with a fixed count of decimals, with a typographic minus: `−0.50`.
 pub fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", x.abs());
     let is_zero = text.bytes().all(|b| matches!(b, b'0' | b'.'));
     if x < 0.0 && !is_zero { format!("−{text}") } else { text }
 }
 
-/// A number for readers with that many significant digits: `0.0123`, `4.56×10⁻⁹`, `∞`, `not a number`.
+/// Text of a dimensionless number with that many significant digits: `0.0123`, `4.56×10⁻⁹`, `∞`, `not a number`.
 pub fn significant(x: f64, digits: usize) -> String {
     if let Some(text) = special(x) {
         return text;

@@ -11,7 +11,7 @@ use super::style::{color, look};
 use super::text::{width, wrap};
 use super::{Figure, Role, Series, Size};
 
-/// Curves in space.
+/// A figure of curves in space, all axes in one unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Space {
     /// The curves; references are drawn over the others.

@@ -54,7 +54,7 @@ impl Slave {
         Ok(())
     }
 
-    /// Reads real variables.
+    /// Reads real variables by their value references into `values`, one for each, in the units of the description.
     ///
     /// # Errors
     ///
@@ -66,7 +66,7 @@ impl Slave {
         self.functions().get(self.component, references, values)
     }
 
-    /// Sets real variables.
+    /// Sets real variables by their value references, one value for each, in the units of the description.
     ///
     /// # Errors
     ///
@@ -78,7 +78,7 @@ impl Slave {
         self.functions().set(self.component, references, values)
     }
 
-    /// Value of a number of any type.
+    /// Value of a variable of any numeric type, in the unit of the description.
     ///
     /// # Errors
     ///
@@ -87,7 +87,8 @@ impl Slave {
         self.functions().get_number(self.component, kind, reference)
     }
 
-    /// Sets a number of any type: rounded, and cut off at the bounds of its type.
+    /// Sets a variable of any numeric type, in the unit of the description: rounded, and cut off at the bounds of its
+    /// type.
     ///
     /// # Errors
     ///

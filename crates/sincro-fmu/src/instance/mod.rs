@@ -98,7 +98,7 @@ impl Instance {
         Ok(Self { loaded, catalogue, base, has_states, values, start: 0.0, run: None })
     }
 
-    /// Its variables.
+    /// Variables of the FMU with their value references, units and roles.
     #[must_use]
     pub fn catalogue(&self) -> &Catalogue {
         &self.catalogue
@@ -166,8 +166,8 @@ impl Instance {
         self.run = None;
     }
 
-    /// Sets a parameter or an input. Before the run has begun, every parameter can be set; then only inputs and tunable
-    /// parameters.
+    /// Sets a parameter or an input, in the unit of the variable `vr`. Before the run has begun, every parameter can be
+    /// set; then only inputs and tunable parameters.
     ///
     /// # Errors
     ///
@@ -207,7 +207,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Value of a variable. Outputs begin the run if it has not begun.
+    /// Value of a variable in its unit. Outputs begin the run if it has not begun.
     ///
     /// # Errors
     ///
@@ -236,7 +236,7 @@ impl Instance {
         }
     }
 
-    /// Number of base steps from the present instant to `time + span`.
+    /// Number of base steps from the present instant to `time + span`, both `[s]`.
     ///
     /// # Errors
     ///
@@ -356,7 +356,7 @@ impl Instance {
         self.exchange()?.set_states(x)
     }
 
-    /// Writes the continuous states.
+    /// Writes the continuous states into `out`, one entry each, in the units of the description.
     ///
     /// # Errors
     ///
@@ -370,7 +370,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Writes the derivatives of the continuous states.
+    /// Writes the derivatives of the continuous states into `out`, one entry each `[unit of the state / s]`.
     ///
     /// # Errors
     ///
@@ -390,7 +390,8 @@ impl Instance {
     }
 
     /// Writes the derivatives of unknowns (derivatives of states, outputs) in the direction `seed` of knowns (states,
-    /// inputs), by central differences.
+    /// inputs), by central differences; `seed` has one entry for each known, `sensitivity` one for each unknown, in
+    /// their units.
     ///
     /// # Errors
     ///

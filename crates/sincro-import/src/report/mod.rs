@@ -124,7 +124,7 @@ impl RepairMade {
     }
 }
 
-/// A warning.
+/// A remark on the source that changes nothing: its place and its words.
 #[derive(Clone, Debug, Serialize)]
 pub struct Warning {
     /// Line in the source, if it has one.
@@ -154,7 +154,7 @@ impl Counts {
 }
 
 impl Report {
-    /// Text of `import-report.json`.
+    /// Text of the report in JSON, `import-report.json`.
     #[must_use]
     pub fn json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()

@@ -21,7 +21,7 @@ pub trait LaneVisitor {
     /// Result type.
     type Output;
 
-    /// Runs it on numbers of type `R`.
+    /// Runs the computation on numbers of type `R`, of [`Real::LANES`] lanes.
     fn visit<R: Real>(self) -> Self::Output;
 }
 

@@ -40,7 +40,7 @@ impl Head {
         })
     }
 
-    /// Writes it.
+    /// Appends the head to `out`.
     pub fn write(&self, out: &mut Vec<u8>) {
         out.extend([0, 0, VERSION]);
         for x in [self.id, self.client_time, self.server_time] {
@@ -165,7 +165,7 @@ pub struct ReplyHead {
     pub piece: Option<(i32, i32)>,
 }
 
-/// Writes a reply.
+/// Appends a reply to `out`: its head, its identifier, its data.
 pub fn write_reply(head: &ReplyHead, ident: &[u8], data: &[u8], out: &mut Vec<u8>) {
     let size = (COMMAND_HEAD + ident.len() + data.len()) as i32;
     let (full, offset) = head.piece.unwrap_or((size, 0));
@@ -187,7 +187,8 @@ pub fn int(bytes: &[u8], at: usize) -> Option<i32> {
     Some(i32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?))
 }
 
-/// The 32-bit float at byte `at`, little endian, as a double; none if the bytes end before it does.
+/// The 32-bit float at byte `at`, little endian, as a double in the unit of the message's field; none if the bytes end
+/// before it does.
 #[must_use]
 pub fn float(bytes: &[u8], at: usize) -> Option<f64> {
     Some(f32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?).into())

@@ -138,7 +138,7 @@ impl Socket {
     }
 }
 
-/// Writes a frame.
+/// Appends a frame of ZMTP to `out`: flags, length, body.
 pub fn write_frame(flags: u8, body: &[u8], out: &mut Vec<u8>) {
     match u8::try_from(body.len()) {
         Ok(n) => out.extend([flags, n]),

@@ -36,9 +36,9 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Colours alone.
+    /// Three bytes a pixel: red, green, blue.
     pub const RGB: Self = Self { is_grey: false, cut_off: None };
-    /// Grey alone.
+    /// One byte a pixel: intensity.
     pub const GREY: Self = Self { is_grey: true, cut_off: None };
 
     /// Bytes of a pixel.
@@ -49,7 +49,7 @@ impl Layer {
 }
 
 impl Image {
-    /// Nothing but background.
+    /// Creates an image of the resolution of `optics` that shows nothing but background.
     #[must_use]
     pub fn new(optics: &Optics) -> Self {
         let mut new =
@@ -72,13 +72,13 @@ impl Image {
         self.piece.resize(n, NO_PIECE);
     }
 
-    /// Columns and rows.
+    /// Number of columns and of rows.
     #[must_use]
     pub fn resolution(&self) -> [usize; 2] {
         self.resolution
     }
 
-    /// All of it.
+    /// The part that is the whole image.
     #[must_use]
     pub fn whole(&self) -> Part {
         Part { position: [0; 2], size: self.resolution }
@@ -160,7 +160,8 @@ impl Image {
         }
     }
 
-    /// Least, greatest and mean of intensity, red, green, blue and depth, in this order, each from 0 to 1.
+    /// Least, greatest and mean of intensity, red, green, blue and depth, in this order, each dimensionless from 0 to
+    /// 1.
     #[must_use]
     pub fn statistics(&self) -> [f64; 15] {
         let n = self.depth.len() as f64;

@@ -55,7 +55,7 @@ impl Renderer {
         Self { light: Light::new(), extents: Vec::new(), order: Vec::new() }
     }
 
-    /// Draws pieces, each with its pose in the world, as they are seen from a camera's pose in the world.
+    /// Draws pieces, each with its pose in the world `[m]`, as they are seen from a camera's pose in the world `[m]`.
     pub fn draw<'p>(
         &mut self,
         pieces: impl Iterator<Item = (&'p Piece, Pose<f64>)>,

@@ -52,7 +52,7 @@ impl Wiring {
         Some(reading.probes[signal - reading.at])
     }
 
-    /// The compiled diagram.
+    /// Compiled diagram that is wired.
     #[must_use]
     pub fn program(&self) -> &Arc<Program> {
         &self.program

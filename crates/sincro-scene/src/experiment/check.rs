@@ -60,7 +60,7 @@ pub enum Sense {
     AtLeast,
 }
 
-/// Measured series.
+/// Series that a check measures: a recorded signal, or a formula of signals.
 #[derive(Clone, Debug)]
 pub enum Subject {
     /// A recorded signal by its name.
@@ -69,7 +69,7 @@ pub enum Subject {
     Formula(Expression),
 }
 
-/// Expected value.
+/// Expected value of a check: a number, a formula or a reference series.
 #[derive(Clone, Debug)]
 pub enum Expected {
     /// The same number at all times.

@@ -133,7 +133,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// The settings for one value, to be added to those the experiment was loaded with.
+    /// Settings for one value of the parameter, in its unit, to be added to those the experiment was loaded with.
     pub fn settings(&self, value: f64) -> impl Iterator<Item = Override> {
         std::iter::once(&self.parameter).chain(&self.also).map(move |path| {
             let number = Override::new(&path.value, &format!("{value:?}"));

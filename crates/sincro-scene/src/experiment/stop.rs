@@ -52,7 +52,8 @@ impl StopWhen {
         }
     }
 
-    /// The bound and a value beyond it in words: `/hinge.position is 1.2 rad, beyond the bound of 1 rad`.
+    /// Bound and a value `x` beyond it, both in `unit`, in words: `/hinge.position is 1.2 rad, beyond the bound of 1
+    /// rad`.
     #[must_use]
     pub fn words(&self, x: f64, unit: &str) -> String {
         let side = match self.side {

@@ -43,7 +43,7 @@ pub struct Task {
     pub parameters: Vec<f64>,
 }
 
-/// One action.
+/// An action of a task: the command that it sets, and the values it may have.
 #[derive(Clone, Debug)]
 pub struct Action {
     /// Its name in formulas.

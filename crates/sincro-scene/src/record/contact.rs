@@ -23,7 +23,7 @@ pub enum ContactQuantity {
     Count,
 }
 
-/// Reads component `k` of a quantity of the body with index `frame`.
+/// Component `k` of a contact quantity `[N]`, `[N·m]`, `[m]` of the body with index `frame`; 0 if nothing touches it.
 pub fn read(
     model: &Model<f64>,
     points: impl Iterator<Item = ContactPoint>,

@@ -208,8 +208,8 @@ impl Recorder {
         &self.row
     }
 
-    /// Notes an instant that no row is made of: the mean torques of the next row begin here. `totals` are those of the
-    /// state.
+    /// Notes an instant `t` `[s]` that no row is made of: the mean torques of the next row begin here. `totals` are
+    /// those of the state.
     pub fn skip_row(&mut self, totals: &[f64], t: f64) {
         self.motor_impulse.copy_from_slice(&totals[2..]);
         self.last_t = t;

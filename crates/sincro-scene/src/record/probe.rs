@@ -43,7 +43,7 @@ impl<'a, R> View<'a, R> {
 }
 
 impl<'a> View<'a, f64> {
-    /// View of an observed world.
+    /// View of an observed world at time `t` `[s]`.
     pub fn observed(seen: &'a Observation<'_>, t: f64) -> Self {
         let State { q, v, rotors, commands, .. } = seen.state;
         Self { t, model: seen.model(), q, v, rotors, commands, scratch: seen.scratch() }
@@ -55,8 +55,8 @@ pub fn needs_kinematics(probe: Probe) -> bool {
     matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
 }
 
-/// A measurement that the state alone decides; after kinematics, if it needs them. None for what is known at ticks
-/// only.
+/// Value in SI units of a measurement that the state alone decides; after kinematics, if it needs them. None for what
+/// is known at ticks only.
 pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     let model = at.model;
     Some(match probe {
@@ -102,7 +102,7 @@ pub fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuantity, ro
     quantity != RotorQuantity::Speed && model.rotors()[rotor].speed.follows_at_once()
 }
 
-/// Speed and load of a rotor, and how the air meets it.
+/// Speed `[rad/s]` and load of rotor `k`, and how the air meets it.
 pub fn rotor<'a, R: Real>(at: &View<'a, R>, k: usize) -> (R, Load<R>, Hub<'a, R>) {
     let rotor = &at.model.rotors()[k];
     let speed = rotor.speed.value(at.v, at.commands, at.rotors);

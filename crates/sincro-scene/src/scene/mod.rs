@@ -81,7 +81,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Visible geometry.
+    /// Visible geometry of all bodies and frames.
     #[must_use]
     pub fn scenery(&self) -> &Scenery {
         self.scenery.get_or_init(|| pieces::scenery_of(self))

@@ -47,7 +47,7 @@ impl Camera {
         Some(Self::new(scene, sensor, Attached { link: None, pose }))
     }
 
-    /// A camera of one's own, fixed to a frame.
+    /// Creates a camera that no file describes, fixed to a frame at its pose `[m]`.
     #[must_use]
     pub fn new(scene: &Scene, sensor: VisionSensor, frame: Attached<f64>) -> Self {
         let image = Image::new(&sensor.optics);
@@ -61,7 +61,7 @@ impl Camera {
         &self.sensor.optics
     }
 
-    /// Renders the image at coordinates `q`.
+    /// Renders the image at coordinates `q` (n_q) `[rad]`, `[m]`.
     pub fn render(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);

@@ -145,7 +145,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Empty trajectory of a run.
+    /// Creates an empty trajectory for a run of `model`.
     #[must_use]
     pub fn new(model: &Model<f64>, experiment: &Experiment) -> Self {
         let layout = Layout::new(model);
@@ -171,20 +171,21 @@ impl Trajectory {
         self.contacts.record(seen);
     }
 
-    /// Number of frames.
+    /// Number of frames so far.
     #[must_use]
     pub fn n_frames(&self) -> usize {
         self.times.len()
     }
 
-    /// One frame.
+    /// Numbers of frame `k`, in the order and the units of [`Layout`].
     #[must_use]
     pub fn frame(&self, k: usize) -> &[f32] {
         let width = self.layout.width();
         &self.numbers[k * width..(k + 1) * width]
     }
 
-    /// Frames evenly over the run: at most `rate` a simulated second, `most` in all, the first and the last among them.
+    /// Indices of frames evenly over the run: at most `rate` a simulated second `[1/s]`, `most` in all, the first and
+    /// the last among them.
     #[must_use]
     pub fn evenly_spaced(&self, rate: f64, most: usize) -> Vec<usize> {
         let (Some(start), Some(end)) = (self.times.first(), self.times.last()) else { return Vec::new() };

@@ -18,7 +18,7 @@ use crate::table::Table;
 use crate::validity::ValidityViolation;
 use sincro_scene::experiment::check::Sense;
 
-/// The whole file.
+/// Content of `run.json`: the run, its settings, signals, checks and findings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunReport {
     /// Version of sincro that ran it.
@@ -191,7 +191,7 @@ pub struct Settings {
     pub overrides: Vec<Override>,
 }
 
-/// One `--set PATH=VALUE`.
+/// A setting `--set PATH=VALUE` of the run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Override {
     /// Path of the number that was set.
@@ -239,7 +239,7 @@ pub struct EnergyReport {
     pub residual: f64,
 }
 
-/// A check, judged.
+/// A check of the experiment with its verdict.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckReport {
     /// Its name.
@@ -315,7 +315,7 @@ fn not_finite_reason(outcome: &Outcome) -> Option<String> {
     (!deviation.is_finite()).then(reason)
 }
 
-/// The static characteristic.
+/// Final values over a swept parameter: the static characteristic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepReport {
     /// Parameter that was varied.
@@ -430,7 +430,7 @@ impl RunReport {
         audits.flat_map(|(run, audit)| audit.findings.iter().map(move |finding| (run, finding)))
     }
 
-    /// The file's text.
+    /// Text of the file `run.json`.
     #[must_use]
     pub fn to_json(&self) -> String {
         number::to_json(self)

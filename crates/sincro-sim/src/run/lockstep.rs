@@ -180,12 +180,12 @@ impl LockStep {
         Fork { lockstep, not_copied }
     }
 
-    /// The world.
+    /// World that is advanced, to be changed between steps.
     pub fn world(&mut self) -> &mut World {
         &mut self.world
     }
 
-    /// State of the world.
+    /// State of the world: coordinates, velocities, actuators, in SI units.
     #[must_use]
     pub fn state(&self) -> &State<f64> {
         &self.world.state
@@ -208,7 +208,7 @@ impl LockStep {
         }
     }
 
-    /// The diagram, if there is one.
+    /// Controller that runs the scene's diagram, if there is one.
     #[must_use]
     pub fn control(&self) -> Option<&DiagramController<f64>> {
         self.control.as_ref()
@@ -220,13 +220,13 @@ impl LockStep {
         self.step
     }
 
-    /// Base steps done.
+    /// Number of base steps done.
     #[must_use]
     pub fn tick(&self) -> u64 {
         self.tick
     }
 
-    /// Time `[s]`.
+    /// Present time `[s]`.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.tick as f64 * self.step
@@ -383,8 +383,8 @@ impl LockStep {
         &self.commands
     }
 
-    /// Puts a number in place of the scene's signal of a command: it is latched from the next base step on, unless the
-    /// diagram or a controller sets that command.
+    /// Sets a command, in the unit of its actuator, in place of the scene's signal: it is latched from the next base
+    /// step on, unless the diagram or a controller sets that command.
     ///
     /// # Panics
     ///
@@ -420,9 +420,9 @@ impl LockStep {
         Ok(())
     }
 
-    /// Everything that can be looked at: the world, and the diagram's signals with the recorded float signals of
-    /// scripts and clients and the values of all sensors after them. A float signal that nobody has set is not a
-    /// number.
+    /// Everything that can be looked at, at time `t` `[s]`: the world, and the diagram's signals with the recorded
+    /// float signals of scripts and clients and the values of all sensors after them. A float signal
+    /// that nobody has set is not a number.
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
         if !(self.sensors.values.is_empty() && self.floats.is_empty()) {

@@ -97,13 +97,13 @@ impl TaskWorlds {
         &self.plan
     }
 
-    /// Number of worlds.
+    /// Number of worlds that are stepped together.
     #[must_use]
     pub fn n_worlds(&self) -> usize {
         self.n
     }
 
-    /// Coordinates of a world, for pictures of it.
+    /// Coordinates of a world (n_q) `[rad]`, `[m]`, for pictures of it.
     ///
     /// # Panics
     ///
@@ -113,8 +113,8 @@ impl TaskWorlds {
         self.groups[world / width].coordinates(&self.plan, world % width)
     }
 
-    /// Begins new episodes in the worlds of the mask, by their seeds, and writes the observations of these worlds. A
-    /// world without a seed goes on with the draws of the one it has.
+    /// Begins new episodes in the worlds of the mask, by their seeds, and writes the observations of these worlds, row
+    /// by row in the units of the task. A world without a seed goes on with the draws of the one it has.
     pub fn reset(&mut self, seeds: &[Option<u64>], mask: &[bool], observations: &mut [f64]) {
         let n_observations = self.plan.n_observations();
         self.share(seeds, mask, observations, n_observations);

@@ -192,7 +192,7 @@ impl Plan {
         self.task.actions.len()
     }
 
-    /// The task.
+    /// Task of the experiment, with names resolved.
     #[must_use]
     pub fn task(&self) -> &Task {
         &self.task

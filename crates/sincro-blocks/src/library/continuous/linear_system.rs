@@ -78,7 +78,7 @@ impl LinearSystem {
         None
     }
 
-    /// Number of states.
+    /// Number of continuous states of one component.
     #[must_use]
     pub fn n_states(&self) -> usize {
         self.a.rows

@@ -21,7 +21,8 @@ pub struct Pid {
 }
 
 impl Pid {
-    /// Gains alone: no limits, the error as its only input, the derivative filtered with 0.01 s.
+    /// Creates a controller of gains `kp` `[output/error]`, `ki` `[output/(error·s)]` and `kd` `[output·s/error]`: no
+    /// limits, the error as its only input, the derivative filtered with 0.01 s.
     #[must_use]
     pub fn new(kp: f64, ki: f64, kd: f64) -> Self {
         Self { law: PidLaw::new(kp, ki, kd) }

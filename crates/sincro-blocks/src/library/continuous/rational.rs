@@ -14,7 +14,8 @@ pub struct Rational {
 }
 
 impl Rational {
-    /// Creates a quotient from coefficients, highest power first; zeros in front are dropped.
+    /// Creates a quotient of polynomials from their coefficients, highest power first, in powers of the unit of the
+    /// variable (`[s]` for `s`); zeros in front are dropped.
     ///
     /// # Errors
     ///
@@ -57,13 +58,15 @@ impl Rational {
         Self { numerator: vec![1.0], denominator: vec![1.0], b: vec![1.0], a: vec![1.0] }
     }
 
-    /// Coefficients of the numerator as they were given, without zeros in front.
+    /// Coefficients of the numerator as they were given, highest power first, without zeros in front; same units as
+    /// given.
     #[must_use]
     pub fn numerator(&self) -> &[f64] {
         &self.numerator
     }
 
-    /// Coefficients of the denominator as they were given, without zeros in front.
+    /// Coefficients of the denominator as they were given, highest power first, without zeros in front; same units as
+    /// given.
     #[must_use]
     pub fn denominator(&self) -> &[f64] {
         &self.denominator
@@ -75,14 +78,15 @@ impl Rational {
         self.a.len() - 1
     }
 
-    /// Coefficient of the numerator, the denominator's leading one being 1: `b(0)` is that of the denominator's power.
+    /// Coefficient `k` of the numerator in units in which the denominator's leading coefficient is 1: `b(0)` belongs to
+    /// the denominator's highest power.
     #[must_use]
     #[inline(always)]
     pub fn b(&self, k: usize) -> f64 {
         self.b[k]
     }
 
-    /// Coefficient of the denominator, the leading one being 1.
+    /// Coefficient `k` of the denominator in units in which the leading one, `a(0)`, is 1.
     #[must_use]
     #[inline(always)]
     pub fn a(&self, k: usize) -> f64 {

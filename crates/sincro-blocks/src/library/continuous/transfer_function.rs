@@ -22,7 +22,7 @@ pub struct TransferFunction {
 }
 
 impl TransferFunction {
-    /// Creates the block from coefficients, highest power first; initially at zero.
+    /// Creates the block from coefficients, highest power of s `[1/s]` first; initially at zero.
     ///
     /// # Panics
     ///

@@ -19,7 +19,7 @@ pub struct DiscreteTransferFunction {
 }
 
 impl DiscreteTransferFunction {
-    /// Creates the block from coefficients, highest power of z first.
+    /// Creates the block from coefficients, highest power of z (dimensionless) first.
     ///
     /// # Panics
     ///

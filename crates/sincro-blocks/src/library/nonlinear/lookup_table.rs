@@ -30,7 +30,8 @@ choice! {
 }
 
 impl LookupTable {
-    /// Creates the block with lines between the points, held beyond the ends.
+    /// Creates the block with lines between the points (`breakpoints[k]`, `values[k]`), in the units of input and
+    /// output; held beyond the ends.
     ///
     /// # Panics
     ///

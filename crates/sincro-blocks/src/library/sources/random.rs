@@ -23,8 +23,8 @@ pub fn uniform(seed: u64, n: u64) -> f64 {
     ((splitmix(seed, n) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
 }
 
-/// A number of the normal distribution with mean 0 and variance 1 (Box–Muller), from the uniform numbers `2n` and
-/// `2n+1`.
+/// Dimensionless random number `n` of the stream of `seed`, from the normal distribution with mean 0 and variance 1
+/// (Box–Muller of the uniform numbers `2n` and `2n+1`).
 #[must_use]
 pub fn gaussian(seed: u64, n: u64) -> f64 {
     let (u1, u2) = (uniform(seed, n.wrapping_mul(2)), uniform(seed, n.wrapping_mul(2).wrapping_add(1)));

@@ -17,7 +17,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A scalar, linear in between.
+    /// Creates a scalar function of time from its values at `times` `[s]`, linear in between.
     ///
     /// # Panics
     ///

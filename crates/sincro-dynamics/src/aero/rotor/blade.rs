@@ -189,7 +189,7 @@ impl Rotor {
         self.area
     }
 
-    /// Part of the disc that is blades, σ.
+    /// Share of the disc that is blades, σ (dimensionless).
     #[must_use]
     pub fn solidity(&self) -> f64 {
         self.solidity

@@ -37,7 +37,7 @@ pub enum Spin {
 }
 
 impl Spin {
-    /// +1 counter-clockwise, −1 clockwise.
+    /// Sense of rotation, dimensionless: +1 counter-clockwise, −1 clockwise.
     #[inline(always)]
     #[must_use]
     pub fn sign(self) -> f64 {

@@ -69,7 +69,7 @@ pub enum SpeedFrom<R> {
 }
 
 impl<R: Real> SpeedFrom<R> {
-    /// The speed for velocities `v`, commands and states of rotors.
+    /// Speed of the rotor `[rad/s]` for velocities `v` (n_v), commands and states of rotors.
     #[inline(always)]
     pub fn value(&self, v: &[R], commands: &[R], rotors: &[R]) -> R {
         match *self {
@@ -103,7 +103,7 @@ impl<R: Real> SpeedFrom<R> {
         }
     }
 
-    /// That state at the start of a run, if there is one.
+    /// Initial value of the rotor's own state, a speed `[rad/s]`, if it has one.
     #[must_use]
     pub fn initial(&self) -> Option<R> {
         match *self {
@@ -164,7 +164,8 @@ pub struct MountedRotor<R> {
 }
 
 impl<R: Real> MountedRotor<R> {
-    /// The hub, for the twist of its link in link axes and the link's pose in the world.
+    /// Motion of the hub and the air at it, for the twist of its link in link axes `[rad/s]`, `[m/s]` and the link's
+    /// pose in the world `[m]`.
     #[inline(always)]
     pub fn hub<'a>(&self, twist: &Motion<R>, x_wl: &'a Pose<R>, air: Option<&Air<'_>>) -> Hub<'a, R> {
         Hub { velocity: velocity_in_air(&self.pose, twist, x_wl, air), x_wl }
@@ -188,7 +189,7 @@ impl<R: Real> MountedRotor<R> {
         }
     }
 
-    /// The wrench of a load on the link, about the link's origin, link axes.
+    /// Wrench of a load on the link, about the link's origin `[N·m]`, `[N]`, in link axes.
     #[inline(always)]
     pub fn wrench(&self, load: &Load<R>) -> Force<R> {
         let axis = self.pose.rot.mul_vec(Vec3([R::zero(), R::zero(), R::one()]));
@@ -196,8 +197,8 @@ impl<R: Real> MountedRotor<R> {
         Force { ang: axis.scale(load.torque) + self.pose.pos.cross(lin), lin }
     }
 
-    /// Range of validity of a load; only the first lane is examined. Constant coefficients and V-REP's particles are
-    /// always valid.
+    /// Validity of the rotor's theory at a speed `[rad/s]` and a load; only the first lane is examined. Constant
+    /// coefficients and V-REP's particles are always valid.
     #[must_use]
     pub fn validity(&self, speed: R, hub: &Hub<'_, R>, load: &Load<R>) -> Validity {
         match &self.law {

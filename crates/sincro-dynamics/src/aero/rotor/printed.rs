@@ -50,8 +50,9 @@ impl PrintedScript {
         super::Rotor::new(spec).map(|rotor| Self(*rotor.spec()))
     }
 
-    /// The script's thrust and torque, which it puts on the airframe as it stands: positive about the thrust axis.
-    /// Power is the torque by the speed.
+    /// Thrust `[N]` and torque `[N·m]` of the script, which it puts on the airframe as it stands: positive about the
+    /// thrust axis; at a density `[kg/m³]`, speed `[rad/s]`, velocity `[m/s]` and rotation of the hub. Power `[W]` is
+    /// the torque times the speed.
     #[inline(always)]
     pub fn load<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>, rotation: &Mat3<R>) -> Load<R> {
         let out = evaluate(&self.0, density, speed, velocity, rotation);
