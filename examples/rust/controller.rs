@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use sincro::serve;
-use sincro_coppelia::session::Search;
+use sincro_coppelia::api::Search;
 use sincro_math::elementary::sin_cos;
 
 /// Angle to be reached `[rad]`.

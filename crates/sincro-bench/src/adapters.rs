@@ -8,7 +8,8 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
 
 use crate::extensions;
-use sincro_coppelia::session::{Session, Value};
+use sincro_coppelia::api::Value;
+use sincro_coppelia::session::Session;
 use sincro_remote::zmq::wire;
 use sincro_remote::{Options, Server, cbor};
 use sincro_sim::load;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use sincro_dynamics::world::World;
 
+use crate::api::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value};
 use crate::host::{Host, Phase, Scripts, Setting};
-use crate::session::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value};
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
@@ -35,7 +35,7 @@ impl ApiController {
         let setting = Setting { step: loaded.experiment.step * ticks as f64, seed: loaded.experiment.seed };
         let scripts = Scripts::of(&loaded.scene, setting, start);
         let mut registry = ObjectRegistry::new(loaded, ticks);
-        registry.phase = session::Phase::Running;
+        registry.phase = api::Phase::Running;
         Self { registry: Some(Box::new(registry)), scripts: Some(scripts) }
     }
 

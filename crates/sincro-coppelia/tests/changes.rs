@@ -1,7 +1,8 @@
 //! Changes of the model by clients: the run is that of a scene which says so, the balance of energy holds, and nothing
 //! is left behind.
 
-use sincro_coppelia::session::{Phase, Search, Session, Value};
+use sincro_coppelia::api::{Phase, Search, Value};
+use sincro_coppelia::session::Session;
 use sincro_scene::overrides::Override;
 use sincro_sim::Extensions;
 use sincro_sim::run::Simulated;

@@ -1,6 +1,7 @@
 //! Live sessions: the same motion as a run, and objects as V-REP's clients know them.
 
-use sincro_coppelia::session::{Handle, Phase, Reference, Search, Session, Value};
+use sincro_coppelia::api::{Handle, Phase, Reference, Search, Value};
+use sincro_coppelia::session::Session;
 use sincro_dynamics::actuation::MotorMode;
 use sincro_sim::Extensions;
 use sincro_sim::load;

@@ -1,6 +1,7 @@
 //! Proximity sensors, distances, collections and runtime shapes, called by name as clients do.
 
-use sincro_coppelia::session::{Session, Value};
+use sincro_coppelia::api::Value;
+use sincro_coppelia::session::Session;
 use sincro_sim::Extensions;
 use sincro_testing::{OpenSession, SceneFolder};
 

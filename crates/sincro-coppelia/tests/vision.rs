@@ -1,6 +1,7 @@
 //! Vision sensors in a session: whose pictures they are, of what instant, and that looking changes nothing.
 
-use sincro_coppelia::session::{Handle, Search, Session, Value};
+use sincro_coppelia::api::{Handle, Search, Value};
+use sincro_coppelia::session::Session;
 use sincro_sim::Extensions;
 use sincro_testing::{OpenSession, SceneFolder, repository_scene};
 

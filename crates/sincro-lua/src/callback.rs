@@ -1,7 +1,7 @@
 //! `sysCall_joint`: a script on a joint says at each step how fast its motor is to be, and with what force.
 
 use mlua::{Error, Function, Lua, MultiValue, Table, Value};
-use sincro_coppelia::session::{ApiError, SimApi};
+use sincro_coppelia::api::{ApiError, SimApi};
 use sincro_dynamics::joint::JointKind;
 
 use crate::shared::{Shared, handle_of};

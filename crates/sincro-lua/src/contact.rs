@@ -2,7 +2,7 @@
 //! with what friction.
 
 use mlua::{Error, Function, Lua, Table, Value};
-use sincro_coppelia::session::{ContactOverride, Handle};
+use sincro_coppelia::api::{ContactOverride, Handle};
 
 use crate::shared::{Shared, handle_of};
 

@@ -2,7 +2,7 @@
 //! strings.
 
 use mlua::{Error, Lua, MultiValue, Table, Value as LuaValue};
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 /// Tables inside each other beyond which a value is refused: a table may hold itself.
 const MAX_DEPTH: usize = 64;

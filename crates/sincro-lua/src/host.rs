@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use sincro_coppelia::api::{ApiError, Handle, Value};
 use sincro_coppelia::api_controller::ApiController;
 use sincro_coppelia::host::{Call, Host, Phase};
-use sincro_coppelia::session::{ApiError, Handle, Value};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
+use sincro_coppelia::api::{self as sim_api, ApiError, Handle};
 use sincro_coppelia::host::Phase;
-use sincro_coppelia::session::{self, ApiError, Handle};
 use sincro_scene::script::{Kind, Script, ScriptError, Style};
 
 use crate::guard::{Guard, THREAD};
@@ -124,7 +124,7 @@ impl Machine {
     }
 
     /// Calls a function by its name, for a client.
-    pub fn call_function(&mut self, name: &str, arguments: &[session::Value]) -> Result<Vec<session::Value>, ApiError> {
+    pub fn call_function(&mut self, name: &str, arguments: &[sim_api::Value]) -> Result<Vec<sim_api::Value>, ApiError> {
         let path = self.script().path.clone();
         let Some(function) = api::function_of(&self.lua, name) else {
             return Err(ApiError(format!("the script of `{path}` has no function `{name}`")));
@@ -137,7 +137,7 @@ impl Machine {
     }
 
     /// Runs a text as if it stood in the script, for a client.
-    pub fn evaluate(&mut self, text: &str) -> Result<Vec<session::Value>, ApiError> {
+    pub fn evaluate(&mut self, text: &str) -> Result<Vec<sim_api::Value>, ApiError> {
         let done = self.within(false, |m| {
             sandbox::charge_text(&m.lua, &m.guard, text)?;
             let text = power::with_calls(text);

@@ -4,8 +4,8 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use mlua::WeakLua;
+use sincro_coppelia::api::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_coppelia::host::Setting;
-use sincro_coppelia::session::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_dynamics::world::World;
 use sincro_scene::script::Script;
 use sincro_sim::controller::Message;

@@ -7,7 +7,8 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use sincro_coppelia::session::{Session, Value};
+use sincro_coppelia::api::Value;
+use sincro_coppelia::session::Session;
 use sincro_remote::zmq::wire;
 use sincro_remote::{Options, Server, cbor};
 use sincro_sim::Extensions;

@@ -9,8 +9,8 @@
 
 use std::fmt;
 
-use sincro_coppelia::session::Value;
-pub use sincro_coppelia::session::cbor::encode;
+use sincro_coppelia::api::Value;
+pub use sincro_coppelia::api::cbor::encode;
 
 use crate::limits::DEPTH;
 

@@ -11,7 +11,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use sincro_access::{ConnectionLimits, Connections};
-use sincro_coppelia::session::{ApiError, Finished, Phase, Session};
+use sincro_coppelia::api::{ApiError, Phase};
+use sincro_coppelia::session::{Finished, Session};
 
 use crate::limits::{self, Deadlines};
 

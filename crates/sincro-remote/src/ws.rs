@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::Value as Json;
 use sincro_access::{Guard, guard};
-use sincro_coppelia::session::{ApiError, Value};
+use sincro_coppelia::api::{ApiError, Value};
 use tungstenite::handshake::server::{ErrorResponse, Request, Response};
 use tungstenite::http::{StatusCode, header};
 use tungstenite::protocol::WebSocketConfig;

@@ -8,7 +8,7 @@ use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 use sincro_remote::zmq::wire;
 use sincro_sim::Extensions;
 use sincro_testing::clients::legacy::{Client as Legacy, Command, STREAM, ints};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sincro_dynamics::world::World;
 
 use super::{Call, Host, Phase, Setting};
-use crate::session::{ApiError, Handle, ObjectRegistry, Value};
+use crate::api::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::scene::Scene;
 use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::Message;

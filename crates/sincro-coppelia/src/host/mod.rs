@@ -1,7 +1,7 @@
 //! Host of the scripts of a run: when they are called, and what they are called with.
 //!
 //! An adapter (`sincro-lua`) makes a [`Host`] for each run, which is called inside the step ([`Phase`]). Scripts see
-//! the world through the object registry of a [`crate::session`]; their commands are latched as those of any
+//! the world through the object registry of a [`crate::api`]; their commands are latched as those of any
 //! controller.
 
 mod calls;
@@ -12,7 +12,7 @@ pub use calls::Scripts;
 
 use sincro_dynamics::world::World;
 
-use crate::session::{ApiError, Handle, ObjectRegistry, Value};
+use crate::api::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::script::{Kind, ScriptError};
 use sincro_sim::controller::Message;
 

@@ -3,46 +3,12 @@
 //!
 //! | type | role |
 //! |---|---|
-//! | [`ObjectRegistry`] | the objects with their handles and names, signals, held commands: plain data, lives in the [`LockStep`] |
-//! | [`SimApi`] | a registry with its world, created for one call or phase: the typed functions of the API |
-//! | [`api`] | the same functions by name, as `sim.getJointPosition`: [`Value`]s in, [`Value`]s out; what Lua and ZeroMQ share |
 //! | [`Session`] | the life of runs: start, step, pause, stop, load; each is recorded, hashed and reported as any run |
 //!
 //! A step of a session lasts [`ObjectRegistry::sample_time`], a whole number of base steps: commands are latched at its
 //! start and held, as those of any controller. Nothing here has a clock, a thread or a socket.
 
-pub mod api;
-mod bodies;
-pub mod cbor;
-mod change;
-mod collections;
-pub mod constants;
-mod contacts;
-pub mod convention;
-mod distances;
-mod error;
 mod files;
-mod find;
-mod graphs;
-pub mod ik;
-mod joints;
-mod lens;
-mod motions;
-mod note;
-mod pairs;
-mod parameters;
-mod program;
-mod proximity;
-mod registry;
-mod rotors;
-mod runtime_objects;
-mod senses;
-pub mod shapes;
-mod signals;
-mod sim_api;
-mod unpack;
-mod value;
-mod vision;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,23 +16,9 @@ use std::sync::Arc;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 
-pub use collections::{Collection, Entity, Item};
-pub use contacts::ContactPoint;
-pub use distances::DistanceResult;
-pub use error::ApiError;
 pub use files::Files;
-pub use find::Search;
-pub use graphs::{Graphs, Stream};
-pub use motions::{Motion, MotionStep};
-pub use pairs::ContactOverride;
-pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry, Request};
-pub use signals::Signals;
-pub use sim_api::{Reference, SimApi};
-pub use value::{Arguments, Value};
-pub use vision::Sensors;
 
-pub use sincro_dynamics::spatial::{Pose, Vec3};
-
+use crate::api::{ApiError, Handle, Kind, ObjectRegistry, Phase, Request, SimApi, Value, functions};
 use crate::api_controller::ApiController;
 use crate::host;
 use sincro_scene::diagnostic::Diagnostics;
@@ -76,17 +28,6 @@ use sincro_sim::load::{Extensions, Loaded, load};
 use sincro_sim::results::Status;
 use sincro_sim::run::{LockStep, Recording, RunError, RunOptions, Simulated, method_for};
 use sincro_sim::trace::Trace;
-
-/// State of a simulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// No run.
-    Stopped,
-    /// A run advances as soon as its controllers allow it.
-    Running,
-    /// A run that waits to be started again.
-    Paused,
-}
 
 /// A run that has ended.
 #[derive(Debug)]
@@ -258,7 +199,7 @@ impl Session {
     ///
     /// There is no such function, or it refused.
     pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
-        let result = api::call(&mut self.sim(), name, arguments)?;
+        let result = functions::call(&mut self.sim(), name, arguments)?;
         self.do_requests()?;
         Ok(result)
     }

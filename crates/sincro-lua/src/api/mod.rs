@@ -1,6 +1,6 @@
 //! The functions of `sim`, for one script.
 //!
-//! What the simulation can be asked is [`sincro_coppelia::session::api`]: the same for scripts and clients. Here it
+//! What the simulation can be asked is [`sincro_coppelia::api::functions`]: the same for scripts and clients. Here it
 //! becomes Lua, as `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their
 //! parameters, each other, threads.
 
@@ -15,7 +15,7 @@ pub(crate) use callbacks::find as function_of;
 pub(crate) use scripts::script_on;
 
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
-use sincro_coppelia::session::{ApiError, Arguments, Handle, Search, Value, api, constants};
+use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions};
 
 use crate::convert;
 use crate::guard::Guard;
@@ -46,11 +46,11 @@ pub(crate) fn offer(
     let own = handle_of(&shared.scripts[index]);
     let context = ApiContext { lua, sim: lua.create_table()?, shared, index, own, guard };
     constants_of(&context)?;
-    for function in api::functions() {
+    for function in functions::functions() {
         let called = context.of_session("sim", function)?;
         context.put(function.name, called)?;
     }
-    for (old, present) in api::old_names() {
+    for (old, present) in functions::old_names() {
         if let Some(function) = context.sim.get::<Option<Function>>(present)? {
             context.put(old, function)?;
         }
@@ -87,9 +87,9 @@ impl ApiContext<'_> {
     }
 
     /// A function of the session.
-    fn of_session(&self, module: &'static str, function: &'static api::Function) -> mlua::Result<Function> {
+    fn of_session(&self, module: &'static str, function: &'static functions::Function) -> mlua::Result<Function> {
         let (shared, own) = (self.shared.clone(), self.own);
-        let is_setter = function.name.starts_with("set") && !api::is_display_only(function.name);
+        let is_setter = function.name.starts_with("set") && !functions::is_display_only(function.name);
         self.lua.create_function(move |lua, arguments: MultiValue| {
             let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
             // a client's nil may be a number that is none; a script's is a mistake
@@ -145,7 +145,7 @@ impl ApiContext<'_> {
 
 /// The object of a name, by V-REP's rule for scripts: a name without `#` means the one that has the suffix of the
 /// script's own object, if there is one.
-fn object_of_name(sim: &mut sincro_coppelia::session::SimApi<'_>, own: Handle, name: &str) -> Result<Handle, ApiError> {
+fn object_of_name(sim: &mut sincro_coppelia::api::SimApi<'_>, own: Handle, name: &str) -> Result<Handle, ApiError> {
     let search = Search { from: Some(own), ..Search::default() };
     let is_plain = !name.contains('#') && !name.starts_with(['/', '.', ':']);
     let registry = &sim.registry;
@@ -171,9 +171,9 @@ fn named(name: &str, error: Error) -> Error {
 
 /// Functions that are not here, as such that say why.
 fn absent(context: &ApiContext<'_>) -> mlua::Result<()> {
-    for name in api::absent() {
+    for name in functions::absent() {
         if context.sim.get::<Option<Function>>(name)?.is_none() {
-            let why = api::why_absent(name).unwrap_or_default();
+            let why = functions::why_absent(name).unwrap_or_default();
             let message = format!("sim.{name} is not offered: {why}");
             context
                 .add(name, move |_, _: MultiValue| -> mlua::Result<()> { Err(Error::RuntimeError(message.clone())) })?;
@@ -204,13 +204,13 @@ fn constants_of(context: &ApiContext<'_>) -> mlua::Result<()> {
 /// The table `simIK`.
 fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
     let module = context.lua.create_table()?;
-    for function in api::ik_functions() {
+    for function in functions::ik_functions() {
         module.set(function.name, context.of_session("simIK", function)?)?;
     }
-    for (old, present) in api::old_ik_names() {
+    for (old, present) in functions::old_ik_names() {
         module.set(old, module.get::<Function>(present)?)?;
     }
-    for (name, value) in api::ik::CONSTANTS {
+    for (name, value) in functions::ik::CONSTANTS {
         module.set(*name, *value)?;
     }
     context.lua.globals().set("simIK", &module)?;

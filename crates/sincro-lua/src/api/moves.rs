@@ -2,7 +2,7 @@
 //! `moves.lua`, over the session's own.
 
 use mlua::{Error, Function, MultiValue, Table};
-use sincro_coppelia::session::{ApiError, api};
+use sincro_coppelia::api::{ApiError, functions};
 
 use super::ApiContext;
 use crate::convert;
@@ -12,7 +12,7 @@ pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()>
     let lua = context.lua;
     let host = lua.create_table()?;
     let names = lua.create_table()?;
-    for (name, _, this) in api::MOVES {
+    for (name, _, this) in functions::MOVES {
         names.set(*name, this.stem())?;
         if !host.contains_key(this.stem())? {
             let steps = lua.create_table()?;
@@ -55,6 +55,6 @@ pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()>
     Ok(())
 }
 
-fn known(name: &str) -> mlua::Result<api::Move> {
-    api::Move::of(name).ok_or_else(|| Error::RuntimeError(format!("there is no motion sim.{name}")))
+fn known(name: &str) -> mlua::Result<functions::Move> {
+    functions::Move::of(name).ok_or_else(|| Error::RuntimeError(format!("there is no motion sim.{name}")))
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
-use sincro_coppelia::session::{ApiError, Handle};
+use sincro_coppelia::api::{ApiError, Handle};
 use sincro_scene::script::{Kind, Script};
 
 use super::ApiContext;

@@ -1,6 +1,7 @@
 //! Callbacks of pauses, of the step as a whole, of contacts.
 
-use sincro_coppelia::session::{Phase, Session};
+use sincro_coppelia::api::Phase;
+use sincro_coppelia::session::Session;
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
 use sincro_testing::{OpenSession, with_scripts};

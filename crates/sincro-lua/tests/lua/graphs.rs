@@ -1,6 +1,6 @@
 //! Values of graphs that scripts set are recorded with the run.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 use sincro_sim::run::{RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::table::Table;
 use sincro_testing::with_scripts;

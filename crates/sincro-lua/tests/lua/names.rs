@@ -28,11 +28,11 @@ fn every_function_of_the_api_is_offered_or_refused_with_a_reason() {
 
 #[test]
 fn what_is_refused_has_a_reason_of_its_own() {
-    let refused = sincro_coppelia::session::api::absent().collect::<Vec<_>>();
+    let refused = sincro_coppelia::api::functions::absent().collect::<Vec<_>>();
     for name in &refused {
-        let why = sincro_coppelia::session::api::why_absent(name).unwrap();
+        let why = sincro_coppelia::api::functions::why_absent(name).unwrap();
         assert!(why.len() > 25 && !why.ends_with('.'), "{name}: {why}");
-        assert!(sincro_coppelia::session::api::function(name).is_none(), "{name} is there and absent");
+        assert!(sincro_coppelia::api::functions::function(name).is_none(), "{name} is there and absent");
     }
     let named = names();
     let told: Vec<_> = named.iter().filter(|name| refused.contains(&name.as_str())).collect();

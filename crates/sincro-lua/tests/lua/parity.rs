@@ -1,7 +1,7 @@
 //! The same law through Rust, a diagram, a block in Lua and a script gives the same bits.
 
+use sincro_coppelia::api::ObjectRegistry;
 use sincro_coppelia::api_controller::ApiController;
-use sincro_coppelia::session::ObjectRegistry;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
 use sincro_sim::run::LockStep;

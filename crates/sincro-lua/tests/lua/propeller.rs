@@ -1,7 +1,7 @@
 //! The thesis's propeller script against a reference of its formulas in Rust, NaN included.
 
+use sincro_coppelia::api::{Reference, Search};
 use sincro_coppelia::api_controller::ApiController;
-use sincro_coppelia::session::{Reference, Search};
 use sincro_dynamics::aero::rotor::{Drag, RotorSpec, Spin, printed};
 use sincro_dynamics::spatial::{Mat3, Quat, Vec3};
 use sincro_dynamics::world::MethodKind;

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use sincro_coppelia::session::{ApiError, Phase};
+use sincro_coppelia::api::{ApiError, Phase};
 
 use super::commands::{self, FINISH, GET_HANDLE, LAST_ERRORS, SYNCHRONOUS_OFF, SYNCHRONOUS_ON, TAKE_STRING, TRIGGER};
 use super::functions::Call;

@@ -3,7 +3,7 @@
 //! A function is a call of [`SimApi`] between two codecs: it reads its arguments from a [`Call`] and gives the data of
 //! the reply.
 
-use sincro_coppelia::session::{ApiError, SimApi};
+use sincro_coppelia::api::{ApiError, SimApi};
 
 use super::functions::{self, Call, Reply};
 use super::{files, group, joints, objects, parameters, script, seeing, sensing, signals};

@@ -2,7 +2,7 @@
 
 use super::functions::{Call, Reply, after, ints};
 use crate::hub::SessionGuard;
-use sincro_coppelia::session::{ApiError, Value, api};
+use sincro_coppelia::api::{ApiError, Value, functions};
 
 pub(super) fn load_scene(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
     let name = call.name()?;
@@ -11,7 +11,7 @@ pub(super) fn load_scene(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
 
 /// Meshes of the scene's folder; of others it says why not.
 pub(super) fn load_model(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
-    let made = api::call(&mut guard.session.sim(), "loadModel", &[Value::from(call.name()?)])?;
+    let made = functions::call(&mut guard.session.sim(), "loadModel", &[Value::from(call.name()?)])?;
     let handle = made.first().and_then(Value::as_int).and_then(|h| i32::try_from(h).ok());
     ints([handle.ok_or_else(|| ApiError::new("nothing was loaded"))?])
 }

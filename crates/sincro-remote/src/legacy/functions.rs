@@ -1,6 +1,7 @@
 //! Calls of the legacy API: their arguments, the data of their replies; and the functions of the simulation as a whole.
 
-use sincro_coppelia::session::{ApiError, Handle, Session, SimApi};
+use sincro_coppelia::api::{ApiError, Handle, SimApi};
+use sincro_coppelia::session::Session;
 
 use super::message::{float, int, text};
 use crate::hub::SessionGuard;

@@ -1,7 +1,7 @@
 //! `simxGetObjectGroupData`: one kind of data of all objects of a type.
 
-use sincro_coppelia::session::convention::{euler_of, quaternion_of};
-use sincro_coppelia::session::{ApiError, Entry, Handle, Kind, Reference, SimApi};
+use sincro_coppelia::api::convention::{euler_of, quaternion_of};
+use sincro_coppelia::api::{ApiError, Entry, Handle, Kind, Reference, SimApi};
 
 use super::functions::{Call, Reply};
 

@@ -1,7 +1,7 @@
 //! Commands of the legacy API: joints.
 
-use sincro_coppelia::session::convention::matrix_of;
-use sincro_coppelia::session::{ApiError, SimApi};
+use sincro_coppelia::api::convention::matrix_of;
+use sincro_coppelia::api::{ApiError, SimApi};
 
 use super::functions::{Call, Reply, after, reals};
 

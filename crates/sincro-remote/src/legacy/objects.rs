@@ -1,8 +1,8 @@
 //! Commands of the legacy API: objects, their poses and their tree.
 
-use sincro_coppelia::session::convention::{euler_of, quaternion_of, rotation_of_euler, rotation_of_quaternion};
-use sincro_coppelia::session::{ApiError, Handle, Reference, Search, SimApi};
-use sincro_coppelia::session::{Pose, Vec3};
+use sincro_coppelia::api::convention::{euler_of, quaternion_of, rotation_of_euler, rotation_of_quaternion};
+use sincro_coppelia::api::{ApiError, Handle, Reference, Search, SimApi};
+use sincro_coppelia::api::{Pose, Vec3};
 
 use super::functions::{Call, Reply, after, counted, done, ints, reals};
 

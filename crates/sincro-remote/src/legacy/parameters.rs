@@ -1,6 +1,6 @@
 //! Commands of the legacy API: parameters of the simulator.
 
-use sincro_coppelia::session::SimApi;
+use sincro_coppelia::api::SimApi;
 
 use super::functions::{Call, Reply, after, done, ints, reals};
 

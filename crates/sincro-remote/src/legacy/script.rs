@@ -1,6 +1,6 @@
 //! `simxCallScriptFunction`: whole numbers, numbers, texts and bytes to a function of a script, and the same four back.
 
-use sincro_coppelia::session::{ApiError, Handle, Search, Value};
+use sincro_coppelia::api::{ApiError, Handle, Search, Value};
 
 use super::functions::{Call, Reply};
 use super::message::{float, int, text};

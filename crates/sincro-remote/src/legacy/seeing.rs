@@ -1,6 +1,6 @@
 //! Commands of the legacy API: vision sensors.
 
-use sincro_coppelia::session::{ApiError, SimApi};
+use sincro_coppelia::api::{ApiError, SimApi};
 use sincro_scene::camera::{Layer, Part};
 
 use super::functions::{Call, Reply, done, ints, reals};

@@ -1,6 +1,6 @@
 //! Commands of the legacy API: sensors, collisions, distances.
 
-use sincro_coppelia::session::{ApiError, Entity, Handle, SimApi};
+use sincro_coppelia::api::{ApiError, Entity, Handle, SimApi};
 
 use super::functions::{Call, Reply, ints, reals};
 

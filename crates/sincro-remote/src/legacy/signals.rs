@@ -1,6 +1,6 @@
 //! Commands of the legacy API: signals.
 
-use sincro_coppelia::session::{ApiError, SimApi};
+use sincro_coppelia::api::{ApiError, SimApi};
 
 use super::functions::{Call, Reply, after, done, ints, reals};
 

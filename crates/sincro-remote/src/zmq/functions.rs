@@ -4,8 +4,8 @@
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
-use sincro_coppelia::session::api::Move;
-use sincro_coppelia::session::{ApiError, Arguments, Handle, Search, Value, api, constants};
+use sincro_coppelia::api::functions::Move;
+use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions};
 use sincro_scene::script::Kind;
 
 use super::moves::ClientMotion;
@@ -247,7 +247,7 @@ impl Endpoint {
         }
         let now = || {
             let mut guard = self.hub.enter();
-            (guard.session.t(), guard.session.phase() == sincro_coppelia::session::Phase::Running)
+            (guard.session.t(), guard.session.phase() == sincro_coppelia::api::Phase::Running)
         };
         let end = now().0 + dt;
         loop {
@@ -283,10 +283,10 @@ fn clock() -> f64 {
 
 /// Every function that can be called, by present and old names, without `sim.`.
 fn all() -> impl Iterator<Item = &'static str> {
-    let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| api::function(name).is_none());
-    let old = api::old_names().filter(|(_, present)| api::function(present).is_some()).map(|(old, _)| old);
-    let moves = api::MOVES.iter().map(|(name, _, _)| *name);
-    api::functions().map(|f| f.name).chain(own).chain(moves).chain(old)
+    let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| functions::function(name).is_none());
+    let old = functions::old_names().filter(|(_, present)| functions::function(present).is_some()).map(|(old, _)| old);
+    let moves = functions::MOVES.iter().map(|(name, _, _)| *name);
+    functions::functions().map(|f| f.name).chain(own).chain(moves).chain(old)
 }
 
 /// Names that begin as asked for, with `sim.` before them; `+` before the beginning asks for all of it.
@@ -298,8 +298,8 @@ fn names(begin: &str) -> impl Iterator<Item = String> {
 fn tip(name: &str) -> Option<&'static str> {
     let bare = name.strip_prefix("sim.").unwrap_or(name);
     let own = FUNCTIONS.iter().find(|(known, _)| *known == bare).map(|(_, tip)| *tip);
-    let of_move = || api::MOVES.iter().find(|(known, _, _)| *known == bare).map(|(_, tip, _)| *tip);
-    own.or_else(of_move).or_else(|| api::function(name).map(|f| f.tip))
+    let of_move = || functions::MOVES.iter().find(|(known, _, _)| *known == bare).map(|(_, tip, _)| *tip);
+    own.or_else(of_move).or_else(|| functions::function(name).map(|f| f.tip))
 }
 
 /// Everything that a module has, as clients build their own from it.
@@ -314,8 +314,8 @@ pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
         return Err(ApiError(format!("there is no module {module}: {MODULES}")));
     }
     if module.starts_with("simIK") {
-        let names = api::ik_functions().map(|f| f.name).chain(api::old_ik_names().map(|(old, _)| old));
-        return Ok(IK.get_or_init(|| members(names, api::ik::CONSTANTS.iter().copied())).clone());
+        let names = functions::ik_functions().map(|f| f.name).chain(functions::old_ik_names().map(|(old, _)| old));
+        return Ok(IK.get_or_init(|| members(names, functions::ik::CONSTANTS.iter().copied())).clone());
     }
     Ok(SIM.get_or_init(|| members(all(), constants::constants())).clone())
 }

@@ -6,8 +6,8 @@
 
 use std::time::{Duration, Instant};
 
-use sincro_coppelia::session::api::Move;
-use sincro_coppelia::session::{ApiError, Phase, Value};
+use sincro_coppelia::api::functions::Move;
+use sincro_coppelia::api::{ApiError, Phase, Value};
 
 use super::functions::{After, CallOutcome, Endpoint};
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sincro_coppelia::session::{ApiError, Value};
+use sincro_coppelia::api::{ApiError, Value};
 
 use super::functions::{self, After, CallOutcome, Endpoint};
 use crate::cbor;

@@ -1,7 +1,7 @@
 //! Every name and number that a client may call, with arguments right and wrong: an answer with a result or a reason,
 //! and the server keeps running.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, fitting};
 use super::scene::serve;
@@ -83,10 +83,10 @@ fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
             assert!(reason.len() > 15 && !reason.contains('\n'), "{name}: {reason}");
         }
     }
-    for name in sincro_coppelia::session::api::absent() {
+    for name in sincro_coppelia::api::functions::absent() {
         let why = client.call(&format!("sim.{name}"), &[]).unwrap_err();
         assert!(why.starts_with(&format!("sim.{name} is not offered: ")) && why.len() > 40, "{why}");
-        assert!(sincro_coppelia::session::api::function(name).is_none(), "{name} is there and absent");
+        assert!(sincro_coppelia::api::functions::function(name).is_none(), "{name} is there and absent");
     }
     let why = client.call("simReadDistance", &[Value::Int(1)]).unwrap_err();
     assert!(why.contains("sim.readDistance is not offered"), "{why}");

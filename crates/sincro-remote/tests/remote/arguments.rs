@@ -1,6 +1,6 @@
 //! Arguments right and wrong for every name that a client may call, over every protocol.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 use sincro_testing::clients::zmq::map;
 

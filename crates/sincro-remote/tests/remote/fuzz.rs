@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 use sincro_remote::cbor;
 use sincro_remote::legacy::{message, packet};
 use sincro_remote::zmq::wire;
@@ -92,7 +92,7 @@ proptest! {
             static SESSION: std::cell::RefCell<sincro_testing::OpenSession> =
                 std::cell::RefCell::new(session());
         }
-        let names: Vec<&str> = sincro_coppelia::session::api::functions().map(|f| f.name).collect();
+        let names: Vec<&str> = sincro_coppelia::api::functions::functions().map(|f| f.name).collect();
         let name = names[name % names.len()];
         SESSION.with_borrow_mut(|session| {
             let _ = session.call(name, &arguments);

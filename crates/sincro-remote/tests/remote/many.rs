@@ -1,6 +1,6 @@
 //! Many clients at once, and many steps of one.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 use super::scene::{finished, serve};
 use sincro_testing::clients::legacy::Client as Legacy;

@@ -3,8 +3,8 @@
 
 use std::time::Duration;
 
+use sincro_coppelia::api::{Handle, Value, functions};
 use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
-use sincro_coppelia::session::{Handle, Value, api};
 use sincro_remote::Server;
 use sincro_sim::trace::Trace;
 
@@ -266,7 +266,7 @@ fn what_cannot_be_done_is_refused() {
     client.call("sim.setStepping", &[Value::Bool(false)]).unwrap();
     while client.real("sim.getSimulationTime", &[]) < 0.2 {}
     let listed = client.call("zmqRemoteApi.info", &[Value::from("sim")]).unwrap().remove(0);
-    for (name, _, _) in api::MOVES {
+    for (name, _, _) in functions::MOVES {
         assert!(field(&listed, name).is_some(), "{name}");
     }
     for name in ["ruckigPos", "rmlPos", "moveToConfig_init", "moveToPose_cleanup", "ruckig_phasesync"] {

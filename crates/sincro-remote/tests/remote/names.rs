@@ -1,6 +1,6 @@
 //! Every function of V-REP's APIs that clients use is answered, or refused with its reason.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 use super::scene::serve;
 use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, ints, text};

@@ -4,7 +4,7 @@
 //! wire has single precision. It is computed 20 times a second by a block diagram, in Rust, by a legacy client and by a
 //! ZeroMQ client.
 
-use sincro_coppelia::session::{Search, Value};
+use sincro_coppelia::api::{Search, Value};
 use sincro_remote::Server;
 use sincro_sim::trace::Trace;
 

@@ -148,7 +148,7 @@ fn cross_site_requests_to_the_other_ports_do_nothing() {
         }
     }
     assert_eq!(server.hub().enter().n_clients(), 0);
-    assert_eq!(server.hub().enter().session.phase(), sincro_coppelia::session::Phase::Stopped);
+    assert_eq!(server.hub().enter().session.phase(), sincro_coppelia::api::Phase::Stopped);
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn idle_connections_are_closed_and_used_ones_are_not() {
     let mut used = Zmq::connect(ports.zmq.unwrap(), Some("used"));
     let mut idle = Zmq::connect(ports.zmq.unwrap(), Some("idle"));
     used.call("sim.getSimulationTime", &[]).unwrap();
-    idle.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
+    idle.call("sim.setStepping", &[sincro_coppelia::api::Value::Bool(true)]).unwrap();
     let mut silent = TcpStream::connect(ports.legacy[0]).unwrap();
     let mut browser = Ws::connect(ports.ws.unwrap());
     let is_over = &AtomicBool::new(false);
@@ -270,7 +270,7 @@ fn a_subscriber_is_kept_while_it_is_sent_to() {
     let mut listener = TcpStream::connect(server.ports().zmq_steps.unwrap()).unwrap();
     sincro_testing::clients::zmq::shake_hands(&mut listener, "SUB");
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("steps"));
-    client.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
+    client.call("sim.setStepping", &[sincro_coppelia::api::Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     let begin = Instant::now();
     let mut told = sincro_testing::clients::zmq::frame(&mut listener).1;
@@ -302,7 +302,7 @@ fn connections_that_say_nothing_keep_nobody_out() {
     let server = serve();
     let ports = server.ports().clone();
     let mut good = Zmq::connect(ports.zmq.unwrap(), Some("good"));
-    good.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
+    good.call("sim.setStepping", &[sincro_coppelia::api::Value::Bool(true)]).unwrap();
     good.call("sim.startSimulation", &[]).unwrap();
     let addresses = [ports.legacy[0], ports.ws.unwrap(), ports.zmq.unwrap()];
     let silent: Vec<TcpStream> =
@@ -318,11 +318,11 @@ fn connections_that_say_nothing_keep_nobody_out() {
 /// The run of a client that steps 40 times; the trace hash.
 fn stepped(server: &Server) -> String {
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("stepper"));
-    client.call("sim.setStepping", &[sincro_coppelia::session::Value::Bool(true)]).unwrap();
+    client.call("sim.setStepping", &[sincro_coppelia::api::Value::Bool(true)]).unwrap();
     client.call("sim.startSimulation", &[]).unwrap();
     let joint = client.object("/joint1");
     for k in 0..40 {
-        let speed = sincro_coppelia::session::Value::Real(f64::from(k % 7) / 8.0);
+        let speed = sincro_coppelia::api::Value::Real(f64::from(k % 7) / 8.0);
         client.call("sim.setJointTargetVelocity", &[joint.clone(), speed]).unwrap();
         client.call("sim.step", &[]).unwrap();
     }

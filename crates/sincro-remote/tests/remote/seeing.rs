@@ -1,6 +1,6 @@
 //! Pictures over the wires: the same bytes by every protocol, whole and in pieces, in the step that they belong to.
 
-use sincro_coppelia::session::{Search, Value};
+use sincro_coppelia::api::{Search, Value};
 
 use super::scene::{serve, session};
 use sincro_testing::clients::legacy::{Client, Command, ONCE, SPLIT, STREAM, ints};

@@ -3,7 +3,8 @@
 
 use std::path::PathBuf;
 
-use sincro_coppelia::session::{Session, Value};
+use sincro_coppelia::api::Value;
+use sincro_coppelia::session::Session;
 use sincro_remote::Server;
 use sincro_sim::Extensions;
 use sincro_sim::load;

@@ -1,6 +1,7 @@
 //! Contacts, force sensors, stops, files: a box on a floor, a load on a force sensor, an arm between stops.
 
-use sincro_coppelia::session::{Files, Grants, Search, Session, Value};
+use sincro_coppelia::api::{Search, Value};
+use sincro_coppelia::session::{Files, Grants, Session};
 use sincro_sim::Extensions;
 
 use super::scene::options;

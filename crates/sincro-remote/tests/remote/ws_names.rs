@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, fitting};
 use super::scene::serve;
@@ -79,7 +79,7 @@ fn every_name_answers_any_arguments_in_json_and_cbor() {
     // called twice, what makes something fits what takes it more often
     refused.retain(|name| !NEEDS_MORE.contains(name));
     assert_eq!(refused, Vec::<&str>::new());
-    for name in sincro_coppelia::session::api::absent() {
+    for name in sincro_coppelia::api::functions::absent() {
         let answer = client.json(&format!("sim.{name}"), &[]);
         let why = answer["error"].as_str().unwrap_or_default();
         assert!(why.starts_with(&format!("sim.{name} is not offered: ")), "{answer}");

@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 use sincro_remote::Server;
 
 use super::scene::serve;

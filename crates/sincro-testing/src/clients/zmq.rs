@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 use sincro_remote::cbor;
 
 /// A connection.

@@ -243,7 +243,7 @@ impl Watch {
         // a script may hold it: then there is nothing new to tell
         let Some(mut guard) = server.hub().try_enter(POLL_INTERVAL) else { return };
         let (clients, step, t) = (guard.n_clients(), guard.steps(), guard.session.t());
-        let runs = guard.session.phase() != sincro_coppelia::session::Phase::Stopped;
+        let runs = guard.session.phase() != sincro_coppelia::api::Phase::Stopped;
         drop(guard);
         if clients != self.clients {
             say!("  {} attached", diagnostics::count(clients, "client"));

@@ -9,7 +9,8 @@ mod movement;
 mod quadrotor;
 mod scripts;
 
-use sincro_coppelia::session::{Session, Value};
+use sincro_coppelia::api::Value;
+use sincro_coppelia::session::Session;
 use sincro_remote::Server;
 use sincro_sim::load;
 use sincro_sim::trace::Trace;

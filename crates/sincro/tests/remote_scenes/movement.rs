@@ -1,7 +1,7 @@
 //! `movement`: three clients move three arms at once, as CoppeliaSim's example `simpleMovement.py` does; the bits are
 //! those of the scripts of `movement-lua`.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 
 use super::{finished, in_process, serve};
 use sincro_testing::clients::zmq::{Client as Zmq, map};

@@ -1,7 +1,7 @@
 //! `quadrotor-remote`: command-filtered integral backstepping, from positions, Euler angles and velocities in single
 //! precision.
 
-use sincro_coppelia::session::Value;
+use sincro_coppelia::api::Value;
 use sincro_math::elementary::{asin, atan2, exp, sin_cos, tan};
 
 use super::{Stepper, finished, in_process, ints, serve, set_and_step, single, zmq};

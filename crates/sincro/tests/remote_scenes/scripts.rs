@@ -1,7 +1,8 @@
 //! Clients and the scripts of a scene: functions that are called, texts that are run where that is granted, inverse
 //! kinematics.
 
-use sincro_coppelia::session::{Files, Grants, Value};
+use sincro_coppelia::api::Value;
+use sincro_coppelia::session::{Files, Grants};
 use sincro_remote::Server;
 use sincro_testing::clients::zmq::Client as Zmq;
 use sincro_testing::{OpenSession, SceneFolder, ServedSession, finished, options, with_scripts};

@@ -5,8 +5,8 @@ use sincro_math::elementary::atan2;
 
 use super::transforms::any;
 use super::{Function, Outcome, list};
-use crate::session::convention::{matrix_of, numbers_of_pose};
-use crate::session::{ApiError, Arguments, Value};
+use crate::api::convention::{matrix_of, numbers_of_pose};
+use crate::api::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

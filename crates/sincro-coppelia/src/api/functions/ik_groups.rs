@@ -2,7 +2,7 @@
 //! `simIK.createGroup` with a name.
 
 use super::{Function, Outcome, handle, one};
-use crate::session::{ApiError, Arguments, Handle, SimApi, Value};
+use crate::api::{ApiError, Arguments, Handle, SimApi, Value};
 
 /// Added to environment and group: a handle of its own, below those of scripts.
 const FIRST: i64 = 900_000;

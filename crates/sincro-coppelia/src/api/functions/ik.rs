@@ -1,8 +1,8 @@
 //! Functions: `simIK`, inverse kinematics.
 
 use super::{Function, Outcome, done, one, plain};
-use crate::session::ik::Element;
-use crate::session::{ApiError, Arguments, SimApi, Value};
+use crate::api::ik::Element;
+use crate::api::{ApiError, Arguments, SimApi, Value};
 
 /// Functions of `simIK`, named without it.
 pub(super) const FUNCTIONS: &[Function] = &[

@@ -4,9 +4,9 @@ use sincro_dynamics::spatial::Pose;
 
 use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
-use crate::session::parameters::STATIC;
-use crate::session::shapes::primitive_of;
-use crate::session::{ApiError, Arguments, SimApi, Value};
+use crate::api::parameters::STATIC;
+use crate::api::shapes::primitive_of;
+use crate::api::{ApiError, Arguments, SimApi, Value};
 use sincro_scene::scene::Triangles;
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -187,9 +187,9 @@ fn scale_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     for own in handles(a, 0)? {
         sim.scale_shape(own, factor)?;
         if too {
-            let pose = sim.pose(own, crate::session::Reference::World)?;
+            let pose = sim.pose(own, crate::api::Reference::World)?;
             let moved = Pose { pos: pose.pos.scale(factor), ..pose };
-            sim.set_pose(own, &moved, crate::session::Reference::World)?;
+            sim.set_pose(own, &moved, crate::api::Reference::World)?;
         }
     }
     done()

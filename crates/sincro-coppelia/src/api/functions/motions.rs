@@ -2,8 +2,8 @@
 //! `sim.rmlPos` …, are the same functions).
 
 use super::{Function, Outcome, done, one};
+use crate::api::{ApiError, Arguments, Motion, SimApi, Value};
 use crate::motion::{Axis, Goal, Limits, Point, Synchronization};
-use crate::session::{ApiError, Arguments, Motion, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

@@ -3,7 +3,7 @@
 use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::{Function, Outcome, done, handle, list, reference, setter};
-use crate::session::{ApiError, Arguments, Handle, Kind, Reference, SimApi, Value, convention};
+use crate::api::{ApiError, Arguments, Handle, Kind, Reference, SimApi, Value, convention};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

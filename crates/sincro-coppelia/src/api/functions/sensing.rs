@@ -4,7 +4,7 @@ use sincro_dynamics::geometry::{FieldOfView, Volume};
 
 use super::distances::entity;
 use super::{Function, Outcome, done, handle, one};
-use crate::session::{ApiError, Arguments, Entity, Handle, SimApi, Value};
+use crate::api::{ApiError, Arguments, Entity, Handle, SimApi, Value};
 use sincro_sim::proximity::Detection;
 
 pub(super) const FUNCTIONS: &[Function] = &[

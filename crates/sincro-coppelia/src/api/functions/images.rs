@@ -1,7 +1,7 @@
 //! Functions: pictures as bytes, wherever they come from.
 
 use super::{Function, Outcome};
-use crate::session::{ApiError, Arguments, SimApi, Value};
+use crate::api::{ApiError, Arguments, SimApi, Value};
 use sincro_scene::camera::{MAX_PIXELS, png};
 
 pub(super) const FUNCTIONS: &[Function] = &[

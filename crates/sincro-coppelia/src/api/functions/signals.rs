@@ -1,7 +1,7 @@
 //! Functions: signals.
 
 use super::{Function, Outcome, done, one};
-use crate::session::{Arguments, SimApi, Value};
+use crate::api::{Arguments, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "setInt32Signal", tip: "sim.setInt32Signal(string signalName,int signalValue)", run: set_int },
@@ -37,7 +37,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// No name stands for all.
-fn text<'a>(a: Arguments<'a>) -> Result<&'a str, crate::session::ApiError> {
+fn text<'a>(a: Arguments<'a>) -> Result<&'a str, crate::api::ApiError> {
     if a.has(0) { a.text(0) } else { Ok("") }
 }
 

@@ -8,8 +8,8 @@
 
 use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
-use crate::session::convention::{numbers_of_pose, pose_of_matrix};
-use crate::session::{ApiError, Arguments, Reference, SimApi, Value};
+use crate::api::convention::{numbers_of_pose, pose_of_matrix};
+use crate::api::{ApiError, Arguments, Reference, SimApi, Value};
 
 /// A function that waits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Functions: paths, as lists of configurations one after the other.
 
 use super::{Function, Outcome};
-use crate::session::{ApiError, Arguments, Value};
+use crate::api::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

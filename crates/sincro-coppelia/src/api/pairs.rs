@@ -82,7 +82,7 @@ impl SimApi<'_> {
     }
 
     /// Every pair does what the scene says, but those of bodies that pass through all others.
-    pub(super) fn restore_pairs(&mut self) {
+    pub(crate) fn restore_pairs(&mut self) {
         for (k, pair) in self.registry.pairs.iter().enumerate() {
             let passes = pair.bodies.iter().any(|body| self.registry.passing.contains(body));
             self.world.set_pair(k, passes, pair.material);

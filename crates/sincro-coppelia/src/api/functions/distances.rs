@@ -1,7 +1,7 @@
 //! Functions: distances and collisions.
 
 use super::{Function, Outcome, plain};
-use crate::session::{ApiError, Arguments, Entity, Handle, SimApi, Value};
+use crate::api::{ApiError, Arguments, Entity, Handle, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

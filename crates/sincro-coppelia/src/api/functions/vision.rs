@@ -1,9 +1,9 @@
 //! Functions: vision sensors.
 
 use super::{Function, Outcome, done, handle, one};
-use crate::session::constants::HANDLE_FLAGS;
-use crate::session::vision::{Sensors, with_angle};
-use crate::session::{ApiError, Arguments, Handle, SimApi, Value};
+use crate::api::constants::HANDLE_FLAGS;
+use crate::api::vision::{Sensors, with_angle};
+use crate::api::{ApiError, Arguments, Handle, SimApi, Value};
 use sincro_scene::camera::{Layer, Lens, Optics, Part};
 use sincro_scene::scene::VisionSensor;
 

@@ -2,7 +2,7 @@
 //! show nothing.
 
 use super::{Function, Outcome, done, handle, one};
-use crate::session::{ApiError, Arguments, Handle, SimApi};
+use crate::api::{ApiError, Arguments, Handle, SimApi};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

@@ -1,7 +1,7 @@
 //! Functions: collections.
 
 use super::{Function, Outcome, done, one, plain};
-use crate::session::{ApiError, Arguments, Handle, Item, SimApi, Value};
+use crate::api::{ApiError, Arguments, Handle, Item, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "createCollection", tip: "int collectionHandle=sim.createCollection(int options=0)", run: create },

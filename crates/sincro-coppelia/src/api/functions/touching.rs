@@ -1,8 +1,8 @@
 //! Functions: contacts, force sensors.
 
 use super::{Function, Outcome, handle};
-use crate::session::constants::HANDLE_FLAGS;
-use crate::session::{ApiError, Arguments, ContactPoint, SimApi, Value};
+use crate::api::constants::HANDLE_FLAGS;
+use crate::api::{ApiError, Arguments, ContactPoint, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

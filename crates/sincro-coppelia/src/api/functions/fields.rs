@@ -1,6 +1,6 @@
 //! Maps that are given to functions and given back: what they must have, in words where they have not.
 
-use crate::session::{ApiError, Value};
+use crate::api::{ApiError, Value};
 
 /// A map by its names, in its order.
 #[derive(Clone, Debug, Default)]

@@ -3,7 +3,7 @@
 use sincro_dynamics::joint::JointKind;
 
 use super::{Function, Outcome, done, handle, one, plain};
-use crate::session::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value};
+use crate::api::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "getObject", tip: "int objectHandle=sim.getObject(string path,map options={})", run: get_object },

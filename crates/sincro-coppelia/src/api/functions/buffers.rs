@@ -1,7 +1,7 @@
 //! Functions: numbers and tables as bytes, little-endian, and back.
 
 use super::{Function, Outcome, one};
-use crate::session::{ApiError, Arguments, Value, cbor, unpack};
+use crate::api::{ApiError, Arguments, Value, cbor, unpack};
 
 /// Numbers of one call.
 const MAX_NUMBERS: usize = 1 << 22;

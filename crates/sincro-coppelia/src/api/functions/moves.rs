@@ -10,10 +10,10 @@ use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY, synchronization};
 use super::rotations::rotation_vector;
 use super::{Function, Outcome, done, plain};
+use crate::api::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
+use crate::api::ik::Element;
+use crate::api::{ApiError, Arguments, Handle, Motion, Reference, SimApi, Value};
 use crate::motion::{Axis, Goal, Limits, Point};
-use crate::session::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
-use crate::session::ik::Element;
-use crate::session::{ApiError, Arguments, Handle, Motion, Reference, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

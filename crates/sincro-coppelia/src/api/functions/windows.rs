@@ -2,7 +2,7 @@
 //! they are.
 
 use super::{Function, Outcome, one};
-use crate::session::{Arguments, SimApi};
+use crate::api::{Arguments, SimApi};
 
 /// Gives a handle of something that is not there, or says that it went well.
 fn taken(_: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {

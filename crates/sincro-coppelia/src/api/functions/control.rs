@@ -1,7 +1,7 @@
 //! Functions: the simulation itself, its parameters, messages.
 
 use super::{Function, Outcome, done, one};
-use crate::session::{Arguments, Phase, Request, SimApi, Value};
+use crate::api::{Arguments, Phase, Request, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "startSimulation", tip: "int result=sim.startSimulation()", run: |d, _| ask(d, Request::Start) },
@@ -148,11 +148,11 @@ fn set_array(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// Named numbers are kept as text: all kinds share their names.
-fn number<T: std::str::FromStr>(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Option<T>, crate::session::ApiError> {
+fn number<T: std::str::FromStr>(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Option<T>, crate::api::ApiError> {
     let name = a.text(0)?;
     let Some(bytes) = sim.registry.named.get(name) else { return Ok(None) };
     let text = std::str::from_utf8(bytes).ok().and_then(|text| text.trim().parse().ok());
-    text.map(Some).ok_or_else(|| crate::session::ApiError(format!("the parameter `{name}` is no such number")))
+    text.map(Some).ok_or_else(|| crate::api::ApiError(format!("the parameter `{name}` is no such number")))
 }
 
 fn set_named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
@@ -162,7 +162,7 @@ fn set_named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn keep_named(sim: &mut SimApi<'_>, a: Arguments<'_>, bytes: impl AsRef<[u8]>) -> Outcome {
     let (name, bytes) = (a.text(0)?, bytes.as_ref());
     if sim.registry.named.len() >= 1_000 && !sim.registry.named.contains_key(name) {
-        return Err(crate::session::ApiError::new("there are 1000 named parameters already"));
+        return Err(crate::api::ApiError::new("there are 1000 named parameters already"));
     }
     sim.registry.check_stored_size(bytes.len())?;
     sim.registry.named.insert(name.to_owned(), bytes.to_vec());

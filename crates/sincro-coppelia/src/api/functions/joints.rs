@@ -3,7 +3,7 @@
 use sincro_dynamics::actuation::MotorMode;
 
 use super::{Function, Outcome, done, handle, one};
-use crate::session::{ApiError, Arguments, SimApi, Value};
+use crate::api::{ApiError, Arguments, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "getJointPosition", tip: "float position=sim.getJointPosition(int objectHandle)", run: position },
@@ -193,6 +193,6 @@ fn set_dependency(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 /// A joint that follows none has no master, offset 0 and factor 1.
 fn dependency(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    let (master, offset, factor) = sim.joint_dependency(own)?.unwrap_or((crate::session::Handle(-1), 0.0, 1.0));
+    let (master, offset, factor) = sim.joint_dependency(own)?.unwrap_or((crate::api::Handle(-1), 0.0, 1.0));
     Ok(vec![master.into(), Value::Real(offset), Value::Real(factor)])
 }

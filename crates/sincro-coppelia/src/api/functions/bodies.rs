@@ -4,8 +4,8 @@ use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::{Pose, Sym3, Vec3};
 
 use super::{Function, Outcome, done, handle, one};
-use crate::session::convention::{matrix_of, pose_of_matrix};
-use crate::session::{ApiError, Arguments, Handle, Reference, SimApi, Value};
+use crate::api::convention::{matrix_of, pose_of_matrix};
+use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

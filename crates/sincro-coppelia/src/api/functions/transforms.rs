@@ -3,11 +3,11 @@
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
 use super::{Function, Outcome, list};
-use crate::session::convention::{
+use crate::api::convention::{
     euler_of, matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers, quaternion_of, rotation_of_euler,
     rotation_of_quaternion,
 };
-use crate::session::{ApiError, Arguments, Value};
+use crate::api::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

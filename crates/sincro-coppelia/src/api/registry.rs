@@ -177,7 +177,7 @@ pub struct ObjectRegistry {
     /// Differences from the scene.
     pub(super) changes: Vec<Change>,
     /// True if the model was changed while stopped, and the next run must be made of it.
-    pub(super) is_model_changed: bool,
+    pub(crate) is_model_changed: bool,
     /// Pairs of surfaces, in the model's order.
     pub(super) pairs: Vec<Pair>,
     /// Bodies that pass through all others.
@@ -529,7 +529,7 @@ impl ObjectRegistry {
     }
 
     /// A run begins: what the last one left is forgotten.
-    pub(super) fn begin_run(&mut self) {
+    pub(crate) fn begin_run(&mut self) {
         self.integers.forget_run();
         self.floats.forget_run();
         self.strings.forget_run();
@@ -546,7 +546,7 @@ impl ObjectRegistry {
     }
 
     /// A run has ended: the commands of joints are as they were `before` it, the rest stays.
-    pub(super) fn end_run(&mut self, before: Self) {
+    pub(crate) fn end_run(&mut self, before: Self) {
         self.joints = before.joints;
         self.held = before.held;
         (self.motions, self.joint_motions) = (before.motions, before.joint_motions);
