@@ -60,4 +60,13 @@ mod tests {
         assert_eq!(highest_frequency(&times, |k| [0.0, 1.0, 0.0, 1.0, 1.0][k], 9.0), 0.5 / (1.1 - 1.0));
         assert_eq!(highest_frequency(&times, |k| [0.0, 1.0, 0.0, 1.0, 1.0][k], 1.05), 0.0);
     }
+
+    #[test]
+    fn noise_is_a_share_of_the_range_about_whatever_mean() {
+        let times = [0.0, 1.0, 1.1, 1.2, 2.0, 3.0];
+        for (mean, scale) in [(0.0, 100.0), (7.0, 100.0), (-3.0, 1e-3)] {
+            let value = |k: usize| mean + scale * [-0.5, 0.5, 0.495, 0.5, -0.5, 0.5][k];
+            assert_eq!(highest_frequency(&times, value, 9.0), 0.5 / (2.0 - 1.2), "{mean} {scale}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Meaning of formulas, and refusal of wrong ones.
 
-use sincro_math::expression::{Expression, MAX_DEPTH, MAX_LENGTH, ParseError};
+use sincro_math::expression::{Expression, MAX_DEPTH, MAX_LENGTH, ParseError, is_name};
 
 const NAMES: [&str; 6] = ["x", "y", "omega", "q1'", "q1''", "arm.q"];
 const VALUES: [f64; 6] = [3.0, -2.0, 0.5, 7.0, 11.0, 13.0];
@@ -72,6 +72,11 @@ fn comparisons_and_logic_give_one_or_zero() {
         ("x > 0 or y > 0", 1.0),
         ("not x > 5", 1.0),
         ("not not x", 1.0),
+        ("0 or x", 1.0),
+        ("0 or 0", 0.0),
+        ("x and y", 1.0),
+        ("x and 0", 0.0),
+        ("0 and x", 0.0),
         ("1 or 0 and 0", 1.0),
         ("not 0 and 0", 0.0),
         ("(x > 0) + (y < 0)", 2.0),
@@ -227,6 +232,14 @@ fn scratch_memory_does_not_grow() {
 }
 
 #[test]
+fn scratch_memory_is_as_deep_as_the_operands_that_wait() {
+    for (text, depth) in [("x", 1), ("-x", 1), ("x + y", 2), ("(x + y)*x", 2), ("x + y*x", 3), ("min(x, y, x) + y", 3)]
+    {
+        assert_eq!(Expression::parse(text, &NAMES).map(|formula| formula.stack_depth()), Ok(depth), "{text}");
+    }
+}
+
+#[test]
 fn constants_are_computed_beforehand() {
     assert_eq!(Expression::parse("2^3 + min(1, 2)*sin(0)", &[]).map(|f| f.constant()), Ok(Some(8.0)));
     assert_eq!(Expression::parse("0*x", &NAMES).map(|f| f.constant()), Ok(None));
@@ -244,6 +257,16 @@ fn free_names_are_listed_once_in_order() {
     let names = Expression::names_in("q' * sin(q) + k*(q - u1)^2*pi + if(q > arm.limit, 1, 0)");
     assert_eq!(names.expect("it is a formula"), ["q'", "q", "k", "u1", "arm.limit"]);
     assert!(Expression::names_in("q' +").is_err());
+}
+
+#[test]
+fn a_name_is_what_a_formula_can_refer_to() {
+    for name in ["x", "_x", "x0", "arm.q1''", "θ", "sin", "knot"] {
+        assert!(is_name(name), "{name}");
+    }
+    for text in ["", "2x", "'", "a-b", "a b", "a.", "a.2", "x'y", "and", "or", "not"] {
+        assert!(!is_name(text), "{text}");
+    }
 }
 
 #[test]

@@ -95,6 +95,16 @@ fn lanes_of_this_processor_have_the_bits_of_scalars() {
 }
 
 #[test]
+fn the_instruction_set_is_that_of_the_lanes() {
+    let expected = match sincro_math::lanes::width() {
+        8 => "AVX-512",
+        4 => "AVX2",
+        _ => "baseline",
+    };
+    assert_eq!(sincro_math::lanes::instruction_set(), expected);
+}
+
+#[test]
 fn portable_lanes_have_the_bits_of_scalars() {
     AgainstScalars.visit::<Lanes<4>>();
     AgainstScalars.visit::<Lanes<1>>();

@@ -121,5 +121,11 @@ mod tests {
         assert_eq!(nearest("X", known.into_iter()), Some("x"));
         assert_eq!(nearest("y", known.into_iter()), None);
         assert_eq!(nearest("stiffness", known.into_iter()), None);
+        // a single letter: another one is no offer, a longer name is; and it is one for a name of two letters
+        assert_eq!(nearest("y", ["yy"].into_iter()), Some("yy"));
+        assert_eq!(nearest("xy", ["x"].into_iter()), Some("x"));
+        // the lengths that are compared are those of letters, not of bytes
+        let long = "θ".repeat(40);
+        assert_eq!(nearest(&"θ".repeat(39), [long.as_str()].into_iter()), Some(long.as_str()));
     }
 }
