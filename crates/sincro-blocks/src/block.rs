@@ -199,13 +199,13 @@ impl Ports {
         Self { inputs, outputs: vec!["y".into()] }
     }
 
-    /// No input, output `y`.
+    /// Ports of a source: no input, output `y`.
     #[must_use]
     pub fn source() -> Self {
         Self::new(&[], &["y"])
     }
 
-    /// Input `u`, output `y`.
+    /// Ports of a function of one signal: input `u`, output `y`.
     #[must_use]
     pub fn single() -> Self {
         Self::new(&["u"], &["y"])

@@ -29,7 +29,7 @@ impl Number for Dual<1> {
 
 /// A block of any type, as it stands in a diagram. Implemented for every [`Block`].
 pub trait DynBlock: Debug + Send + Sync {
-    /// Description of its kind.
+    /// Description of the block's kind: name, parameters, equation.
     fn kind(&self) -> &'static Kind;
     /// Names of the inputs and outputs; see [`Block::ports`].
     fn ports(&self) -> Ports;

@@ -129,7 +129,7 @@ pub trait Words: Copy + PartialEq + 'static {
     /// Their words, in the same order.
     const WORDS: &'static [&'static str];
 
-    /// Word of a variant.
+    /// Word that stands for the variant in a diagram file.
     #[must_use]
     fn word(self) -> &'static str {
         Self::ALL.iter().zip(Self::WORDS).find(|(variant, _)| **variant == self).map_or("", |(_, word)| word)

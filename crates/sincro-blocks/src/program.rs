@@ -249,8 +249,8 @@ impl Program {
         of_blocks.chain(of_diagrams)
     }
 
-    /// The first instant after `t` at which a function of time that is evaluated between ticks has a time event;
-    /// infinite if none.
+    /// The first instant after `t` `[s]` at which a function of time that is evaluated between ticks has a jump or a
+    /// kink `[s]`; infinite if there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         let minor = self.steps.iter().filter(|step| step.is_minor);

@@ -48,7 +48,7 @@ pub struct Runner<R: Number> {
 }
 
 impl<R: Number> Runner<R> {
-    /// At the start of a run: initial states, constants evaluated.
+    /// Creates a runner at the start of a run: initial states, constants evaluated.
     #[must_use]
     pub fn new(program: Arc<Program>) -> Self {
         let zeros = |n: usize| vec![R::zero(); n];
@@ -105,7 +105,7 @@ impl<R: Number> Runner<R> {
         &mut self.state.signals
     }
 
-    /// Outputs at a tick, up to those that need the world's accelerations.
+    /// Evaluates the outputs at a tick, at time `t` `[s]`, up to those that need the world's accelerations.
     pub fn evaluate(&mut self, tick: u64, t: f64) {
         self.find_due(tick);
         self.evaluate_range(0..self.program.n_early, tick, t);
@@ -184,8 +184,8 @@ impl<R: Number> Runner<R> {
         core::mem::swap(&mut self.state.memory, &mut self.new_memory);
     }
 
-    /// Outputs of the continuous blocks at time `t` between ticks with the continuous states in `state.continuous`, up
-    /// to those that need accelerations. `time_event`: see [`At::time_event`].
+    /// Outputs of the continuous blocks at time `t` `[s]` between ticks with the continuous states in
+    /// `state.continuous`, up to those that need accelerations. `time_event` `[s]`: see [`At::time_event`].
     pub fn minor(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor.len() {
             self.output(self.minor[i], t, time_event, tick);
@@ -224,7 +224,8 @@ impl<R: Number> Runner<R> {
         });
     }
 
-    /// Decay of the continuous states: see [`crate::block::Block::neg_jacobian_diagonal`].
+    /// Diagonal of −∂f/∂x of the continuous states at time `t` `[s]`, one entry each `[1/s]`: see
+    /// [`crate::block::Block::neg_jacobian_diagonal`].
     pub fn neg_jacobian_diagonal(&mut self, tick: u64, t: f64, diagonal: &mut [R]) {
         diagonal.fill(R::zero());
         self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| {

@@ -210,7 +210,7 @@ impl<R: Real> SteppedLanes<R> {
     }
 }
 
-/// One world by itself.
+/// Advances one world by itself, without lanes, by the steps that `settings` say.
 pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
     let (n_q, n_commands) = (world.model.n_q(), world.model.n_commands());
     let control = Control::new(1.0, settings.h);

@@ -94,7 +94,7 @@ impl Repair {
     /// All repairs, in the order of the command line's help.
     pub const ALL: [Self; 2] = [Self::MinInertia, Self::PositiveInertia];
 
-    /// Its name on the command line.
+    /// Name of the repair on the command line.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

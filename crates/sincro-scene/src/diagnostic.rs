@@ -49,7 +49,7 @@ impl Location {
         self.source.line_column(self.span.start)
     }
 
-    /// The text it covers.
+    /// Text that the location covers.
     #[must_use]
     pub fn text(&self) -> &str {
         self.source.text.get(self.span.clone()).unwrap_or("")

@@ -95,7 +95,7 @@ pub struct ScriptError {
 }
 
 impl ScriptError {
-    /// As a finding in the script's text.
+    /// The error as a finding in the script's text.
     #[must_use]
     pub fn diagnostic(&self) -> Diagnostic {
         let message = format!("script of `{}`: {}", self.object, self.message);

@@ -257,7 +257,7 @@ pub trait Controller: Any + Send + fmt::Debug {
         (Vec::new(), 0)
     }
 
-    /// Changes of the model.
+    /// Changes of the model that the controller has made, for the results.
     fn changes(&self) -> &[Change] {
         &[]
     }

@@ -60,7 +60,7 @@ impl<R: Number> DiagramController<R> {
         }
     }
 
-    /// Wiring to the world.
+    /// Connection of the diagram to the measurements and commands of the world.
     #[must_use]
     pub fn wiring(&self) -> &Arc<Wiring> {
         &self.wiring
@@ -145,7 +145,8 @@ impl<R: Number> DiagramController<R> {
         self.write_commands(commands, true);
     }
 
-    /// As [`CoupledSystem::slope`].
+    /// As [`CoupledSystem::slope`]: derivatives of all continuous states of the diagram `[unit of the state / s]`;
+    /// `perturbed` is a signal and its change.
     pub fn all_derivatives(
         &mut self,
         seen: &mut StateView<'_, R>,
@@ -162,7 +163,7 @@ impl<R: Number> DiagramController<R> {
 }
 
 impl DiagramController<f64> {
-    /// Measures and evaluates everything that is due at a tick.
+    /// Measures and evaluates every block that is due at a tick, at time `t` `[s]`.
     ///
     /// # Errors
     ///

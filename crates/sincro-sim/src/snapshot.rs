@@ -57,7 +57,7 @@ impl fmt::Display for SnapshotError {
 impl std::error::Error for SnapshotError {}
 
 impl Snapshot {
-    /// As bytes, for the scene that it belongs to.
+    /// Bytes of the snapshot, with the hash of the scene that it belongs to.
     #[must_use]
     pub fn to_bytes(&self, loaded: &Loaded) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -82,7 +82,7 @@ impl Snapshot {
         bytes
     }
 
-    /// From bytes.
+    /// Reads a snapshot of a scene from the bytes of [`Snapshot::to_bytes`].
     ///
     /// # Errors
     ///

@@ -30,11 +30,11 @@ const MAX_TRANSLATION_STEP: f64 = 0.1;
 /// λ² of the methods without damping: only what is singular is touched.
 const LEAST_DAMPING: f64 = 1e-12;
 
-/// Bits of constraints.
+/// Bit of the constraint on the position along x; combined with others in the constraints of an element.
 pub const X: i64 = 1;
-/// See [`X`].
+/// Bit of the constraint on the position along y.
 pub const Y: i64 = 2;
-/// See [`X`].
+/// Bit of the constraint on the position along z.
 pub const Z: i64 = 4;
 /// The z axis of the tip is that of the target.
 pub const ALPHA_BETA: i64 = 8;
@@ -148,7 +148,7 @@ impl SimApi<'_> {
         Ok(groups.len() - 1)
     }
 
-    /// Groups of an environment.
+    /// Number of groups of an environment.
     ///
     /// # Errors
     ///

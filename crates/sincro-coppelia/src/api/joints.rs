@@ -37,7 +37,7 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Velocity [rad/s] or [m/s].
+    /// Velocity of a joint of one coordinate `[rad/s]` or `[m/s]`.
     ///
     /// # Errors
     ///

@@ -50,7 +50,7 @@ impl Value {
         }
     }
 
-    /// As a number; nil is not a number (MATLAB's encoding of NaN).
+    /// Value as a number; nil is not a number (MATLAB's encoding of NaN), none for other kinds.
     #[must_use]
     pub fn as_real(&self) -> Option<f64> {
         match *self {
@@ -62,7 +62,7 @@ impl Value {
         }
     }
 
-    /// As a whole number; a number without fraction will do.
+    /// Value as a whole number; a number without fraction will do, none for other kinds.
     #[must_use]
     pub fn as_int(&self) -> Option<i64> {
         match *self {
@@ -74,7 +74,7 @@ impl Value {
         }
     }
 
-    /// As truth: numbers are true unless zero.
+    /// Value as truth: numbers are true unless zero, none for other kinds.
     #[must_use]
     pub fn as_bool(&self) -> Option<bool> {
         match *self {
@@ -86,7 +86,7 @@ impl Value {
         }
     }
 
-    /// As text.
+    /// Value as text; bytes must be UTF-8, none for other kinds.
     #[must_use]
     pub fn as_text(&self) -> Option<&str> {
         match self {
@@ -96,7 +96,7 @@ impl Value {
         }
     }
 
-    /// As bytes; text is its UTF-8.
+    /// Value as bytes; that of a text is its UTF-8, none for other kinds.
     #[must_use]
     pub fn as_bytes(&self) -> Option<&[u8]> {
         match self {
@@ -106,7 +106,7 @@ impl Value {
         }
     }
 
-    /// As a list of numbers; none if any entry is no number.
+    /// Value as a list of numbers; none if it is no list, or any entry is no number.
     #[must_use]
     pub fn as_reals(&self) -> Option<Vec<f64>> {
         let Self::List(list) = self else { return None };
@@ -190,7 +190,7 @@ impl<'a> Arguments<'a> {
         ApiError(format!("argument {} is {found}, expected {expected}", k + 1))
     }
 
-    /// A whole number.
+    /// Argument `k` as a whole number.
     ///
     /// # Errors
     ///
@@ -230,7 +230,7 @@ impl<'a> Arguments<'a> {
         self.get(k).as_bool().ok_or_else(|| self.wrong(k, "true or false"))
     }
 
-    /// Text.
+    /// Argument `k` as a text.
     ///
     /// # Errors
     ///
@@ -239,7 +239,7 @@ impl<'a> Arguments<'a> {
         self.get(k).as_text().ok_or_else(|| self.wrong(k, "text"))
     }
 
-    /// Bytes or text.
+    /// Argument `k` as bytes; a text will do.
     ///
     /// # Errors
     ///

@@ -141,7 +141,7 @@ impl Profile {
         self.duration
     }
 
-    /// State at the end.
+    /// Position, velocity and acceleration at the end of the motion.
     #[must_use]
     pub fn end(&self) -> Point {
         self.end

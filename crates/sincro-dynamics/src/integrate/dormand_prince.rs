@@ -37,7 +37,7 @@ pub struct DormandPrince {
 }
 
 impl DormandPrince {
-    /// For systems of `dim` unknowns.
+    /// Creates the method for systems of `dim` unknowns.
     #[must_use]
     pub fn new(dim: usize, control: Control) -> Self {
         let zero = vec![0.0; dim];

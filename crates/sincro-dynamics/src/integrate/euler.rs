@@ -8,14 +8,14 @@ use sincro_math::Real;
 
 use super::{FixedStep, Implicit, System};
 
-/// The method and its working memory.
+/// Semi-implicit Euler method of order 1 with a fixed step, and its working memory.
 #[derive(Clone, Debug)]
 pub struct SemiImplicitEuler<R> {
     slope: Vec<R>,
 }
 
 impl<R: Real> SemiImplicitEuler<R> {
-    /// For systems of `dim` unknowns.
+    /// Creates the method for systems of `dim` unknowns.
     #[must_use]
     pub fn new(dim: usize) -> Self {
         Self { slope: vec![R::zero(); dim] }

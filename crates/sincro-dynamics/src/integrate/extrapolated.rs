@@ -18,7 +18,7 @@ use super::{Control, Failure, FixedStep, Implicit, System, power, too_small};
 /// Maximum number of rows of the tableau.
 const MAX_ROWS: usize = 8;
 
-/// The method and its working memory.
+/// Linearly implicit Euler method with extrapolation, fixed or variable step, and its working memory.
 #[derive(Clone, Debug)]
 pub struct Extrapolated<R> {
     /// Tolerance and next step, for the variable-step use.
@@ -32,7 +32,7 @@ pub struct Extrapolated<R> {
 }
 
 impl<R: Real> Extrapolated<R> {
-    /// For systems of `dim` unknowns, `rows` rows (the order) in fixed-step use.
+    /// Creates the method for systems of `dim` unknowns, with `rows` rows (the order) in fixed-step use.
     #[must_use]
     pub fn new(dim: usize, rows: usize, control: Control) -> Self {
         let zero = vec![R::zero(); dim];

@@ -127,7 +127,7 @@ pub struct Control {
 }
 
 impl Control {
-    /// With a first step of `h` `[s]`.
+    /// Creates the control of the error to the relative `accuracy` (dimensionless), with a first step of `h` `[s]`.
     #[must_use]
     pub fn new(accuracy: f64, h: f64) -> Self {
         Self { accuracy, h, last_error: 1.0 }

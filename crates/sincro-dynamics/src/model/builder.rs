@@ -256,7 +256,7 @@ impl ModelBuilder {
         self.colliders.push((on, pose, surface, material));
     }
 
-    /// Adds a loop joint.
+    /// Adds a loop joint between two frames; its constraint closes a loop of the tree.
     pub fn loop_joint(&mut self, name: &str, spec: LoopJointSpec) {
         self.loop_joints.push((name.into(), spec));
     }

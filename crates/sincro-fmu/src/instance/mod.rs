@@ -260,7 +260,7 @@ impl Instance {
         Ok(n as u64)
     }
 
-    /// Begins a communication step.
+    /// Begins a communication step: means of outputs are those over it.
     pub fn begin_step(&mut self) {
         if let Some(run) = &mut self.run {
             run.begin_step();
@@ -347,7 +347,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Sets the continuous states.
+    /// Sets the continuous states, one entry each in the units of the description.
     ///
     /// # Errors
     ///

@@ -34,7 +34,7 @@ struct SavedRun {
 }
 
 impl Instance {
-    /// The present state.
+    /// Copies the present state of the instance.
     ///
     /// # Errors
     ///
@@ -90,7 +90,7 @@ impl Instance {
         run.go_back(saved)
     }
 
-    /// A state as bytes.
+    /// Bytes of a saved state, for a file.
     #[must_use]
     pub fn to_bytes(&self, state: &FmuState) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -106,7 +106,7 @@ impl Instance {
         bytes
     }
 
-    /// A state from bytes.
+    /// Restores a saved state from the bytes of [`Instance::to_bytes`].
     ///
     /// # Errors
     ///

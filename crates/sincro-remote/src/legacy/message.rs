@@ -26,7 +26,7 @@ pub struct Head {
 }
 
 impl Head {
-    /// From the start of a message; none if that is no head.
+    /// Reads the head from the start of a message; none if that is no head.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Option<Self> {
         let b = bytes.get(..MESSAGE_HEAD)?;
@@ -86,7 +86,7 @@ pub struct Command<'a> {
 }
 
 impl<'a> Command<'a> {
-    /// Number of the function.
+    /// Number of the function, without the mode of execution.
     #[must_use]
     pub fn function(&self) -> u16 {
         self.code as u16

@@ -11,7 +11,7 @@ use crate::listen::Connection;
 /// Time that a subscriber may take to take twelve bytes; then it is dropped.
 const WRITE: Duration = Duration::from_millis(50);
 
-/// Subscribers of the counter.
+/// Publisher of the counter of steps to its subscribers (ZeroMQ PUB).
 #[derive(Clone, Debug, Default)]
 pub struct Publisher(Arc<Mutex<Subscribers>>);
 

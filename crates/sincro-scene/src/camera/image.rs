@@ -41,7 +41,7 @@ impl Layer {
     /// One byte a pixel: intensity.
     pub const GREY: Self = Self { is_grey: true, cut_off: None };
 
-    /// Bytes of a pixel.
+    /// Number of bytes of a pixel.
     #[must_use]
     pub fn width(&self) -> usize {
         (if self.is_grey { 1 } else { 3 }) + usize::from(self.cut_off.is_some())

@@ -122,7 +122,7 @@ impl Optics {
         self.invalid_settings().into_iter().next().map_or(Ok(()), Err)
     }
 
-    /// Everything that is wrong.
+    /// Every setting that has no meaning, with its key and what was expected; empty if all are fine.
     #[must_use]
     pub fn invalid_settings(&self) -> Vec<InvalidSetting> {
         [self.wrong_resolution(), self.wrong_near(), self.wrong_far(), self.wrong_lens()]

@@ -14,7 +14,7 @@ pub enum Channels {
 }
 
 impl Channels {
-    /// Bytes of a pixel.
+    /// Number of bytes of a pixel.
     #[must_use]
     pub fn width(self) -> usize {
         match self {

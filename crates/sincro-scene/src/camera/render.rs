@@ -49,7 +49,7 @@ impl Default for Renderer {
 }
 
 impl Renderer {
-    /// Before its first picture.
+    /// Creates a renderer; its buffers grow with the first picture.
     #[must_use]
     pub fn new() -> Self {
         Self { light: Light::new(), extents: Vec::new(), order: Vec::new() }

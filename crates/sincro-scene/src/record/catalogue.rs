@@ -9,7 +9,7 @@ use sincro_dynamics::model::{JointInfo, Model};
 
 use super::{ContactQuantity, EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
 
-/// A signal on offer.
+/// A signal that can be recorded: its name, its unit, how it is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// As it is written in `record`.

@@ -51,7 +51,7 @@ pub struct CompletedRun {
     pub view: SceneView,
 }
 
-/// Everything that came out.
+/// Results of an experiment: the main run, its variants, its sweep.
 #[derive(Clone, Debug)]
 pub struct Campaign {
     /// The main run.

@@ -8,7 +8,7 @@
 
 use sincro_dynamics::world::Observation;
 
-/// Numbers of a point.
+/// Count of numbers that make a point of contact.
 pub const CONTACT: usize = 8;
 
 /// The points of contact of some frames, in the order of the frames.

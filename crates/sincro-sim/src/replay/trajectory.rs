@@ -81,7 +81,7 @@ impl Layout {
         &self.wind_links
     }
 
-    /// Numbers of a frame.
+    /// Count of numbers that make a frame.
     #[must_use]
     pub fn width(&self) -> usize {
         let vectors = self.n_rotors + self.n_forces + self.n_drags + self.wind_links.len();

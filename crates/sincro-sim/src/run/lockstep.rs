@@ -92,7 +92,7 @@ impl Halt {
 }
 
 impl LockStep {
-    /// Before the first tick.
+    /// Creates the lock-step of a scene before its first tick; `refined` runs it at the finer steps of the error bars.
     #[must_use]
     pub fn new(loaded: &Loaded, method: MethodKind, refined: bool) -> Self {
         let Loaded { scene, experiment, controller, .. } = loaded;

@@ -43,7 +43,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// For a run that has not started yet.
+    /// Creates the recording of a run that has not started yet.
     ///
     /// # Errors
     ///

@@ -186,7 +186,7 @@ impl Plan {
         self.observations.len()
     }
 
-    /// Numbers that it does.
+    /// Count of numbers that an action has, over all commands.
     #[must_use]
     pub fn n_actions(&self) -> usize {
         self.task.actions.len()

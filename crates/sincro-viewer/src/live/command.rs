@@ -51,7 +51,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// From a message.
+    /// Reads a command from a viewer's message.
     ///
     /// # Errors
     ///

@@ -79,7 +79,7 @@ impl Engine {
         Ok(engine)
     }
 
-    /// Board that viewers read.
+    /// Live state that viewers read.
     #[must_use]
     pub fn live_state(&self) -> Arc<LiveState> {
         self.live_state.clone()

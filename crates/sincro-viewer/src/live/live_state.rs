@@ -69,7 +69,7 @@ pub struct EngineState {
 }
 
 impl LiveState {
-    /// An empty one.
+    /// Creates the state of a live run that has not begun; `replay` is the scene, as JSON.
     #[must_use]
     pub fn new(replay: String) -> Self {
         let content = Content { replay, ..Content::default() };
@@ -103,7 +103,7 @@ impl LiveState {
         });
     }
 
-    /// Told at each change.
+    /// Receiver that is notified at each change.
     #[must_use]
     pub fn watch(&self) -> watch::Receiver<u64> {
         self.changed.subscribe()

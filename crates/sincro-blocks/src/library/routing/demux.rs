@@ -10,7 +10,7 @@ pub struct Demux {
 }
 
 impl Demux {
-    /// Into pieces of these sizes.
+    /// Creates a block that cuts a vector into pieces of these sizes, in components.
     #[must_use]
     pub fn new(sizes: &[usize]) -> Self {
         Self { sizes: sizes.to_vec() }

@@ -94,7 +94,7 @@ impl Validity {
         Self::NotANumber,
     ];
 
-    /// In words.
+    /// Word for it in reports, such as `standing`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

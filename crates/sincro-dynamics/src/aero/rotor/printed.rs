@@ -41,7 +41,7 @@ pub struct Printed<R> {
 }
 
 impl PrintedScript {
-    /// For a rotor after `spec`, whose spin the script does not know.
+    /// Creates the script's rotor with the numbers of `spec`, whose spin the script does not know.
     ///
     /// # Errors
     ///
