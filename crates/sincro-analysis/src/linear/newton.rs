@@ -281,6 +281,15 @@ mod tests {
     }
 
     #[test]
+    fn contradicting_equations_of_one_combination_are_singular() {
+        // x + y = 0 and x + y = 1
+        let sum = |x: &[f64], r: &mut [f64]| (r[0], r[1]) = (x[0] + x[1], x[0] + x[1] - 1.0);
+        let failure = solve(2, sum, |_, j| j.fill(1.0), &[3.0, 0.0], 1e-12, 20).unwrap_err();
+        assert_eq!(failure.reason, Reason::Singular);
+        assert!((failure.residual - 0.5).abs() < 1e-12, "{failure}");
+    }
+
+    #[test]
     fn an_equation_without_unknowns_is_singular() {
         let failure = solve(1, |_, r| r[0] = 1.0, |_, _| {}, &[0.0], 1e-12, 20).unwrap_err();
         assert_eq!(failure.reason, Reason::Singular);

@@ -220,6 +220,46 @@ fn a_double_integrator_has_no_phase_margin() {
 }
 
 #[test]
+fn a_negative_gain_lags_half_a_turn_at_all_frequencies() {
+    // −1/(s + 1)
+    let bode = transfer(&[-1.0], &[1.0], 0.0).bode(0, 0).unwrap();
+    for (omega, phase) in bode.omega.iter().zip(&bode.phase_deg) {
+        let expected = -180.0 - sincro_math::elementary::atan(*omega).0.to_degrees();
+        assert!((phase - expected).abs() < 1e-9, "{omega}: {phase} {expected}");
+    }
+}
+
+#[test]
+fn the_imaginary_axis_is_not_the_negative_real_one() {
+    // s/(s² + 1) changes its sign through infinity at ω = 1, on the imaginary axis
+    let bode = transfer(&[0.0, 1.0], &[1.0, 0.0], 0.0).bode(0, 0).unwrap();
+    assert!(bode.gain_margins.is_empty(), "{:?}", bode.gain_margins);
+}
+
+#[test]
+fn the_grid_reaches_a_decade_beyond_poles_and_zeros() {
+    // (s + 10) / ((s + 100) (s + 5000))
+    let omega = transfer(&[10.0, 1.0], &[5e5, 5100.0], 0.0).bode(0, 0).unwrap().omega;
+    assert_eq!((omega[0], omega[omega.len() - 1]), (1.0, 1e5));
+}
+
+#[test]
+fn cyclic_states_are_those_that_no_rate_depends_on() {
+    let of = |a: &[f64]| system(2, a, &[0.0, 1.0], &[1.0, 0.0], 0.0).cyclic_states();
+    assert_eq!(of(&[0.0, 1.0, 0.0, -1.0]), [0]);
+    assert_eq!(of(&[-1.0, 0.0, 1.0, 0.0]), [1]);
+    assert_eq!(of(&[0.0, 1.0, 0.0, 0.0]), [0, 1]);
+    assert_eq!(of(&[0.0, 1.0, -1.0, 0.0]), [0_usize; 0]);
+}
+
+#[test]
+fn a_mode_that_no_input_reaches_is_named_by_its_pole() {
+    let named = |mode| LinearError::NotStabilisable { mode }.to_string();
+    assert!(named((1.0, 0.0)).contains("the mode at 1.000000, which"), "{}", named((1.0, 0.0)));
+    assert!(named((0.5, -2.0)).contains("the mode at 0.500000 ± 2.000000j, which"), "{}", named((0.5, -2.0)));
+}
+
+#[test]
 fn step_response_is_the_closed_form_at_every_point() {
     // ω = 2, ζ = 0.25
     let (w, z) = (2.0, 0.25_f64);
