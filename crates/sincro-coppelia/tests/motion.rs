@@ -283,6 +283,35 @@ proptest! {
 }
 
 #[test]
+fn who_has_time_for_a_velocity_accelerates_less_then_jerks_less() {
+    let limits = Limits::symmetric(2.0, 2.0, 10.0);
+    let slow = Axis { start: Point::default(), limits: Limits::symmetric(2.0, 0.5, 1.0), goal: Goal::Velocity(1.0) };
+    for sign in [1.0, -1.0] {
+        // from rest: the peak of the acceleration is what makes it take longer, the jerk stays
+        // from an acceleration that is its peak already: the jerk is less
+        for a in [0.0, 1.5] {
+            let start = Point { p: 0.0, v: 0.0, a: sign * a };
+            let quick = Axis { start, limits, goal: Goal::Velocity(sign) };
+            let [slowest, profile] = plan(&[slow, quick], Synchronization::Time).unwrap()[..] else { panic!() };
+            let t = slowest.duration();
+            assert!((profile.duration() - t).abs() < 1e-10, "{sign} {a}");
+            let end = profile.end();
+            assert!((end.v - sign).abs() < 1e-12 && end.a.abs() < 1e-12, "{sign} {a}: {end:?}");
+            let points: Vec<Point> = (0..=2000).map(|k| profile.at(t * f64::from(k) / 2000.0)).collect();
+            let peak = points.iter().map(|x| x.a.abs()).fold(0.0, f64::max);
+            let jerk = points.windows(2).map(|x| (x[1].a - x[0].a).abs() * 2000.0 / t).fold(0.0, f64::max);
+            // rest to rest with the peak a: t = v/a + a/j; both from the numbers of the slow axis
+            if a == 0.0 {
+                let expected = 0.5 * (10.0 * t - (100.0 * t * t - 40.0).sqrt());
+                assert!((peak - expected).abs() < 1e-9 && (jerk - 10.0).abs() < 1e-6, "{peak} {expected} {jerk}");
+            } else {
+                assert!(peak < 2.0 && jerk < 10.0 - 1e-6, "{peak} {jerk}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_makes_no_sense_is_refused_in_words() {
     let good =
         Axis { start: Point::default(), limits: Limits::symmetric(1.0, 1.0, 1.0), goal: Goal::Position(1.0, 0.0) };
