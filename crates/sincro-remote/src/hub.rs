@@ -420,7 +420,8 @@ impl SessionGuard {
         result
     }
 
-    /// After something was done with the session while it was in phase `before`.
+    /// Tells all clients of a change of phase, after something was done with the session while it was in phase
+    /// `before`.
     pub fn update_clients(&mut self, before: Phase) {
         match (before, self.session.phase()) {
             (Phase::Stopped, Phase::Running) => {

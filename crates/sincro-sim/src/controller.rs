@@ -148,7 +148,7 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Name of the controller in messages.
     fn name(&self) -> &str;
 
-    /// Before the first tick, or again where a snapshot was restored.
+    /// Prepares the controller for a run: called before the first tick, and again where a snapshot was restored.
     ///
     /// # Errors
     ///
@@ -157,7 +157,7 @@ pub trait Controller: Any + Send + fmt::Debug {
         Ok(())
     }
 
-    /// Commands and forces of the base step that begins.
+    /// Gives the commands and forces of the base step that begins.
     ///
     /// # Errors
     ///

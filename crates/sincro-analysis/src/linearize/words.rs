@@ -40,7 +40,7 @@ pub enum ReducedKind {
 }
 
 impl ReducedKind {
-    /// Identifier in files.
+    /// Identifier of the kind in `linearization.json`, such as `loop`.
     #[must_use]
     pub fn id(self) -> &'static str {
         match self {

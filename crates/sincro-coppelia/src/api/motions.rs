@@ -92,7 +92,7 @@ impl Motions {
 }
 
 impl SimApi<'_> {
-    /// Keeps a motion; its handle.
+    /// Adds a motion and returns its handle.
     ///
     /// # Errors
     ///

@@ -36,7 +36,7 @@ pub enum Reference {
 }
 
 impl<'a> SimApi<'a> {
-    /// A registry and its world at time `t` `[s]`.
+    /// Joins a registry and its world at time `t` `[s]` for one call or phase.
     pub fn new(registry: &'a mut ObjectRegistry, world: &'a mut World, t: f64) -> Self {
         Self { registry, world, t, own: None, is_located: false }
     }

@@ -77,7 +77,7 @@ impl<R: Real> Mat3<R> {
         Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
     }
 
-    /// Matrix product `self · b`.
+    /// Matrix product `self · b`; the units multiply.
     #[inline(always)]
     pub fn mul(&self, b: &Self) -> Self {
         let mut out = Self::zero();

@@ -37,7 +37,8 @@ impl<R: Real> Motion<R> {
         self.ang.dot(f.ang) + self.lin.dot(f.lin)
     }
 
-    /// `self × m`: how the motion `m`, fixed in a frame that moves with `self`, changes.
+    /// Rate `self × m` of a motion `m` (its unit per second) that is fixed in a frame moving with `self` `[rad/s]`,
+    /// `[m/s]`.
     #[inline(always)]
     pub fn cross(&self, m: &Self) -> Self {
         Self { ang: self.ang.cross(m.ang), lin: self.ang.cross(m.lin) + self.lin.cross(m.ang) }

@@ -84,7 +84,8 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     })
 }
 
-/// A measurement that depends on the commands; after kinematics with the accelerations.
+/// Value in SI units of a measurement that depends on the commands; after kinematics with the accelerations. None for
+/// what the state alone decides.
 pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>, probe: Probe) -> Option<R> {
     Some(match probe {
         Probe::Acceleration(k) => response.accelerations[k],

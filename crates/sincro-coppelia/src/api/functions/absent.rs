@@ -87,7 +87,7 @@ pub fn why_absent(name: &str) -> Option<&'static str> {
     ABSENT.iter().find(|(names, _)| names.contains(&name)).map(|(_, why)| *why)
 }
 
-/// The names of all of them.
+/// Names of all functions of V-REP and CoppeliaSim that are absent here, each with a reason in [`why_absent`].
 pub fn absent() -> impl Iterator<Item = &'static str> {
     ABSENT.iter().flat_map(|(names, _)| names.iter().copied())
 }
