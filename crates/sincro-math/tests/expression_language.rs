@@ -153,6 +153,18 @@ fn refusals_name_the_place_the_fault_and_the_cure() {
 }
 
 #[test]
+fn names_up_to_a_third_of_the_letters_apart_are_offered() {
+    let help = |name: &str, known: &str| Expression::parse(name, &[known]).expect_err(name).help;
+    assert_eq!(help("stifnes", "stiffness").as_deref(), Some("did you mean `stiffness`?"));
+    assert_eq!(help("torxxe", "torque").as_deref(), Some("did you mean `torque`?"));
+    assert_eq!(help("toxxxe", "torque"), None);
+    // the longest names that are compared have 64 letters
+    let name = |n: usize, last: &str| format!("{}{last}", "a".repeat(n - 1));
+    assert!(help(&name(64, "b"), &name(64, "c")).is_some());
+    assert!(help(&name(65, "b"), &name(65, "c")).is_none());
+}
+
+#[test]
 fn symbols_of_other_notations_are_explained() {
     for (symbol, help) in [
         ("**", "a power is written `x^2`"),
