@@ -3,11 +3,13 @@
 use serde_json::{Map, Value};
 use toml::de::DeValue;
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
 use crate::experiment::experiment_schema;
+use crate::names::{self, Match, ending, fits, nearest_path};
+use crate::normalize::unit_suffix;
 use crate::overrides::Override;
-use crate::scene::{Object, scene_schema};
+use crate::scene::scene_schema;
 use crate::schema::{alternatives, property, property_names};
 use crate::suggest;
 use crate::tree;
@@ -29,7 +31,8 @@ impl Override {
         let path = &self.path.value;
         let first = path.split(['.', '[']).next().unwrap_or("");
         let knows = |schema: &Value| schema["properties"].get(first).is_some();
-        if path.starts_with('/') || knows(scene_schema()) {
+        // the parameters of a scene file are those of its experiment
+        if path.starts_with('/') || (knows(scene_schema()) && !matches!(first, "parameters" | "format")) {
             Target::Scene
         } else if path.starts_with(OF_DIAGRAM) || (path.contains('.') && !knows(experiment_schema())) {
             Target::Diagram
@@ -40,14 +43,14 @@ impl Override {
 
     /// The finding about a setting that names an object of the scene without the `/` of its path; none if it names a
     /// block of the diagram, or no object.
-    pub fn without_slash(&self, diagram: Option<&Document>, objects: &[Object]) -> Option<Diagnostic> {
+    pub fn without_slash(&self, diagram: Option<&Document>, objects: &[String]) -> Option<Diagnostic> {
         let (first, keys) = self.path.value.split_once('.').filter(|_| self.target() == Target::Diagram)?;
         if diagram.is_some_and(|diagram| names_of_blocks(diagram).iter().any(|name| name == first)) {
             return None;
         }
-        let found = objects.iter().find(|object| object.path.rsplit('/').next() == Some(first))?;
+        let found = objects.iter().find(|path| path.rsplit('/').next() == Some(first))?;
         let diagnostic = self.error(format!("`{}`: there is no block or key `{first}`", self.path.value));
-        let help = format!("did you mean `{}.{keys}`? the path of an object begins with `/`", found.path);
+        let help = format!("did you mean `{found}.{keys}`? the path of an object begins with `/`");
         Some(diagnostic.with_help(help))
     }
 
@@ -73,6 +76,7 @@ impl Override {
         }
         let pointer = match names.iter().position(|name| *name == keys[0]) {
             Some(k) => format!("/block/{k}"),
+            None if keys[0].contains('/') => self.inner_block(document, &keys[0])?,
             None if matches!(keys[0].as_str(), "parameters" | "sample_time") => String::new(),
             None => {
                 let known: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -103,6 +107,48 @@ impl Override {
             _ => return Err(self.error(format!("`{}`: there is nothing inside a number", self.path.value))),
         }
         self.put(document, &format!("{at}/{}", escape(last)))
+    }
+
+    /// The block `a/b/c`: block `c` of the diagram that block `b` of the diagram `a` is. A diagram that is used more
+    /// than once gets a copy for this use alone.
+    fn inner_block(&self, document: &mut Document, path: &str) -> Result<String, Diagnostic> {
+        let mut content = String::new();
+        let mut steps = path.split('/').peekable();
+        loop {
+            let step = steps.next().unwrap_or("");
+            let blocks = |at: &str| -> Vec<String> {
+                let list = document.get(&format!("{at}/block")).and_then(Value::as_array).into_iter().flatten();
+                list.map(|b| b.get("name").and_then(Value::as_str).unwrap_or("").to_owned()).collect()
+            };
+            let names = blocks(&content);
+            let Some(k) = names.iter().position(|name| name == step) else {
+                let known: Vec<&str> = names.iter().map(String::as_str).collect();
+                let diagnostic = self.error(format!("`{path}`: there is no block `{step}`"));
+                return Err(diagnostic.with_help(suggest::help(step, &known, "blocks there")));
+            };
+            let block = format!("{content}/block/{k}");
+            if steps.peek().is_none() {
+                return Ok(block);
+            }
+            let kind = document.text(&format!("{block}/type")).unwrap_or("").to_owned();
+            let definitions = document.get("/diagram").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+            let of_name = |d: &Value| d.get("name").and_then(Value::as_str) == Some(kind.as_str());
+            let Some(d) = definitions.iter().position(of_name) else {
+                let diagnostic = self.error(format!("`{path}`: `{step}` is a `{kind}`, no diagram with blocks in it"));
+                return Err(diagnostic.with_help(format!("write {step}.PARAMETER=VALUE")));
+            };
+            content = if n_uses(document, &kind) > 1 {
+                let source = document.clone();
+                let copy = document.append_from("/diagram", &source, &format!("/diagram/{d}"));
+                // a name that no file can give
+                let name = format!("{kind} ({path}.{d})");
+                document.replace(&format!("{copy}/name"), Value::String(name.clone()));
+                document.replace(&format!("{block}/type"), Value::String(name));
+                copy
+            } else {
+                format!("/diagram/{d}")
+            };
+        }
     }
 
     /// Writes the value into its document.
@@ -150,14 +196,39 @@ impl Override {
         let path = self.path.value.as_str();
         let (object, keys) = path.split_once('.').unwrap_or((path, ""));
         let objects = tree::raw_objects(document);
-        let Some(found) = objects.iter().find(|o| o.path == object) else {
-            let known: Vec<&str> = objects.iter().map(|o| o.path.as_str()).collect();
-            let diagnostic = self.error(format!("there is no object `{object}`"));
-            return Err(diagnostic.with_help(suggest::help(object, &known, "objects")));
+        let known: Vec<&str> = objects.iter().map(|o| o.path.as_str()).collect();
+        let whole = match ending(object, known.iter().copied()) {
+            _ if known.contains(&object) => object,
+            Match::One(path) => path,
+            Match::Several(all) => return Err(names::ambiguous(&self.path.at, object, &all)),
+            Match::None => object,
         };
+        let Some(found) = objects.iter().find(|o| o.path == whole) else {
+            let diagnostic = self.error(format!("there is no object `{object}`"));
+            let help = suggest::help(object, &known, "objects");
+            return Err(diagnostic.with_help(match nearest_path(object, known.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => help,
+            }));
+        };
+        if let Some(keys) = keys.strip_prefix("script.") {
+            let scripts = document.get("/script").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
+            let of_object = |s: &Value| s.get("object").and_then(Value::as_str) == Some(whole);
+            let Some(k) = scripts.iter().position(of_object) else {
+                return Err(self.error(format!("`{whole}` has no script")).with_help("scripts are in [[script]]"));
+            };
+            let schema = &scene_schema()["properties"]["script"]["items"];
+            let walk = Walk { setting: self, root: scene_schema(), schema, pointer: format!("/script/{k}") };
+            return Ok((walk, keys));
+        }
         let list = found.pointer.split('/').nth(1).unwrap_or("");
         let schema = &scene_schema()["properties"][list]["items"];
         Ok((Walk { setting: self, root: scene_schema(), schema, pointer: found.pointer.clone() }, keys))
+    }
+
+    /// The same for another path; messages point at what was written.
+    fn at(&self, path: &str) -> Self {
+        Self { path: Located { value: path.to_owned(), at: self.path.at.clone() }, value: self.value.clone() }
     }
 
     fn error(&self, message: impl Into<String>) -> Diagnostic {
@@ -168,9 +239,75 @@ impl Override {
 /// Prefix of the name of a block that is also a key of another file.
 const OF_DIAGRAM: &str = "diagram.";
 
-fn names_of_blocks(document: &Document) -> Vec<String> {
+/// Names of the blocks of a diagram file.
+pub fn names_of_blocks(document: &Document) -> Vec<String> {
     let blocks = document.get("/block").and_then(Value::as_array).into_iter().flatten();
     blocks.map(|b| b.get("name").and_then(Value::as_str).unwrap_or("").to_owned()).collect()
+}
+
+/// Blocks of a type, in the file and its diagrams.
+fn n_uses(document: &Document, kind: &str) -> usize {
+    let definitions = document.get("/diagram").and_then(Value::as_array).into_iter().flatten();
+    let of = |table: &Value| -> usize {
+        let blocks = table.get("block").and_then(Value::as_array).into_iter().flatten();
+        blocks.filter(|b| b.get("type").and_then(Value::as_str) == Some(kind)).count()
+    };
+    of(&document.root) + definitions.map(of).sum::<usize>()
+}
+
+/// The settings with short names and wildcards written out, each for one object or block.
+pub fn whole_paths(
+    settings: &[Override],
+    scene: Option<&Document>,
+    objects: &[String],
+    blocks: &[String],
+    diagnostics: &mut Diagnostics,
+) -> Vec<Override> {
+    let mut whole = Vec::new();
+    for setting in settings {
+        let path = &setting.path.value;
+        let (head, keys) = path.split_once('.').map_or((path.as_str(), ""), |(head, _)| (head, &path[head.len()..]));
+        let is_object = path.starts_with('/') || path.starts_with("**/");
+        if head.contains('*') {
+            let known = if is_object { objects } else { blocks };
+            let found: Vec<&String> = known
+                .iter()
+                .filter(|name| fits(head, name))
+                .filter(|name| !is_object || scene.is_none_or(|scene| takes(scene, name, keys)))
+                .collect();
+            if found.is_empty() {
+                let diagnostic =
+                    setting.error(format!("`{head}` fits no {}", if is_object { "object" } else { "block" }));
+                let help =
+                    "`*` stands for a part of one name, `**` for anything; the key after it must be one of the object";
+                diagnostics.push(diagnostic.with_help(help));
+            }
+            whole.extend(found.into_iter().map(|name| setting.at(&format!("{name}{keys}"))));
+            continue;
+        }
+        let first = head.split('/').next().unwrap_or("");
+        let is_block = path.starts_with(OF_DIAGRAM) || blocks.iter().any(|block| block == first);
+        if setting.target() != Target::Diagram || is_block {
+            whole.push(setting.clone());
+            continue;
+        }
+        match ending(head, objects.iter().map(String::as_str)) {
+            Match::One(object) => whole.push(setting.at(&format!("{object}{keys}"))),
+            Match::Several(all) => diagnostics.push(names::ambiguous(&setting.path.at, head, &all)),
+            Match::None => whole.push(setting.clone()),
+        }
+    }
+    whole
+}
+
+/// Returns true if the object of a path has the first of the keys, as its schema says.
+fn takes(scene: &Document, object: &str, keys: &str) -> bool {
+    let Some(found) = tree::raw_objects(scene).into_iter().find(|o| o.path == object) else { return false };
+    let list = found.pointer.split('/').nth(1).unwrap_or("");
+    let schema = &scene_schema()["properties"][list]["items"];
+    let Some(first) = steps(keys).into_iter().next() else { return true };
+    let plain = unit_suffix(&first).map_or(first.as_str(), |(plain, _)| plain);
+    alternatives(scene_schema(), schema).iter().any(|t| property(t, &first).is_some() || property(t, plain).is_some())
 }
 
 /// The keys of a path: `axis[2]` and `axis.2` are the same.
@@ -194,7 +331,21 @@ impl<'a> Walk<'a> {
 
     /// One step down; whatever must be there for the next step is made.
     fn enter(&mut self, document: &mut Document, key: &str, is_last: bool) -> Result<(), Diagnostic> {
-        let known_to_table = self.tables().find_map(|table| property(table, key));
+        let knows = |key: &str| self.tables().find_map(|table| property(table, key));
+        let meant = crate::vocabulary::key(key).filter(|meant| knows(key).is_none() && knows(meant).is_some());
+        let key = meant.unwrap_or(key);
+        if let Some((plain, _)) = unit_suffix(key)
+            && is_last
+            && knows(key).is_none()
+            && knows(plain).is_some()
+        {
+            // converted with the rest of the document; what stood there is replaced
+            let plain = format!("{}/{}", self.pointer, escape(plain));
+            document.remove(&plain);
+            self.pointer = format!("{}/{}", self.pointer, escape(key));
+            return Ok(());
+        }
+        let known_to_table = knows(key);
         let index = key.parse::<usize>().ok();
         let item = index.and(self.lists().find_map(|list| list.get("items")));
         let Some(schema) = known_to_table.or(item) else { return Err(self.unknown(document, key)) };

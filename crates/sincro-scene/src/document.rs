@@ -137,6 +137,68 @@ impl Document {
         self.insert(pointer, content);
     }
 
+    /// Adds an entry to a list that is there.
+    pub(crate) fn push_silently(&mut self, list: &str, content: Value, at: &Location) {
+        let Some(Value::Array(entries)) = self.root.pointer_mut(list) else { return };
+        let pointer = format!("{list}/{}", entries.len());
+        entries.push(content);
+        self.places.insert(pointer, Place { key: None, value: at.clone() });
+    }
+
+    /// Puts a value in the place of another one, whose positions it takes.
+    pub(crate) fn replace(&mut self, pointer: &str, content: Value) {
+        let place = self.places.get(pointer).cloned();
+        self.forget(pointer);
+        if let Some(place) = place {
+            self.places.insert(pointer.to_owned(), place);
+        }
+        self.insert(pointer, content);
+    }
+
+    /// Gives a key of a table another name; the new one must be free.
+    pub(crate) fn rename(&mut self, pointer: &str, key: &str) {
+        let (parent, last) = pointer.rsplit_once('/').expect("a pointer into a document starts with `/`");
+        let new = format!("{parent}/{}", escape(key));
+        let Some(Value::Object(table)) = self.root.pointer_mut(parent) else { return };
+        let Some(value) = table.remove(&unescape(last)) else { return };
+        table.insert(key.to_owned(), value);
+        let (places, odd) = (inside(&self.places, pointer), inside(&self.odd, pointer));
+        self.forget(pointer);
+        self.places.extend(moved(places, pointer, &new));
+        self.odd.extend(moved(odd, pointer, &new));
+    }
+
+    /// Takes a key out of a table.
+    pub(crate) fn remove(&mut self, pointer: &str) -> Option<Value> {
+        self.forget(pointer);
+        let (parent, last) = pointer.rsplit_once('/')?;
+        self.root.pointer_mut(parent)?.as_object_mut()?.remove(&unescape(last))
+    }
+
+    /// Adds an entry to the list at a pointer: that of another document, with its positions. The list is made if there
+    /// is none.
+    pub(crate) fn append_from(&mut self, list: &str, other: &Self, pointer: &str) -> String {
+        if self.get(list).is_none() {
+            self.insert(list, Value::Array(Vec::new()));
+        }
+        let content = other.get(pointer).cloned().unwrap_or(Value::Null);
+        let Some(Value::Array(entries)) = self.root.pointer_mut(list) else { return String::new() };
+        let new = format!("{list}/{}", entries.len());
+        entries.push(content);
+        self.places.extend(moved(inside(&other.places, pointer), pointer, &new));
+        self.odd.extend(moved(inside(&other.odd, pointer), pointer, &new));
+        new
+    }
+
+    /// Adds a key to a table: the value of another document, with its positions.
+    pub(crate) fn copy_from(&mut self, pointer: &str, other: &Self, from: &str) {
+        self.forget(pointer);
+        let content = other.get(from).cloned().unwrap_or(Value::Null);
+        self.places.extend(moved(inside(&other.places, from), from, pointer));
+        self.odd.extend(moved(inside(&other.odd, from), from, pointer));
+        self.insert(pointer, content);
+    }
+
     fn insert(&mut self, pointer: &str, content: Value) {
         let (parent, last) = pointer.rsplit_once('/').expect("a pointer into a document starts with `/`");
         let last = unescape(last);
@@ -153,11 +215,31 @@ impl Document {
     }
 
     fn forget(&mut self, pointer: &str) {
-        let inside = format!("{pointer}/");
-        let gone = |known: &str| known == pointer || known.starts_with(&inside);
-        self.places.retain(|known, _| !gone(known));
-        self.odd.retain(|known, _| !gone(known));
+        for key in inside(&self.places, pointer).into_keys() {
+            self.places.remove(&key);
+        }
+        for key in inside(&self.odd, pointer).into_keys() {
+            self.odd.remove(&key);
+        }
     }
+}
+
+/// What stands at a pointer and below.
+fn inside<T: Clone>(all: &BTreeMap<String, T>, pointer: &str) -> BTreeMap<String, T> {
+    let below = format!("{pointer}/");
+    let own = all.get_key_value(pointer);
+    let inner = all.range(below.clone()..).take_while(|(key, _)| key.starts_with(&below));
+    own.into_iter().chain(inner).map(|(key, value)| (key.clone(), value.clone())).collect()
+}
+
+/// The same with what stands at `from` and below moved to `to`.
+fn moved<T>(all: BTreeMap<String, T>, from: &str, to: &str) -> BTreeMap<String, T> {
+    let below = format!("{from}/");
+    let place = |key: String| match key.strip_prefix(from) {
+        Some(rest) if key == from || key.starts_with(&below) => format!("{to}{rest}"),
+        _ => key,
+    };
+    all.into_iter().map(|(key, value)| (place(key), value)).collect()
 }
 
 /// A key as a step of a JSON pointer.

@@ -3,18 +3,24 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::apply_overrides::{Target, apply_all};
+use serde_json::Value;
+
+use crate::apply_overrides::{Target, apply_all, names_of_blocks, whole_paths};
 use crate::diagnostic::{Diagnostic, Diagnostics, Located, SourceText};
 use crate::diagram::{self, ControlDiagram, diagram_schema};
-use crate::document::Document;
+use crate::document::{Document, escape};
+use crate::expand::expand;
 use crate::experiment::{self, Experiment, Plot, experiment_schema};
 use crate::fmu::Loaders;
 use crate::folder::Folder;
+use crate::names::resolve_signals;
+use crate::normalize::{Parameters, newer_format, normalize, parameters_of};
 use crate::overrides::Override;
-use crate::record::Recorder;
+use crate::record::{Recorder, catalogue};
 use crate::scene::{self, Scene, scene_schema};
 use crate::schema::validate;
 use crate::script::ScriptParser;
+use crate::tree;
 
 /// The file that makes a folder an experiment.
 const EXPERIMENT: &str = "experiment.toml";
@@ -165,11 +171,103 @@ fn too_large(experiment: &Experiment) -> Diagnostics {
     Diagnostics::from(Diagnostic::error(&experiment.record[0].at, message).with_help(help))
 }
 
+/// The files of an experiment as documents: everything reused written out, all settings applied.
+struct Documents {
+    experiment: Document,
+    scene: Option<Document>,
+    diagram: Option<Document>,
+}
+
+/// Reads the files of a folder with settings. What is wrong with the scene or the diagram is noted, and the rest read
+/// all the same.
+fn read_documents(
+    folder: &Folder,
+    overrides: &[Override],
+    diagnostics: &mut Diagnostics,
+) -> Result<Documents, Diagnostics> {
+    let mut experiment = Document::parse(&folder.read(EXPERIMENT)?)?;
+    diagnostics.merge(newer_format(&experiment).map(Diagnostics::from).unwrap_or_default());
+    let names_scene: Vec<Override> = overrides.iter().filter(|s| s.path.value == "scene").cloned().collect();
+    diagnostics.merge(apply_all(&mut experiment, Target::Experiment, &names_scene));
+    let scene = read_scene(&experiment, folder, diagnostics);
+    if let Some(scene) = &scene {
+        adopt_parameters(&mut experiment, scene);
+    }
+    // parameters first: formulas may stand anywhere
+    let sets_parameters = |s: &&Override| s.target() == Target::Experiment && s.path.value.starts_with("parameters");
+    let of_parameters: Vec<Override> = overrides.iter().filter(sets_parameters).cloned().collect();
+    diagnostics.merge(apply_all(&mut experiment, Target::Experiment, &of_parameters));
+    let parameters = parameters_of(&experiment);
+    diagnostics.merge(normalize(&mut experiment, experiment_schema(), &parameters));
+    let others: Vec<Override> = overrides.iter().filter(|s| !sets_parameters(s)).cloned().collect();
+    let experiment = prepared(experiment, Target::Experiment, &others, &parameters, diagnostics);
+    let scene = scene.map(|mut scene| {
+        diagnostics.merge(apply_all(&mut scene, Target::Scene, &early(overrides)));
+        diagnostics.merge(expand(&mut scene, folder, &parameters));
+        scene
+    });
+    let diagram = read_diagram(&experiment, folder, diagnostics);
+    let paths: Vec<String> = scene.iter().flat_map(tree::raw_objects).map(|object| object.path).collect();
+    let blocks = diagram.as_ref().map(names_of_blocks).unwrap_or_default();
+    let overrides = whole_paths(overrides, scene.as_ref(), &paths, &blocks, diagnostics);
+    let scene = scene.map(|scene| prepared(scene, Target::Scene, &overrides, &parameters, diagnostics));
+    let diagram = match diagram {
+        Some(mut diagram) => {
+            let mut fitting = overrides;
+            fitting.retain(|setting| match setting.without_slash(Some(&diagram), &paths) {
+                Some(found) => {
+                    diagnostics.push(found);
+                    false
+                }
+                None => true,
+            });
+            diagnostics.merge(apply_all(&mut diagram, Target::Diagram, &fitting));
+            Some(diagram)
+        }
+        None => {
+            let is_read = experiment.located("/diagram").is_some();
+            for setting in overrides.iter().filter(|s| s.target() == Target::Diagram && !is_read) {
+                diagnostics.push(setting.without_slash(None, &paths).unwrap_or_else(|| setting.without_diagram()));
+            }
+            None
+        }
+    };
+    Ok(Documents { experiment, scene, diagram })
+}
+
+/// Settings of what is written out before all others are applied.
+fn early(overrides: &[Override]) -> Vec<Override> {
+    let first = |setting: &Override| setting.path.value.split(['.', '[']).next().unwrap_or("").to_owned();
+    let is_early = |setting: &&Override| matches!(first(setting).as_str(), "instance" | "default" | "include");
+    overrides.iter().filter(is_early).cloned().collect()
+}
+
+/// Parameters of the scene file are parameters of the experiment, unless that gives them itself.
+fn adopt_parameters(experiment: &mut Document, scene: &Document) {
+    let Some(table) = scene.get("/parameters").and_then(Value::as_object) else { return };
+    if experiment.get("/parameters").is_none() {
+        experiment.put_silently("/parameters", Value::Object(serde_json::Map::new()), &scene.at("/parameters"));
+    }
+    for name in table.keys() {
+        let pointer = format!("/parameters/{}", escape(name));
+        if experiment.get(&pointer).is_none() && experiment.get("/parameters").is_some_and(Value::is_object) {
+            experiment.copy_from(&pointer, scene, &pointer);
+        }
+    }
+}
+
 /// One experiment without its variants.
 fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> Result<Opened, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let document = Document::parse(&folder.read(EXPERIMENT)?)?;
-    let document = prepared(document, Target::Experiment, overrides, &mut diagnostics);
+    let Documents { experiment: mut document, scene, diagram } = read_documents(folder, overrides, &mut diagnostics)?;
+    let seed = document.get("/seed").and_then(Value::as_u64).unwrap_or(0);
+    let parser = loaders.scripts.map(|parser| parser as &dyn ScriptParser);
+    let scene = scene.and_then(|scene| compile_scene(&scene, folder, (seed, parser), &mut diagnostics));
+    if let Some(scene) = &scene {
+        let blocks = diagram.as_ref().map(names_of_blocks).unwrap_or_default();
+        let known: Vec<String> = catalogue(&scene.model).into_iter().map(|entry| entry.name).collect();
+        diagnostics.merge(resolve_signals(&mut document, &known, &blocks));
+    }
     let found = validate(&document, experiment_schema());
     let fits = !found.any_error();
     diagnostics.merge(found);
@@ -179,16 +277,8 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
         experiment
     });
     let experiment = experiment.flatten();
-    let seed = experiment.as_ref().map_or(0, |e| e.seed);
-    let scene = open_scene(
-        &document,
-        folder,
-        overrides,
-        (seed, loaders.scripts.map(|parser| parser as &dyn ScriptParser)),
-        &mut diagnostics,
-    );
     let against = (experiment.as_ref(), scene.as_ref());
-    let controller = open_diagram(&document, folder, overrides, against, loaders, &mut diagnostics);
+    let controller = diagram.and_then(|diagram| compile_diagram(&diagram, folder, against, loaders, &mut diagnostics));
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
         (experiment, ..) => experiment,
@@ -226,14 +316,8 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
     }
 }
 
-/// The scene that an experiment names, also if the experiment has problems of its own.
-fn open_scene(
-    experiment: &Document,
-    folder: &Folder,
-    overrides: &[Override],
-    (seed, parser): (u64, Option<&dyn ScriptParser>),
-    diagnostics: &mut Diagnostics,
-) -> Option<Scene> {
+/// The scene file that an experiment names.
+fn read_scene(experiment: &Document, folder: &Folder, diagnostics: &mut Diagnostics) -> Option<Document> {
     let read = match (experiment.located("/scene"), experiment.get("/scene")) {
         (Some(name), _) => folder.read_named(&name),
         (None, None) => folder
@@ -241,63 +325,45 @@ fn open_scene(
             .map_err(|p| p.with_help("name the scene file in `experiment.toml`: scene = \"scene.toml\"")),
         (None, Some(_)) => return None,
     };
-    let document = match read.map_err(Diagnostics::from).and_then(|source| Document::parse(&source)) {
-        Ok(document) => prepared(document, Target::Scene, overrides, diagnostics),
-        Err(found) => {
-            diagnostics.merge(found);
-            return None;
-        }
-    };
-    let found = validate(&document, scene_schema());
+    let document = read.map_err(Diagnostics::from).and_then(|source| Document::parse(&source));
+    let document = document.map_err(|found| diagnostics.merge(found)).ok()?;
+    diagnostics.merge(newer_format(&document).map(Diagnostics::from).unwrap_or_default());
+    Some(document)
+}
+
+/// Compiles the scene, also if the experiment has problems of its own.
+fn compile_scene(
+    document: &Document,
+    folder: &Folder,
+    (seed, parser): (u64, Option<&dyn ScriptParser>),
+    diagnostics: &mut Diagnostics,
+) -> Option<Scene> {
+    let found = validate(document, scene_schema());
     if found.any_error() {
         diagnostics.merge(found);
         return None;
     }
-    match scene::compile(&document, folder, seed, parser) {
-        Ok(scene) => Some(scene),
-        Err(found) => {
-            diagnostics.merge(found);
-            None
-        }
-    }
+    scene::compile(document, folder, seed, parser).map_err(|found| diagnostics.merge(found)).ok()
 }
 
-/// The diagram that an experiment names. It is read even if scene or experiment have problems, but connected only to a
-/// scene that has none.
-fn open_diagram(
+/// The diagram file that an experiment names, if there is one.
+fn read_diagram(experiment: &Document, folder: &Folder, diagnostics: &mut Diagnostics) -> Option<Document> {
+    let name = experiment.located("/diagram")?;
+    let read = folder.read_named(&name).map_err(Diagnostics::from);
+    let document = read.and_then(|source| Document::parse(&source));
+    document.map_err(|found| diagnostics.merge(found)).ok()
+}
+
+/// Compiles a diagram. It is validated even if scene or experiment have problems, but connected only to a scene that
+/// has none.
+fn compile_diagram(
     document: &Document,
     folder: &Folder,
-    overrides: &[Override],
     (experiment, scene): (Option<&Experiment>, Option<&Scene>),
     loaders: Loaders,
     diagnostics: &mut Diagnostics,
 ) -> Option<ControlDiagram> {
-    let objects = scene.map_or(&[][..], |scene| &scene.objects);
-    let Some(name) = document.located("/diagram") else {
-        for setting in overrides.iter().filter(|s| s.target() == Target::Diagram) {
-            diagnostics.push(setting.without_slash(None, objects).unwrap_or_else(|| setting.without_diagram()));
-        }
-        return None;
-    };
-    let read = folder.read_named(&name).map_err(Diagnostics::from);
-    let document = match read.and_then(|source| Document::parse(&source)) {
-        Ok(document) => {
-            let mut fitting = overrides.to_vec();
-            fitting.retain(|setting| match setting.without_slash(Some(&document), objects) {
-                Some(found) => {
-                    diagnostics.push(found);
-                    false
-                }
-                None => true,
-            });
-            prepared(document, Target::Diagram, &fitting, diagnostics)
-        }
-        Err(found) => {
-            diagnostics.merge(found);
-            return None;
-        }
-    };
-    let found = validate(&document, diagram_schema());
+    let found = validate(document, diagram_schema());
     if found.any_error() {
         diagnostics.merge(found);
         return None;
@@ -310,7 +376,7 @@ fn open_diagram(
         parameters: &experiment.parameters,
         loaders,
     };
-    diagram::open(&document, folder, setting).map_err(|found| diagnostics.merge(found)).ok()
+    diagram::open(document, folder, setting).map_err(|found| diagnostics.merge(found)).ok()
 }
 
 /// Adds the signals of the diagram's scopes to the recorded and plotted ones.
@@ -335,8 +401,16 @@ fn with_scopes(mut experiment: Experiment, controller: &ControlDiagram, scene: &
     experiment
 }
 
-/// The document with the settings that are for it.
-fn prepared(mut document: Document, target: Target, overrides: &[Override], diagnostics: &mut Diagnostics) -> Document {
+/// The document with the settings that are for it, in the units and words of its schema.
+fn prepared(
+    mut document: Document,
+    target: Target,
+    overrides: &[Override],
+    parameters: &Parameters,
+    diagnostics: &mut Diagnostics,
+) -> Document {
     diagnostics.merge(apply_all(&mut document, target, overrides));
+    let schema = if target == Target::Scene { scene_schema() } else { experiment_schema() };
+    diagnostics.merge(normalize(&mut document, schema, parameters));
     document
 }

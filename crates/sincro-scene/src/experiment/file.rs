@@ -13,6 +13,11 @@ use super::check::Measure;
 #[serde(deny_unknown_fields)]
 #[schemars(title = "sincro experiment")]
 pub(crate) struct ExperimentFile {
+    /// Version of the format: 2, or 1 where it is left out.
+    #[allow(dead_code)] // read from the document
+    #[serde(default = "one")]
+    #[schemars(range(min = 1))]
+    pub format: u64,
     /// Title of the report.
     pub title: String,
     /// One or two sentences that stand under the title.

@@ -16,6 +16,7 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Located};
+use crate::names::nearest_path;
 use crate::suggest;
 use probe::View;
 
@@ -276,7 +277,8 @@ fn unknown(name: &Located<String>, all: &[Entry]) -> Diagnostic {
         }
         None => Vec::new(),
     };
-    let nearest = suggest::nearest(&name.value, all.iter().map(|e| e.name.as_str()));
+    let names = || all.iter().map(|e| e.name.as_str());
+    let nearest = nearest_path(&name.value, names()).or_else(|| suggest::nearest(&name.value, names()));
     let component = format!("{}[", name.value);
     let components: Vec<&str> = all.iter().map(|e| e.name.as_str()).filter(|n| n.starts_with(&component)).collect();
     if let [first, .., last] = components[..] {

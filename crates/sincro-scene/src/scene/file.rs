@@ -2,6 +2,8 @@
 //!
 //! Doc comments here become the descriptions in the JSON Schema; units in brackets are quoted by error messages.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,6 +18,27 @@ use super::signal_file::SignalFile;
 #[serde(deny_unknown_fields)]
 #[schemars(title = "sincro scene")]
 pub(crate) struct SceneFile {
+    /// Version of the format: 2, or 1 where it is left out.
+    #[allow(dead_code)] // read from the document
+    #[serde(default = "first_format")]
+    #[schemars(range(min = 1))]
+    pub format: u64,
+    /// Scene files whose objects are added to those of this one, their paths relative to the folder.
+    #[allow(dead_code)] // written out before
+    #[serde(default)]
+    pub include: Vec<String>,
+    /// Names and numbers for formulas in this file, which the experiment and instances can change.
+    #[allow(dead_code)] // read from the document
+    #[serde(default)]
+    pub parameters: BTreeMap<String, f64>,
+    /// Other scene files below frames of their own.
+    #[allow(dead_code)] // written out before
+    #[serde(default)]
+    pub instance: Vec<InstanceFile>,
+    /// Keys of objects that do not give them.
+    #[allow(dead_code)] // written out before
+    #[serde(default)]
+    pub default: Vec<DefaultFile>,
     /// Gravitational acceleration, world axes [m/s²].
     #[serde(default = "standard_gravity")]
     pub gravity: [f64; 3],
@@ -65,6 +88,101 @@ pub(crate) struct SceneFile {
     #[serde(default = "sea_level")]
     #[schemars(range(min = 0.0))]
     pub air_density: f64,
+}
+
+/// Another scene file below a frame of its own: `/NAME` is the frame, `/NAME/…` are the objects of the file.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
+#[allow(dead_code)] // written out before
+pub(crate) struct InstanceFile {
+    /// Scene file, its path relative to the folder.
+    pub file: String,
+    /// Name of the frame; default that of the file. Copies, and instances of one name, get an index, counted from 1.
+    pub name: Option<String>,
+    /// Path of the body, joint or frame that carries it; `/` is the world.
+    #[serde(default = "world")]
+    pub parent: String,
+    /// Origin of its frame in the parent frame [m].
+    #[serde(default)]
+    pub position: [f64; 3],
+    /// Roll, pitch and yaw of the frame in its parent: R = Rz(yaw)·Ry(pitch)·Rx(roll) [deg].
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Rotation of the frame in its parent as a quaternion (w, x, y, z), of any length but zero.
+    pub quaternion_wxyz: Option<[f64; 4]>,
+    /// Values of the file's `parameters`; formulas may use `i`, `ix`, `iy`, `iz`, the numbers of the copy, from 0.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, InstanceParameterFile>,
+    /// Copies of it.
+    pub repeat: Option<RepeatFile>,
+}
+
+/// Number or formula, evaluated for each copy.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code)] // written out before
+pub(crate) enum InstanceParameterFile {
+    /// A number.
+    Number(f64),
+    /// A formula of the parameters, `i`, `ix`, `iy` and `iz`.
+    Formula(String),
+}
+
+/// Copies along a line, or in a grid.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code)] // written out before
+pub(crate) struct RepeatFile {
+    /// Number of copies along the line, or along x, y and z.
+    pub count: CountFile,
+    /// From one to the next: of a line the whole vector, of a grid along each axis [m].
+    pub step: [f64; 3],
+}
+
+/// Number of copies.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code)] // written out before
+pub(crate) enum CountFile {
+    /// Along a line.
+    Line(u64),
+    /// Along x, y and z.
+    Grid([u64; 3]),
+}
+
+/// Keys of all objects of a kind that do not give them. Of two defaults for one object the later one wins.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code)] // written out before
+pub(crate) struct DefaultFile {
+    /// List of the objects: `joint`, `body`, `rotor` ….
+    pub of: DefaultOfFile,
+    /// Paths of the objects, with `*` for a part of one name and `**` for anything; default all.
+    pub group: Option<String>,
+    /// The keys, as they stand in the objects.
+    pub keys: BTreeMap<String, serde_json::Value>,
+}
+
+/// Lists of objects.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum DefaultOfFile {
+    /// Joints.
+    Joint,
+    /// Bodies.
+    Body,
+    /// Frames.
+    Frame,
+    /// Forces.
+    Force,
+    /// Rotors.
+    Rotor,
+    /// Drag elements.
+    Drag,
+    /// Sensors.
+    Sensor,
+    /// Cameras.
+    Camera,
 }
 
 /// One value, or a list of them with one entry a degree of freedom.
@@ -599,6 +717,10 @@ fn world() -> String {
 
 fn rest_speed() -> f64 {
     sincro_dynamics::model::REST_SPEED
+}
+
+fn first_format() -> u64 {
+    1
 }
 
 fn sea_level() -> f64 {

@@ -7,6 +7,8 @@ use super::{Scene, scene_schema};
 use crate::diagnostic::{Diagnostics, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
+use crate::names::resolve_objects;
+use crate::normalize::{Parameters, normalize};
 use crate::schema::validate;
 
 /// Compiles the text of a scene file. Files that it names are looked for in the working directory; the seed of its
@@ -35,8 +37,10 @@ use crate::schema::validate;
 /// Everything that is wrong with the text, warnings included.
 pub fn from_text(text: &str) -> Result<Scene, Diagnostics> {
     let source = Arc::new(SourceText { path: "scene.toml".into(), text: text.to_owned() });
-    let document = Document::parse(&source)?;
-    let found = validate(&document, scene_schema());
+    let mut document = Document::parse(&source)?;
+    let mut found = normalize(&mut document, scene_schema(), &Parameters::new());
+    found.merge(resolve_objects(&mut document));
+    found.merge(validate(&document, scene_schema()));
     if found.any_error() {
         return Err(found.sorted());
     }

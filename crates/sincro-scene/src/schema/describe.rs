@@ -84,7 +84,7 @@ pub(super) fn fixed_length(choice: &Map<String, Value>) -> Option<u64> {
 }
 
 /// The words that an enumeration knows.
-pub(super) fn words(choice: &Map<String, Value>) -> Option<Vec<&str>> {
+pub(crate) fn words(choice: &Map<String, Value>) -> Option<Vec<&str>> {
     if let Some(Value::Array(words)) = choice.get("enum") {
         return words.iter().map(Value::as_str).collect();
     }

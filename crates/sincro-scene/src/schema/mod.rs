@@ -4,7 +4,8 @@
 //! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what
 //! `sincro check` says is one thing. A test keeps the files equal to the types.
 
-mod describe;
+pub(crate) mod describe;
+mod editors;
 mod validate;
 
 use schemars::JsonSchema;
@@ -12,6 +13,7 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 
 pub use describe::{description, units};
+pub use editors::{FORMAT, for_editors};
 pub use validate::validate;
 
 /// JSON Schema of a type that reads a file, in the form that the files are checked with.
@@ -108,7 +110,7 @@ mod tests {
     /// The committed schema must be the one the types give; `SINCRO_BLESS=1` rewrites it.
     fn assert_committed(name: &str, schema: &Value) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas").join(name);
-        let text = format!("{schema:#}\n");
+        let text = format!("{:#}\n", for_editors(schema));
         if std::env::var_os("SINCRO_BLESS").is_some() {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             std::fs::write(&path, &text).unwrap();

@@ -10,6 +10,11 @@ use super::{alternatives, exclusive_keys, property, property_names};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, NonJson, escape, unescape};
 use crate::suggest;
+use crate::vocabulary;
+
+/// Units that keys may carry as a suffix, wherever they come from.
+const UNITS: [&str; 14] =
+    ["_deg", "_rad", "_rpm", "_deg_s", "_rad_s", "_hz", "_ms", "_us", "_mm", "_cm", "_m", "_s", "_kg", "_g"];
 
 /// Everything in `document` that does not fit `schema`.
 pub fn validate(document: &Document, schema: &Value) -> Diagnostics {
@@ -166,7 +171,21 @@ impl<'a> Walker<'a> {
             None => format!("unknown key `{key}`"),
         };
         let diagnostic = Diagnostic::error(&self.document.key_at(pointer), message);
-        self.diagnostics.push(diagnostic.with_help(suggest::help(key, &property_names(choice), "keys here")));
+        self.diagnostics.push(diagnostic.with_help(self.help_for_key(key, choice)));
+    }
+
+    /// Advice on an unknown key. A key of another unit is never offered as the same thing.
+    fn help_for_key(&self, key: &str, choice: &Map<String, Value>) -> String {
+        let known = property_names(choice);
+        if let Some(advice) = vocabulary::advice(key, &known) {
+            return advice.to_owned();
+        }
+        let suffix = |key: &str| UNITS.iter().find(|unit| key.ends_with(**unit)).copied();
+        let near = suggest::nearest(key, known.iter().copied()).filter(|near| suffix(near) != suffix(key));
+        let Some(near) = near else { return suggest::help(key, &known, "keys here") };
+        let of_key = property(choice, near).map(|schema| describe::description(self.root, schema)).unwrap_or_default();
+        let unit = describe::units(of_key).join(" or ");
+        if unit.is_empty() { format!("there is `{near}`") } else { format!("there is `{near}`, in {unit}") }
     }
 
     fn help_of(&self, schema: &Value) -> Option<String> {
