@@ -9,6 +9,7 @@ use sincro::{Campaign, Override, Verdict};
 use sincro_scene::experiment::ErrorBar;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::{CompletedRun, run_campaign};
+use sincro_sim::result_folder::{FolderError, ResultFolder};
 use sincro_sim::results::Status;
 use sincro_sim::run::RunError;
 
@@ -148,7 +149,8 @@ impl Run {
     /// Writes the folder that `sincro run` writes.
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
         let written = foreground::contained(py, || {
-            sincro_sim::file::prepare(&folder)?;
+            let output = ResultFolder::replace(&folder)?;
+            let folder = output.path();
             let tables = &self.campaign.main.simulated.table;
             tables.write_csv(&folder.join("signals.csv"))?;
             for (variant, done) in &self.campaign.variants {
@@ -157,11 +159,12 @@ impl Run {
                 done.simulated.table.write_csv(&of_variant.join("signals.csv"))?;
             }
             if let Some((sweep, _)) = &self.campaign.sweep {
-                sweep.write(&folder)?;
+                sweep.write(folder)?;
             }
-            self.campaign.report.write(&folder)?;
-            sincro::results::write(&self.loaded, &self.campaign, &folder, None)
+            self.campaign.report.write(folder)?;
+            sincro::results::write(&self.loaded, &self.campaign, folder, None)?;
+            Ok(output.publish().map(|_| ())?)
         })?;
-        written.map_err(|error| errors::new(py, "SincroError", &error.to_string()))
+        written.map_err(|error: FolderError| errors::new(py, "SincroError", &error.to_string()))
     }
 }

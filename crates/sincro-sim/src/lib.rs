@@ -63,7 +63,7 @@
 //! | [`run`] | the step, and a run from its start to its end |
 //! | [`trace`], [`snapshot`], [`validity`], [`replay`] | hash of a run, state as bytes, validity of rotor theory, keyframes |
 //! | [`audit`] | laws, solver, energy balance and inputs of every run, against the limits of its accuracy |
-//! | [`table`], [`sweep`], [`check`], [`results`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, result files |
+//! | [`table`], [`formats`], [`sweep`], [`check`], [`results`], [`result_folder`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, folders and files of results |
 //! | [`task`] | many worlds of a task, for reinforcement learning |
 //! | [`campaign`] | an experiment with its variants, sweep and error bars |
 
@@ -74,11 +74,13 @@ pub mod controller;
 pub mod diagram_controller;
 mod error;
 pub mod file;
+pub mod formats;
 pub mod load;
 mod number;
 pub mod prelude;
 pub mod proximity;
 pub mod replay;
+pub mod result_folder;
 pub mod results;
 pub mod rollout;
 pub mod run;

@@ -5,7 +5,7 @@
 
 use std::ffi::OsString;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{Verdict, commands, diagnostics};
 
@@ -40,6 +40,18 @@ enum Command {
     View(commands::view::Arguments),
     /// Show a finished run in the browser
     Replay(commands::view::ReplayArguments),
+    /// Make a scene folder to start from
+    New(commands::new::Arguments),
+    /// Rewrite scene folders in the present format, comments kept
+    Convert(commands::convert::Arguments),
+    /// Write the schemas of scene and experiment files where editors find them
+    Schema(commands::shell::SchemaArguments),
+    /// Print completions for a shell
+    Completions(commands::shell::CompletionArguments),
+    /// Print the manual page
+    Man(commands::shell::ManArguments),
+    /// List, compare or prune finished runs
+    Runs(commands::runs::Arguments),
     /// Compare two finished runs: the first and the greatest difference of each signal
     Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
@@ -107,6 +119,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Export(format) => commands::export::run(&format),
         Command::View(arguments) => commands::view::run(&arguments),
         Command::Replay(arguments) => commands::view::replay(&arguments),
+        Command::New(arguments) => commands::new::run(&arguments),
+        Command::Convert(arguments) => commands::convert::run(&arguments),
+        Command::Schema(arguments) => commands::shell::schema(&arguments),
+        Command::Completions(arguments) => commands::shell::completions(&arguments, Cli::command()),
+        Command::Man(arguments) => commands::shell::man(&arguments, Cli::command()),
+        Command::Runs(arguments) => commands::runs::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
         Command::Serve(arguments) => commands::serve::run(&arguments),

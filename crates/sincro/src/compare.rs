@@ -6,6 +6,7 @@ use serde_json::Value;
 use sincro_figures::plot::number::short;
 use sincro_figures::report::{ComparisonPage, DifferenceRow, comparison_html};
 use sincro_sim::file::FileError;
+use sincro_sim::result_folder::find_result;
 use sincro_sim::results::RunReport;
 use sincro_sim::table::Table;
 
@@ -24,14 +25,15 @@ pub struct FinishedRun {
 }
 
 impl FinishedRun {
-    /// Reads `run.json` and `signals.csv` of a folder of results.
+    /// Reads `run.json` and `signals.csv` of a folder of results, or of the latest one in a folder of numbered ones.
     ///
     /// # Errors
     ///
     /// A file is absent or cannot be read.
     pub fn read(folder: &Path) -> Result<Self, FileError> {
-        let (report, table) = (RunReport::read(folder)?, Table::read_csv(&folder.join("signals.csv"))?);
-        Ok(Self { folder: folder.to_owned(), report, table })
+        let folder = find_result(folder);
+        let (report, table) = (RunReport::read(&folder)?, Table::read_csv(&folder.join("signals.csv"))?);
+        Ok(Self { folder, report, table })
     }
 }
 

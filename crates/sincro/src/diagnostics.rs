@@ -8,12 +8,17 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, S
 use sincro::RunFailure;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_sim::file::FileError;
+use sincro_sim::result_folder::FolderError;
 
 use crate::Exit;
 
 /// Prints all problems to standard error.
 pub(crate) fn print_diagnostics(diagnostics: &[Diagnostic]) {
-    let theme = if std::io::stderr().is_terminal() { GraphicalTheme::unicode() } else { plain() };
+    let theme = match std::io::stderr().is_terminal() {
+        true if is_without_colour() => GraphicalTheme::unicode_nocolor(),
+        true => GraphicalTheme::unicode(),
+        false => plain(),
+    };
     let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_context_lines(1);
     for diagnostic in diagnostics {
         let mut text = String::new();
@@ -23,6 +28,11 @@ pub(crate) fn print_diagnostics(diagnostics: &[Diagnostic]) {
         }
         eprintln!("{}", text.trim_end());
     }
+}
+
+/// Returns true if the variable `NO_COLOR` asks for no colour.
+fn is_without_colour() -> bool {
+    std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
 }
 
 /// Without colour, for pipes and files.
@@ -64,9 +74,10 @@ pub(crate) fn refuse_run(failure: &RunFailure) -> Exit {
         RunFailure::Diagnostics(diagnostics) => refuse_diagnostics(diagnostics),
         RunFailure::Recording(error) => {
             refuse_file(error);
-            eprintln!("the run stopped; rows written so far are in files that end in `.partial`");
+            eprintln!("the run stopped and is not kept; an earlier result is as it was");
             Exit::Stopped
         }
+        RunFailure::Folder(error) => refuse_folder(error),
         RunFailure::Results(error) => refuse_file(error),
     }
 }
@@ -74,6 +85,11 @@ pub(crate) fn refuse_run(failure: &RunFailure) -> Exit {
 /// Prints which file or folder cannot be written.
 pub(crate) fn refuse_file(error: &FileError) -> Exit {
     refuse(&error.to_string(), Some("choose another place with --out DIR, or make room there"))
+}
+
+/// Prints why a folder takes no results.
+pub(crate) fn refuse_folder(error: &FolderError) -> Exit {
+    refuse(&error.to_string(), Some(error.help()))
 }
 
 /// Refuses a camera that the scene does not have.

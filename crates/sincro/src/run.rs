@@ -5,18 +5,19 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use sincro_scene::diagnostic::Diagnostics;
+use sincro_scene::experiment::check::{Check, Expected};
 use sincro_scene::overrides::Override;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::Progress;
 use sincro_sim::campaign::{Campaign, run_campaign};
-use sincro_sim::file;
 use sincro_sim::file::FileError;
-use sincro_sim::results::{Override as Setting, VerdictReport};
+use sincro_sim::result_folder::{FolderError, ResultFolder};
+use sincro_sim::results::{CheckReport, Override as Setting, VerdictReport};
 use sincro_sim::run::{RunError, RunMonitor, RunOptions, Simulated};
 
 use crate::results::{Link, write};
 
-/// An experiment to be run, and the folder that takes its results.
+/// An experiment to be run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunRequest<'a> {
     /// The scene folder that `loaded` was read from: variants and sweep points are read from it again.
@@ -25,8 +26,6 @@ pub struct RunRequest<'a> {
     pub overrides: &'a [Override],
     /// The scene, from [`load`](crate::load).
     pub loaded: &'a Loaded,
-    /// Folder of the results; it is created, and files of the same names are replaced.
-    pub out: &'a Path,
     /// Link from the report to a page above it, if there is one.
     pub index: Option<Link<'a>>,
 }
@@ -35,11 +34,13 @@ pub struct RunRequest<'a> {
 /// [`Verdict::Stopped`].
 #[derive(Debug)]
 pub enum RunFailure {
-    /// A recorded signal does not exist, or a variant cannot be opened. Nothing was written but an empty folder.
+    /// A recorded signal does not exist, or a variant cannot be opened. Nothing was written.
     Diagnostics(Diagnostics),
-    /// Rows could not be written while the run was under way; those before are in files that end in `.partial`.
+    /// Rows could not be written while the run was under way. An earlier result is as it was.
     Recording(FileError),
-    /// The folder takes no files, or the report could not be written.
+    /// The folder holds something else, or another run is writing it. Nothing was run or written.
+    Folder(FolderError),
+    /// The report could not be written. An earlier result is as it was.
     Results(FileError),
 }
 
@@ -48,6 +49,7 @@ impl fmt::Display for RunFailure {
         match self {
             Self::Diagnostics(diagnostics) => write!(f, "{diagnostics}"),
             Self::Recording(error) => write!(f, "the run stopped: {error}"),
+            Self::Folder(error) => write!(f, "{error}"),
             Self::Results(error) => write!(f, "{error}"),
         }
     }
@@ -66,7 +68,8 @@ impl From<RunError> for RunFailure {
 
 impl RunRequest<'_> {
     /// Runs the experiment and writes `signals.csv`, `run.json`, `replay.json`, `report.html` and the figures, and
-    /// those of its variants and its sweep.
+    /// those of its variants and its sweep, into the folder `out`. It must be absent, empty, or an earlier result,
+    /// which is replaced whole once the run is at its end.
     ///
     /// `interrupt` set to true by another thread ends the run after the present step; its results are written all the
     /// same.
@@ -83,22 +86,64 @@ impl RunRequest<'_> {
     /// use sincro::{RunRequest, Verdict};
     ///
     /// let loaded = sincro::load(&scene, &[])?;
-    /// let request = RunRequest { scene: &scene, overrides: &[], loaded: &loaded, out: &out, index: None };
-    /// let campaign = request.run(&AtomicBool::new(false), &mut |_, _| {})?;
+    /// let request = RunRequest { scene: &scene, overrides: &[], loaded: &loaded, index: None };
+    /// let campaign = request.run(&out, &AtomicBool::new(false), &mut |_, _| {})?;
     /// assert_eq!(Verdict::of(&campaign), Verdict::Holds);
     /// assert!(out.join("report.html").is_file());
     /// # std::fs::remove_dir_all(&out)?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn run(&self, interrupt: &AtomicBool, progress: Progress<'_>) -> Result<Campaign, RunFailure> {
-        file::prepare(self.out).map_err(RunFailure::Results)?;
-        let Self { scene, overrides, loaded, out, .. } = *self;
+    pub fn run(&self, out: &Path, interrupt: &AtomicBool, progress: Progress<'_>) -> Result<Campaign, RunFailure> {
+        let folder = ResultFolder::replace(out).map_err(RunFailure::Folder)?;
+        let campaign = self.run_into(folder.path(), interrupt, progress)?;
+        folder.publish().map_err(RunFailure::Results)?;
+        Ok(campaign)
+    }
+
+    /// As [`run`](Self::run), into a folder that is there, such as the [path](ResultFolder::path) of a
+    /// [`ResultFolder`] to which more is then added before it is published.
+    ///
+    /// # Errors
+    ///
+    /// See [`RunFailure`].
+    pub fn run_into(&self, out: &Path, interrupt: &AtomicBool, progress: Progress<'_>) -> Result<Campaign, RunFailure> {
+        let Self { scene, overrides, loaded, .. } = *self;
         let mut campaign = run_campaign(scene, overrides, loaded, Some(out), interrupt, progress)?;
         let set = overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
         campaign.report.settings.overrides = set.collect();
+        mark_references(&mut campaign, loaded, overrides);
         campaign.report.write(out).map_err(RunFailure::Results)?;
         write(loaded, &campaign, out, self.index).map_err(RunFailure::Results)?;
         Ok(campaign)
+    }
+}
+
+/// Settings that change how a run is computed and recorded, and nothing of what is simulated.
+const OF_THE_METHOD: [&str; 7] = ["duration", "step", "integrator", "accuracy", "seed", "record_every", "error_bar"];
+
+/// Marks checks against a reference whose scene, diagram or parameters were changed from outside: the reference is that
+/// of the files as they are.
+fn mark_references(campaign: &mut Campaign, loaded: &Loaded, overrides: &[Override]) {
+    let from_outside = |s: &&Override| s.path.at.source.path.as_os_str() == "--set";
+    let changed: Vec<&str> = overrides
+        .iter()
+        .filter(from_outside)
+        .map(|s| s.path.value.as_str())
+        .filter(|path| !OF_THE_METHOD.contains(path))
+        .collect();
+    let Some(first) = changed.first() else { return };
+    let more = if changed.len() > 1 { format!(" and {} more", changed.len() - 1) } else { String::new() };
+    let reason = format!("the reference is for the files as they are, `{first}`{more} is set");
+    let mark = |reports: &mut [CheckReport], checks: &[Check]| {
+        for (report, check) in reports.iter_mut().zip(checks) {
+            if matches!(check.expected, Expected::Reference(_)) && report.reason.is_none() {
+                report.reason = Some(reason.clone());
+            }
+        }
+    };
+    mark(&mut campaign.report.checks, &loaded.experiment.checks);
+    for (report, variant) in campaign.report.variants.iter_mut().zip(&loaded.experiment.variants) {
+        mark(&mut report.checks, &variant.checks);
     }
 }
 

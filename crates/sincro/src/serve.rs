@@ -12,7 +12,8 @@ use sincro_coppelia::session::{Finished, Session};
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
 use sincro_sim::campaign::judge;
-use sincro_sim::file::{FileError, prepare};
+use sincro_sim::file::FileError;
+use sincro_sim::result_folder::{FolderError, ResultFolder};
 
 pub use sincro_remote::hub::Event;
 pub use sincro_remote::limits::Deadlines;
@@ -52,7 +53,7 @@ pub struct RunArchive {
     keep: usize,
     n_runs: usize,
     /// Number of the next folder that may be free.
-    next: usize,
+    next: u32,
     /// Folders that this recorder made and has not deleted, the oldest first.
     kept: VecDeque<PathBuf>,
 }
@@ -86,8 +87,11 @@ impl RunArchive {
             ArchiveLevel::Signals => "signals.csv",
             ArchiveLevel::Full => "report.html",
         };
-        let out = self.next_folder()?;
-        write_run(finished, &out, self.record)?;
+        let folder = ResultFolder::next(&self.out, self.next, |k| format!("run-{k}"), false).map_err(file_error)?;
+        write_run(finished, &folder, self.record)?;
+        let out = folder.publish()?;
+        let name = out.file_name().unwrap_or_default().to_string_lossy();
+        self.next = name.strip_prefix("run-").and_then(|k| k.parse().ok()).map_or(1, |k: u32| k + 1);
         let path = Some(out.join(file));
         self.kept.push_back(out);
         while self.kept.len() > self.keep {
@@ -97,18 +101,14 @@ impl RunArchive {
         }
         Ok(ArchivedRun { number, path })
     }
+}
 
-    /// Makes the next folder of which nothing is there, not even a link.
-    fn next_folder(&mut self) -> Result<PathBuf, FileError> {
-        prepare(&self.out)?;
-        loop {
-            let folder = self.out.join(format!("run-{}", self.next));
-            self.next += 1;
-            match std::fs::create_dir(&folder) {
-                Ok(()) => return Ok(folder),
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                Err(cause) => return Err(FileError { path: folder, action: "create the folder", cause }),
-            }
+/// The error of a folder that is made anew, of which nothing can be there.
+fn file_error(error: FolderError) -> FileError {
+    match error {
+        FolderError::File(error) => error,
+        FolderError::Foreign { folder, .. } | FolderError::Locked(folder) => {
+            FileError { path: folder, action: "create the folder", cause: ErrorKind::AlreadyExists.into() }
         }
     }
 }
@@ -132,8 +132,8 @@ fn delete(folder: &Path) -> Result<(), FileError> {
     }
 }
 
-fn write_run(finished: &Finished, out: &Path, record: ArchiveLevel) -> Result<(), FileError> {
-    prepare(out)?;
+fn write_run(finished: &Finished, folder: &ResultFolder, record: ArchiveLevel) -> Result<(), FileError> {
+    let out = folder.path();
     let loaded = &finished.loaded;
     let scene = loaded.experiment.scene_path.parent().unwrap_or(Path::new("."));
     finished.simulated.table.write_csv(&out.join("signals.csv"))?;

@@ -6,6 +6,7 @@ use std::path::Path;
 use sincro_figures::campaign;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
+use sincro_sim::result_folder::find_result;
 use sincro_viewer::live::{Engine, Source};
 use sincro_viewer::replay::FORMAT;
 
@@ -30,22 +31,22 @@ impl fmt::Display for ReplayError {
 
 impl std::error::Error for ReplayError {}
 
-/// Returns true if a folder holds a finished run and no scene.
+/// Returns true if a folder holds a finished run, or numbered ones, and no scene.
 #[must_use]
 pub fn is_finished_run(folder: &Path) -> bool {
-    folder.join("replay.json").is_file() && !folder.join("experiment.toml").is_file()
+    find_result(folder).join("replay.json").is_file() && !folder.join("experiment.toml").is_file()
 }
 
-/// Opens the replay of a finished run, to be given to [`Server::bind`].
+/// Opens the replay of a finished run, or of the latest one in a folder of numbered ones, to be given to [`Server::bind`].
 ///
 /// # Errors
 ///
 /// The folder has no `replay.json`, or one of another version.
 pub fn replay(run: &Path) -> Result<ViewerContent, ReplayError> {
-    let file = run.join("replay.json");
+    let file = find_result(run).join("replay.json");
     let text = std::fs::read_to_string(&file).map_err(|e| ReplayError {
         message: format!("`{}` cannot be read: {e}", file.display()),
-        help: "name the folder that `sincro run` wrote, such as results/SCENE",
+        help: "name the folder that `sincro run` wrote, such as results/SCENE/0001, or results/SCENE for the latest",
     })?;
     if !text.starts_with(&format!("{{\"format\":\"{FORMAT}\"")) {
         let message = format!("`{}` is no replay that this version of sincro shows", file.display());

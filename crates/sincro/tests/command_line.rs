@@ -222,7 +222,7 @@ fn an_interrupt_keeps_what_was_recorded() {
         .stdout(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    while !out.join("signals.csv.partial").exists() {
+    while !folder.join(".out.running/signals.csv.partial").exists() {
         std::thread::sleep(std::time::Duration::from_millis(10));
         assert!(child.try_wait().unwrap().is_none(), "ended before it was interrupted");
     }

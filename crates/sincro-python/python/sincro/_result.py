@@ -173,7 +173,10 @@ class Result:
         return self._run.html()
 
     def write(self, folder) -> Path:
-        """Writes the folder that ``sincro run`` writes; returns the path of its page."""
+        """Writes the folder that ``sincro run --out`` writes; returns the path of its page.
+
+        The folder must be absent, empty, or an earlier result, which is replaced whole.
+        """
         self._run.write(Path(folder))
         return Path(folder) / "report.html"
 

@@ -29,18 +29,28 @@ impl Bar {
             return Self(None);
         }
         let bar = ProgressBar::new(1000);
-        if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {percent:>3} %  {msg}") {
+        if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {percent:>3} %  {eta} left  {msg}") {
             bar.set_style(style);
         }
         bar.set_prefix(title.to_owned());
         Self(Some(bar))
     }
 
+    /// Nothing.
+    pub(crate) fn none() -> Self {
+        Self(None)
+    }
+
     /// Shows the work in hand and the share of it that is done.
     pub(crate) fn show(&self, words: &str, share: f64) {
         if let Some(bar) = &self.0 {
+            let position = (1000.0 * share) as u64;
+            if position < bar.position() {
+                // another run: the time left is that of this one
+                bar.reset_eta();
+            }
             bar.set_message(words.to_owned());
-            bar.set_position((1000.0 * share) as u64);
+            bar.set_position(position);
         }
     }
 
@@ -131,6 +141,8 @@ fn print_checks(indent: &str, checks: &[CheckReport]) {
     for check in checks {
         let sign = match check.verdict {
             VerdictReport::Holds => "ok  ",
+            // what it is compared with belongs to other settings
+            VerdictReport::Fails if check.reason.is_some() => "fail",
             VerdictReport::Fails => "FAIL",
             VerdictReport::NotMade => "none",
         };
@@ -157,6 +169,9 @@ fn figures(check: &CheckReport) -> String {
         return format!("{}, {bound} {}{unit}{beyond}", significant(measured, 4), significant(expected, 4));
     }
     let mut text = format!("off by {deviation}, allowed {}{unit}", short(check.limit));
+    if let Some(reason) = &check.reason {
+        text += &format!(" ({reason})");
+    }
     if check.verdict == VerdictReport::Fails {
         if let (Some(measured), Some(expected)) = (check.measured, check.expected) {
             text += &format!("; measured {}, expected {}", significant(measured, 8), significant(expected, 8));

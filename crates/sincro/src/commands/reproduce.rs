@@ -8,6 +8,7 @@ use sincro::results::{Link, card, write_text};
 use sincro::{RunRequest, Verdict, load, scene_name};
 use sincro_figures::plot::number::significant;
 use sincro_figures::report::{Card, IndexPage, index_html};
+use sincro_sim::result_folder::ResultFolder;
 
 use super::console::verdict_line;
 use super::run::run_with_progress;
@@ -97,7 +98,10 @@ fn one(scene: &Path, out: &Path) -> Result<(Card, Exit), Exit> {
     let name = scene_name(scene);
     let folder = out.join(&name);
     let index = Some(Link { label: "all experiments", href: "../index.html" });
-    let campaign = run_with_progress(&RunRequest { scene, overrides: &[], loaded: &loaded, out: &folder, index })?;
+    let output = ResultFolder::replace(&folder).map_err(|error| diagnostics::refuse_folder(&error))?;
+    let request = RunRequest { scene, overrides: &[], loaded: &loaded, index };
+    let campaign = run_with_progress(&request, output.path(), false)?;
+    output.publish().map_err(|error| diagnostics::refuse_file(&error))?;
     let exit = Verdict::of(&campaign).into();
     say!("{:<25} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
     Ok((card(&loaded, &campaign, &format!("{name}/report.html")), exit))

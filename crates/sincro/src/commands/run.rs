@@ -1,12 +1,17 @@
 //! `sincro run`: one scene, its checks, its report.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
 use clap::Args;
+use signal_hook::consts::{SIGINT, SIGTERM};
 use sincro::results::{write_camera_frames, write_frames, write_mcap};
 use sincro::{Campaign, Diagnostics, Loaded, Override, RunRequest, Verdict, load, scene_name};
+use sincro_scene::open::settings_with;
+use sincro_sim::file::FileError;
+use sincro_sim::formats;
+use sincro_sim::result_folder::ResultFolder;
 
 use super::console::{self, Bar};
 use super::robot_file::SceneSource;
@@ -15,9 +20,14 @@ use crate::{Exit, diagnostics};
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of the scene, its experiment.toml, or a robot file (URDF, SDF, MJCF)
-    scene: PathBuf,
-    /// Set a number of the scene (/link.mass=2) or of the experiment (parameters.m=3); may be repeated
+    /// Folders of scenes, each with its experiment.toml, or robot files (URDF, SDF, MJCF)
+    #[arg(value_name = "SCENE", required = true)]
+    scenes: Vec<PathBuf>,
+    /// Run only this part of the experiment: `main`, or a variant by its name
+    #[arg(long, value_name = "main|VARIANT")]
+    only: Option<String>,
+    /// Set a number of the scene (/link.mass=2, '/rotor*.speed=700'), the diagram (pid.kp=4, inner/pid.kp=4) or the
+    /// experiment (parameters.m=3); may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Simulate until this time `[s]`
@@ -32,7 +42,8 @@ pub(crate) struct Arguments {
     /// Local tolerance of the variable-step integrators
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Folder of the results [default: results/SCENE]
+    /// Folder of the results: absent, empty, or an earlier result, which is replaced; of several scenes a folder of
+    /// each below it [default: the next of results/SCENE/0001, 0002 …]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of all random generators
@@ -47,56 +58,168 @@ pub(crate) struct Arguments {
     /// Take the pictures of --frames through this camera of the scene, as PNG files
     #[arg(long, value_name = "NAME", requires = "frames")]
     camera: Option<String>,
+    /// Write the signals in more formats than CSV: signals.npz, signals.mat, signals.parquet
+    #[arg(long, value_name = "FORMAT", value_enum, value_delimiter = ',')]
+    format: Vec<Format>,
     /// Print run.json on standard output instead of the summary
     #[arg(long)]
     json: bool,
+    /// Print nothing but errors
+    #[arg(long, short, conflicts_with = "json")]
+    quiet: bool,
 }
 
-/// Runs the command.
+/// Formats of the recorded signals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// CSV, which is always written.
+    Csv,
+    /// NumPy: one array for each signal.
+    Npz,
+    /// MATLAB 5, also for Octave: t, signals, names, units.
+    Mat,
+    /// Apache Parquet: one column for each signal.
+    Parquet,
+}
+
+/// A scene that is ready to run.
+struct Ready {
+    source: SceneSource,
+    overrides: Vec<Override>,
+    loaded: Loaded,
+    camera: Option<usize>,
+    folder: ResultFolder,
+    /// Folder of the results as it is shown, if it was named.
+    shown: Option<PathBuf>,
+}
+
+/// Runs the command. Nothing runs before all scenes are known to be sound.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let overrides = match overrides(arguments) {
-        Ok(overrides) => overrides,
-        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
-    };
-    let source = match SceneSource::open(&arguments.scene) {
-        Ok(source) => source,
-        Err(exit) => return exit,
-    };
-    let loaded = match load(source.folder(), &overrides) {
-        Ok(loaded) => loaded,
-        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
-    };
-    let camera = match arguments.camera.as_deref().map(|name| camera_of(&loaded, name)).transpose() {
-        Ok(camera) => camera,
-        Err(exit) => return exit,
-    };
+    let mut ready = Vec::new();
+    let mut refused = None;
+    for scene in &arguments.scenes {
+        match prepare(arguments, scene) {
+            Ok(scene) => ready.push(scene),
+            Err(exit) => refused = Some(exit),
+        }
+    }
+    if let Some(exit) = refused {
+        return exit;
+    }
+    let mut worst = Exit::Holds;
+    for scene in ready {
+        let exit = run_one(arguments, scene);
+        worst = if u8::from(exit) > u8::from(worst) { exit } else { worst };
+        if interrupt().load(std::sync::atomic::Ordering::Relaxed) {
+            break;
+        }
+    }
+    worst
+}
+
+/// Loads a scene and begins its folder of results.
+fn prepare(arguments: &Arguments, scene: &Path) -> Result<Ready, Exit> {
+    let mut overrides = overrides(arguments).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+    let source = SceneSource::open(scene)?;
+    let mut loaded = load(source.folder(), &overrides).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+    if let Some(part) = &arguments.only {
+        (loaded, overrides) = only(loaded, overrides, part)?;
+    }
+    let camera = arguments.camera.as_deref().map(|name| camera_of(&loaded, name)).transpose()?;
     let name = scene_name(source.folder());
-    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
-    let request = RunRequest { scene: source.folder(), overrides: &overrides, loaded: &loaded, out: &out, index: None };
-    let campaign = match run_with_progress(&request) {
+    let shown = match &arguments.out {
+        Some(out) if arguments.scenes.len() > 1 => Some(out.join(&name)),
+        out => out.clone(),
+    };
+    let folder = match &shown {
+        Some(out) => ResultFolder::replace(out),
+        None => ResultFolder::numbered(&Path::new("results").join(&name)),
+    };
+    let folder = folder.map_err(|error| diagnostics::refuse_folder(&error))?;
+    Ok(Ready { source, overrides, loaded, camera, folder, shown })
+}
+
+fn run_one(arguments: &Arguments, ready: Ready) -> Exit {
+    let Ready { source, overrides, loaded, camera, folder, shown } = ready;
+    let request = RunRequest { scene: source.folder(), overrides: &overrides, loaded: &loaded, index: None };
+    let campaign = match run_with_progress(&request, folder.path(), arguments.quiet) {
         Ok(campaign) => campaign,
         Err(exit) => return exit,
     };
-    if arguments.mcap
-        && let Err(error) = write_mcap(&campaign.main, &out.join("run.mcap"))
-    {
-        return diagnostics::refuse_file(&error);
-    }
-    if arguments.frames
-        && let Err(error) = match camera {
-            Some(k) => write_camera_frames(&loaded, &campaign.main, k, &out),
-            None => write_frames(&campaign.main, &out),
-        }
-    {
-        return diagnostics::refuse_file(&error);
-    }
+    let more = write_more(arguments, &loaded, &campaign, camera, folder.path());
+    let out = match more.and_then(|()| folder.publish()) {
+        Ok(published) => shown.unwrap_or(published),
+        Err(error) => return diagnostics::refuse_file(&error),
+    };
     if arguments.json {
         say!("{}", campaign.report.to_json());
-    } else {
+    } else if !arguments.quiet {
         diagnostics::print_diagnostics(&loaded.warnings);
         console::print_summary(&loaded, &campaign, &out);
     }
     Verdict::of(&campaign).into()
+}
+
+/// The main run or a variant alone, with the settings that it is made with.
+fn only(mut loaded: Loaded, overrides: Vec<Override>, part: &str) -> Result<(Loaded, Vec<Override>), Exit> {
+    let mut settings = overrides;
+    if part != "main" {
+        let variants = &loaded.experiment.variants;
+        let Some(variant) = variants.iter().find(|variant| variant.name == part).cloned() else {
+            let names: Vec<&str> = ["main"].into_iter().chain(variants.iter().map(|v| v.name.as_str())).collect();
+            let message = format!("there is no variant `{part}`");
+            return Err(diagnostics::refuse(
+                &message,
+                Some(&format!("parts of this experiment: {}", names.join(", "))),
+            ));
+        };
+        settings = settings_with(&settings, &variant.set);
+        loaded = loaded.alone_with_overrides(&settings).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+        let inherited = if variant.inherit_checks { std::mem::take(&mut loaded.experiment.checks) } else { Vec::new() };
+        loaded.experiment.checks = variant.checks.into_iter().chain(inherited).collect();
+        loaded.experiment.title += &format!(" ({part})");
+    }
+    let experiment = &mut loaded.experiment;
+    experiment.variants.clear();
+    experiment.sweep = None;
+    for plot in &mut experiment.plots {
+        // signals of other runs
+        plot.signals.retain(|signal| !signal.value.contains(':'));
+        plot.variants = None;
+    }
+    experiment.plots.retain(|plot| !plot.signals.is_empty());
+    Ok((loaded, settings))
+}
+
+/// Writes what was asked for beside the results that every run has.
+fn write_more(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    campaign: &Campaign,
+    camera: Option<usize>,
+    out: &Path,
+) -> Result<(), FileError> {
+    let tables = std::iter::once((out.to_owned(), &campaign.main));
+    let variants = campaign.variants.iter().map(|(v, done)| (out.join("variants").join(&v.name), done));
+    for (folder, done) in tables.chain(variants) {
+        let table = &done.simulated.table;
+        for format in &arguments.format {
+            match format {
+                Format::Csv => {}
+                Format::Npz => formats::write_npz(table, &folder.join("signals.npz"))?,
+                Format::Mat => formats::write_mat(table, &folder.join("signals.mat"))?,
+                Format::Parquet => formats::write_parquet(table, &folder.join("signals.parquet"))?,
+            }
+        }
+    }
+    if arguments.mcap {
+        write_mcap(&campaign.main, &out.join("run.mcap"))?;
+    }
+    match camera {
+        _ if !arguments.frames => Ok(()),
+        Some(k) => write_camera_frames(loaded, &campaign.main, k, out),
+        None => write_frames(&campaign.main, out),
+    }
 }
 
 /// Index among the objects of a camera that is named by its path or by the last part of that.
@@ -133,27 +256,24 @@ fn overrides(arguments: &Arguments) -> Result<Vec<Override>, Diagnostics> {
     Ok(overrides)
 }
 
-/// Runs an experiment with a progress bar on a terminal, until its end or Ctrl-C.
-pub(crate) fn run_with_progress(request: &RunRequest<'_>) -> Result<Campaign, Exit> {
-    let bar = Bar::new(&scene_name(request.scene));
-    let done = request.run(&interrupt(), &mut |words, share| bar.show(words, share));
+/// Runs an experiment into a folder with a progress bar on a terminal, until its end, Ctrl-C or SIGTERM.
+pub(crate) fn run_with_progress(request: &RunRequest<'_>, out: &Path, is_quiet: bool) -> Result<Campaign, Exit> {
+    let bar = if is_quiet { Bar::none() } else { Bar::new(&scene_name(request.scene)) };
+    let done = request.run_into(out, &interrupt(), &mut |words, share| bar.show(words, share));
     bar.finish();
     done.map_err(|failure| diagnostics::refuse_run(&failure))
 }
 
-/// Set by Ctrl-C; a second one ends the program at once.
+/// Set by Ctrl-C or SIGTERM; a second one ends the program at once.
 pub(crate) fn interrupt() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     let flag = FLAG.get_or_init(|| {
         let flag = Arc::new(AtomicBool::new(false));
-        let seen = flag.clone();
-        let handler = move || {
-            if seen.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        };
-        // without a handler Ctrl-C ends the program as usual
-        let _ = ctrlc::set_handler(handler);
+        for (signal, status) in [(SIGINT, 130), (SIGTERM, 143)] {
+            // without a handler the signal ends the program as usual; the order matters: the second signal ends it
+            let _ = signal_hook::flag::register_conditional_shutdown(signal, status, flag.clone());
+            let _ = signal_hook::flag::register(signal, flag.clone());
+        }
         flag
     });
     flag.clone()

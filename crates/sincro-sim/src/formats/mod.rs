@@ -1,0 +1,94 @@
+//! Recorded signals in the formats of other tools: NumPy, MATLAB and Octave, Apache Parquet.
+//!
+//! The three writers are a page each, without compression: every file has exactly the doubles of the run.
+
+mod mat;
+mod npz;
+mod parquet;
+
+use std::path::Path;
+
+use crate::file::{FileError, write_atomically};
+use crate::table::Table;
+
+/// Writes a table as a NumPy archive: an array for each signal under its name.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub fn write_npz(table: &Table, path: &Path) -> Result<(), FileError> {
+    write_atomically(path, &npz::bytes(table))
+}
+
+/// Writes a table as a MATLAB 5 file with the variables `t`, `signals` (a column for each signal), `names`, `units`.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub fn write_mat(table: &Table, path: &Path) -> Result<(), FileError> {
+    write_atomically(path, &mat::bytes(table))
+}
+
+/// Writes a table as a Parquet file: a column of doubles for each signal; the units are in its metadata.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub fn write_parquet(table: &Table, path: &Path) -> Result<(), FileError> {
+    write_atomically(path, &parquet::bytes(table))
+}
+
+/// The bytes of doubles, least significant first.
+fn little_endian(values: &[f64]) -> Vec<u8> {
+    values.iter().flat_map(|x| x.to_le_bytes()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let mut table = Table::new([("t", "s"), ("/a.position", "rad")], 2);
+        table.push_row(&[0.0, 1.5]);
+        table.push_row(&[0.1, f64::NAN]);
+        table
+    }
+
+    #[test]
+    fn archives_have_an_array_for_each_signal() {
+        let bytes = npz::bytes(&table());
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(bytes.starts_with(b"PK\x03\x04") && text.contains("/a.position.npy"));
+        assert!(text.contains("{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }"));
+        let end = bytes.len() - 22;
+        assert_eq!(bytes[end..end + 4], *b"PK\x05\x06");
+        assert_eq!(u16::from_le_bytes([bytes[end + 10], bytes[end + 11]]), 2);
+    }
+
+    #[test]
+    fn checksums_are_those_of_the_standard() {
+        assert_eq!(npz::crc32(b"123456789"), 0xcbf4_3926);
+    }
+
+    #[test]
+    fn matlab_files_have_four_variables() {
+        let bytes = mat::bytes(&table());
+        assert_eq!((&bytes[..6], &bytes[124..128]), (&b"MATLAB"[..], &[0, 1, b'I', b'M'][..]));
+        let (mut at, mut n) = (128, 0);
+        while at < bytes.len() {
+            assert_eq!(u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()), 14);
+            at += 8 + u32::from_le_bytes(bytes[at + 4..at + 8].try_into().unwrap()) as usize;
+            n += 1;
+        }
+        assert_eq!((at, n), (bytes.len(), 4));
+    }
+
+    #[test]
+    fn parquet_files_end_with_the_length_of_their_metadata() {
+        let bytes = parquet::bytes(&table());
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
+        let end = bytes.len() - 8;
+        let length = u32::from_le_bytes(bytes[end..end + 4].try_into().unwrap()) as usize;
+        assert!(String::from_utf8_lossy(&bytes[end - length..end]).contains("/a.position"));
+    }
+}
