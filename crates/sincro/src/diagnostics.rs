@@ -2,11 +2,14 @@
 
 use std::fmt;
 use std::io::IsTerminal;
+use std::path::Path;
 use std::sync::Arc;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
-use sincro::RunFailure;
+use sincro::{Loaded, RunFailure};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
+use sincro_scene::document::Document;
+use sincro_scene::schema::FORMAT;
 use sincro_sim::file::FileError;
 use sincro_sim::result_folder::FolderError;
 
@@ -20,13 +23,50 @@ pub(crate) fn print_diagnostics(diagnostics: &[Diagnostic]) {
         false => plain(),
     };
     let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_context_lines(1);
-    for diagnostic in diagnostics {
+    for diagnostic in &grouped(diagnostics) {
         let mut text = String::new();
         let shown = Shown::new(diagnostic);
         if handler.render_report(&mut text, &shown).is_err() {
             text = diagnostic.to_string();
         }
         eprintln!("{}", text.trim_end());
+    }
+}
+
+/// Diagnostics of one mistake as one: the first of them, with the lines of the others in its help.
+fn grouped(all: &[Diagnostic]) -> Vec<Diagnostic> {
+    let mut groups: Vec<(String, Diagnostic, Vec<usize>)> = Vec::new();
+    for diagnostic in all {
+        let path = diagnostic.source.as_ref().map(|source| source.path.display().to_string()).unwrap_or_default();
+        let help = diagnostic.help.as_deref().unwrap_or("");
+        let key = format!("{path} {} {} {help}", diagnostic.is_error(), without_owner(&diagnostic.message));
+        let line = diagnostic.line_column().map(|(line, _)| line);
+        match (groups.iter_mut().find(|(known, ..)| *known == key), line) {
+            (Some((_, _, lines)), Some(line)) => lines.push(line),
+            _ => groups.push((key, diagnostic.clone(), Vec::new())),
+        }
+    }
+    let one = |(_, diagnostic, lines): (String, Diagnostic, Vec<usize>)| {
+        if lines.is_empty() {
+            return diagnostic;
+        }
+        let shown: Vec<String> = lines.iter().take(12).map(usize::to_string).collect();
+        let more = if lines.len() > 12 { format!(" and {} more", lines.len() - 12) } else { String::new() };
+        let places = format!("the same in line{} {}{more}", if lines.len() == 1 { "" } else { "s" }, shown.join(", "));
+        let help = match &diagnostic.help {
+            Some(help) => format!("{help}\n{places}"),
+            None => places,
+        };
+        diagnostic.with_help(help)
+    };
+    groups.into_iter().map(one).collect()
+}
+
+/// A message without the name of the object that it is about: ` in joint `elbow``.
+fn without_owner(message: &str) -> &str {
+    match message.rsplit_once(" in ") {
+        Some((head, owner)) if owner.ends_with('`') && owner.matches('`').count() == 2 => head,
+        _ => message,
     }
 }
 
@@ -85,6 +125,28 @@ pub(crate) fn refuse_run(failure: &RunFailure) -> Exit {
 /// Prints which file or folder cannot be written.
 pub(crate) fn refuse_file(error: &FileError) -> Exit {
     refuse(&error.to_string(), Some("choose another place with --out DIR, or make room there"))
+}
+
+/// Prints one note if files of a scene are of an older format.
+pub(crate) fn note_older_format(scene: &Path, loaded: &Loaded) {
+    let is_older = |source: &&Arc<SourceText>| {
+        let format = Document::parse(source).ok().and_then(|document| document.get("/format").and_then(|f| f.as_u64()));
+        format.unwrap_or(1) < FORMAT
+    };
+    let is_toml = |source: &&Arc<SourceText>| {
+        let name = source.path.file_name().unwrap_or_default();
+        name == "experiment.toml" || source.path == loaded.experiment.scene_path
+    };
+    let older: Vec<String> = loaded
+        .sources
+        .iter()
+        .filter(is_toml)
+        .filter(is_older)
+        .filter_map(|source| Some(source.path.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    if !older.is_empty() {
+        eprintln!("note: {} of an older format; `sincro convert {}` rewrites it", older.join(", "), scene.display());
+    }
 }
 
 /// Prints why a folder takes no results.
@@ -161,5 +223,26 @@ impl miette::Diagnostic for Shown<'_> {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let span = self.diagnostic.span.clone()?;
         Some(Box::new([LabeledSpan::new(None, span.start, span.end - span.start)].into_iter()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sincro_scene::diagnostic::Location;
+
+    #[test]
+    fn one_repeated_mistake_is_one_message_with_its_lines() {
+        let text = "a\nb\nc\nd\n";
+        let source = Arc::new(SourceText { path: "scene.toml".into(), text: text.into() });
+        let at = |k: usize| Location { source: source.clone(), span: 2 * k..2 * k + 1 };
+        let unknown = |k: usize, name: &str| {
+            Diagnostic::error(&at(k), format!("unknown key `x` in joint `{name}`")).with_help("leave it out")
+        };
+        let all = [unknown(0, "a"), unknown(1, "b"), Diagnostic::error(&at(2), "another"), unknown(3, "d")];
+        let found = grouped(&all);
+        assert_eq!(found.len(), 2);
+        assert_eq!(found[0].help.as_deref(), Some("leave it out\nthe same in lines 2, 4"));
+        assert_eq!(found[1].message, "another");
     }
 }

@@ -37,7 +37,8 @@ pub fn is_finished_run(folder: &Path) -> bool {
     find_result(folder).join("replay.json").is_file() && !folder.join("experiment.toml").is_file()
 }
 
-/// Opens the replay of a finished run, or of the latest one in a folder of numbered ones, to be given to [`Server::bind`].
+/// Opens the replay of a finished run, or of the latest one in a folder of numbered ones, to be given to
+/// [`Server::bind`].
 ///
 /// # Errors
 ///

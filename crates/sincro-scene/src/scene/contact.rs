@@ -311,3 +311,36 @@ fn names(model: &Model<f64>, initial: &State<f64>, q: &[f64]) -> String {
     list.truncate(6);
     list.join(", ")
 }
+
+/// Warns of surfaces that can touch nothing: no other body has a contact, or all are in the same group.
+pub(super) fn warn_of_idle(file: &SceneFile, document: &Document, diagnostics: &mut Diagnostics) {
+    let group = |k: usize| file.body[k].contact.as_ref().map(|contact| contact.group);
+    let touching: Vec<usize> =
+        (0..file.body.len()).filter(|k| group(*k).is_some() && !file.body[*k].shape.is_empty()).collect();
+    // seldom are there many groups: the bodies of each are counted
+    let mut counts = std::collections::BTreeMap::new();
+    for k in &touching {
+        *counts.entry(group(*k)).or_insert(0_usize) += 1;
+    }
+    for k in touching.iter().copied() {
+        let is_own_group = group(k) != Some(0);
+        let excluded = if is_own_group { counts[&group(k)] } else { 1 };
+        if touching.len() > excluded {
+            continue;
+        }
+        let pointer = format!("/body/{k}/contact");
+        let name = &file.body[k].name;
+        let (at, message, help) = if touching.len() == 1 {
+            let message = format!("`{name}` can touch nothing: no other body has a `contact`");
+            (document.key_at(&pointer), message, "give the others a `contact` too; shapes without one only show")
+        } else {
+            let message = format!("`{name}` can touch nothing: all bodies with a `contact` are in its group");
+            (
+                document.at(&format!("{pointer}/group")),
+                message,
+                "bodies of one group (other than 0) do not touch each other",
+            )
+        };
+        diagnostics.push(Diagnostic::error(&at, message).as_warning().with_help(help));
+    }
+}

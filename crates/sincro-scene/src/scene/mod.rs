@@ -150,6 +150,7 @@ pub(crate) fn compile(
         assembly.objects.last_mut().expect("the object was added").visuals = visuals;
     }
     assembly.join(&file, document, &mut diagnostics);
+    contact::warn_of_idle(&file, document, &mut diagnostics);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut diagnostics);
     assembly.finish(&entries, &file, scripts, document, diagnostics)
 }

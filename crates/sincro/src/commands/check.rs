@@ -50,6 +50,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         }
     }
     diagnostics::print_diagnostics(&loaded.warnings);
+    diagnostics::note_older_format(&arguments.scene, &loaded);
     let findings = source_findings(&loaded);
     print_findings("", findings.iter().map(|finding| ("", finding)));
     if findings.is_empty() { Exit::Holds } else { Exit::Fails }

@@ -14,7 +14,7 @@ pub(crate) struct Arguments {
     /// Folder to be made
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// What it starts with
+    /// Scene that it starts with
     #[arg(long, value_enum, default_value_t = Template::Arm)]
     template: Template,
 }

@@ -1,5 +1,6 @@
 //! `sincro run`: one scene, its checks, its report.
 
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
@@ -155,6 +156,9 @@ fn run_one(arguments: &Arguments, ready: Ready) -> Exit {
         say!("{}", campaign.report.to_json());
     } else if !arguments.quiet {
         diagnostics::print_diagnostics(&loaded.warnings);
+        if std::io::stderr().is_terminal() {
+            diagnostics::note_older_format(source.folder(), &loaded);
+        }
         console::print_summary(&loaded, &campaign, &out);
     }
     Verdict::of(&campaign).into()

@@ -198,7 +198,7 @@ fn letter(k: usize) -> String {
     if k < 26 { char::from(b'A' + k as u8).to_string() } else { format!("#{}", k + 1) }
 }
 
-/// What differs between the runs, then what each measured.
+/// Rows of settings that differ between the runs, then of what each measured.
 fn rows(runs: &[Finished]) -> Vec<(String, Vec<String>)> {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     let all = |value: &dyn Fn(&RunReport) -> String| runs.iter().map(|run| value(&run.report)).collect::<Vec<_>>();
