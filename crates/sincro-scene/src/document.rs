@@ -224,7 +224,7 @@ impl Document {
     }
 }
 
-/// What stands at a pointer and below.
+/// Entries at a pointer and below.
 fn inside<T: Clone>(all: &BTreeMap<String, T>, pointer: &str) -> BTreeMap<String, T> {
     let below = format!("{pointer}/");
     let own = all.get_key_value(pointer);

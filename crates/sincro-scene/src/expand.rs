@@ -55,6 +55,7 @@ impl Expander<'_> {
         defaults(document);
         // formulas and units of defaults are those of the objects they went to
         self.diagnostics.merge(normalize(document, scene_schema(), parameters));
+        self.diagnostics.merge(resolve_objects(document));
     }
 
     /// Reads a file that is named at a place of the document.

@@ -319,6 +319,11 @@ impl Resolver<'_> {
                     let is_alone = found.len() == 1;
                     entries.extend(found.into_iter().map(|name| (format!("{variant}{name}"), at.clone(), is_alone)));
                 }
+                // a path in space is named by its vector
+                Some(Meant::These(found)) if !found.is_empty() => {
+                    let stem = found[0].strip_suffix(".x").unwrap_or(name);
+                    entries.push((format!("{variant}{stem}"), at, true));
+                }
                 Some(Meant::Several(all)) => {
                     self.refuse(&inner, text, &all);
                     entries.push((text.clone(), at, true));

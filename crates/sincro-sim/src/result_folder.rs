@@ -55,7 +55,7 @@ pub enum FolderError {
     Foreign {
         /// The folder.
         folder: PathBuf,
-        /// What is in it, relative to the folder.
+        /// Entry that no run has written, relative to the folder.
         entry: String,
     },
     /// Another run is writing it.

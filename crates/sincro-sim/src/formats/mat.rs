@@ -4,11 +4,11 @@ use super::little_endian;
 use crate::table::Table;
 
 const INT8: u32 = 1;
-const UINT16: u32 = 4;
 const INT32: u32 = 5;
 const UINT32: u32 = 6;
 const DOUBLE: u32 = 9;
 const MATRIX: u32 = 14;
+const UTF8: u32 = 16;
 
 /// Classes of arrays.
 const CELL: u32 = 1;
@@ -34,9 +34,8 @@ pub(super) fn bytes(table: &Table) -> Vec<u8> {
 fn texts<'a>(name: &str, all: impl ExactSizeIterator<Item = &'a str>) -> Vec<u8> {
     let n = all.len();
     let cells = all.flat_map(|text| {
-        let units: Vec<u16> = text.encode_utf16().collect();
-        let bytes: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
-        array("", CHAR, [usize::from(!units.is_empty()), units.len()], element(UINT16, &bytes))
+        let size = [usize::from(!text.is_empty()), text.chars().count()];
+        array("", CHAR, size, element(UTF8, text.as_bytes()))
     });
     array(name, CELL, [n, 1], cells.collect())
 }
