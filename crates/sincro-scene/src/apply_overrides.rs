@@ -269,15 +269,17 @@ pub fn whole_paths(
         let (head, keys) = path.split_once('.').map_or((path.as_str(), ""), |(head, _)| (head, &path[head.len()..]));
         let is_object = path.starts_with('/') || path.starts_with("**/");
         if head.contains('*') {
-            let known = if is_object { objects } else { blocks };
-            let found: Vec<&String> = known
-                .iter()
-                .filter(|name| fits(head, name))
-                .filter(|name| !is_object || scene.is_none_or(|scene| takes(scene, name, keys)))
-                .collect();
+            let anywhere = format!("**/{head}");
+            let of_blocks = blocks.iter().filter(|name| !is_object && fits(head, name));
+            let mut found: Vec<&String> = of_blocks.collect();
             if found.is_empty() {
-                let diagnostic =
-                    setting.error(format!("`{head}` fits no {}", if is_object { "object" } else { "block" }));
+                let is_meant = |path: &str| fits(head, path) || (!is_object && fits(&anywhere, path));
+                let of_objects = objects.iter().filter(|path| is_meant(path));
+                found = of_objects.filter(|path| scene.is_none_or(|scene| takes(scene, path, keys))).collect();
+            }
+            if found.is_empty() {
+                let what = if is_object { "object" } else { "block or object" };
+                let diagnostic = setting.error(format!("`{head}` fits no {what}"));
                 let help =
                     "`*` stands for a part of one name, `**` for anything; the key after it must be one of the object";
                 diagnostics.push(diagnostic.with_help(help));
@@ -306,6 +308,10 @@ fn takes(scene: &Document, object: &str, keys: &str) -> bool {
     let list = found.pointer.split('/').nth(1).unwrap_or("");
     let schema = &scene_schema()["properties"][list]["items"];
     let Some(first) = steps(keys).into_iter().next() else { return true };
+    if first == "script" {
+        let scripts = scene.get("/script").and_then(Value::as_array).into_iter().flatten();
+        return scripts.into_iter().any(|s| s.get("object").and_then(Value::as_str) == Some(object));
+    }
     let plain = unit_suffix(&first).map_or(first.as_str(), |(plain, _)| plain);
     alternatives(scene_schema(), schema).iter().any(|t| property(t, &first).is_some() || property(t, plain).is_some())
 }

@@ -206,11 +206,11 @@ fn meant<'a>(name: &str, known: &'a [String]) -> Meant<'a> {
     }
     if name.contains('*') {
         // without a `/` the objects may be anywhere
-        let pattern =
-            if name.starts_with('/') || name.starts_with('*') { name.to_owned() } else { format!("**/{name}") };
-        let mut found: Vec<&str> = known.iter().map(String::as_str).filter(|k| fits(&pattern, k)).collect();
+        let anywhere = format!("**/{name}");
+        let is_meant = |k: &str| fits(name, k) || (!name.starts_with('/') && fits(&anywhere, k));
+        let mut found: Vec<&str> = known.iter().map(String::as_str).filter(|k| is_meant(k)).collect();
         if found.is_empty() {
-            let of_vector = |k: &&str| k.rsplit_once('.').is_some_and(|(stem, _)| fits(&pattern, stem));
+            let of_vector = |k: &&str| k.rsplit_once('.').is_some_and(|(stem, _)| is_meant(stem));
             found = known.iter().map(String::as_str).filter(of_vector).collect();
         }
         return Meant::These(found);
@@ -221,7 +221,7 @@ fn meant<'a>(name: &str, known: &'a [String]) -> Meant<'a> {
     }
     let Some((object, what)) = name.split_once('.') else { return Meant::These(Vec::new()) };
     let stems: BTreeSet<&str> = known.iter().filter_map(|k| Some(k.split_once('.')?.0)).collect();
-    match ending(object, stems.into_iter()) {
+    match ending(object, stems) {
         Match::None => Meant::These(Vec::new()),
         Match::Several(all) => Meant::Several(all.into_iter().map(str::to_owned).collect()),
         Match::One(path) => {
@@ -423,6 +423,9 @@ mod tests {
         let names: Vec<&str> =
             document.get("/record").unwrap().as_array().unwrap().iter().filter_map(Value::as_str).collect();
         assert_eq!(names, ["/a/tip.position.x", "/a/tip.position.y", "/a/tip.position.z", "/j2.speed", "/j1.speed"]);
+        let mut short = super::tests::document("record = [\"j*.speed\", \"*ip.position\"]\n");
+        resolve_signals(&mut short, &known, &[]);
+        assert_eq!(short.get("/record").unwrap().as_array().unwrap().len(), 5);
         assert_eq!(document.at("/record/1").to_string(), "a.toml:1:11");
     }
 
