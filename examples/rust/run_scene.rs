@@ -18,8 +18,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let overrides = overrides.map_err(|diagnostic| diagnostic.to_string())?;
     let loaded = sincro::load(&scene, &overrides)?;
 
-    let request = RunRequest { scene: &scene, overrides: &overrides, loaded: &loaded, out: &out, index: None };
-    let campaign = request.run(&AtomicBool::new(false), &mut |_, _| {})?;
+    let request = RunRequest { scene: &scene, overrides: &overrides, loaded: &loaded, index: None };
+    let campaign = request.run(&out, &AtomicBool::new(false), &mut |_, _| {})?;
     for check in &campaign.report.checks {
         println!("{:?}  {}", check.verdict, check.name);
     }

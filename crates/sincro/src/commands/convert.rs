@@ -83,6 +83,6 @@ fn files(scene: &Path) -> Result<Vec<Converted>, Diagnostics> {
 
 fn read(path: &Path) -> Result<Arc<SourceText>, Diagnostics> {
     let text = fs::read_to_string(path).map_err(|e| FileError::new("read", path, e));
-    let text = text.map_err(|e| sincro_scene::diagnostic::Diagnostic::nowhere(e.to_string()))?;
+    let text = text.map_err(|e| sincro_scene::diagnostic::Diagnostic::without_location(e.to_string()))?;
     Ok(Arc::new(SourceText { path: path.to_owned(), text }))
 }

@@ -178,7 +178,9 @@ fn only(mut loaded: Loaded, overrides: Vec<Override>, part: &str) -> Result<(Loa
             ));
         };
         settings = settings_with(&settings, &variant.set);
-        loaded = loaded.alone_with_overrides(&settings).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+        loaded = loaded
+            .with_overrides_without_variants(&settings)
+            .map_err(|found| diagnostics::refuse_diagnostics(&found))?;
         let inherited = if variant.inherit_checks { std::mem::take(&mut loaded.experiment.checks) } else { Vec::new() };
         loaded.experiment.checks = variant.checks.into_iter().chain(inherited).collect();
         loaded.experiment.title += &format!(" ({part})");
