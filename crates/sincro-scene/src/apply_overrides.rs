@@ -57,10 +57,11 @@ impl Override {
     /// The finding about a setting for a diagram that is not there.
     pub fn without_diagram(&self) -> Diagnostic {
         let first = self.path.value.split(['.', '[']).next().unwrap_or("");
-        let known: Vec<&str> = [scene_schema(), experiment_schema()]
+        let mut known: Vec<&str> = [scene_schema(), experiment_schema()]
             .into_iter()
             .flat_map(|schema| property_names(schema.as_object().expect("a schema is a table")))
             .collect();
+        keep_first(&mut known);
         let diagnostic = self.error(format!("`{}`: a scene or experiment has no `{first}`", self.path.value));
         diagnostic.with_help(suggest::help(first, &known, "keys"))
     }
@@ -440,6 +441,7 @@ impl<'a> Walk<'a> {
         if self.pointer.is_empty() {
             known.extend(property_names(scene_schema().as_object().expect("a schema is a table")));
         }
+        keep_first(&mut known);
         known
     }
 
@@ -470,4 +472,10 @@ pub fn apply_all(document: &mut Document, target: Target, settings: &[Override])
         }
     }
     diagnostics
+}
+
+/// Removes names that occur again: both files have some.
+fn keep_first(names: &mut Vec<&str>) {
+    let mut seen = std::collections::BTreeSet::new();
+    names.retain(|name| seen.insert(*name));
 }

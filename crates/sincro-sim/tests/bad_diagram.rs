@@ -860,11 +860,7 @@ const SETTINGS: &[(&str, &str)] = &[
         r##"--set:1:1: error: `pdi.kp`: the diagram has no block `pdi`
   help: blocks: `pid`"##,
     ),
-    (
-        "shoulder.damping=3",
-        r##"--set:1:1: error: `shoulder.damping`: there is no block or key `shoulder`
-  help: did you mean `/shoulder.damping`? the path of an object begins with `/`"##,
-    ),
+    ("shoulder.damping=3", r##"loads"##),
     (
         "pid.kq=3",
         r##"--set:1:1: error: block `pid`: `pid` has no parameter `kq`
@@ -888,7 +884,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "pid=3",
         r##"--set:1:1: error: `pid`: a scene or experiment has no `pid`
-  help: keys: `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint`, `script` and 28 more"##,
+  help: keys: `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint`, `script` and 32 more"##,
     ),
     (
         "diagram.pid=3",
@@ -910,7 +906,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `rest_speed`, `camera`, `script`, `step` and 28 more"##,
+  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `rest_speed`, `camera`, `script`, `step` and 32 more"##,
     ),
     (
         "diagram.sample_time=0.003",

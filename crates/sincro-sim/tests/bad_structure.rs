@@ -38,8 +38,8 @@ axis"#,
     (
         "scene.toml",
         "density = 1000.0",
-        r#"density = "1000""#,
-        r#"scene.toml:14:11: error: `density` is the string "1000", expected a number in kg/m³
+        r#"density = [1000]"#,
+        r#"scene.toml:14:11: error: `density` is a list of 1, expected a number in kg/m³
   help: Of its shapes, from which mass and inertia are computed [kg/m³]."#,
     ),
     (
@@ -161,7 +161,7 @@ quaternion_wxyz = [1, 0, 0, 0]"#,
         "[[frame]]",
         "[[frme]]",
         r#"scene.toml:17:3: error: unknown key `frme`
-  help: did you mean `frame`? keys here: `frame`, `force`, `camera`, `rest_speed`, `air_density`, `drag`, `rotor`, `script` and 8 more"#,
+  help: did you mean `frame`? keys here: `frame`, `force`, `format`, `parameters`, `camera`, `rest_speed`, `air_density`, `drag` and 13 more"#,
     ),
     (
         "experiment.toml",

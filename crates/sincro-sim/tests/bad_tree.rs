@@ -19,17 +19,17 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "scene.toml",
         r#"parent = "/shoulder/rod"
 "#,
-        r#"parent = "rod"
+        r#"parent = "/shoulder/rodd"
 "#,
-        r#"scene.toml:19:10: error: there is no object `rod` to hang `tip` on
-  help: did you mean `/shoulder/rod`?"#,
+        r#"scene.toml:19:10: error: there is no object `/shoulder/rodd` to hang `tip` on
+  help: did you mean `/shoulder/rod`? objects: `/shoulder`, `/shoulder/rod/tip/wrist`, `/shoulder/rod`, `/shoulder/rod/tip/wrist/hand`"#,
     ),
     (
         "scene.toml",
         r#"name = "shoulder""#,
         r#"name = "shoulder"
 parent = "/hand""#,
-        r#"scene.toml:5:10: error: `shoulder` hangs on itself: shoulder on hand on wrist on tip on rod on shoulder
+        r#"scene.toml:25:10: error: `wrist` hangs on itself: wrist on tip on rod on shoulder on hand on wrist
   help: one of them must hang on something that hangs on the world, `/`"#,
     ),
     (

@@ -97,7 +97,7 @@ fn problems_of_both_files_are_told_at_once() {
     let said = refused(&folder, &folder);
     let places: Vec<&str> =
         said.lines().filter(|l| !l.starts_with(' ')).map(|l| l.split(' ').next().unwrap()).collect();
-    assert_eq!(places, ["experiment.toml:1:1:", "experiment.toml:4:1:", "scene.toml:8:11:", "scene.toml:31:8:"]);
+    assert_eq!(places, ["scene.toml:8:11:", "scene.toml:31:8:", "experiment.toml:1:1:", "experiment.toml:4:1:"]);
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn editors_and_shells_are_served() {
     assert_eq!(printed, fs::read_to_string(folder.join("schemas/scene.schema.json")).unwrap());
     for shell in ["bash", "zsh", "fish", "powershell"] {
         let (text, _, status) = call(&folder, &["completions", shell]);
-        assert!(status == 0 && text.contains("--only"), "{shell}");
+        assert!(status == 0 && text.contains("only"), "{shell}");
     }
     assert!(call(&folder, &["man"]).0.contains(".TH sincro 1"));
     assert_eq!(call(&folder, &["man", "pages"]).2, 0);
