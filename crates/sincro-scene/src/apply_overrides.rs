@@ -382,7 +382,9 @@ impl<'a> Walk<'a> {
             }
             (Some(Value::Object(table)), _) if as_key => {
                 let named = self.tables().any(|t| t.get("properties").is_some_and(|p| p.get(key).is_some()));
-                if named || table.contains_key(key) {
+                // an instance need not write the parameters of its file
+                let of_instance = self.pointer.starts_with("/instance/") && self.pointer.ends_with("/parameters");
+                if named || of_instance || table.contains_key(key) {
                     return Ok(());
                 }
                 let known: Vec<&str> = table.keys().map(String::as_str).collect();

@@ -198,7 +198,8 @@ impl<'a> Walker<'a> {
                     } else {
                         suggest::help(text, &names, "a number, or a formula of the parameters")
                     };
-                    self.refuse(pointer, &format!("`{text}` is not a number: {why}"), &help);
+                    let key = pointer.rsplit('/').next().unwrap_or("");
+                    self.refuse(pointer, &format!("`{key}`: `{text}` is not a number: {why}"), &help);
                 }
             }
         }

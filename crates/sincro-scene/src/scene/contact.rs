@@ -9,7 +9,9 @@ use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use sincro_dynamics::state::State;
 
 use super::body;
-use super::file::{BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, LimitsFile, SceneFile};
+use super::file::{
+    BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, JointKindFile, LimitsFile, SceneFile,
+};
 use super::height_field;
 use super::mesh::MeshInstance;
 use super::object::{Object, ObjectKind, ShapeInstance};
@@ -312,7 +314,8 @@ fn names(model: &Model<f64>, initial: &State<f64>, q: &[f64]) -> String {
     list.join(", ")
 }
 
-/// Warns of surfaces that can touch nothing: no other body has a contact, or all are in the same group.
+/// Warns of surfaces that can touch nothing: all are in the same group, or no other body has a contact, where a body
+/// moves freely and would fall through. A floor under a machine that is held by joints is scenery.
 pub(super) fn warn_of_idle(file: &SceneFile, document: &Document, diagnostics: &mut Diagnostics) {
     let group = |k: usize| file.body[k].contact.as_ref().map(|contact| contact.group);
     let touching: Vec<usize> =
@@ -322,7 +325,8 @@ pub(super) fn warn_of_idle(file: &SceneFile, document: &Document, diagnostics: &
     for k in &touching {
         *counts.entry(group(*k)).or_insert(0_usize) += 1;
     }
-    for k in touching.iter().copied() {
+    let moves_freely = file.joint.iter().any(|joint| joint.kind == JointKindFile::Free);
+    for k in touching.iter().copied().filter(|_| touching.len() > 1 || moves_freely) {
         let is_own_group = group(k) != Some(0);
         let excluded = if is_own_group { counts[&group(k)] } else { 1 };
         if touching.len() > excluded {
