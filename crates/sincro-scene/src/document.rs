@@ -2,7 +2,7 @@
 //!
 //! Positions are kept beside the tree, by JSON pointer (`/joint/0/spring/stiffness`), so that findings about structure
 //! and findings about physics are placed alike. What JSON cannot hold (inf, nan, dates) is null in the tree and listed
-//! in [`Document::odd`].
+//! beside it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
