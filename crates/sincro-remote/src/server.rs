@@ -161,11 +161,13 @@ impl Server {
         for listener in legacy {
             threads.push(listen::accept(listener, &hub, "legacy", legacy::serve).map_err(failed)?);
         }
+        let publisher = zmq::Publisher::default();
         if let Some(listener) = zmq {
-            threads.push(listen::accept(listener, &hub, "zmq", zmq::serve).map_err(failed)?);
+            let publisher = publisher.clone();
+            let serve = move |connection, hub: &Arc<Hub>| zmq::serve(connection, hub, &publisher);
+            threads.push(listen::accept(listener, &hub, "zmq", serve).map_err(failed)?);
         }
         if let Some(listener) = steps {
-            let publisher = zmq::Publisher::default();
             let of_hub = publisher.clone();
             hub.enter().on_step(Box::new(move |step| of_hub.publish(step)));
             let serve = move |connection, hub: &Arc<Hub>| publisher.serve(connection, hub.deadlines().idle);

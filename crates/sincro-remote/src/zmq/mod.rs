@@ -23,9 +23,9 @@ pub(crate) use functions::{CallOutcome, Endpoint, info, kind_of};
 pub use steps::Publisher;
 
 /// Serves one connection until it ends.
-pub(crate) fn serve(connection: Connection, hub: &Arc<Hub>) {
+pub(crate) fn serve(connection: Connection, hub: &Arc<Hub>, publisher: &Publisher) {
     let Ok(mut socket) = wire::Socket::accept(connection, "REP") else { return };
-    let mut conversation = rpc::Conversation::new(hub.clone());
+    let mut conversation = rpc::Conversation::new(hub.clone(), publisher.clone());
     while let Ok((envelope, request)) = socket.receive_request() {
         let answer = conversation.answer(&request);
         if socket.send_answer(&envelope, &answer).is_err() {

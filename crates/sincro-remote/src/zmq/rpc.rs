@@ -5,6 +5,7 @@ use std::sync::Arc;
 use sincro_coppelia::api::{ApiError, Value};
 
 use super::functions::{self, After, CallOutcome, Endpoint};
+use super::steps::Publisher;
 use crate::cbor;
 use crate::hub::Hub;
 use crate::limits;
@@ -15,6 +16,7 @@ const MAX_UUID_LEN: usize = 256;
 /// One connection, and what it has not been answered yet.
 pub(super) struct Conversation {
     hub: Arc<Hub>,
+    publisher: Publisher,
     /// The client that the connection is of, once it has said so.
     endpoint: Option<(String, Endpoint)>,
     /// Callbacks that the client is running, the last one first: it may call while it runs one.
@@ -36,8 +38,8 @@ struct Request {
 }
 
 impl Conversation {
-    pub fn new(hub: Arc<Hub>) -> Self {
-        Self { hub, endpoint: None, callbacks: Vec::new() }
+    pub fn new(hub: Arc<Hub>, publisher: Publisher) -> Self {
+        Self { hub, publisher, endpoint: None, callbacks: Vec::new() }
     }
 
     /// Answers a request.
@@ -70,6 +72,7 @@ impl Conversation {
             for callback in callbacks {
                 endpoint.decline(callback.after, "the client is gone");
             }
+            self.publisher.forget(endpoint.id);
             self.hub.detach(endpoint.id);
         }
     }
@@ -149,6 +152,7 @@ impl Conversation {
             // answered at once: the client waits for the counter
             "step" => {
                 let id = self.endpoint(key(0)).id;
+                self.publisher.expect_subscriber(id);
                 let mut guard = self.hub.enter();
                 guard.ask_step(id);
                 let advanced = guard.advance_if_ready();
