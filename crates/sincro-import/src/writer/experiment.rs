@@ -16,6 +16,7 @@ pub(super) fn text(writer: &Writer<'_>) -> String {
         out.push_str(&text);
         out.push('\n');
     };
+    line("format = 2".into());
     line(format!("title = {}", quoted(&one_line(&robot.name))));
     let file = writer.context.file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     line(format!("description = {}", quoted(&format!("Imported from {}.", one_line(&file)))));

@@ -116,6 +116,7 @@ impl Writer<'_> {
             one_line(&file),
             self.context.format
         ));
+        self.line("format = 2");
         self.line("");
         if let Some(gravity) = self.robot.gravity {
             self.line(&format!("gravity = {}", list(&gravity)));
