@@ -67,20 +67,8 @@ fn chunk(name: [u8; 4], data: &[u8], file: &mut Vec<u8>) {
     let start = file.len();
     file.extend(name);
     file.extend(data);
-    let sum = crc(&file[start..]);
+    let sum = crc32fast::hash(&file[start..]);
     file.extend(sum.to_be_bytes());
-}
-
-/// The cyclic redundancy check of the format: polynomial 0xedb88320.
-fn crc(bytes: &[u8]) -> u32 {
-    let step = |sum: u32, byte: &u8| {
-        let mut sum = sum ^ u32::from(*byte);
-        for _ in 0..8 {
-            sum = if sum & 1 == 1 { 0xedb8_8320 ^ (sum >> 1) } else { sum >> 1 };
-        }
-        sum
-    };
-    !bytes.iter().fold(u32::MAX, step)
 }
 
 #[cfg(test)]

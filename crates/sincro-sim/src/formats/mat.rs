@@ -1,6 +1,6 @@
 //! Level 5 MAT-files: numbers, texts and cells, without compression.
 
-use super::little_endian;
+use super::{Limits, little_endian};
 use crate::table::Table;
 
 const INT8: u32 = 1;
@@ -14,6 +14,10 @@ const UTF8: u32 = 16;
 const CELL: u32 = 1;
 const CHAR: u32 = 4;
 const DOUBLES: u32 = 6;
+
+/// Sizes are signed numbers of 32 bits, and `signals` is one variable.
+pub(super) const LIMITS: Limits =
+    Limits { columns: i32::MAX as usize, column_bytes: i32::MAX as u64, bytes: i32::MAX as u64 };
 
 /// The file of a table.
 pub(super) fn bytes(table: &Table) -> Vec<u8> {

@@ -15,8 +15,9 @@ use crate::table::Table;
 ///
 /// # Errors
 ///
-/// The file cannot be written.
+/// The table is larger than the format can hold, or the file cannot be written.
 pub fn write_npz(table: &Table, path: &Path) -> Result<(), FileError> {
+    npz::LIMITS.check(table, path)?;
     write_atomically(path, &npz::bytes(table))
 }
 
@@ -24,8 +25,9 @@ pub fn write_npz(table: &Table, path: &Path) -> Result<(), FileError> {
 ///
 /// # Errors
 ///
-/// The file cannot be written.
+/// The table is larger than the format can hold, or the file cannot be written.
 pub fn write_mat(table: &Table, path: &Path) -> Result<(), FileError> {
+    mat::LIMITS.check(table, path)?;
     write_atomically(path, &mat::bytes(table))
 }
 
@@ -33,9 +35,38 @@ pub fn write_mat(table: &Table, path: &Path) -> Result<(), FileError> {
 ///
 /// # Errors
 ///
-/// The file cannot be written.
+/// The table is larger than the format can hold, or the file cannot be written.
 pub fn write_parquet(table: &Table, path: &Path) -> Result<(), FileError> {
+    parquet::LIMITS.check(table, path)?;
     write_atomically(path, &parquet::bytes(table))
+}
+
+/// Sizes that a format can hold.
+struct Limits {
+    columns: usize,
+    /// Of one signal.
+    column_bytes: u64,
+    /// Of the whole file.
+    bytes: u64,
+}
+
+impl Limits {
+    /// Bytes beside the numbers that a signal takes: names, units, heads.
+    const OVERHEAD: u64 = 1024;
+
+    /// Refuses a table that does not fit: its sizes would be written wrong.
+    fn check(&self, table: &Table, path: &Path) -> Result<(), FileError> {
+        let (rows, columns) = (table.n_rows() as u64, table.columns.len());
+        let of_column = rows.saturating_mul(8).saturating_add(Self::OVERHEAD);
+        let of_file = of_column.saturating_mul(columns as u64);
+        if columns <= self.columns && of_column <= self.column_bytes && of_file <= self.bytes {
+            return Ok(());
+        }
+        let message = format!(
+            "{rows} rows of {columns} signals are more than the format can hold; record fewer, or write another format"
+        );
+        Err(FileError::new("write", path, std::io::Error::new(std::io::ErrorKind::FileTooLarge, message)))
+    }
 }
 
 /// The bytes of doubles, least significant first.
@@ -66,8 +97,16 @@ mod tests {
     }
 
     #[test]
-    fn checksums_are_those_of_the_standard() {
-        assert_eq!(npz::crc32(b"123456789"), 0xcbf4_3926);
+    fn tables_that_do_not_fit_are_refused() {
+        let path = Path::new("signals.npz");
+        assert!(npz::LIMITS.check(&table(), path).is_ok());
+        let names: Vec<String> = (0..70_000).map(|k| format!("s{k}")).collect();
+        let wide = Table::new(names.iter().map(|name| (name.as_str(), "")), 0);
+        let error = npz::LIMITS.check(&wide, path).unwrap_err().to_string();
+        assert!(error.contains("0 rows of 70000 signals are more than the format can hold"), "{error}");
+        assert!(mat::LIMITS.check(&wide, path).is_ok() && parquet::LIMITS.check(&wide, path).is_ok());
+        let small = Limits { columns: 9, column_bytes: 1030, bytes: 1 << 20 };
+        assert!(small.check(&table(), path).is_err());
     }
 
     #[test]

@@ -1,12 +1,16 @@
 //! NumPy's archive of arrays: a ZIP file of `.npy` files, stored without compression.
 
-use super::little_endian;
+use super::{Limits, little_endian};
 use crate::table::Table;
 
 /// Names in UTF-8.
 const UTF8: u16 = 1 << 11;
 /// First of January 1980: archives of one run are the same bytes.
 const DATE: u16 = (1 << 5) | 1;
+
+/// Counts of 16 bits and offsets of 32 bits: larger archives need the format's extension to 64 bits.
+pub(super) const LIMITS: Limits =
+    Limits { columns: u16::MAX as usize, column_bytes: u32::MAX as u64, bytes: u32::MAX as u64 };
 
 /// The archive of a table.
 pub(super) fn bytes(table: &Table) -> Vec<u8> {
@@ -40,7 +44,7 @@ pub(super) fn bytes(table: &Table) -> Vec<u8> {
 
 /// Fields that stand both before a file and in the directory.
 fn entry(name: &str, content: &[u8]) -> Vec<u8> {
-    let (crc, size) = (crc32(content), content.len() as u32);
+    let (crc, size) = (crc32fast::hash(content), content.len() as u32);
     let mut out = Vec::new();
     for field in [20, UTF8, 0, 0, DATE] {
         out.extend(u16::to_le_bytes(field));
@@ -66,13 +70,4 @@ fn array(values: &[f64]) -> Vec<u8> {
     out.extend(head.as_bytes());
     out.extend(little_endian(values));
     out
-}
-
-/// CRC-32 as in ISO 3309.
-pub(super) fn crc32(bytes: &[u8]) -> u32 {
-    let mut table = [0_u32; 256];
-    for (k, entry) in table.iter_mut().enumerate() {
-        *entry = (0..8).fold(k as u32, |c, _| if c & 1 == 1 { 0xedb8_8320 ^ (c >> 1) } else { c >> 1 });
-    }
-    !bytes.iter().fold(!0, |c, b| table[((c ^ u32::from(*b)) & 0xff) as usize] ^ (c >> 8))
 }

@@ -1,6 +1,6 @@
 //! Apache Parquet: one row group, one plain page of doubles for each column, metadata in Thrift's compact protocol.
 
-use super::little_endian;
+use super::{Limits, little_endian};
 use crate::table::Table;
 
 /// Types of Thrift's compact protocol.
@@ -83,6 +83,10 @@ fn number(value: i64) -> Vec<u8> {
     varint(&mut out, ((value << 1) ^ (value >> 63)) as u64);
     out
 }
+
+/// Sizes of pages and numbers of columns are signed numbers of 32 bits.
+pub(super) const LIMITS: Limits =
+    Limits { columns: i32::MAX as usize, column_bytes: i32::MAX as u64, bytes: i64::MAX as u64 };
 
 /// The file of a table.
 pub(super) fn bytes(table: &Table) -> Vec<u8> {
