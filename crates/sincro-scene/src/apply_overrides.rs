@@ -41,19 +41,6 @@ impl Override {
         }
     }
 
-    /// The finding about a setting that names an object of the scene without the `/` of its path; none if it names a
-    /// block of the diagram, or no object.
-    pub fn without_slash(&self, diagram: Option<&Document>, objects: &[String]) -> Option<Diagnostic> {
-        let (first, keys) = self.path.value.split_once('.').filter(|_| self.target() == Target::Diagram)?;
-        if diagram.is_some_and(|diagram| names_of_blocks(diagram).iter().any(|name| name == first)) {
-            return None;
-        }
-        let found = objects.iter().find(|path| path.rsplit('/').next() == Some(first))?;
-        let diagnostic = self.error(format!("`{}`: there is no block or key `{first}`", self.path.value));
-        let help = format!("did you mean `{found}.{keys}`? the path of an object begins with `/`");
-        Some(diagnostic.with_help(help))
-    }
-
     /// The finding about a setting for a diagram that is not there.
     pub fn without_diagram(&self) -> Diagnostic {
         let first = self.path.value.split(['.', '[']).next().unwrap_or("");

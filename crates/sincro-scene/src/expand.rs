@@ -304,26 +304,15 @@ fn copies(document: &Document, pointer: &str) -> Vec<Copied> {
     let count = document.get(&format!("{pointer}/repeat/count"));
     let one = |axis: usize| count.and_then(|c| c.get(axis)).and_then(Value::as_u64).unwrap_or(1) as usize;
     // one number: a line along `step`; three: a grid
-    let line = count.and_then(Value::as_u64);
-    let counts = if line.is_some() { [1, 1, 1] } else { [one(0), one(1), one(2)] };
-    let mut all = Vec::new();
-    for index in 0..line.unwrap_or(0) as usize {
-        let position = std::array::from_fn(|axis| start[axis] + index as f64 * step[axis]);
-        all.push(Copied { index, cell: [index, 0, 0], position });
-    }
-    if line.is_some() {
-        return all;
-    }
-    for z in 0..counts[2] {
-        for y in 0..counts[1] {
-            for x in 0..counts[0] {
-                let cell = [x, y, z];
-                let position = std::array::from_fn(|axis| start[axis] + cell[axis] as f64 * step[axis]);
-                all.push(Copied { index: all.len(), cell, position });
-            }
-        }
-    }
-    all
+    let line = count.and_then(Value::as_u64).map(|n| n as usize);
+    let counts = if line.is_some() { [0; 3] } else { [one(0), one(1), one(2)] };
+    let cells = (0..counts[2]).flat_map(|z| (0..counts[1]).flat_map(move |y| (0..counts[0]).map(move |x| [x, y, z])));
+    let on_line = (0..line.unwrap_or(0)).map(|k| ([k, 0, 0], [k; 3]));
+    let copied = |(index, (cell, steps)): (usize, ([usize; 3], [usize; 3]))| {
+        let position = std::array::from_fn(|axis| start[axis] + steps[axis] as f64 * step[axis]);
+        Copied { index, cell, position }
+    };
+    on_line.chain(cells.map(|cell| (cell, cell))).enumerate().map(copied).collect()
 }
 
 /// Puts all objects of a document below a path: their parents, and whatever else names an object.

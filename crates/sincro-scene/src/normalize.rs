@@ -198,7 +198,8 @@ impl<'a> Walker<'a> {
                     } else {
                         suggest::help(text, &names, "a number, or a formula of the parameters")
                     };
-                    let key = pointer.rsplit('/').next().unwrap_or("");
+                    // the key of the list, for an entry of one
+                    let key = pointer.rsplit('/').find(|step| step.parse::<usize>().is_err()).unwrap_or("");
                     self.refuse(pointer, &format!("`{key}`: `{text}` is not a number: {why}"), &help);
                 }
             }
@@ -373,6 +374,8 @@ mod tests {
     fn a_formula_that_cannot_be_computed_names_what_it_lacks() {
         let (_, found) = scene("[[body]]\nname = \"b\"\nmass = \"2*k\"\n", &[("kp", 1.0)]);
         assert!(found.contains("`2*k` is not a number") && found.contains("`kp`"), "{found}");
+        let (_, found) = scene("[[body]]\nname = \"b\"\nposition = [0, \"2*k\", 0]\n", &[]);
+        assert!(found.contains("`position`: `2*k` is not a number"), "{found}");
     }
 
     #[test]

@@ -213,21 +213,13 @@ fn read_documents(
     let scene = scene.map(|scene| prepared(scene, Target::Scene, &overrides, &parameters, diagnostics));
     let diagram = match diagram {
         Some(mut diagram) => {
-            let mut fitting = overrides;
-            fitting.retain(|setting| match setting.without_slash(Some(&diagram), &paths) {
-                Some(found) => {
-                    diagnostics.push(found);
-                    false
-                }
-                None => true,
-            });
-            diagnostics.merge(apply_all(&mut diagram, Target::Diagram, &fitting));
+            diagnostics.merge(apply_all(&mut diagram, Target::Diagram, &overrides));
             Some(diagram)
         }
         None => {
             let is_read = experiment.located("/diagram").is_some();
             for setting in overrides.iter().filter(|s| s.target() == Target::Diagram && !is_read) {
-                diagnostics.push(setting.without_slash(None, &paths).unwrap_or_else(|| setting.without_diagram()));
+                diagnostics.push(setting.without_diagram());
             }
             None
         }

@@ -349,13 +349,16 @@ pub fn foreign_entry(folder: &Path) -> std::io::Result<Option<String>> {
     }
     names.sort();
     let of_run = [".running", ".lock", ".earlier"];
-    names.retain(|(name, _)| !IGNORED.contains(&name.as_str()) && !of_run.contains(&name.as_str()));
+    names.retain(|(name, _)| !of_run.contains(&name.as_str()));
     for (name, is_dir) in &names {
         let inner = FOLDERS.iter().find(|(known, _)| *is_dir && known == name);
         let foreign = match inner {
             Some((_, [])) => foreign_variant(&folder.join(name))?,
-            Some((_, extensions)) => foreign_file(&folder.join(name), extensions)?,
-            None if !is_dir && FILES.contains(&name.strip_suffix(".partial").unwrap_or(name)) => None,
+            Some((_, extensions)) => {
+                let has_extension = |plain: &str| plain.rsplit_once('.').is_some_and(|(_, e)| extensions.contains(&e));
+                foreign_file(&folder.join(name), has_extension)?
+            }
+            None if !is_dir && is_of_run(name, |plain| FILES.contains(&plain)) => None,
             None => Some(String::new()),
         };
         if let Some(inner) = foreign {
@@ -366,12 +369,16 @@ pub fn foreign_entry(folder: &Path) -> std::io::Result<Option<String>> {
     Ok(names.first().filter(|_| !is_known).map(|(name, _)| name.clone()))
 }
 
-fn foreign_file(folder: &Path, extensions: &[&str]) -> std::io::Result<Option<String>> {
+/// Returns true for a file that a run writes or has begun to write (`*.partial`), and for those of file managers.
+fn is_of_run(name: &str, is_known: impl Fn(&str) -> bool) -> bool {
+    IGNORED.contains(&name) || is_known(name.strip_suffix(".partial").unwrap_or(name))
+}
+
+/// The first file of a folder that no run writes.
+fn foreign_file(folder: &Path, is_known: impl Fn(&str) -> bool) -> std::io::Result<Option<String>> {
     for entry in fs::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
-        let plain = name.strip_suffix(".partial").unwrap_or(&name);
-        let fits = extensions.iter().any(|known| plain.rsplit_once('.').is_some_and(|(_, last)| last == *known));
-        if !fits && !IGNORED.contains(&name.as_str()) {
+        if !is_of_run(&name, &is_known) {
             return Ok(Some(name));
         }
     }
@@ -386,23 +393,32 @@ fn foreign_variant(folder: &Path) -> std::io::Result<Option<String>> {
         if !entry.file_type()?.is_dir() {
             return Ok(Some(name));
         }
-        for file in fs::read_dir(entry.path())? {
-            let file = file?.file_name().to_string_lossy().into_owned();
-            if !FILES.contains(&file.strip_suffix(".partial").unwrap_or(&file)) && !IGNORED.contains(&file.as_str()) {
-                return Ok(Some(format!("{name}/{file}")));
-            }
+        if let Some(file) = foreign_file(&entry.path(), |plain| FILES.contains(&plain))? {
+            return Ok(Some(format!("{name}/{file}")));
         }
     }
     Ok(None)
 }
 
+/// Folders in a folder in the order of their names, without hidden ones and links (`latest` is one of the others).
+#[must_use]
+pub fn folders_in(parent: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(parent).into_iter().flatten().flatten();
+    let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+    let mut found: Vec<PathBuf> = folders.map(|entry| entry.path()).collect();
+    found.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));
+    found.sort();
+    found
+}
+
 /// Numbers of the numbered folders below a folder, the smallest first.
 #[must_use]
 pub fn numbers(parent: &Path) -> Vec<u32> {
-    let names = fs::read_dir(parent).into_iter().flatten().flatten();
-    let names = names.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
-    let number = |name: String| name.parse().ok().filter(|n| name == format!("{n:04}"));
-    let mut found: Vec<u32> = names.filter_map(|entry| number(entry.file_name().into_string().ok()?)).collect();
+    let number = |path: &PathBuf| {
+        let name = path.file_name()?.to_str()?;
+        name.parse().ok().filter(|n| name == format!("{n:04}"))
+    };
+    let mut found: Vec<u32> = folders_in(parent).iter().filter_map(number).collect();
     found.sort_unstable();
     found
 }

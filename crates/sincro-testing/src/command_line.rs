@@ -20,6 +20,14 @@ pub struct Exit {
     pub status: i32,
 }
 
+impl Exit {
+    fn of(command: &mut Command) -> Self {
+        let output = command.output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Self { stdout: text(output.stdout), stderr: text(output.stderr), status: output.status.code().unwrap_or(-1) }
+    }
+}
+
 impl CommandLine {
     /// The program at a path: `CommandLine::new(env!("CARGO_BIN_EXE_sincro"))`.
     #[must_use]
@@ -38,9 +46,14 @@ impl CommandLine {
     /// Calls the program and waits for its end.
     #[must_use]
     pub fn call(self, arguments: &[&str]) -> Exit {
-        let output = self.command(arguments).output().unwrap();
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-        Exit { stdout: text(output.stdout), stderr: text(output.stderr), status: output.status.code().unwrap_or(-1) }
+        Exit::of(&mut self.command(arguments))
+    }
+
+    /// Calls the program in a folder and waits for its end: standard output, standard error, exit status.
+    #[must_use]
+    pub fn call_in(self, folder: &Path, arguments: &[&str]) -> (String, String, i32) {
+        let exit = Exit::of(self.command(arguments).current_dir(folder));
+        (exit.stdout, exit.stderr, exit.status)
     }
 
     /// `run SCENE --out OUT` with more flags.

@@ -42,13 +42,6 @@ fn place() -> SceneFolder {
     folder.with("pendulum/scene.toml", SCENE).with("pendulum/experiment.toml", EXPERIMENT)
 }
 
-/// Calls the program in a folder; standard output, standard error, exit status.
-fn call(folder: &Path, arguments: &[&str]) -> (String, String, i32) {
-    let output = SINCRO.command(arguments).current_dir(folder).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (text(output.stdout), text(output.stderr), output.status.code().unwrap_or(-1))
-}
-
 /// Every file and folder below, with hidden ones, sorted.
 fn tree(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
@@ -70,7 +63,7 @@ fn tree(folder: &Path) -> Vec<PathBuf> {
 fn runs_without_out_get_numbered_folders() {
     let folder = place();
     for number in ["0001", "0002"] {
-        let (stdout, stderr, status) = call(&folder, &["run", "pendulum"]);
+        let (stdout, stderr, status) = SINCRO.call_in(&folder, &["run", "pendulum"]);
         assert_eq!(status, 0, "{stdout}{stderr}");
         assert!(stdout.contains(&format!("report results/pendulum/{number}/report.html")), "{stdout}");
         assert!(folder.join("results/pendulum").join(number).join("run.json").is_file());
@@ -86,7 +79,7 @@ fn runs_without_out_get_numbered_folders() {
 #[test]
 fn out_is_replaced_whole_or_refused_untouched() {
     let folder = place();
-    let run = |more: &[&str]| call(&folder, &[&["run", "pendulum", "--out", "out"], more].concat());
+    let run = |more: &[&str]| SINCRO.call_in(&folder, &[&["run", "pendulum", "--out", "out"], more].concat());
     assert_eq!(run(&["--mcap", "--frames"]).2, 0);
     assert!(folder.join("out/run.mcap").is_file() && folder.join("out/frames/0001.svg").is_file());
     assert_eq!(run(&[]).2, 0);
@@ -99,14 +92,14 @@ fn out_is_replaced_whole_or_refused_untouched() {
     assert_eq!(before, tree(&folder.join("out")));
     assert_eq!(fs::read_to_string(folder.join("out/signals.csv")).unwrap().lines().count(), 12);
     // not even a scene is taken for a result
-    let (_, stderr, status) = call(&folder, &["run", "pendulum", "--out", "pendulum"]);
+    let (_, stderr, status) = SINCRO.call_in(&folder, &["run", "pendulum", "--out", "pendulum"]);
     assert!(status == 2 && stderr.contains("holds `experiment.toml`"), "{stderr}");
 }
 
 #[test]
 fn bad_input_writes_nothing() {
     let folder = place();
-    let (_, _, status) = call(&folder, &["run", "pendulum", "--set", "/nothing.mass=1"]);
+    let (_, _, status) = SINCRO.call_in(&folder, &["run", "pendulum", "--set", "/nothing.mass=1"]);
     assert_eq!((status, tree(&folder).len()), (2, 3));
 }
 
@@ -126,7 +119,7 @@ fn a_termination_signal_keeps_what_was_recorded() {
         assert!(child.try_wait().unwrap().is_none(), "ended before it was interrupted");
     }
     // another run at the same time gets a folder of its own
-    assert_eq!(call(&folder, &["run", "pendulum"]).2, 0);
+    assert_eq!(SINCRO.call_in(&folder, &["run", "pendulum"]).2, 0);
     let sent = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
     assert_eq!(child.wait().unwrap().code(), Some(3));
@@ -138,24 +131,27 @@ fn a_termination_signal_keeps_what_was_recorded() {
 fn runs_are_listed_compared_and_pruned() {
     let folder = place();
     for position in ["0.1", "0.2", "0.3"] {
-        assert_eq!(call(&folder, &["run", "pendulum", "--set", &format!("/hinge.initial.position={position}")]).2, 0);
+        assert_eq!(
+            SINCRO.call_in(&folder, &["run", "pendulum", "--set", &format!("/hinge.initial.position={position}")]).2,
+            0
+        );
     }
-    let (list, _, status) = call(&folder, &["runs"]);
+    let (list, _, status) = SINCRO.call_in(&folder, &["runs"]);
     assert_eq!((status, list.lines().count()), (0, 3), "{list}");
     assert!(list.contains("results/pendulum/0002") && list.contains("/hinge.initial.position=0.2"), "{list}");
     assert!(list.contains("the check holds"), "{list}");
-    let (table, _, status) = call(&folder, &["runs", "compare", "results/pendulum/0001", "results/pendulum"]);
+    let (table, _, status) = SINCRO.call_in(&folder, &["runs", "compare", "results/pendulum/0001", "results/pendulum"]);
     assert_eq!(status, 0);
     let row = table.lines().find(|line| line.contains("/hinge.initial.position")).unwrap();
     assert!(row.contains("0.1") && row.contains("0.3") && table.contains("it falls"), "{table}");
     fs::write(folder.join("results/pendulum/0001/notes.txt"), "mine").unwrap();
-    let (said, _, _) = call(&folder, &["runs", "prune", "--keep", "1", "--dry-run"]);
+    let (said, _, _) = SINCRO.call_in(&folder, &["runs", "prune", "--keep", "1", "--dry-run"]);
     assert!(said.contains("1 run would be removed") && folder.join("results/pendulum/0002").is_dir(), "{said}");
-    let (said, _, status) = call(&folder, &["runs", "prune", "--keep", "1"]);
+    let (said, _, status) = SINCRO.call_in(&folder, &["runs", "prune", "--keep", "1"]);
     assert!(status == 0 && said.contains("0001 stays: it holds `notes.txt`"), "{said}");
     assert!(!folder.join("results/pendulum/0002").exists() && folder.join("results/pendulum/0003").is_dir());
     // the numbers go on
-    assert_eq!(call(&folder, &["run", "pendulum"]).2, 0);
+    assert_eq!(SINCRO.call_in(&folder, &["run", "pendulum"]).2, 0);
     assert!(folder.join("results/pendulum/0004").is_dir());
 }
 
@@ -163,8 +159,9 @@ fn runs_are_listed_compared_and_pruned() {
 fn the_latest_run_of_a_scene_is_meant_by_its_folder() {
     let folder = place();
     for _ in 0..2 {
-        assert_eq!(call(&folder, &["run", "pendulum"]).2, 0);
+        assert_eq!(SINCRO.call_in(&folder, &["run", "pendulum"]).2, 0);
     }
-    let (stdout, stderr, status) = call(&folder, &["diff", "results/pendulum", "results/pendulum/0001", "--out", "-"]);
+    let (stdout, stderr, status) =
+        SINCRO.call_in(&folder, &["diff", "results/pendulum", "results/pendulum/0001", "--out", "-"]);
     assert_eq!(status, 0, "{stdout}{stderr}");
 }

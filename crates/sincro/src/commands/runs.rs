@@ -7,7 +7,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use clap::{Args, Subcommand};
 use sincro_figures::plot::number::significant;
 use sincro_sim::file::FileError;
-use sincro_sim::result_folder::{find_result, foreign_entry, is_result, numbers};
+use sincro_sim::result_folder::{find_result, folders_in, foreign_entry, is_result, numbers};
 use sincro_sim::results::{RunReport, Status};
 
 use super::console::{short, verdict_line};
@@ -111,13 +111,7 @@ fn collect(folder: &Path, depth: usize, found: &mut Vec<Finished>) {
     if depth == 0 {
         return;
     }
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    // links are left out: `latest` is one of the numbered runs
-    let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
-    let mut inner: Vec<PathBuf> = folders.map(|entry| entry.path()).collect();
-    inner.retain(|path| !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.')));
-    inner.sort();
-    inner.iter().for_each(|path| collect(path, depth - 1, found));
+    folders_in(folder).iter().for_each(|path| collect(path, depth - 1, found));
 }
 
 /// Status, checks and audit in a few words.
@@ -269,11 +263,7 @@ fn numbered_below(folder: &Path, depth: usize) -> Vec<PathBuf> {
     if !numbers(folder).is_empty() {
         found.push(folder.to_owned());
     } else if depth > 0 {
-        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-        let mut inner: Vec<PathBuf> =
-            entries.filter(|e| e.file_type().is_ok_and(|kind| kind.is_dir())).map(|e| e.path()).collect();
-        inner.sort();
-        found.extend(inner.iter().flat_map(|path| numbered_below(path, depth - 1)));
+        found.extend(folders_in(folder).iter().flat_map(|path| numbered_below(path, depth - 1)));
     }
     found
 }
