@@ -1,6 +1,6 @@
 //! Contact against closed forms: bouncing, sliding, sticking, rolling.
 
-use sincro_dynamics::contact::{Material, Surface};
+use sincro_dynamics::contact::{Material, PairLaw, Surface};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{BodySpec, JointSpec, Model, ModelBuilder, NodeId, Shape};
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
@@ -94,6 +94,37 @@ fn a_block_sticks_just_below_the_critical_angle_and_slides_just_above() {
             }
         }
     }
+}
+
+#[test]
+fn a_pair_has_a_law_of_its_own() {
+    // two blocks of one material on one floor: the one with a law of its own slides further
+    let (mu, mu_pair, v0) = (0.5, 0.02, 1.0);
+    let mut b = ModelBuilder::new([0.0, 0.0, -G]);
+    let floor = b.frame("floor", NodeId::WORLD, Pose::identity());
+    b.collider(floor, Pose::identity(), Surface::HalfSpace, material(mu, 0.0));
+    let cube = Shape::Cuboid { size: [0.2; 3] };
+    let blocks = [0.0, 1.0, 2.0].map(|y| {
+        let at = Pose::translation(Vec3([0.0, y, 0.1]));
+        let free = b.joint(&format!("free{y}"), NodeId::WORLD, at, JointSpec::new(JointKind::Free));
+        let mass = cube.mass_properties(1000.0);
+        let it = b.body(&format!("it{y}"), free, Pose::identity(), BodySpec { mass });
+        b.collider(it, Pose::identity(), Surface::Solid(cube), material(mu, 0.0));
+        it
+    });
+    b.contact_pair([blocks[1], floor], PairLaw { friction: Some(mu_pair), ..PairLaw::default() });
+    b.contact_pair([floor, blocks[2]], PairLaw { is_excluded: true, ..PairLaw::default() });
+    let model = b.build().unwrap().0;
+    let mut x = State::new(&model);
+    for k in 0..3 {
+        x.v[6 * k + 3] = v0;
+    }
+    let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);
+    run(&mut world, 0.01, 100);
+    let q = |block: usize, axis: usize| world.state.q[7 * block + axis];
+    assert!((q(0, 0) - v0 * v0 / (2.0 * mu * G)).abs() < 1e-9, "{}", q(0, 0));
+    assert!((q(1, 0) - (v0 - 0.5 * mu_pair * G)).abs() < 1e-9, "{}", q(1, 0));
+    assert!((q(2, 2) + 0.5 * G).abs() < 1e-9 && (q(2, 0) - v0).abs() < 1e-12, "{}", q(2, 2));
 }
 
 #[test]

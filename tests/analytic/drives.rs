@@ -1,6 +1,6 @@
 //! Velocity motors and Coulomb friction: exact tracking, impulses, saturation, sticking.
 
-use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Friction, Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
@@ -80,7 +80,7 @@ fn friction_sticks_just_below_its_limit_and_slips_just_above() {
     for kind in ALL {
         for (share, slips) in [(0.999_999, false), (1.000_001, true)] {
             let torque = vec![Signal::Constant(share * 4.0)];
-            let model = cart(2.0, JointSpec { friction: vec![4.0], torque, ..slider() });
+            let model = cart(2.0, JointSpec { friction: vec![4.0.into()], torque, ..slider() });
             let x = State::new(&model);
             let mut world = World::new(model, x, kind, 1e-9, 1e-3);
             run(&mut world, 0.01, 100);
@@ -99,7 +99,7 @@ fn friction_sticks_just_below_its_limit_and_slips_just_above() {
 fn friction_stops_a_sliding_body_where_the_closed_form_says() {
     // v0²/(2 limit/m), then rest, exactly
     for kind in [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff] {
-        let model = cart(2.0, JointSpec { friction: vec![4.0], ..slider() });
+        let model = cart(2.0, JointSpec { friction: vec![4.0.into()], ..slider() });
         let mut x = State::new(&model);
         x.v[0] = 1.3;
         let mut world = World::new(model, x, kind, 1e-9, 1e-3);
@@ -111,10 +111,42 @@ fn friction_stops_a_sliding_body_where_the_closed_form_says() {
 }
 
 #[test]
+fn stiction_breaks_at_its_limit_and_stribecks_curve_stops_a_body_where_its_integral_says() {
+    let friction = Friction { sliding: 4.0, at_rest: 6.0, stribeck_velocity: 0.2 };
+    for kind in ALL {
+        for (share, slips) in [(0.999_999, false), (1.000_001, true)] {
+            let torque = vec![Signal::Constant(share * 6.0)];
+            let model = cart(2.0, JointSpec { friction: vec![friction], torque, ..slider() });
+            let mut world = World::new(model.clone(), State::new(&model), kind, 1e-9, 1e-3);
+            run(&mut world, 0.01, 100);
+            assert_eq!(world.state.v[0] > 0.0, slips, "{kind:?} {share}");
+        }
+    }
+    // m v dv = −F(v) dx, by Simpson's rule
+    let (m, v0, n) = (2.0, 1.3, 20_000);
+    let integrand = |k: usize| {
+        let v = v0 * k as f64 / n as f64;
+        m * v / friction.limit_at(v)
+    };
+    let weight = |k: usize| if k == 0 || k == n { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
+    let distance = (0..=n).map(|k| weight(k) * integrand(k)).sum::<f64>() * v0 / n as f64 / 3.0;
+    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+        let model = cart(m, JointSpec { friction: vec![friction], ..slider() });
+        let mut x = State::new(&model);
+        x.v[0] = v0;
+        let mut world = World::new(model, x, kind, 1e-10, 1e-3);
+        run(&mut world, 0.1, 20);
+        assert_eq!(world.state.v[0], 0.0, "{kind:?}");
+        assert!((world.state.q[0] - distance).abs() < 2e-9, "{kind:?} {} {distance}", world.state.q[0]);
+        assert!((world.state.totals[1] - 0.5 * m * v0 * v0).abs() < 2e-9, "{kind:?}");
+    }
+}
+
+#[test]
 fn friction_on_a_spring_ends_where_it_can_hold() {
     // Coulomb-damped oscillator: each half swing loses 2 limit/k of amplitude, exactly
     let (k, limit) = (100.0, 1.0);
-    let model = cart(1.0, JointSpec { friction: vec![limit], spring: vec![(k, 0.0)], ..slider() });
+    let model = cart(1.0, JointSpec { friction: vec![limit.into()], spring: vec![(k, 0.0)], ..slider() });
     let mut x = State::new(&model);
     x.q[0] = 0.055;
     let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-11, 1e-3);
@@ -126,7 +158,7 @@ fn friction_on_a_spring_ends_where_it_can_hold() {
 
 #[test]
 fn a_motor_and_friction_on_one_joint_share_the_torque() {
-    let model = cart(2.0, JointSpec { friction: vec![0.5], ..motor(velocity_motor(10.0)) });
+    let model = cart(2.0, JointSpec { friction: vec![0.5.into()], ..motor(velocity_motor(10.0)) });
     let mut x = State::new(&model);
     x.commands[0] = 1.0;
     let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-10, 1e-3);

@@ -8,4 +8,6 @@ mod mechanisms;
 mod orders;
 mod power;
 mod rotors;
+mod sensors;
+mod springs;
 mod wind;

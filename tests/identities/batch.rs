@@ -33,7 +33,7 @@ fn arm(r: &mut Random, friction: f64) -> Model<f64> {
         if i == 1 {
             spec.spring = vec![(5.0 + r.unit(), r.unit())];
             spec.damping = vec![0.2 + 0.1 * r.unit()];
-            spec.friction = vec![friction];
+            spec.friction = vec![friction.into()];
             let sine = Signal::Sine { amplitude: r.unit(), angular_frequency: 3.0, phase: r.unit(), offset: 0.0 };
             spec.torque = vec![sine];
         }

@@ -55,7 +55,7 @@ fn joint(r: &mut Random, axis: [f64; 3], commands: &mut Vec<Command>, motors: us
         });
     }
     if r.below(3) == 0 {
-        joint.friction = vec![decade(r, -3.0, 1.0)];
+        joint.friction = vec![decade(r, -3.0, 1.0).into()];
     }
     joint
 }

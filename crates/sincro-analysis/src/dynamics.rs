@@ -73,8 +73,7 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     for joint in &model.names().joints {
         for k in 0..joint.n_v {
             let (i, dof) = (joint.v_idx + k, &model.dofs()[joint.v_idx + k]);
-            let elastic = if joint.n_q == joint.n_v { spring::torque(dof, q[joint.q_idx + k]) } else { 0.0 };
-            passive[i] = elastic + damper::torque(dof, v[i]);
+            passive[i] = spring::torque_on(model, i, &q) + damper::torque(dof, v[i]);
         }
     }
     Ok(EquationTerms { mass_matrix: mass, inverse_dynamics: inverse, forward_dynamics: forward, passive })

@@ -39,6 +39,10 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
             e.potential += spring::energy(dof, q[dof.q_idx as usize]);
         }
     }
+    for &link in &model.sprung {
+        let link = &model.links[link];
+        e.potential += spring::stored_energy(link, &model.dofs[link.v_idx as usize..], q);
+    }
     e
 }
 

@@ -26,8 +26,20 @@ const MAX_DEPTH: usize = 16;
 /// Most objects that instances inside instances may come to.
 const MAX_OBJECTS: usize = 100_000;
 /// Lists of a scene file that an instance brings along.
-const LISTS: [&str; 11] =
-    ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera", "closure", "coupling", "script"];
+const LISTS: [&str; 12] = [
+    "joint",
+    "body",
+    "frame",
+    "force",
+    "rotor",
+    "drag",
+    "sensor",
+    "camera",
+    "closure",
+    "coupling",
+    "contact_pair",
+    "script",
+];
 /// Tables of objects that a default fills up key by key.
 const MERGED: [&str; 6] = ["initial", "spring", "motor", "contact", "limits", "inertia"];
 
@@ -328,7 +340,8 @@ fn prefix(document: &mut Document, path: &str) {
                 let own = document.text(&format!("{pointer}/name")).unwrap_or("").to_owned();
                 let flat = path.trim_start_matches('/').replace('/', "-");
                 document.replace(&format!("{pointer}/name"), Value::String(format!("{flat}-{own}")));
-            } else if list != "script" && document.get(&format!("{pointer}/parent")).is_none() {
+            } else if !matches!(list, "script" | "contact_pair") && document.get(&format!("{pointer}/parent")).is_none()
+            {
                 let at = document.title_at(&pointer);
                 document.put_silently(&format!("{pointer}/parent"), Value::from("/"), &at);
             }
@@ -337,7 +350,8 @@ fn prefix(document: &mut Document, path: &str) {
     let mut places = Vec::new();
     crate::names::collect("", &document.root, &mut places);
     for (pointer, text) in places {
-        if text == "/" || names.contains(&text) {
+        let is_pattern = text.starts_with('/') && text.contains('*');
+        if text == "/" || is_pattern || names.contains(&text) {
             document.replace(&pointer, Value::String(moved(&text)));
         }
     }

@@ -50,6 +50,58 @@ fn a_grid_of_instances_has_indices_and_parameters() {
 }
 
 #[test]
+fn pairs_of_bodies_have_laws_by_patterns() {
+    let contact = "contact = { friction = 0.5 }";
+    let ball = format!("{BALL}{contact}\n");
+    let floor = format!("[[body]]\nname = \"floor\"\nshape = [ {{ plane = {{}} }} ]\n{contact}\n");
+    let balls = "[[instance]]\nfile = \"ball.toml\"\nposition = [0.0, 0.0, 1.0]\nrepeat = { count = 3, step = [0.5, 0.0, 0.0] }\n";
+    let pairs = "[[contact_pair]]\nbetween = [\"/ball*/air/ball\", \"/ball**\"]\ntouches = false\n\
+                 [[contact_pair]]\nbetween = [\"floor\", \"/ball2/air/ball\"]\nfriction = 0.1\nrestitution = 0.7\n";
+    let folder = |pairs: &str| SceneFolder::of(&format!("{floor}{balls}{pairs}"), EXPERIMENT).with("ball.toml", &ball);
+    let laws = |pairs: &str| -> Vec<(f64, f64)> {
+        let loaded = folder(pairs).load(&[]).unwrap();
+        let all = &loaded.scene.model.constraints().pairs;
+        all.iter().map(|pair| (pair.material.friction, pair.material.restitution)).collect()
+    };
+    assert_eq!(laws("").len(), 6);
+    assert_eq!(laws(pairs), [(0.5, 0.0), (0.1, 0.7), (0.5, 0.0)]);
+    let refused = |pairs: &str| folder(pairs).load(&[]).unwrap_err();
+    let found = refused("[[contact_pair]]\nbetween = [\"/box*\", \"floor\"]\n");
+    assert!(found.contains("no body with a `contact` has a path of the form `/box*`"), "{found}");
+    let found = refused("[[contact_pair]]\nbetween = [\"/ball1/air\", \"floor\"]\n");
+    assert!(found.contains("`/ball1/air` is a free joint, not a body with a `contact`"), "{found}");
+    let found = refused("[[contact_pair]]\nbetween = [\"/ball1/air/ball\", \"floor\"]\nrestitution = 2.0\n");
+    assert!(found.contains("`restitution` is 2"), "{found}");
+}
+
+#[test]
+fn friction_of_a_joint_is_a_number_a_table_or_a_list() {
+    let friction = |text: &str| {
+        let scene = format!(
+            "[[joint]]\nname = \"j\"\nkind = \"ball\"\nfriction = {text}\n[[body]]\nname = \"b\"\nparent = \"/j\"\n\
+             mass = 1.0\ninertia = {{ xx = 1.0, yy = 1.0, zz = 1.0 }}\n"
+        );
+        let loaded = SceneFolder::of(&scene, EXPERIMENT).load(&[])?;
+        let of = |dof: usize| loaded.scene.model.dofs()[dof].friction;
+        Ok::<_, String>([of(0), of(1), of(2)].map(|f| (f.sliding, f.at_rest, f.stribeck_velocity)))
+    };
+    assert_eq!(friction("[0.1, 0.2, 0.3]").unwrap(), [0.1, 0.2, 0.3].map(|x| (x, x, 1.0)));
+    let table = "{ sliding = 0.1, static = 0.2 }";
+    let mixed = friction(&format!("[{table}, 0.0, {{ sliding = 1.0, static = 2.0, stribeck_velocity = 0.5 }}]"));
+    assert_eq!(mixed.unwrap(), [(0.1, 0.2, 0.01), (0.0, 0.0, 1.0), (1.0, 2.0, 0.5)]);
+    for (text, message) in [
+        (table, "`friction` of `/j` has 1 entries, the joint has 3 degrees of freedom"),
+        ("[{ sliding = 0.3, static = 0.2 }, 0.0, 0.0]", "friction of `/j` is 0.2 at rest, less than 0.3 in motion"),
+        ("[-1.0, 0.0, 0.0]", "friction -1 of `/j` is negative or not finite"),
+        ("[{ sliding = 0.3 }, 0.0, 0.0]", "static"),
+        ("[{ sliding = 0.3, static = 0.4, stribeck = 1.0 }, 0.0, 0.0]", "stribeck_velocity"),
+    ] {
+        let found = friction(text).unwrap_err();
+        assert!(found.contains(message), "{text}: {found}");
+    }
+}
+
+#[test]
 fn settings_reach_one_copy_or_all() {
     let scene =
         folder("[[instance]]\nfile = \"ball.toml\"\nname = \"a\"\n[[instance]]\nfile = \"ball.toml\"\nname = \"b\"\n");

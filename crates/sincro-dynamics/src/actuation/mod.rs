@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | [`spring`] | −k (q − rest) | ½ k (q − rest)² | |
 //! | [`damper`] | −c q̇ | | c q̇² |
-//! | [`friction`] | locked: any torque within the limit; sliding: ∓ limit | | limit·\|q̇\| |
+//! | [`friction`] | locked: any torque within the limit; sliding: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //!
@@ -20,4 +20,5 @@ pub mod spring;
 
 pub use applied::{AppliedTorque, AppliedWrench, Push};
 pub use drive::{Drive, DriveKind};
+pub use friction::Friction;
 pub use motor::{Motor, MotorMode};

@@ -1,8 +1,16 @@
-//! Linear joint spring: τ = −k (q − rest).
+//! Linear joint springs: τ = −k (q − rest), and springs of ball and free joints.
+//!
+//! The deflection of a ball joint is the rotation vector φ of its child frame from the rest orientation, |φ| ≤ π; its
+//! potential energy is ½ Σ kᵢ φᵢ² and its torque the negative gradient, −Jᵀ K φ in child axes with φ̇ = J ω (source: key
+//! `iserles2000`, section 2.5). At |φ| = π the rotation vector, and with it the torque, changes sign. A free joint has
+//! such a spring, and one along each axis of its joint frame, −kᵢ (rᵢ − restᵢ), where r is the position of its child
+//! frame.
 
 use sincro_math::Real;
 
-use crate::joint::Dof;
+use crate::joint::{Dof, Link, StageKind};
+use crate::model::Model;
+use crate::spatial::{Quat, Vec3};
 
 /// Torque [N·m] or force `[N]` at coordinate `q`.
 #[inline(always)]
@@ -15,4 +23,78 @@ pub fn torque<R: Real>(dof: &Dof<R>, q: R) -> R {
 pub fn energy<R: Real>(dof: &Dof<R>, q: R) -> R {
     let deflection = q - dof.rest;
     R::splat(0.5) * dof.stiffness * deflection * deflection
+}
+
+/// Deflection of the springs of a ball or free joint: rotation vector `[rad]` from the rest orientation, child axes;
+/// of a free joint also the displacement `[m]` along the axes of the joint frame, and the orientation.
+struct Deflection<R> {
+    rotation: Vec3<R>,
+    translation: Option<(Vec3<R>, Quat<R>)>,
+}
+
+impl<R: Real> Deflection<R> {
+    #[inline(always)]
+    fn new(link: &Link<R>, dofs: &[Dof<R>], q: &[R]) -> Self {
+        let k = link.q_idx as usize;
+        let rest = Quat::exp(Vec3([dofs[0].rest, dofs[1].rest, dofs[2].rest]));
+        let is_free = link.kind == StageKind::Free;
+        let orientation = Quat::from_slice(if is_free { &q[k + 3..] } else { &q[k..] });
+        let rotation = rest.conjugate().mul(&orientation).log();
+        let translation = is_free.then(|| {
+            let from_rest = Vec3([q[k] - dofs[3].rest, q[k + 1] - dofs[4].rest, q[k + 2] - dofs[5].rest]);
+            (from_rest, orientation)
+        });
+        Self { rotation, translation }
+    }
+}
+
+fn stiffness<R: Real>(dofs: &[Dof<R>], first: usize, x: Vec3<R>) -> Vec3<R> {
+    Vec3([dofs[first].stiffness * x[0], dofs[first + 1].stiffness * x[1], dofs[first + 2].stiffness * x[2]])
+}
+
+/// Adds the torques [N·m] and forces `[N]` of the springs of a ball or free joint, child axes; `dofs`, `v` and `torque`
+/// begin with its first degree of freedom. The deflections are those after `step` `[s]` at velocity `v`, to first order.
+#[inline(always)]
+pub(crate) fn add_torques<R: Real>(link: &Link<R>, dofs: &[Dof<R>], (q, v): (&[R], &[R]), step: R, torque: &mut [R]) {
+    let Deflection { rotation: phi, translation } = Deflection::new(link, dofs, q);
+    let gradient = stiffness(dofs, 0, phi + Vec3([v[0], v[1], v[2]]).scale(step));
+    let once = phi.cross(gradient);
+    let twice = phi.cross(once);
+    let along = gradient - once.scale(R::splat(0.5)) + twice.scale(phi.rotation_rate_coefficient());
+    for k in 0..3 {
+        torque[k] -= along[k];
+    }
+    if let Some((displacement, orientation)) = translation {
+        let turn = orientation.matrix();
+        let ahead = displacement + turn.mul_vec(Vec3([v[3], v[4], v[5]])).scale(step);
+        let force = turn.tr_mul_vec(stiffness(dofs, 3, ahead));
+        for k in 0..3 {
+            torque[3 + k] -= force[k];
+        }
+    }
+}
+
+/// Torque [N·m] or force `[N]` of the spring on a degree of freedom at coordinates `q` (n_q).
+#[must_use]
+pub fn torque_on<R: Real>(model: &Model<R>, dof: usize, q: &[R]) -> R {
+    if let Some(coordinate) = model.dofs[dof].coordinate() {
+        return torque(&model.dofs[dof], q[coordinate]);
+    }
+    let mut all = [R::zero(); 6];
+    for link in model.sprung.iter().map(|&link| &model.links[link]) {
+        let first = link.v_idx as usize;
+        if (first..first + link.kind.n_v()).contains(&dof) {
+            add_torques(link, &model.dofs[first..], (q, &[R::zero(); 6]), R::zero(), &mut all);
+            return all[dof - first];
+        }
+    }
+    R::zero()
+}
+
+/// Energy stored in the springs of a ball or free joint `[J]`; `dofs` begins with its first degree of freedom.
+pub(crate) fn stored_energy<R: Real>(link: &Link<R>, dofs: &[Dof<R>], q: &[R]) -> R {
+    let Deflection { rotation, translation } = Deflection::new(link, dofs, q);
+    let of_rotation = rotation.dot(stiffness(dofs, 0, rotation));
+    let of_translation = translation.map_or(R::zero(), |(x, _)| x.dot(stiffness(dofs, 3, x)));
+    R::splat(0.5) * (of_rotation + of_translation)
 }

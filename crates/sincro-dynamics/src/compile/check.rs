@@ -1,5 +1,6 @@
 //! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
+use crate::actuation::{DriveKind, Friction};
 use crate::aero::rotor::RotorLaw;
 use crate::joint::JointKind;
 use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
@@ -197,27 +198,27 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
         JointKind::Free => 6,
         _ => 1,
     };
-    let scalar = !matches!(spec.kind, JointKind::Ball | JointKind::Free);
     let lists = [
-        ("armature", spec.armature.len(), true),
-        ("spring", spec.spring.len(), scalar),
-        ("damping", spec.damping.len(), true),
-        ("friction", spec.friction.len(), scalar),
-        ("torque", spec.torque.len(), true),
+        ("armature", spec.armature.len()),
+        ("spring", spec.spring.len()),
+        ("damping", spec.damping.len()),
+        ("friction", spec.friction.len()),
+        ("torque", spec.torque.len()),
     ];
-    for (field, len, allowed) in lists {
-        if len != 0 && (len != n || !allowed) {
+    for (field, len) in lists {
+        if len != 0 && len != n {
             let message = format!("`{field}` of `{name}` has {len} entries, the joint has {n} degrees of freedom");
-            let help = if allowed { "give one entry a degree of freedom" } else { "a ball or free joint takes none" };
-            found.error(id, field, message, help);
+            found.error(id, field, message, "give one entry a degree of freedom");
         }
     }
-    let finite_and_not_negative =
-        [("armature", &spec.armature), ("damping", &spec.damping), ("friction", &spec.friction)];
+    let finite_and_not_negative = [("armature", &spec.armature), ("damping", &spec.damping)];
     for (field, list) in finite_and_not_negative {
         for x in list.iter().filter(|x| !(x.is_finite() && **x >= 0.0)) {
             found.error(id, field, format!("{field} {x} of `{name}` is negative or not finite"), "give zero or more");
         }
+    }
+    for friction in &spec.friction {
+        check_friction(found, id, name, friction);
     }
     for (stiffness, rest) in &spec.spring {
         if !(stiffness.is_finite() && *stiffness >= 0.0 && rest.is_finite()) {
@@ -229,6 +230,22 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
     if !carries_a_body(builder, id) {
         let message = format!("joint `{name}` carries no body");
         found.error(id, "name", message, "hang a body on it, or make it a frame");
+    }
+}
+
+fn check_friction(found: &mut Findings, id: NodeId, name: &str, friction: &Friction<f64>) {
+    let Friction { sliding, at_rest, stribeck_velocity } = *friction;
+    let is_positive = |x: f64| x.is_finite() && x >= 0.0;
+    if !is_positive(sliding) || !is_positive(at_rest) {
+        let x = if is_positive(sliding) { at_rest } else { sliding };
+        found.error(id, "friction", format!("friction {x} of `{name}` is negative or not finite"), "give zero or more");
+    } else if at_rest < sliding {
+        let message = format!("friction of `{name}` is {at_rest} at rest, less than {sliding} in motion");
+        found.error(id, "friction", message, "the limit at rest is at least that in motion");
+    }
+    if !(stribeck_velocity.is_finite() && stribeck_velocity > 0.0) {
+        let message = format!("the Stribeck velocity of `{name}`, {stribeck_velocity}, is not positive and finite");
+        found.error(id, "friction", message, "give the speed at which friction has fallen to its value in motion");
     }
 }
 
@@ -290,7 +307,8 @@ pub(super) fn massless_joints(model: &Model<f64>) -> Vec<Diagnostic> {
     let inertias = crate::recursions::aba::joint_inertias(model, &crate::state::State::new(model));
     let scale = inertias.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let mut found = Findings(Vec::new());
-    for (dof, &inertia) in inertias.iter().enumerate() {
+    let is_locked = |dof: usize| model.drives.iter().any(|drive| drive.dof == dof && drive.kind == DriveKind::Lock);
+    for (dof, &inertia) in inertias.iter().enumerate().filter(|(dof, _)| !is_locked(*dof)) {
         // relative to rounding of the largest: 1e-12 kg·m² beside 1 kg·m² is a legitimate inertia, 1e-18 is not
         if inertia.is_nan() || inertia <= 1e-17 * scale {
             let joint = model.names.joint_info(model.names.dof_joint[dof]);

@@ -7,10 +7,10 @@ mod check;
 
 use std::sync::Arc;
 
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Friction, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
-use crate::contact::{self, Collider};
+use crate::contact::{self, Collider, PairLaw};
 use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
@@ -80,6 +80,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             drives: Vec::new(),
             constraints: Arc::default(),
             n_q: 0,
+            sprung: Vec::new(),
             names: Arc::default(),
         },
         names: Names::default(),
@@ -251,7 +252,13 @@ impl Compiler<'_> {
             })
             .collect();
         let parent = |link: u32| self.model.links[link as usize].parent;
-        let pairs = contact::pairs(&colliders, |a, b| parent(a) == b || parent(b) == a);
+        let law = |i: usize, j: usize| {
+            let nodes = [builder.colliders[i].0, builder.colliders[j].0];
+            let is_meant = |ends: &[NodeId; 2]| *ends == nodes || *ends == [nodes[1], nodes[0]];
+            let found = builder.contact_pairs.iter().rev().find(|(ends, _)| is_meant(ends));
+            found.map_or(PairLaw::default(), |(_, law)| *law)
+        };
+        let pairs = contact::pairs(&colliders, |a, b| parent(a) == b || parent(b) == a, law);
         ConstraintSet {
             loop_joints: loop_joints.collect(),
             gears: gears.collect(),
@@ -282,6 +289,11 @@ impl Compiler<'_> {
         for k in 0..n_v {
             self.dof_properties(v_idx + k, k, spec);
         }
+        let link = self.model.links.len() - 1;
+        let has_quaternion = matches!(self.model.links[link].kind, StageKind::Ball | StageKind::Free);
+        if has_quaternion && self.model.dofs[v_idx..].iter().any(|dof| dof.stiffness != 0.0) {
+            self.model.sprung.push(link);
+        }
         let motor = spec.motor.map(|motor| {
             self.model.motors.push(Motor { dof: v_idx, ..motor });
             MotorId::new(self.model.motors.len() - 1)
@@ -297,7 +309,7 @@ impl Compiler<'_> {
         let at = |list: &[f64]| list.get(k).copied().unwrap_or(0.0);
         entry.armature = at(&spec.armature);
         entry.damping = at(&spec.damping);
-        entry.friction = at(&spec.friction);
+        entry.friction = spec.friction.get(k).copied().unwrap_or(Friction::none());
         (entry.stiffness, entry.rest) = spec.spring.get(k).copied().unwrap_or((0.0, 0.0));
         match spec.torque.get(k) {
             None => {}
@@ -337,7 +349,7 @@ impl Compiler<'_> {
                 stiffness: 0.0,
                 rest: 0.0,
                 damping: 0.0,
-                friction: 0.0,
+                friction: Friction::none(),
                 torque: 0.0,
                 q_idx: if kind.n_q() == 1 { q_idx as u32 } else { WORLD },
             });

@@ -12,7 +12,7 @@
 //!
 //! The contact law of a pair combines two materials: the geometric mean of the friction coefficients (nothing sticks to
 //! a frictionless surface), the larger restitution, the larger lengths of rolling and spinning friction, the sum of the
-//! compliances.
+//! compliances. A [`PairLaw`] of the two bodies replaces any of these.
 
 pub(crate) mod candidate;
 mod detect;
@@ -71,6 +71,41 @@ impl Material {
             spinning_friction: self.spinning_friction.max(other.spinning_friction),
             stiffness: 1.0 / (1.0 / self.stiffness + 1.0 / other.stiffness),
             dissipation: self.dissipation.max(other.dissipation),
+            group: 0,
+        }
+    }
+}
+
+/// Contact law between the surfaces of two bodies, where it differs from the combination of their materials; what is
+/// left out is combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PairLaw {
+    /// True if the two do not touch each other.
+    pub is_excluded: bool,
+    /// Coulomb's coefficient.
+    pub friction: Option<f64>,
+    /// Newton's coefficient, 0 to 1.
+    pub restitution: Option<f64>,
+    /// Lever arm of rolling resistance `[m]`.
+    pub rolling_friction: Option<f64>,
+    /// Lever arm of the torque about the normal `[m]`.
+    pub spinning_friction: Option<f64>,
+    /// Force a metre of penetration [N/m]; infinite: rigid.
+    pub stiffness: Option<f64>,
+    /// Dissipation of a compliant contact [s/m].
+    pub dissipation: Option<f64>,
+}
+
+impl PairLaw {
+    /// The contact law, from the combination of the two materials.
+    fn replace(&self, combined: Material) -> Material {
+        Material {
+            friction: self.friction.unwrap_or(combined.friction),
+            restitution: self.restitution.unwrap_or(combined.restitution),
+            rolling_friction: self.rolling_friction.unwrap_or(combined.rolling_friction),
+            spinning_friction: self.spinning_friction.unwrap_or(combined.spinning_friction),
+            stiffness: self.stiffness.unwrap_or(combined.stiffness),
+            dissipation: self.dissipation.unwrap_or(combined.dissipation),
             group: 0,
         }
     }
@@ -158,8 +193,13 @@ impl Collider {
     }
 }
 
-/// The pairs of a set of surfaces; `joined` says of two links whether a joint joins them directly.
-pub(crate) fn pairs(colliders: &[Collider], joined: impl Fn(u32, u32) -> bool) -> Vec<Pair> {
+/// The pairs of a set of surfaces; `joined` says of two links whether a joint joins them directly, `law` gives the law of
+/// two colliders that have one of their own.
+pub(crate) fn pairs(
+    colliders: &[Collider],
+    joined: impl Fn(u32, u32) -> bool,
+    law: impl Fn(usize, usize) -> PairLaw,
+) -> Vec<Pair> {
     let mut pairs: Vec<Pair> = Vec::new();
     for i in 0..colliders.len() {
         for j in i + 1..colliders.len() {
@@ -167,12 +207,13 @@ pub(crate) fn pairs(colliders: &[Collider], joined: impl Fn(u32, u32) -> bool) -
             let same_group = x.material.group != 0 && x.material.group == y.material.group;
             // a joint to the world does not keep what it carries off the floor
             let adjacent = x.link != WORLD && y.link != WORLD && joined(x.link, y.link);
-            if x.link == y.link || same_group || adjacent {
+            let law = law(i, j);
+            if x.link == y.link || same_group || adjacent || law.is_excluded {
                 continue;
             }
             let Some((a, b, kind, slots)) = arrange(colliders, i, j) else { continue };
             let first = pairs.last().map_or(0, |p| p.first + p.slots);
-            pairs.push(Pair { a, b, material: x.material.with(&y.material), first, slots, kind });
+            pairs.push(Pair { a, b, material: law.replace(x.material.with(&y.material)), first, slots, kind });
         }
     }
     pairs

@@ -1,6 +1,7 @@
 //! Passive properties of a degree of freedom: armature, spring, damper, Coulomb friction, constant torque.
 
 use super::WORLD;
+use crate::actuation::Friction;
 
 /// Passive properties of one degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,8 +14,8 @@ pub struct Dof<R> {
     pub rest: R,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: R,
-    /// Coulomb friction torque [N·m] or force `[N]`.
-    pub friction: R,
+    /// Friction torque [N·m] or force `[N]`.
+    pub friction: Friction<R>,
     /// Constant applied torque [N·m] or force `[N]`.
     pub torque: R,
     /// Coordinate in q that this degree of freedom moves; `WORLD` for those of ball and free joints.

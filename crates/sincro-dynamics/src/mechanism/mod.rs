@@ -413,7 +413,7 @@ impl<R: Real> Mechanism<R> {
         self.find_motor_torques(v_at, steps);
         for (i, drive) in self.model.drives.iter().enumerate() {
             if drive.kind == DriveKind::Friction {
-                dissipation += friction::dissipation(self.friction_torque(i), v[drive.dof]);
+                dissipation += friction::dissipation(self.friction_torque(i, v_at[drive.dof]), v[drive.dof]);
             }
         }
         for (i, motor) in self.model.motors.iter().enumerate() {
@@ -429,14 +429,14 @@ impl<R: Real> Mechanism<R> {
         rates[1] = dissipation;
     }
 
-    /// Torque of the friction drive `i` in the last evaluation: its limit if saturated; if locked, the reaction up to
-    /// its limit (a motor that locks the same joint gives the rest).
+    /// Torque of the friction drive `i` in the last evaluation, at rate `v`: its limit if saturated; if locked, the
+    /// reaction up to its limit (a motor that locks the same joint gives the rest).
     #[inline(always)]
-    pub(crate) fn friction_torque(&self, i: usize) -> R {
+    pub(crate) fn friction_torque(&self, i: usize, v: R) -> R {
         let drive = self.model.drives[i];
-        let limit = self.model.dofs[drive.dof].friction;
-        let locked = self.scratch.reaction[drive.dof].clamp_abs(limit);
-        self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * limit)
+        let friction = &self.model.dofs[drive.dof].friction;
+        let locked = self.scratch.reaction[drive.dof].clamp_abs(friction.at_rest);
+        self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * friction.limit_at(v))
     }
 
     /// Torque of every motor in the last evaluation.
@@ -454,7 +454,7 @@ impl<R: Real> Mechanism<R> {
             for f in 0..d {
                 if self.model.drives[f].dof == drive.dof {
                     // friction that locks the same joint takes its share first
-                    let share = self.friction_torque(f);
+                    let share = self.friction_torque(f, v[drive.dof]);
                     locked -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
                 }
             }
@@ -621,22 +621,12 @@ impl<R: Real> System<R> for Mechanism<R> {
     }
 }
 
-/// φ' = ω + ½ φ×ω + c φ×(φ×ω), c = (1 − (θ/2) cot(θ/2))/θ², θ = |φ|.
+/// φ' = ω + ½ φ×ω + c φ×(φ×ω) with ω in child axes; c by [`Vec3::rotation_rate_coefficient`].
 #[inline(always)]
 fn rotation_rate<R: Real>(phi: &[R], omega: &[R], rate: &mut [R]) {
     let (phi, omega) = (Vec3([phi[0], phi[1], phi[2]]), Vec3([omega[0], omega[1], omega[2]]));
-    let square = phi.dot(phi);
-    // series below θ = 0.1, where its next term is 1e-16 of the first
-    let near = R::splat(1e-2);
-    let series = R::splat(1.0 / 12.0)
-        + square * (R::splat(1.0 / 720.0) + square * (R::splat(1.0 / 30240.0) + square * R::splat(1.0 / 1_209_600.0)));
-    let safe = near.if_less(square, square, R::one());
-    let half = R::splat(0.5) * safe.sqrt();
-    let (sin, cos) = half.sin_cos();
-    let closed = (R::one() - half * cos / sin) / safe;
-    let c = near.if_less(square, closed, series);
     let once = phi.cross(omega);
     let twice = phi.cross(once);
-    let out = omega + once.scale(R::splat(0.5)) + twice.scale(c);
+    let out = omega + once.scale(R::splat(0.5)) + twice.scale(phi.rotation_rate_coefficient());
     rate.copy_from_slice(&out.0);
 }

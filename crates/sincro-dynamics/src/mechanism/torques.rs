@@ -36,6 +36,10 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
         torque[k] = (dof.torque + spring::torque(dof, spring_at)) + damper::torque(dof, v);
         diagonal[k] = dof.armature + steps.0 * (dof.damping + steps.1 * dof.stiffness);
     }
+    for &link in &model.sprung {
+        let k = model.links[link].v_idx as usize;
+        spring::add_torques(&model.links[link], &model.dofs[k..], (at.q, &at.v[k..]), steps.1, &mut torque[k..]);
+    }
     for applied in &model.applied {
         torque[applied.dof] += applied.torque(at.t);
     }
@@ -48,7 +52,7 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     }
     for (drive, &saturation) in model.drives.iter().zip(at.drives) {
         // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
-        if let Some(limit) = model.drive_limit(drive) {
+        if let Some(limit) = model.saturated_torque(drive, at.v[drive.dof]) {
             torque[drive.dof] += saturation * limit;
         }
     }

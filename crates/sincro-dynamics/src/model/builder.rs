@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::Motor;
+use crate::actuation::{Friction, Motor};
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
-use crate::contact::{Material, Surface};
+use crate::contact::{Material, PairLaw, Surface};
 use crate::joint::JointKind;
 use crate::signal::Signal;
 use crate::spatial::Pose;
@@ -25,20 +25,22 @@ impl NodeId {
     pub const WORLD: Self = Self(0);
 }
 
-/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none"; springs, friction, torques
-/// and motors need one-degree-of-freedom coordinates (not ball or free).
+/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none". Those of a ball joint are
+/// about the axes of its child frame; those of a free joint these three, then along the same axes.
 #[derive(Clone, Debug)]
 pub struct JointSpec {
     /// Kind and axes.
     pub kind: JointKind,
     /// Reflected inertia [kg·m²] or `[kg]`.
     pub armature: Vec<f64>,
-    /// Spring stiffness [N·m/rad] or [N/m] and rest position `[rad]` or `[m]`.
+    /// Spring stiffness [N·m/rad] or [N/m] and rest position `[rad]` or `[m]`. Of ball and free joints: stiffness and
+    /// components of the rotation vector of the rest orientation, then, of free ones, along the axes of the joint frame
+    /// (see [`crate::actuation::spring`]).
     pub spring: Vec<(f64, f64)>,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: Vec<f64>,
-    /// Coulomb friction [N·m] or `[N]`.
-    pub friction: Vec<f64>,
+    /// Friction [N·m] or `[N]`.
+    pub friction: Vec<Friction<f64>>,
     /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
     /// True for a fixed joint through which the wrench is measured: it is then a link of its own, whose six degrees of
@@ -189,6 +191,7 @@ pub struct ModelBuilder {
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) nodes: Vec<Node>,
     pub(crate) colliders: Vec<(NodeId, Pose<f64>, Surface, Material)>,
+    pub(crate) contact_pairs: Vec<([NodeId; 2], PairLaw)>,
     pub(crate) loop_joints: Vec<(String, LoopJointSpec)>,
     pub(crate) gears: Vec<(String, GearSpec)>,
     pub(crate) rest_speed: f64,
@@ -204,6 +207,7 @@ impl ModelBuilder {
             wind: None,
             nodes: vec![world],
             colliders: Vec::new(),
+            contact_pairs: Vec::new(),
             loop_joints: Vec::new(),
             gears: Vec::new(),
             rest_speed: REST_SPEED,
@@ -254,6 +258,11 @@ impl ModelBuilder {
     /// Adds a surface that can touch others, at `pose` `[m]` in the frame of a body or frame.
     pub fn collider(&mut self, on: NodeId, pose: Pose<f64>, surface: Surface, material: Material) {
         self.colliders.push((on, pose, surface, material));
+    }
+
+    /// Gives the surfaces of two bodies a contact law of their own; the last one given to two bodies counts.
+    pub fn contact_pair(&mut self, bodies: [NodeId; 2], law: PairLaw) {
+        self.contact_pairs.push((bodies, law));
     }
 
     /// Adds a loop joint between two frames; its constraint closes a loop of the tree.

@@ -8,15 +8,25 @@ use crate::ids::MotorId;
 use crate::joint::JointKind;
 
 impl<R: Real> Model<R> {
-    /// Torque limit of a drive [N·m] or `[N]`; none if no lane has a limit.
+    /// Torque limit of a drive at its target velocity [N·m] or `[N]`; none if no lane has a limit.
     #[inline(always)]
     pub(crate) fn drive_limit(&self, drive: &Drive) -> Option<R> {
         let limit = match drive.kind {
             DriveKind::Lock => return None,
-            DriveKind::Friction => self.dofs[drive.dof].friction,
+            DriveKind::Friction => self.dofs[drive.dof].friction.at_rest,
             DriveKind::Motor(i) => self.motor(i).max_torque,
         };
         limit.is_finite().then_some(limit)
+    }
+
+    /// Torque of a saturated drive at rate `v`, without its sign [N·m] or `[N]`: its limit, or less for friction in
+    /// motion; none if no lane has a limit.
+    #[inline(always)]
+    pub(crate) fn saturated_torque(&self, drive: &Drive, v: R) -> Option<R> {
+        match drive.kind {
+            DriveKind::Friction => Some(self.dofs[drive.dof].friction.limit_at(v)),
+            DriveKind::Motor(_) | DriveKind::Lock => self.drive_limit(drive),
+        }
     }
 
     /// Target velocity of a drive [rad/s] or [m/s] for latched commands and coordinates at the tick.
@@ -34,7 +44,7 @@ impl<R: Real> Model<R> {
     /// Drives that follow from joints and motors: friction first, then motors, then locked degrees of freedom.
     pub(crate) fn find_drives(&self) -> Vec<Drive> {
         let zero = R::zero();
-        let friction = self.dofs.iter().enumerate().filter(|(_, d)| d.friction != zero);
+        let friction = self.dofs.iter().enumerate().filter(|(_, d)| d.friction.at_rest != zero);
         let friction = friction.map(|(dof, _)| Drive { dof, kind: DriveKind::Friction });
         let motors = self.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
         let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(MotorId::new(i)) });

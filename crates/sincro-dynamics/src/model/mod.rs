@@ -59,6 +59,8 @@ pub struct Model<R> {
     pub(crate) drives: Vec<Drive>,
     pub(crate) constraints: Arc<ConstraintSet>,
     pub(crate) n_q: usize,
+    /// Links of ball and free joints with springs.
+    pub(crate) sprung: Vec<usize>,
     pub(crate) names: Arc<Names>,
 }
 

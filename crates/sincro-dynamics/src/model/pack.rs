@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Friction, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedFrom};
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
@@ -64,7 +64,11 @@ impl<R: Real> Model<R> {
             stiffness: num(&|m| m.dofs[d].stiffness),
             rest: num(&|m| m.dofs[d].rest),
             damping: num(&|m| m.dofs[d].damping),
-            friction: num(&|m| m.dofs[d].friction),
+            friction: Friction {
+                sliding: num(&|m| m.dofs[d].friction.sliding),
+                at_rest: num(&|m| m.dofs[d].friction.at_rest),
+                stribeck_velocity: num(&|m| m.dofs[d].friction.stribeck_velocity),
+            },
             torque: num(&|m| m.dofs[d].torque),
             q_idx: first.dofs[d].q_idx,
         });
@@ -129,6 +133,7 @@ impl<R: Real> Model<R> {
             drags: drags.collect(),
             wind: first.wind.clone(),
             n_q: first.n_q,
+            sprung: first.sprung.clone(),
             names: Arc::clone(&first.names),
         })
     }
@@ -145,7 +150,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         m.rotors.iter().map(|x| (x.link, x.law.clone(), x.speed.structure(), x.density)).collect()
     };
     let drags = |m: &Model<f64>| -> Vec<_> { m.drags.iter().map(|x| (x.link, x.density)).collect() };
-    let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction > 0.0).collect() };
+    let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction.at_rest > 0.0).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
         (motors(a) == motors(b), "motors"),
@@ -156,6 +161,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (a.wind == b.wind, "wind"),
         (a.constraints == b.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
+        (a.sprung == b.sprung, "set of ball and free joints with springs"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))
 }

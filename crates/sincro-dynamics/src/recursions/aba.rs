@@ -18,6 +18,7 @@
 
 use sincro_math::{Real, Task};
 
+use crate::actuation::DriveKind;
 use crate::joint::{Link, Stage, StageVisitor, WORLD};
 use crate::model::Model;
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
@@ -313,21 +314,24 @@ fn advance<S: Stage, R: Real>(
     }
 }
 
-/// D of every degree of freedom at a state: the inertia that a torque on it meets with everything else left free
-/// [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an explicit
+/// D of every degree of freedom at a state: the inertia that a torque on it meets with everything else left free but
+/// force sensors [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an explicit
 /// integrator.
 #[must_use]
 pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
     let n = model.n_v();
     let mut scratch = Scratch::new(model);
     let diagonal: Vec<f64> = model.dofs.iter().map(|d| d.armature).collect();
-    let (torque, mut v_dot) = (vec![0.0; n], vec![0.0; n]);
+    let (torque, mut v_dot, mut mask) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    for drive in model.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {
+        mask[drive.dof] = 1.0;
+    }
     let input = Input {
         q: &state.q,
         v: &torque,
         torque: &torque,
         diagonal: &diagonal,
-        prescribed: None,
+        prescribed: Some(Prescribed { mask: &mask, acceleration: &torque }),
         external: None,
         gravity: false,
     };

@@ -1,6 +1,6 @@
 //! Unit quaternions, scalar first (w, x, y, z); `q` and `−q` are the same rotation.
 
-use sincro_math::Real;
+use sincro_math::{Real, elementary};
 
 use super::{Mat3, Vec3};
 
@@ -52,6 +52,24 @@ impl<R: Real> Quat<R> {
         let sinc = small.if_less(square, sin / a, sinc_series);
         let w = small.if_less(square, cos, cos_series);
         Self { w, xyz: half.scale(sinc) }
+    }
+
+    /// Rotation vector `[rad]` of a unit quaternion: axis times angle, the angle at most π.
+    #[inline(always)]
+    pub fn log(&self) -> Vec3<R> {
+        let zero = R::zero();
+        let sign = self.w.if_less(zero, -R::one(), R::one());
+        let (w, square) = (self.w * sign, self.xyz.dot(self.xyz));
+        // angle/sin(angle/2): series of the arcsine below sin² = 1e-3, where its next term is 2e-17
+        let small = R::splat(1e-3);
+        let series = R::splat(2.0)
+            + square
+                * (R::splat(1.0 / 3.0)
+                    + square
+                        * (R::splat(3.0 / 20.0) + square * (R::splat(5.0 / 56.0) + square * R::splat(35.0 / 576.0))));
+        let sin = small.if_less(square, square, R::one()).sqrt();
+        let closed = R::splat(2.0) * sin.map2(w, elementary::atan2) / sin;
+        self.xyz.scale(sign * small.if_less(square, closed, series))
     }
 
     /// Hamilton product: first `b`, then `self`, for components; `q_ab * q_bc = q_ac`.

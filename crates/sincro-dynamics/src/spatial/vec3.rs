@@ -15,6 +15,23 @@ impl<R: Real> Vec3<R> {
         Self([x, y, z])
     }
 
+    /// Coefficient c of φ×(φ×ω) in the rate of a rotation vector φ `[rad]`, and in the gradient of a function of it:
+    /// c = (1 − (θ/2) cot(θ/2))/θ², θ = |φ|. Source: key `iserles2000`, section 2.5.
+    #[inline(always)]
+    pub(crate) fn rotation_rate_coefficient(self) -> R {
+        let square = self.dot(self);
+        // series below θ = 0.1, where its next term is 1e-16 of the first
+        let near = R::splat(1e-2);
+        let series = R::splat(1.0 / 12.0)
+            + square
+                * (R::splat(1.0 / 720.0) + square * (R::splat(1.0 / 30240.0) + square * R::splat(1.0 / 1_209_600.0)));
+        let safe = near.if_less(square, square, R::one());
+        let half = R::splat(0.5) * safe.sqrt();
+        let (sin, cos) = half.sin_cos();
+        let closed = (R::one() - half * cos / sin) / safe;
+        near.if_less(square, closed, series)
+    }
+
     /// Vector of zeros, of any unit.
     #[inline(always)]
     pub fn zero() -> Self {

@@ -202,7 +202,7 @@ impl Observation<'_> {
     pub fn friction_torque(&self, dof: usize) -> f64 {
         let drives = self.model().drives();
         let friction = drives.iter().position(|d| d.dof == dof && d.kind == DriveKind::Friction);
-        friction.map_or(0.0, |i| self.mechanism.friction_torque(i))
+        friction.map_or(0.0, |i| self.mechanism.friction_torque(i, self.state.v[dof]))
     }
 
     /// Contact points with their forces.

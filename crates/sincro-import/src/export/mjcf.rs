@@ -120,7 +120,7 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
         let all = [
             ("damping", dof.damping),
             ("armature", dof.armature),
-            ("frictionloss", dof.friction),
+            ("frictionloss", dof.friction.sliding),
             ("stiffness", dof.stiffness),
         ];
         let mut text: String =

@@ -185,7 +185,7 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, parent: &str
             *out += &format!(
                 "<dynamics><damping>{}</damping><friction>{}</friction><spring_stiffness>{}</spring_stiffness><spring_reference>{}</spring_reference></dynamics>",
                 plain(dof.damping),
-                plain(dof.friction),
+                plain(dof.friction.sliding),
                 plain(dof.stiffness),
                 plain(dof.rest)
             );

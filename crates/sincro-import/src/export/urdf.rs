@@ -107,9 +107,12 @@ fn joint_text(
         *out += &format!("    <limit effort=\"{}\" velocity=\"{}\"/>\n", plain(effort), plain(speed));
     }
     if let [dof] = joint.dofs[..] {
-        if dof.damping != 0.0 || dof.friction != 0.0 {
-            *out +=
-                &format!("    <dynamics damping=\"{}\" friction=\"{}\"/>\n", plain(dof.damping), plain(dof.friction));
+        if dof.damping != 0.0 || dof.friction.sliding != 0.0 {
+            *out += &format!(
+                "    <dynamics damping=\"{}\" friction=\"{}\"/>\n",
+                plain(dof.damping),
+                plain(dof.friction.sliding)
+            );
         }
         for (value, words) in [(dof.armature, "armature"), (dof.stiffness, "spring")] {
             if value != 0.0 {

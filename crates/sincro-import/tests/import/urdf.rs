@@ -61,7 +61,7 @@ fn limits_outside_zero_move_the_start_and_gears_follow() {
     assert!(entry(&imported, "joint[shoulder]").words.contains("starts at 1.0"));
     assert_eq!(scene.model.constraints().gears[0].ratio, 2.0);
     let dof = scene.model.dofs()[0];
-    assert_eq!((dof.damping, dof.friction), (0.3, 0.1));
+    assert_eq!((dof.damping, dof.friction.sliding), (0.3, 0.1));
 }
 
 #[test]

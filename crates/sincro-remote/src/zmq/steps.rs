@@ -1,8 +1,8 @@
 //! The step counter: clients of version 1 wait for it after each step.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::net::TcpStream;
-use std::collections::BTreeSet;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 

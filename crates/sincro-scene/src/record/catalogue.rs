@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::aero::rotor::RotorLaw;
-use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
 use super::{ContactQuantity, EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
@@ -125,6 +125,7 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             list.vector(&format!("{name}.quaternion"), &WXYZ, "1", |k| Probe::Coordinate(q + k));
             list.vector(&format!("{name}.velocity"), &XYZ, "rad/s", |k| Probe::Rate(v + k));
             list.vector(&format!("{name}.acceleration"), &XYZ, "rad/s²", |k| Probe::Acceleration(v + k));
+            passive(list, name, model, ("torque", "N·m"), v);
         }
         JointKind::Free => {
             list.vector(&format!("{name}.position"), &XYZ, "m", |k| Probe::Coordinate(q + k));
@@ -133,6 +134,8 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             list.vector(&format!("{name}.velocity"), &XYZ, "m/s", |k| Probe::Rate(v + 3 + k));
             list.vector(&format!("{name}.angular_acceleration"), &XYZ, "rad/s²", |k| Probe::Acceleration(v + k));
             list.vector(&format!("{name}.acceleration"), &XYZ, "m/s²", |k| Probe::Acceleration(v + 3 + k));
+            passive(list, name, model, ("torque", "N·m"), v);
+            passive(list, name, model, ("force", "N"), v + 3);
         }
     }
     if let Some(motor) = joint.motor.map(sincro_dynamics::ids::MotorId::index) {
@@ -148,6 +151,20 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
         list.add(format!("{name}.command"), command, Probe::Command(motor));
         list.add(format!("{name}.motor_torque"), torque, Probe::MotorTorqueMean(motor));
         list.add(format!("{name}.motor_torque_now"), torque, Probe::MotorTorqueNow(motor));
+    }
+}
+
+/// Torques or forces of the passive elements that act on three degrees of freedom of a ball or free joint, child axes.
+fn passive(list: &mut List, name: &str, model: &Model<f64>, (what, unit): (&str, &'static str), v: usize) {
+    let has = |acts: fn(&Dof<f64>) -> bool| model.dofs()[v..v + 3].iter().any(acts);
+    if has(|dof| dof.stiffness != 0.0) {
+        list.vector(&format!("{name}.spring_{what}"), &XYZ, unit, |k| Probe::SpringTorque(v + k));
+    }
+    if has(|dof| dof.damping != 0.0) {
+        list.vector(&format!("{name}.damping_{what}"), &XYZ, unit, |k| Probe::DampingTorque(v + k));
+    }
+    if has(|dof| dof.friction.at_rest != 0.0) {
+        list.vector(&format!("{name}.friction_{what}"), &XYZ, unit, |k| Probe::FrictionTorque(v + k));
     }
 }
 

@@ -62,10 +62,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     Some(match probe {
         Probe::Coordinate(i) => at.q[i],
         Probe::Rate(k) => at.v[k],
-        Probe::SpringTorque(k) => {
-            let dof = &model.dofs()[k];
-            spring::torque(dof, at.q[dof.coordinate().expect("a scalar joint")])
-        }
+        Probe::SpringTorque(k) => spring::torque_on(model, k, at.q),
         Probe::DampingTorque(k) => damper::torque(&model.dofs()[k], at.v[k]),
         Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
         Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),

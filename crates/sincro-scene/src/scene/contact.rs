@@ -2,7 +2,7 @@
 //! start.
 
 use sincro_dynamics::constraint::LoopJointKind;
-use sincro_dynamics::contact::{Material, Surface};
+use sincro_dynamics::contact::{Material, PairLaw, Surface};
 use sincro_dynamics::initial;
 use sincro_dynamics::model::{GearSpec, LoopJointSpec, Model, ModelBuilder, NodeId};
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
@@ -10,7 +10,8 @@ use sincro_dynamics::state::State;
 
 use super::body;
 use super::file::{
-    BodyFile, ClosureFile, ClosureKindFile, ContactFile, CouplingFile, JointKindFile, LimitsFile, SceneFile,
+    BodyFile, ClosureFile, ClosureKindFile, ContactFile, ContactPairFile, CouplingFile, JointKindFile, LimitsFile,
+    SceneFile,
 };
 use super::height_field;
 use super::mesh::MeshInstance;
@@ -20,6 +21,7 @@ use super::signal_file::SignalReader;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
 use crate::folder::Folder;
+use crate::names::fits;
 use crate::suggest;
 
 /// A closure open by more than this at the start is closed by moving joints, and a warning says so `[m]`, `[rad]`.
@@ -204,6 +206,43 @@ impl Joiner<'_> {
         let pose = Pose { rot: with_z_along(axis), pos: Vec3::zero() };
         let [Some(a), Some(b)] = ends else { return None };
         Some(LoopJointSpec { kind, ends: [a, b], poses: [pose, pose] })
+    }
+
+    /// The pairs of bodies that a contact law is meant for.
+    pub fn contact_pair(&mut self, file: &ContactPairFile, pointer: &str) -> Vec<([NodeId; 2], PairLaw)> {
+        if file.dissipation.is_some() && file.stiffness.is_some_and(f64::is_infinite) {
+            let at = self.document.key_at(&format!("{pointer}/dissipation"));
+            let diagnostic = Diagnostic::error(&at, "`dissipation` has no meaning for a rigid contact");
+            self.diagnostics.push(diagnostic.with_help("give a finite `stiffness` [N/m], or `restitution` instead"));
+        }
+        let law = PairLaw {
+            is_excluded: !file.touches,
+            friction: file.friction,
+            restitution: file.restitution,
+            rolling_friction: file.rolling_friction,
+            spinning_friction: file.spinning_friction,
+            stiffness: file.stiffness,
+            dissipation: file.dissipation,
+        };
+        let [a, b] = [0, 1].map(|k| self.touching(&file.between[k], &format!("{pointer}/between/{k}")));
+        let pairs = a.iter().flat_map(|a| b.iter().map(move |b| [*a, *b])).filter(|[a, b]| a != b);
+        pairs.map(|bodies| (bodies, law)).collect()
+    }
+
+    /// Bodies with a contact whose paths fit a pattern.
+    fn touching(&mut self, pattern: &str, pointer: &str) -> Vec<NodeId> {
+        let touches = |o: &Object| o.contact.is_some();
+        if !pattern.contains('*') {
+            return self.find(pattern, pointer, touches, "body with a `contact`").into_iter().collect();
+        }
+        let fitting = self.objects.iter().zip(self.nodes).filter(|(o, _)| touches(o) && fits(pattern, &o.path));
+        let found: Vec<NodeId> = fitting.map(|(_, node)| *node).collect();
+        if found.is_empty() {
+            let message = format!("no body with a `contact` has a path of the form `{pattern}`");
+            let diagnostic = Diagnostic::error(&self.document.at(pointer), message);
+            self.diagnostics.push(diagnostic.with_help("`*` stands for characters within a name, `**` for any at all"));
+        }
+        found
     }
 
     pub fn coupling(&mut self, file: &CouplingFile, pointer: &str) -> Option<GearSpec> {

@@ -77,6 +77,9 @@ pub(crate) struct SceneFile {
     /// Pairs of joints that move together: gears.
     #[serde(default)]
     pub coupling: Vec<CouplingFile>,
+    /// Contact laws of pairs of bodies, where they are not the combination of the two surfaces.
+    #[serde(default)]
+    pub contact_pair: Vec<ContactPairFile>,
     /// Approach slower than this does not bounce [m/s].
     #[serde(default = "rest_speed")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -234,12 +237,12 @@ pub(crate) struct JointFile {
     /// Where it starts.
     #[serde(default)]
     pub initial: InitialFile,
-    /// Spring: τ = −stiffness·(q − rest); a list for several degrees of freedom.
+    /// Spring: τ = −stiffness·(q − rest); a list for several degrees of freedom. Ball joints: about the axes of the child, q and rest are rotation vectors; free joints: these three, then along the axes of the joint frame.
     pub spring: Option<OneOrList<SpringFile>>,
     /// Viscous coefficient: τ = −damping·q̇; a list for several degrees of freedom [N·m·s/rad] or [N·s/m].
     pub damping: Option<OneOrList<f64>>,
     /// Coulomb friction: sticks below it, slips against the motion above it; a list for several degrees of freedom [N·m] or [N].
-    pub friction: Option<OneOrList<f64>>,
+    pub friction: Option<OneOrList<FrictionFile>>,
     /// Applied torque or force as a signal, evaluated continuously; a list for several degrees of freedom [N·m] or [N].
     pub torque: Option<OneOrList<SignalFile>>,
     /// Fixed joints: whether the force and torque through it are measured.
@@ -372,6 +375,68 @@ pub(crate) struct CouplingFile {
     /// Coordinate of the second where that of the first is zero [rad] or [m].
     #[serde(default)]
     pub offset: f64,
+}
+
+/// Contact law between two bodies; what is left out is combined from their two surfaces.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactPairFile {
+    /// Paths of the two bodies; `*` stands for any characters within a name, `**` for any at all. The last pair that fits two bodies counts.
+    pub between: [String; 2],
+    /// Whether they touch each other at all.
+    #[serde(default = "yes")]
+    pub touches: bool,
+    /// Coulomb's coefficient, sliding and sticking.
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+    /// Newton's coefficient: speed of leaving over speed of arriving.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: Option<f64>,
+    /// Lever arm of rolling resistance: its torque is at most this times the normal force [m].
+    #[schemars(range(min = 0.0))]
+    pub rolling_friction: Option<f64>,
+    /// Lever arm of the friction torque about the normal [m].
+    #[schemars(range(min = 0.0))]
+    pub spinning_friction: Option<f64>,
+    /// Force a metre of penetration; rigid if inf [N/m].
+    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    pub stiffness: Option<f64>,
+    /// Of a compliant contact: force = stiffness·δ·(1 + dissipation·δ̇) [s/m].
+    #[schemars(range(min = 0.0))]
+    pub dissipation: Option<f64>,
+}
+
+/// Friction of a joint: one limit, or a table of a limit at rest and one in motion.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum FrictionFile {
+    /// Coulomb friction, the same at rest and in motion [N·m] or [N].
+    Coulomb(f64),
+    /// Stiction and Stribeck's curve.
+    Stribeck(#[serde(deserialize_with = "of_table")] StribeckFile),
+}
+
+/// Reads a table alone: structures are read from lists too, which here are frictions of several degrees of freedom.
+fn of_table<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<StribeckFile, D::Error> {
+    let table = serde_json::Map::deserialize(reader)?;
+    serde_json::from_value(table.into()).map_err(serde::de::Error::custom)
+}
+
+/// Friction that is larger at rest: limit = sliding + (static − sliding)·exp(−(q̇/stribeck_velocity)²).
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StribeckFile {
+    /// Limit in fast motion [N·m] or [N].
+    #[schemars(range(min = 0.0))]
+    pub sliding: f64,
+    /// Limit at rest, at least that in motion [N·m] or [N].
+    #[serde(rename = "static")]
+    #[schemars(range(min = 0.0))]
+    pub at_rest: f64,
+    /// Speed at which the excess over `sliding` has fallen to 37 % [rad/s] or [m/s].
+    #[serde(default = "stribeck_velocity")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub stribeck_velocity: f64,
 }
 
 /// A linear spring.
@@ -717,6 +782,14 @@ fn world() -> String {
 
 fn rest_speed() -> f64 {
     sincro_dynamics::model::REST_SPEED
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn stribeck_velocity() -> f64 {
+    0.01
 }
 
 fn first_format() -> u64 {

@@ -1,11 +1,11 @@
 //! Joints and motors: from what is written to the builder's specification.
 
-use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Friction, Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::JointSpec;
 use sincro_dynamics::signal::Signal;
 
-use super::file::{JointFile, JointKindFile, MotorFile, MotorModeFile, OneOrList};
+use super::file::{FrictionFile, JointFile, JointKindFile, MotorFile, MotorModeFile, OneOrList, StribeckFile};
 use super::signal_file::SignalReader;
 use crate::diagnostic::Diagnostic;
 
@@ -18,7 +18,8 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
     let mut spec = JointSpec::new(kind(file, pointer, signals));
     spec.armature = numbers(&file.armature);
     spec.damping = numbers(&file.damping);
-    spec.friction = numbers(&file.friction);
+    let frictions = file.friction.as_ref().map(OneOrList::as_slice).unwrap_or_default();
+    spec.friction = frictions.iter().map(friction).collect();
     let springs = file.spring.as_ref().map(OneOrList::as_slice).unwrap_or_default();
     spec.spring = springs.iter().map(|s| (s.stiffness, s.rest)).collect();
     spec.sensor = file.force_sensor;
@@ -44,6 +45,15 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
 
 fn numbers(list: &Option<OneOrList<f64>>) -> Vec<f64> {
     list.as_ref().map(|list| list.as_slice().to_vec()).unwrap_or_default()
+}
+
+fn friction(file: &FrictionFile) -> Friction<f64> {
+    match *file {
+        FrictionFile::Coulomb(limit) => Friction::coulomb(limit),
+        FrictionFile::Stribeck(StribeckFile { sliding, at_rest, stribeck_velocity }) => {
+            Friction { sliding, at_rest, stribeck_velocity }
+        }
+    }
 }
 
 fn torques(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> Vec<Signal> {

@@ -330,7 +330,7 @@ impl Assembly {
         self.entry_of.push(place.entry);
     }
 
-    /// Closures and couplings, which name objects by their paths.
+    /// Closures, couplings and pairs of surfaces, which name objects by their paths.
     fn join(&mut self, file: &SceneFile, document: &Document, diagnostics: &mut Diagnostics) {
         self.builder.set_rest_speed(file.rest_speed);
         let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, diagnostics };
@@ -342,6 +342,11 @@ impl Assembly {
         for (k, coupling) in file.coupling.iter().enumerate() {
             if let Some(spec) = joiner.coupling(coupling, &format!("/coupling/{k}")) {
                 self.builder.gear(&format!("/{}", coupling.name), spec);
+            }
+        }
+        for (k, pair) in file.contact_pair.iter().enumerate() {
+            for (bodies, law) in joiner.contact_pair(pair, &format!("/contact_pair/{k}")) {
+                self.builder.contact_pair(bodies, law);
             }
         }
     }
