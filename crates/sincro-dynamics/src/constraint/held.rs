@@ -66,6 +66,16 @@ impl<R: Real> Solver<R> {
         lambda: &mut [R],
     ) -> bool {
         self.report.solved += 1;
+        self.hold_modes(problem, blocks, lambda)
+    }
+
+    /// As [`Solver::hold`], as a part of another problem.
+    pub(super) fn hold_modes(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
         self.rank = RANK;
         for _ in 0..MAX_TURNS {
             self.correct(problem, blocks, lambda);

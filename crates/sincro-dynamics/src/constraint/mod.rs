@@ -42,6 +42,7 @@ mod admm;
 mod cone;
 mod delassus;
 mod dense;
+mod engage;
 mod gauss_seidel;
 mod held;
 mod impact;
@@ -77,12 +78,16 @@ use warm_start::WarmStart;
 /// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
 pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;
 
-/// Bounds of the speed below which a contact neither slides nor approaches [m/s] or [rad/s]; within them it is ten
-/// times the accuracy of the integration.
-pub(crate) const LEAST_ZERO_SPEED: f64 = 1e-8;
+/// Speed below which a contact neither slides nor approaches [m/s] or [rad/s], of methods without error control.
+const ZERO_SPEED: f64 = 1e-8;
+
+/// Bounds of that speed with error control; within them it is ten times the accuracy, so that the finer run of an error
+/// bar shows what it does.
+pub(crate) const LEAST_ZERO_SPEED: f64 = 1e-10;
 pub(crate) const MAX_ZERO_SPEED: f64 = 1e-6;
 
-/// Least speed below which contacts that meet come to rest [m/s] or [rad/s].
+/// Speed below which contacts that meet come to rest [m/s] or [rad/s], with the speed that counts as none where that is
+/// larger; at most ten times that speed.
 pub(crate) const SETTLING_SPEED: f64 = 1e-7;
 
 /// Conditioning of the loops below which a position is singular: no stage of a step may stand there.
@@ -211,7 +216,7 @@ impl<R: Real> Constraints<R> {
             row_sizes: Vec::new(),
             is_independent: vec![true; set.n_bilateral()],
             sub_step: 0.0,
-            zero_speed: LEAST_ZERO_SPEED,
+            zero_speed: ZERO_SPEED,
             settling_speed: SETTLING_SPEED,
             mode_rule: ModeRule::Decided,
             lost_modes: false,

@@ -78,8 +78,9 @@ pub(crate) struct Solver<R> {
     swept: Vec<R>,
     swept_rates: Vec<R>,
     share: LoadShare<R>,
-    /// Solution found first.
-    found: Solution<R>,
+    /// Solution found first, and the one in which all friction sticks ([`super::engage`]).
+    pub(super) found: Solution<R>,
+    pub(super) sticking: Solution<R>,
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
     trial: Option<SolverReport>,
@@ -100,6 +101,7 @@ impl<R: Real> Solver<R> {
         }
         self.all_active.reserve(more(self.all_active.len()));
         self.found.reserve(m);
+        self.sticking.reserve(m);
     }
 
     /// Begins a trial step: one that was begun before and not accepted does not count.
@@ -165,24 +167,6 @@ impl<R: Real> Solver<R> {
         self.engage(problem, blocks, lambda);
     }
 
-    /// Takes the solution in which open contacts that do not separate are closed, and friction without slip sticks,
-    /// where there is one: of redundant contacts all take part, whatever the warm start was.
-    fn engage(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
-        let small = Tolerances::of(problem, lambda);
-        if !blocks.iter().any(|block| is_idle(block, small, &self.active_set.rates)) {
-            return;
-        }
-        self.found.keep(blocks, lambda, &self.active_set.rates);
-        for block in blocks.iter_mut() {
-            engage(block, small, &self.found.rates);
-        }
-        if !self.iterate_active_set(problem, blocks, lambda) {
-            blocks.copy_from_slice(&self.found.blocks);
-            lambda.copy_from_slice(&self.found.lambda);
-            self.active_set.find_rates(problem, lambda);
-        }
-    }
-
     /// Active-set iteration from what Gauss–Seidel sweeps find; returns true on convergence. `explicit` as in
     /// [`Solver::enumerate`].
     fn sweep(
@@ -230,7 +214,7 @@ impl<R: Real> Solver<R> {
     }
 
     /// Active-set iteration: corrects the multipliers and updates violated modes; returns true on convergence.
-    fn iterate_active_set(
+    pub(super) fn iterate_active_set(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
@@ -336,30 +320,6 @@ impl Tolerances {
         let undoing = if lightest > 0.0 { largest(problem.b) / lightest } else { 0.0 };
         let [force, rate] = [largest(lambda).max(undoing), largest(problem.b)].map(|x| x + f64::MIN_POSITIVE);
         Self { force: SLACK * force, rate: SLACK * rate, held: HELD_RATE * rate, none: REFINED * rate }
-    }
-}
-
-/// Returns true if a constraint is open without separating, or friction that could stick slips without a rate.
-fn is_idle<R: Real>(block: &UnilateralConstraint<R>, small: Tolerances, rates: &[R]) -> bool {
-    if block.open {
-        return rates[block.row].lane(0).abs() <= small.held;
-    }
-    block.groups.iter().flatten().any(|group| is_idle_friction(group, small, rates))
-}
-
-fn is_idle_friction<R: Real>(group: &FrictionGroup<R>, small: Tolerances, rates: &[R]) -> bool {
-    !group.slides && group.mode == ContactMode::Slip && norm(pair(group, rates)) <= small.held
-}
-
-/// Closes a constraint that is open without separating, and lets friction that slips without a rate stick.
-fn engage<R: Real>(block: &mut UnilateralConstraint<R>, small: Tolerances, rates: &[R]) {
-    if block.open && is_idle(block, small, rates) {
-        block.open = false;
-    }
-    for group in block.groups.iter_mut().flatten() {
-        if is_idle_friction(group, small, rates) {
-            group.stick();
-        }
     }
 }
 

@@ -161,7 +161,7 @@ impl Mechanism<f64> {
     pub(crate) fn contact_event_resolution(&self, event: ContactEvent) -> f64 {
         let small = match event {
             ContactEvent::Law(_) => 1e-11,
-            ContactEvent::Reversal(..) => 1e-3 * LEAST_ZERO_SPEED,
+            ContactEvent::Reversal(..) => 1e-3 * self.constraints.as_ref().map_or(LEAST_ZERO_SPEED, |c| c.zero_speed),
             ContactEvent::Opening(_) | ContactEvent::Closing(_) => 1e-5 * CLOSED_DISTANCE,
         };
         small * self.projection_scale
@@ -306,7 +306,7 @@ impl Mechanism<f64> {
     pub(crate) fn set_contact_accuracy(&mut self, accuracy: f64) {
         if let Some(c) = &mut self.constraints {
             c.zero_speed = (10.0 * accuracy).clamp(LEAST_ZERO_SPEED, MAX_ZERO_SPEED);
-            c.settling_speed = c.zero_speed.max(SETTLING_SPEED);
+            c.settling_speed = c.zero_speed.max(SETTLING_SPEED).min(10.0 * c.zero_speed);
         }
     }
 
