@@ -48,6 +48,33 @@ fn a_limited_motor_needs_its_impulse_over_its_limit() {
     }
 }
 
+#[test]
+fn drives_that_reach_their_targets_in_one_step_do_so_one_after_the_other() {
+    // two carts of 2 kg on rails of their own: each is pushed with its limit up to its target, whichever comes first
+    let target = 1.0;
+    for limits in [[40.0, 100.0], [100.0, 40.0], [40.0, 40.5]] {
+        let mut b = ModelBuilder::new([0.0; 3]);
+        for (k, limit) in limits.into_iter().enumerate() {
+            let rail = b.joint(&format!("rail{k}"), NodeId::WORLD, Pose::identity(), motor(velocity_motor(limit)));
+            let mass = MassProperties { mass: 2.0, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 1.0] };
+            b.body(&format!("cart{k}"), rail, Pose::identity(), BodySpec { mass });
+        }
+        let model = b.build().unwrap().0;
+        for kind in [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff] {
+            let mut x = State::new(&model);
+            x.commands.fill(target);
+            let mut world = World::new(model.clone(), x, kind, 1e-9, 0.1);
+            run(&mut world, 0.1, 3);
+            for (k, limit) in limits.into_iter().enumerate() {
+                // v² m/(2 F) until the target is reached
+                let expected = target * 0.3 - 0.5 * target * target * 2.0 / limit;
+                let found = world.state.q[k];
+                assert!((found - expected).abs() < 1e-11, "{kind:?} {limits:?} {k}: {found} {expected}");
+            }
+        }
+    }
+}
+
 /// Two carts in a row: the second one rides on the first.
 fn carts(first: JointSpec, second: JointSpec) -> Model<f64> {
     let mut b = ModelBuilder::new([0.0; 3]);

@@ -206,12 +206,14 @@ impl<R: Real> WarmStart<R> {
         self.closed[slot] && code(&self.start, slot).saturating_sub(1) & 1 == 0
     }
 
-    /// Closed slot and group that slides against its direction at the start of the sub-step.
+    /// Closed slot and group that slides fastest against its direction at the start of the sub-step.
     pub fn reversal(&self) -> Option<(usize, usize)> {
+        let along = |(slot, g): &(usize, usize)| self.along_start[*slot][*g];
         let closed = (0..self.closed.len()).filter(|slot| self.closed[*slot]);
         closed
             .flat_map(|slot| (0..3).map(move |g| (slot, g)))
-            .find(|(slot, g)| self.slides[*slot][*g] && self.along_start[*slot][*g] < 0.0)
+            .filter(|(slot, g)| self.slides[*slot][*g] && along(&(*slot, *g)) < 0.0)
+            .min_by(|a, b| along(a).total_cmp(&along(b)))
     }
 
     /// Sliding velocity of a group along that at the start of the sub-step [m/s] or [rad/s].

@@ -137,7 +137,9 @@ impl Mechanism<f64> {
     /// has closed.
     pub(crate) fn contact_events(&mut self, v: &[f64]) -> [Option<ContactEvent>; 4] {
         let Some(c) = self.constraints.as_deref() else { return [None; 4] };
-        let opened = c.blocks.iter().position(|b| b.given.is_some() && c.residual[b.row] > 0.0);
+        let distance = |k: &usize| c.residual[c.blocks[*k].row];
+        let opened = (0..c.blocks.len()).filter(|k| c.blocks[*k].given.is_some() && distance(k) > 0.0);
+        let opened = opened.max_by(|j, k| distance(j).total_cmp(&distance(k)));
         [
             c.violation.map(ContactEvent::Law),
             c.memory.reversal().map(|(slot, group)| ContactEvent::Reversal(slot, group)),

@@ -38,12 +38,14 @@ pub(super) enum Crossing {
 }
 
 impl World {
-    /// Finds the zero crossings that have happened in the present state, at most one of each kind: a saturated drive
-    /// has passed its target velocity, a locked one exceeds its limit, a contact has changed. Returns one of them.
+    /// Finds the zero crossings that have happened in the present state, of each kind the one that is furthest beyond
+    /// zero: a saturated drive has passed its target velocity, a locked one exceeds its limit, a contact has changed.
+    /// Returns one of them.
     fn find_crossings<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> Option<Crossing> {
         self.crossings.clear();
-        let passed = (0..self.target_velocities.len()).find(|i| self.has_passed_target(*i));
-        self.crossings.extend(passed.map(Crossing::Target));
+        let passed = (0..self.target_velocities.len()).filter(|i| self.has_passed_target(*i));
+        let furthest = passed.max_by(|i, j| self.target_passage(*i).total_cmp(&self.target_passage(*j)));
+        self.crossings.extend(furthest.map(Crossing::Target));
         if self.mechanism.drives.contains(&0.0) || self.is_constrained() {
             self.evaluate_held(t, system);
             let n = self.model().n_v();

@@ -287,10 +287,11 @@ impl World {
         target != v && (target - v).abs() <= SIMULTANEOUS * (1.0 + v.abs()) + 4.0 * resolution * acceleration
     }
 
-    /// A locked drive that is overloaded in the last evaluation.
+    /// The locked drive that is overloaded most in the last evaluation.
     pub(super) fn find_overload(&self) -> Option<usize> {
-        (0..self.target_velocities.len())
-            .find(|i| self.mechanism.drives[*i] == 0.0 && self.mechanism.is_drive_overloaded(*i))
+        let overload = |i: &usize| self.mechanism.drive_overload(*i);
+        let locked = (0..self.target_velocities.len()).filter(|i| self.mechanism.drives[*i] == 0.0);
+        locked.filter(|i| overload(i) > 0.0).max_by(|i, j| overload(i).total_cmp(&overload(j)))
     }
 
     /// Decides the modes over a step at velocity level by trial steps: each limited drive either ends at its target
