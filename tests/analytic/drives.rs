@@ -1,7 +1,7 @@
 //! Velocity motors and Coulomb friction: exact tracking, impulses, saturation, sticking.
 
-use sincro_dynamics::actuation::{Friction, Motor, MotorMode};
-use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::joint::{Friction, JointKind};
 use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Pose, Vec3};

@@ -6,6 +6,8 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
 
+use sincro_math::elementary::sin_cos;
+
 use crate::mechanisms::run;
 
 /// A pendulum of 2 kg, 0.5 m long, with or without a force sensor between its hinge and the world.
@@ -36,7 +38,7 @@ fn a_force_sensor_may_carry_joints_alone() {
     // force on the hinge: gravity and the acceleration of the centre of mass at (−L sin θ, −L cos θ)
     let (m, length) = (2.0, 0.5);
     let acceleration = last(with.rates(1.0).0);
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = sin_cos(angle);
     let along = [-length * (acceleration * cos - rate * rate * sin), length * (acceleration * sin + rate * rate * cos)];
     let force = [3, 5].map(|k| with.reaction(k));
     assert!((force[0] - m * along[0]).abs() < 1e-9, "{force:?}");

@@ -4,7 +4,7 @@
 //! tree with the armature on its diagonal: loop joints, gears, limits and contacts act as constraints beside it.
 
 use sincro_dynamics::aba::{Input, forward_dynamics};
-use sincro_dynamics::actuation::{damper, spring};
+use sincro_dynamics::actuation::damper;
 use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea::inverse_dynamics;
@@ -73,7 +73,7 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     for joint in &model.names().joints {
         for k in 0..joint.n_v {
             let (i, dof) = (joint.v_idx + k, &model.dofs()[joint.v_idx + k]);
-            passive[i] = spring::torque_on(model, i, &q) + damper::torque(dof, v[i]);
+            passive[i] = model.spring_torque(i, &q) + damper::torque(dof, v[i]);
         }
     }
     Ok(EquationTerms { mass_matrix: mass, inverse_dynamics: inverse, forward_dynamics: forward, passive })

@@ -20,5 +20,4 @@ pub mod spring;
 
 pub use applied::{AppliedTorque, AppliedWrench, Push};
 pub use drive::{Drive, DriveKind};
-pub use friction::Friction;
 pub use motor::{Motor, MotorMode};

@@ -1,15 +1,14 @@
 //! Linear joint springs: τ = −k (q − rest), and springs of ball and free joints.
 //!
 //! The deflection of a ball joint is the rotation vector φ of its child frame from the rest orientation, |φ| ≤ π; its
-//! potential energy is ½ Σ kᵢ φᵢ² and its torque the negative gradient, −Jᵀ K φ in child axes with φ̇ = J ω (source: key
-//! `iserles2000`, section 2.5). At |φ| = π the rotation vector, and with it the torque, changes sign. A free joint has
-//! such a spring, and one along each axis of its joint frame, −kᵢ (rᵢ − restᵢ), where r is the position of its child
-//! frame.
+//! potential energy is ½ Σ kᵢ φᵢ² and its torque the negative gradient, −Jᵀ K φ in child axes with φ̇ = J ω (source:
+//! key `iserles2000`, section 2.5). At |φ| = π the rotation vector, and with it the torque, changes sign. A free joint
+//! has such a spring, and one along each axis of its joint frame, −kᵢ (rᵢ − restᵢ), where r is the position of its
+//! child frame.
 
 use sincro_math::Real;
 
 use crate::joint::{Dof, Link, StageKind};
-use crate::model::Model;
 use crate::spatial::{Quat, Vec3};
 
 /// Torque [N·m] or force `[N]` at coordinate `q`.
@@ -53,7 +52,8 @@ fn stiffness<R: Real>(dofs: &[Dof<R>], first: usize, x: Vec3<R>) -> Vec3<R> {
 }
 
 /// Adds the torques [N·m] and forces `[N]` of the springs of a ball or free joint, child axes; `dofs`, `v` and `torque`
-/// begin with its first degree of freedom. The deflections are those after `step` `[s]` at velocity `v`, to first order.
+/// begin with its first degree of freedom. The deflections are those after `step` `[s]` at velocity `v`, to first
+/// order.
 #[inline(always)]
 pub(crate) fn add_torques<R: Real>(link: &Link<R>, dofs: &[Dof<R>], (q, v): (&[R], &[R]), step: R, torque: &mut [R]) {
     let Deflection { rotation: phi, translation } = Deflection::new(link, dofs, q);
@@ -72,23 +72,6 @@ pub(crate) fn add_torques<R: Real>(link: &Link<R>, dofs: &[Dof<R>], (q, v): (&[R
             torque[3 + k] -= force[k];
         }
     }
-}
-
-/// Torque [N·m] or force `[N]` of the spring on a degree of freedom at coordinates `q` (n_q).
-#[must_use]
-pub fn torque_on<R: Real>(model: &Model<R>, dof: usize, q: &[R]) -> R {
-    if let Some(coordinate) = model.dofs[dof].coordinate() {
-        return torque(&model.dofs[dof], q[coordinate]);
-    }
-    let mut all = [R::zero(); 6];
-    for link in model.sprung.iter().map(|&link| &model.links[link]) {
-        let first = link.v_idx as usize;
-        if (first..first + link.kind.n_v()).contains(&dof) {
-            add_torques(link, &model.dofs[first..], (q, &[R::zero(); 6]), R::zero(), &mut all);
-            return all[dof - first];
-        }
-    }
-    R::zero()
 }
 
 /// Energy stored in the springs of a ball or free joint `[J]`; `dofs` begins with its first degree of freedom.

@@ -1,8 +1,8 @@
 //! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
-use crate::actuation::{DriveKind, Friction};
+use crate::actuation::DriveKind;
 use crate::aero::rotor::RotorLaw;
-use crate::joint::JointKind;
+use crate::joint::{Friction, JointKind};
 use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
 use crate::model::diagnostic::{Diagnostic, Severity};
 use crate::model::{MassProperties, Model};

@@ -7,12 +7,12 @@ mod check;
 
 use std::sync::Arc;
 
-use crate::actuation::{AppliedTorque, AppliedWrench, Friction, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
 use crate::contact::{self, Collider, PairLaw};
 use crate::ids::{BodyId, JointId, MotorId};
-use crate::joint::{Dof, JointKind, Link, Shift, StageKind, WORLD};
+use crate::joint::{Dof, Friction, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
 use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
 use crate::model::diagnostic::{BuildError, Diagnostic, Severity};

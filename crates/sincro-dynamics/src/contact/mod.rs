@@ -193,8 +193,8 @@ impl Collider {
     }
 }
 
-/// The pairs of a set of surfaces; `joined` says of two links whether a joint joins them directly, `law` gives the law of
-/// two colliders that have one of their own.
+/// The pairs of a set of surfaces; `joined` says of two links whether a joint joins them directly, `law` gives the law
+/// of two colliders that have one of their own.
 pub(crate) fn pairs(
     colliders: &[Collider],
     joined: impl Fn(u32, u32) -> bool,

@@ -1,7 +1,6 @@
 //! Passive properties of a degree of freedom: armature, spring, damper, Coulomb friction, constant torque.
 
-use super::WORLD;
-use crate::actuation::Friction;
+use super::{Friction, WORLD};
 
 /// Passive properties of one degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]

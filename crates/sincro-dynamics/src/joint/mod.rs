@@ -12,6 +12,7 @@
 mod ball;
 mod dof;
 mod free;
+mod friction;
 mod link;
 mod prismatic;
 mod revolute;
@@ -22,6 +23,7 @@ use sincro_math::Real;
 pub(crate) use ball::Ball;
 pub use dof::Dof;
 pub(crate) use free::Free;
+pub use friction::Friction;
 pub use link::Link;
 pub(crate) use link::{Shift, WORLD};
 pub(crate) use prismatic::Prismatic;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::{Friction, Motor};
+use crate::actuation::Motor;
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
 use crate::contact::{Material, PairLaw, Surface};
-use crate::joint::JointKind;
+use crate::joint::{Friction, JointKind};
 use crate::signal::Signal;
 use crate::spatial::Pose;
 

@@ -36,6 +36,7 @@ pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 
 use crate::actuation::Drive;
+use crate::actuation::spring;
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
@@ -233,6 +234,24 @@ impl<R: Real> Model<R> {
 }
 
 impl<R: Real> Model<R> {
+    /// Torque [N·m] or force `[N]` of the spring on a degree of freedom at coordinates `q` (n_q), child axes for ball
+    /// and free joints.
+    #[must_use]
+    pub fn spring_torque(&self, dof: usize, q: &[R]) -> R {
+        if let Some(coordinate) = self.dofs[dof].coordinate() {
+            return spring::torque(&self.dofs[dof], q[coordinate]);
+        }
+        let (zero, mut all) = ([R::zero(); 6], [R::zero(); 6]);
+        for link in self.sprung.iter().map(|&link| &self.links[link]) {
+            let first = link.v_idx as usize;
+            if (first..first + link.kind.n_v()).contains(&dof) {
+                spring::add_torques(link, &self.dofs[first..], (q, &zero), R::zero(), &mut all);
+                return all[dof - first];
+            }
+        }
+        R::zero()
+    }
+
     /// Applied torque [N·m] or force `[N]` on a degree of freedom at time `t` `[s]`.
     #[must_use]
     pub fn applied_torque(&self, dof: usize, t: f64) -> R {

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
-use crate::actuation::{AppliedTorque, AppliedWrench, Friction, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedFrom};
+use crate::joint::Friction;
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
 /// Error of [`Model::pack`]: the models differ in the structure of the named part.

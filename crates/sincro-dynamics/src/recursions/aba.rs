@@ -315,8 +315,8 @@ fn advance<S: Stage, R: Real>(
 }
 
 /// D of every degree of freedom at a state: the inertia that a torque on it meets with everything else left free but
-/// force sensors [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an explicit
-/// integrator.
+/// force sensors [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an
+/// explicit integrator.
 #[must_use]
 pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
     let n = model.n_v();

@@ -1,7 +1,7 @@
 //! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is
 //! linearised.
 
-use sincro_dynamics::actuation::{damper, spring};
+use sincro_dynamics::actuation::damper;
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
 use sincro_dynamics::coupled::{MechanismResponse, StateView};
 use sincro_dynamics::energy::{energy, momentum};
@@ -62,7 +62,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     Some(match probe {
         Probe::Coordinate(i) => at.q[i],
         Probe::Rate(k) => at.v[k],
-        Probe::SpringTorque(k) => spring::torque_on(model, k, at.q),
+        Probe::SpringTorque(k) => model.spring_torque(k, at.q),
         Probe::DampingTorque(k) => damper::torque(&model.dofs()[k], at.v[k]),
         Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
         Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),

@@ -1,7 +1,7 @@
 //! Joints and motors: from what is written to the builder's specification.
 
-use sincro_dynamics::actuation::{Friction, Motor, MotorMode};
-use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::joint::{Friction, JointKind};
 use sincro_dynamics::model::JointSpec;
 use sincro_dynamics::signal::Signal;
 

@@ -44,9 +44,9 @@ pub fn write_parquet(table: &Table, path: &Path) -> Result<(), FileError> {
 /// Sizes that a format can hold.
 struct Limits {
     columns: usize,
-    /// Of one signal.
+    /// Size of one signal.
     column_bytes: u64,
-    /// Of the whole file.
+    /// Size of the whole file.
     bytes: u64,
 }
 
