@@ -161,6 +161,7 @@ pub fn write_camera_frames(loaded: &Loaded, done: &CompletedRun, camera: usize, 
 /// # Errors
 ///
 /// The file cannot be written.
+#[cfg(feature = "adapters")]
 pub fn write_mcap(done: &CompletedRun, path: &Path) -> Result<(), FileError> {
     sincro_viewer::mcap::write(done, path)
 }
