@@ -15,7 +15,7 @@ use sincro_sim::{Extensions, load, load_without_variants};
 use super::command::Command;
 use super::live_state::{LiveState, RunLog};
 use super::track::{Taken, Track};
-use crate::replay::{FORMAT, Replay, plots};
+use crate::replay::{FORMAT, Replay, plots, record};
 use crate::save::save_scene;
 
 /// Commands that may wait.
@@ -37,6 +37,19 @@ pub struct Source {
     pub extensions: Extensions,
     /// Makes the drawing of a diagram.
     pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
+    /// Writes a run as a result; its path, or a sentence about what prevents it.
+    pub keep: Box<dyn Fn(&KeptRun) -> Result<String, String> + Send>,
+}
+
+/// A live run that is to be written as a result: what is needed to compute it again, bit for bit.
+#[derive(Clone, Debug)]
+pub struct KeptRun {
+    /// Overrides of the scene's files.
+    pub settings: Vec<Override>,
+    /// Simulated time up to which it went `[s]`; none: up to the end of the experiment.
+    pub duration: Option<f64>,
+    /// Hash of its states.
+    pub trace: String,
 }
 
 /// A live scene with its runs.
@@ -68,6 +81,7 @@ impl Engine {
             views: Vec::new(),
             properties: Vec::new(),
             plots: plots(&loaded),
+            record: record(&loaded),
             diagram: loaded.controller.as_ref().map(|c| (source.draw)(c)),
             runs: Vec::new(),
         };
@@ -163,6 +177,7 @@ impl Engine {
                 self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(Some((object, point, force))))
             }
             Command::Release {} => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
+            Command::Keep { run } => self.keep(run),
             Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set), self.source.extensions)
                 .map(|folder| self.live_state.say("saved", &format!("saved as {}", folder.display()))),
         };
@@ -214,6 +229,15 @@ impl Engine {
             .map_err(|diagnostics| diagnostics.to_string())?;
         let track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         self.begin_next(track, "from the start");
+        Ok(())
+    }
+
+    /// Writes a run as a result.
+    fn keep(&mut self, run: usize) -> Result<(), String> {
+        self.halt();
+        let track = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
+        let message = (self.source.keep)(&track.kept()?)?;
+        self.live_state.say("saved", &message);
         Ok(())
     }
 

@@ -17,8 +17,8 @@ const DIRECTIONS: [(f64, f64); 8] =
     [(1.0, -0.5), (1.0, 0.6), (-1.0, -0.5), (-1.0, 0.6), (0.2, -1.0), (0.2, 1.0), (1.0, -1.4), (-1.0, -1.4)];
 const DISTANCES: [f64; 4] = [12.0, 30.0, 52.0, 80.0];
 
-/// A scene in one frame as [`still`](super::still) draws it, with labels; empty if there is nothing to see. It takes its
-/// ink from the page.
+/// A scene in one frame as [`still`](super::still) draws it, with labels; empty if there is nothing to see. Its ink is
+/// that of the page.
 #[must_use]
 pub fn sketch(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
     let (faces, viewpoint) = (faces(view, frame), viewpoint(view, frame));
