@@ -4,8 +4,8 @@
 //! its error; magnitude and phase of a Bode plot). [`svg`] gives a standalone file, [`inline_svg`] the same picture for
 //! a page that carries [`PAGE_CSS`], [`thumbnail`] a small one without title.
 //!
-//! A few extreme values do not flatten the rest: the module `robust` says which range is shown, and spikes beyond it are
-//! marked at the edge with their value.
+//! A few extreme values do not flatten the rest: the module `robust` says which range is shown, and spikes beyond it
+//! are marked at the edge with their value.
 //!
 //! The same figure always gives the same bytes: numbers are formatted by [`number`], no map is iterated, no clock is
 //! read and no transcendental function of the platform is called. A series may hold millions of points; what is

@@ -2,9 +2,9 @@
 //!
 //! The core of a curve is the range of all but the hundredth of its values that is least and the hundredth that is
 //! greatest; the core of a panel is the union over its curves. If the whole range of the values is more than
-//! [`MIN_RATIO`] times as high as the core, the panel shows the core and [`AIR`] heights of it above and below, and every
-//! excursion beyond is marked at the edge with its value. A curve of few points, a band and a logarithmic axis are
-//! always shown whole.
+//! [`MIN_RATIO`] times as high as the core, the panel shows the core and [`AIR`] heights of it above and below, and
+//! every excursion beyond is marked at the edge with its value. A curve of few points, a band and a logarithmic axis
+//! are always shown whole.
 
 use super::axis::is_drawable;
 use super::{Panel, Series};

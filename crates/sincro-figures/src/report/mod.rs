@@ -1,7 +1,8 @@
 //! Pages of one run (`report.html`), of two runs (`diff.html`) and of many (the index of `sincro reproduce`).
 //!
-//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched. Scripts are
-//! the replay and a small one that reads values from the figures and magnifies them; without them the page is whole. It follows the reader's light or dark preference, prints in black and white on A4, and fits a phone.
+//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched. Its scripts are the replay
+//! and a small one that reads values from the figures and magnifies them; without them the page is whole. It follows
+//! the reader's light or dark preference, prints in black and white on A4, and fits a phone.
 //! [`Page`] and [`IndexPage`] are plain data; whoever fills them need not know any HTML. All text in them may come from
 //! a scene: it is escaped by [`crate::plot::escape`].
 //!
