@@ -52,11 +52,16 @@ pub struct KeptRun {
     pub trace: String,
 }
 
+/// Results that one engine writes; whoever has the link may ask for them, and disks are not endless.
+const MAX_KEPT: usize = 100;
+
 /// A live scene with its runs.
 pub struct Engine {
     source: Source,
     live_state: Arc<LiveState>,
     tracks: Vec<Track>,
+    /// Number of results written.
+    n_kept: usize,
     playing: bool,
     speed: Option<f64>,
     /// Wall clock and simulated time when it last began to play or changed its speed.
@@ -88,7 +93,8 @@ impl Engine {
         let live_state = Arc::new(LiveState::new(replay.to_json()));
         let first = Track::new(loaded, source.settings.clone())?;
         let since = (Instant::now(), 0.0);
-        let mut engine = Self { source, live_state, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
+        let mut engine =
+            Self { source, live_state, tracks: Vec::new(), n_kept: 0, playing: false, speed: Some(1.0), since };
         engine.begin(first, "main", "");
         Ok(engine)
     }
@@ -235,8 +241,12 @@ impl Engine {
     /// Writes a run as a result.
     fn keep(&mut self, run: usize) -> Result<(), String> {
         self.halt();
+        if self.n_kept >= MAX_KEPT {
+            return Err(format!("{MAX_KEPT} results have been saved from here already: start `sincro view` again"));
+        }
         let track = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
         let message = (self.source.keep)(&track.kept()?)?;
+        self.n_kept += 1;
         self.live_state.say("saved", &message);
         Ok(())
     }
