@@ -109,14 +109,12 @@ fn excursions(index: usize, series: &Series, (low, high): (f64, f64)) -> Vec<Spi
     for (x, y) in series.points() {
         let leaves = is_drawable(y, false) && excess(y) > 0.0;
         let spike = Spike { series: index, x, y };
-        match spikes.last_mut() {
-            Some(last) if leaves && is_outside && (last.y > high) == (y > high) => {
-                if excess(y) > excess(last.y) {
-                    *last = spike;
-                }
-            }
-            _ if leaves => spikes.push(spike),
-            _ => {}
+        let goes_on = is_outside && spikes.last().is_some_and(|last| (last.y > high) == (y > high));
+        match spikes.last_mut().filter(|_| goes_on) {
+            _ if !leaves => {}
+            Some(last) if excess(y) > excess(last.y) => *last = spike,
+            Some(_) => {}
+            None => spikes.push(spike),
         }
         is_outside = leaves;
     }

@@ -38,8 +38,11 @@ pub struct Source {
     /// Makes the drawing of a diagram.
     pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
     /// Writes a run as a result; its path, or a sentence about what prevents it.
-    pub keep: Box<dyn Fn(&KeptRun) -> Result<String, String> + Send>,
+    pub keep: ResultWriter,
 }
+
+/// Writes a run as a result: a sentence with its path, or one about what prevents it.
+pub type ResultWriter = Box<dyn Fn(&KeptRun) -> Result<String, String> + Send>;
 
 /// A live run that is to be written as a result: what is needed to compute it again, bit for bit.
 #[derive(Clone, Debug)]
