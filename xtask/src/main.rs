@@ -3,8 +3,8 @@
 //! - `check`: formatting, lints, tidiness, tests, packages, documentation; ends with a summary.
 //! - `tidy`: the checks of `check` that need no compiler: tree, arrows, words, manifests.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
-//! - `dist`: builds the program and the library of FMUs as they are given away (profile `dist`); fails if one is too
-//!   large.
+//! - `dist`: builds the program and the library of FMUs as they are given away (profile `dist`), packs them as
+//!   `.tar.gz` and `.deb`; fails if one is too large.
 //! - `judge NAME`: compares with other programs and public files, and writes the page of it.
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
@@ -27,7 +27,7 @@ fn main() -> ExitCode {
         Some("tidy") => exit(tidy::check(&root())),
         Some("dist") => {
             let packages = ["build", "--profile", "dist", "--package", "sincro", "--package", "sincro-fmi"];
-            exit(runs(&mut cargo(&packages)) && dist::size_holds(&root()))
+            exit(runs(&mut cargo(&packages)) && dist::size_holds(&root()) && dist::pack(&root()))
         }
         Some("judge") => exit(judge::run(&root(), std::env::args().nth(2).as_deref())),
         Some("api-sample") => exit(sample::print(&root())),

@@ -44,6 +44,8 @@ pub struct Replay {
     pub properties: Vec<Property>,
     /// Titles and signals of the experiment's plots.
     pub plots: Vec<(String, Vec<String>)>,
+    /// Signals that the experiment records, in its order.
+    pub record: Vec<String>,
     /// The diagram's drawing as SVG, if there is one.
     pub diagram: Option<String>,
     /// The runs, the main one first.
@@ -119,6 +121,7 @@ impl Replay {
             views,
             properties: properties(loaded, &[]),
             plots: plots(loaded),
+            record: record(loaded),
             diagram,
             runs,
         }
@@ -135,6 +138,11 @@ impl Replay {
 pub(crate) fn plots(loaded: &Loaded) -> Vec<(String, Vec<String>)> {
     let names = |p: &sincro_scene::experiment::Plot| p.signals.iter().map(|s| s.value.clone()).collect();
     loaded.experiment.plots.iter().map(|p| (p.title.clone(), names(p))).collect()
+}
+
+/// Signals that the experiment records.
+pub(crate) fn record(loaded: &Loaded) -> Vec<String> {
+    loaded.experiment.record.iter().map(|name| name.value.clone()).collect()
 }
 
 fn replay_run(name: &str, about: &str, done: &CompletedRun, share: f64, views: &mut Vec<SceneView>) -> ReplayRun {

@@ -25,6 +25,7 @@ fn engine(name: &str) -> (Arc<LiveState>, SyncSender<Command>) {
         settings: Vec::new(),
         extensions: Extensions::default(),
         draw: Box::new(|_| String::new()),
+        keep: Box::new(|kept| Ok(format!("kept {:?} {}", kept.duration, kept.trace))),
     };
     let engine = Engine::open(source).unwrap();
     (engine.live_state(), engine.start())
@@ -368,6 +369,7 @@ fn a_saved_scene_has_the_new_numbers_and_the_old_comments() {
         settings: Vec::new(),
         extensions: Extensions::default(),
         draw: Box::new(|_| String::new()),
+        keep: Box::new(|kept| Ok(format!("kept {:?} {}", kept.duration, kept.trace))),
     })
     .unwrap();
     let (live_state, commands) = (engine.live_state(), engine.start());
@@ -485,4 +487,35 @@ fn points_of_contact_travel_with_their_frames() {
     }
     assert!(force[0].abs() < 1e-3 && (force[2] - 9.81).abs() < 1e-3, "{force:?}");
     assert!((pressed - 40.0).abs() < 1e-3, "{pressed}");
+}
+
+/// The words that the engine says next.
+fn words_of(state: &LiveState, n_before: u64) -> String {
+    let limit = Instant::now() + Duration::from_secs(30);
+    loop {
+        if let Some((_, text)) = state.read().words.iter().find(|(n, _)| *n > n_before) {
+            return text.clone();
+        }
+        assert!(Instant::now() < limit, "the engine says nothing");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+#[test]
+fn a_run_from_the_start_is_kept_and_one_that_was_interfered_with_is_not() {
+    let (state, sender) = engine("double-pendulum");
+    sender.send(Command::Keep { run: 0 }).unwrap();
+    assert!(words_of(&state, 0).contains("nothing has been simulated yet"));
+    for _ in 0..3 {
+        sender.send(Command::Step {}).unwrap();
+    }
+    sender.send(Command::Keep { run: 0 }).unwrap();
+    let words = words_of(&state, 1);
+    assert!(words.contains("\"saved\"") && words.contains("kept Some("), "{words}");
+    let branch = Command::Branch { run: 0, t: 0.0, set: Vec::new(), joints: vec![(0, 0.3)], play: false };
+    sender.send(branch).unwrap();
+    sender.send(Command::Step {}).unwrap();
+    sender.send(Command::Keep { run: 1 }).unwrap();
+    let words = words_of(&state, 2);
+    assert!(words.contains("refused") && words.contains("joints were placed"), "{words}");
 }

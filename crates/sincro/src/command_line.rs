@@ -5,9 +5,13 @@
 
 use std::ffi::OsString;
 
-use clap::{CommandFactory, Parser, Subcommand};
+#[cfg(feature = "cli")]
+use clap::CommandFactory;
+use clap::{Parser, Subcommand};
 
-use crate::{Verdict, commands, diagnostics};
+#[cfg(feature = "cli")]
+use crate::diagnostics;
+use crate::{Verdict, commands};
 
 /// Simulates robots and their controllers in lock-step: exact, deterministic, with an error bar on every run.
 #[derive(Debug, Parser)]
@@ -36,8 +40,10 @@ enum Command {
     /// Write a scene in another format, and say what the format cannot
     #[command(subcommand)]
     Export(commands::export::Format),
+    #[cfg(feature = "adapters")]
     /// Show a scene live, or replay a finished run, in the browser: 3-D, plots, transport controls, parameters
     View(commands::view::Arguments),
+    #[cfg(feature = "adapters")]
     /// Show a finished run in the browser
     Replay(commands::view::ReplayArguments),
     /// Make a scene folder to start from
@@ -46,8 +52,10 @@ enum Command {
     Convert(commands::convert::Arguments),
     /// Write the schemas of scene and experiment files where editors find them
     Schema(commands::shell::SchemaArguments),
+    #[cfg(feature = "cli")]
     /// Print completions for a shell
     Completions(commands::shell::CompletionArguments),
+    #[cfg(feature = "cli")]
     /// Print the manual page
     Man(commands::shell::ManArguments),
     /// List, compare or prune finished runs
@@ -56,10 +64,12 @@ enum Command {
     Diff(commands::diff::Arguments),
     /// List the blocks that diagrams are made of, or show one with its parameters and an example
     Blocks(commands::blocks::Arguments),
+    #[cfg(feature = "adapters")]
     /// Serve a scene to clients of V-REP and CoppeliaSim: legacy, ZeroMQ and WebSocket remote APIs
     Serve(commands::serve::Arguments),
     /// Run every experiment of the thesis and show measured and expected values on one page
     Reproduce(commands::reproduce::Arguments),
+    #[cfg(feature = "cli")]
     /// Measure speed, memory and accuracy on this machine, next to MuJoCo and Pinocchio on request
     Bench(sincro_bench::Options),
 }
@@ -117,18 +127,24 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
         Command::Import(arguments) => commands::import::run(&arguments),
         Command::Export(format) => commands::export::run(&format),
+        #[cfg(feature = "adapters")]
         Command::View(arguments) => commands::view::run(&arguments),
+        #[cfg(feature = "adapters")]
         Command::Replay(arguments) => commands::view::replay(&arguments),
         Command::New(arguments) => commands::new::run(&arguments),
         Command::Convert(arguments) => commands::convert::run(&arguments),
         Command::Schema(arguments) => commands::shell::schema(&arguments),
+        #[cfg(feature = "cli")]
         Command::Completions(arguments) => commands::shell::completions(&arguments, Cli::command()),
+        #[cfg(feature = "cli")]
         Command::Man(arguments) => commands::shell::man(&arguments, Cli::command()),
         Command::Runs(arguments) => commands::runs::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Blocks(arguments) => commands::blocks::run(&arguments),
+        #[cfg(feature = "adapters")]
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
+        #[cfg(feature = "cli")]
         Command::Bench(options) => match sincro_bench::run(&options) {
             Ok(()) => Exit::Holds,
             Err(message) => diagnostics::refuse(&message, None),

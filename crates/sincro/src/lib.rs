@@ -3,7 +3,7 @@
 //! The parts are crates of their own: `sincro-dynamics` (multibody dynamics), `sincro-blocks` (block diagrams),
 //! `sincro-sim` (scenes, experiments, the run), the adapters `sincro-lua`, `sincro-remote` and `sincro-viewer`, and
 //! `sincro-figures`. None of the adapters knows another. This crate joins them once, for the command line and for every
-//! other front end; but for the command line itself (`command_line`, feature `cli`), it prints nothing
+//! other front end; but for the command line itself (`command_line`, feature `run`), it prints nothing
 //! and never ends the process.
 //!
 //! | to do | use |
@@ -35,29 +35,33 @@
 //! ```
 
 // the commands name the library as any other program would
-#[cfg(feature = "cli")]
+#[cfg(feature = "run")]
 extern crate self as sincro;
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "run")]
 pub mod command_line;
-#[cfg(feature = "cli")]
+#[cfg(feature = "run")]
 mod commands;
 pub mod compare;
-#[cfg(feature = "cli")]
+#[cfg(feature = "run")]
 mod diagnostics;
+#[cfg(feature = "adapters")]
 pub mod export;
 pub mod linearization;
 mod load;
 pub mod results;
 mod run;
+#[cfg(feature = "adapters")]
 pub mod serve;
+#[cfg(feature = "adapters")]
 pub mod view;
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "run")]
 pub(crate) use command_line::Exit;
 pub use load::{camera, extensions, load, scene_name};
 pub use run::{RunFailure, RunRequest, Verdict, simulate};
 
+#[cfg(feature = "adapters")]
 pub use sincro_lua::abort_running_scripts;
 pub use sincro_scene::diagnostic::Diagnostics;
 pub use sincro_scene::overrides::Override;

@@ -27,14 +27,15 @@ pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics>
 }
 
 /// Parts above the lock-step that a scene may need: Lua for its scripts, and the linearisation that warns of loops that
-/// are too fast for their step.
+/// are too fast for their step. Without the feature `adapters` there is no Lua, and scenes with scripts or FMUs are
+/// refused.
 #[must_use]
 pub fn extensions() -> Extensions {
-    Extensions {
-        scripts: Some(sincro_lua::engine()),
-        fmus: Some(sincro_fmu::import::loader()),
-        fastest_poles: Some(sincro_analysis::linearize::fastest_poles),
-    }
+    #[cfg(feature = "adapters")]
+    let (scripts, fmus) = (Some(sincro_lua::engine()), Some(sincro_fmu::import::loader()));
+    #[cfg(not(feature = "adapters"))]
+    let (scripts, fmus) = (None, None);
+    Extensions { scripts, fmus, fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
 }
 
 /// Name of a scene: that of its folder. `path` is the folder or a file in it.

@@ -21,6 +21,9 @@ const FRAMES: (f64, usize) = (30.0, 1800);
 /// Size of the picture on a card `[px]`.
 const CARD: (f64, f64) = (320.0, 150.0);
 
+/// Size of the labelled picture of a report `[px]`.
+const SKETCH: (f64, f64) = (880.0, 420.0);
+
 /// Link to another page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Link<'a> {
@@ -74,7 +77,7 @@ fn write_with(
     let replay = replay(loaded, campaign).to_json();
     write_text(&out.join("replay.json"), &replay)?;
     let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
-    let page = Page { replay: embed(&replay), up, ..page };
+    let page = with_sketch(Page { replay: embed(&replay), up, ..page }, campaign);
     write_text(&out.join("report.html"), &report::html(&page))
 }
 
@@ -82,7 +85,17 @@ fn write_with(
 #[must_use]
 pub fn report_html(loaded: &Loaded, campaign: &Campaign) -> String {
     let replay = embed::replay(&replay(loaded, campaign).to_json());
-    report::html(&Page { replay, ..campaign::page(loaded, campaign) })
+    report::html(&with_sketch(Page { replay, ..campaign::page(loaded, campaign) }, campaign))
+}
+
+/// The page with the labelled picture of the scene at its start.
+fn with_sketch(mut page: Page, campaign: &Campaign) -> Page {
+    let main = &campaign.main;
+    let first = main.simulated.trajectory.as_ref().filter(|trajectory| trajectory.n_frames() > 0);
+    if let (Some(mechanism), Some(trajectory)) = (&mut page.mechanism, first) {
+        mechanism.sketch = picture::sketch(&main.view, trajectory.frame(0), SKETCH);
+    }
+    page
 }
 
 /// Replay of a campaign, with the drawing of its diagram.
@@ -148,6 +161,7 @@ pub fn write_camera_frames(loaded: &Loaded, done: &CompletedRun, camera: usize, 
 /// # Errors
 ///
 /// The file cannot be written.
+#[cfg(feature = "adapters")]
 pub fn write_mcap(done: &CompletedRun, path: &Path) -> Result<(), FileError> {
     sincro_viewer::mcap::write(done, path)
 }

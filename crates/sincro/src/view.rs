@@ -2,17 +2,19 @@
 
 use std::fmt;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use sincro_figures::campaign;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_sim::result_folder::find_result;
-use sincro_viewer::live::{Engine, Source};
+use sincro_sim::result_folder::{ResultFolder, find_result};
+use sincro_viewer::live::{Engine, KeptRun, Source};
 use sincro_viewer::replay::FORMAT;
 
 pub use sincro_viewer::server::{Server, ViewerContent};
 
-use crate::load::{extensions, scene_name};
+use crate::load::{extensions, load, scene_name};
+use crate::run::RunRequest;
 
 /// Reason why a folder cannot be shown as a finished run.
 #[derive(Debug)]
@@ -64,10 +66,43 @@ pub fn replay(run: &Path) -> Result<ViewerContent, ReplayError> {
 pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<ViewerContent, Diagnostics> {
     let world = scene_name(scene);
     let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
-    let engine =
-        Engine::open(Source { folder: scene.to_owned(), settings: overrides, extensions: extensions(), draw })?;
+    let folder = scene.to_owned();
+    let keep = Box::new(move |kept: &KeptRun| keep(&folder, Path::new("results"), kept));
+    let source = Source { folder: scene.to_owned(), settings: overrides, extensions: extensions(), draw, keep };
+    let engine = Engine::open(source)?;
     let live_state = engine.live_state();
     Ok(ViewerContent::Live(live_state, engine.start()))
+}
+
+/// Writes a live run into the next numbered folder of its scene below `results`, as `sincro run` does: the run is
+/// computed again from the files and settings, and has the same trace hash. Returns a sentence with its path.
+///
+/// # Errors
+///
+/// A sentence: the scene does not load any more, a file cannot be written, the files were changed in the meantime.
+pub fn keep(scene: &Path, results: &Path, kept: &KeptRun) -> Result<String, String> {
+    let mut settings = kept.settings.clone();
+    if let Some(duration) = kept.duration {
+        settings.push(Override::new("duration", &duration.to_string()));
+    }
+    let mut loaded = load(scene, &settings).map_err(|diagnostics| diagnostics.to_string())?;
+    loaded.experiment.variants.clear();
+    loaded.experiment.sweep = None;
+    let folder = ResultFolder::numbered(&results.join(scene_name(scene))).map_err(|error| error.to_string())?;
+    let request = RunRequest { scene, overrides: &settings, loaded: &loaded, index: None };
+    let campaign = request.run_into(folder.path(), &AtomicBool::new(false), &mut |_, _| {});
+    let campaign = campaign.map_err(|error| error.to_string())?;
+    let path = folder.publish().map_err(|error| error.to_string())?;
+    let report = path.join("report.html");
+    match campaign.report.trace_hash == kept.trace {
+        true => Ok(format!("saved as {}, with the same trace hash {}", report.display(), kept.trace)),
+        false => Ok(format!(
+            "saved as {}; its trace hash {} is not that of the run in this window, {}: a file of the scene has changed",
+            report.display(),
+            campaign.report.trace_hash,
+            kept.trace
+        )),
+    }
 }
 
 /// Path of a camera of what is shown, named by its path or by the last part of that.

@@ -9,6 +9,7 @@ use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::check::{Outcome, Series as Expected};
 use sincro_sim::table::{Column, Table};
 
+use super::digits;
 use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Space, Stroke, Track};
 
 /// Most signals in a figure that nobody asked for.
@@ -70,8 +71,8 @@ fn path(plot: &Plot, campaign: &Campaign) -> Figure {
         }
         add(&signal.value, Role::Simulated, k, &signal.value, &campaign.main.simulated.table);
         for (v, (variant, done)) in campaign.variants.iter().enumerate().filter(|(_, (v, _))| wanted.draws(v)) {
-            let name = if k == 0 { variant.name.as_str() } else { "" };
-            add(name, Role::Variant(v), k, &signal.value, &done.simulated.table);
+            let name = variant_label(&variant.name, &signal.value, plot.signals.len());
+            add(&name, Role::Variant(v), k, &signal.value, &done.simulated.table);
         }
     }
     Figure { title: plot.title.clone(), space: Some(space), ..Figure::default() }
@@ -193,15 +194,16 @@ fn panels(
         let checked = expected_of(&done.outcomes, &column.name);
         let given = if k == 0 { reference.clone().map(|r| (r, None)) } else { None };
         if let Some((expected, tolerance)) = given.or(checked) {
-            add_reference(&mut panel, &mut error, (k, column, times), expected, tolerance);
+            let label = if drawn.len() > 1 { format!("expected {name}") } else { "expected".to_owned() };
+            add_reference(&mut panel, &mut error, (k, column, times), (expected, &label), tolerance);
             add_band(&mut error, k, column, done, times);
         }
         let others = if *of_variant { &[][..] } else { &campaign.variants };
         for (v, (variant, done)) in others.iter().enumerate().filter(|(_, (variant, _))| wanted.draws(variant)) {
             let other = &done.simulated.table;
             if let Some(same) = other.column(&column.name) {
-                let name = if k == 0 { variant.name.as_str() } else { "" };
-                panel.series.push(curve(same, name, Role::Variant(v), k, other.times()));
+                let label = variant_label(&variant.name, &column.name, drawn.len());
+                panel.series.push(curve(same, &label, Role::Variant(v), k, other.times()));
             }
         }
     }
@@ -212,6 +214,11 @@ fn panels(
         None => error,
     };
     if below.series.is_empty() { vec![panel] } else { vec![panel, below] }
+}
+
+/// Name of a variant's curve in a legend: the variant's, and the signal's where there are several.
+fn variant_label(variant: &str, signal: &str, n_signals: usize) -> String {
+    if n_signals > 1 { format!("{variant}:{signal}") } else { variant.to_owned() }
 }
 
 /// Differences of the variants from the main run, where they have rows at the same times.
@@ -278,7 +285,7 @@ fn add_reference(
     panel: &mut Panel,
     error: &mut Panel,
     (signal, column, times): (usize, &Column, &[f64]),
-    expected: Expected,
+    (expected, label): (Expected, &str),
     tolerance: Option<f64>,
 ) {
     let (mut x, mut y) = (Vec::new(), Vec::new());
@@ -289,8 +296,13 @@ fn add_reference(
             y.push(column.values[at] - value);
         }
     }
-    let name = if signal == 0 { "expected" } else { "" };
-    let reference = Series::new(name, Role::Reference, expected.times, expected.values);
+    if let Some(remark) = digits::remark(&expected.values, &y, &column.unit)
+        && !error.remark.contains(&remark)
+    {
+        let gap = if error.remark.is_empty() { "" } else { "; " };
+        error.remark = format!("{}{gap}{remark}", error.remark);
+    }
+    let reference = Series::new(label, Role::Reference, expected.times, expected.values);
     panel.series.push(Series { signal, ..reference });
     error.series.push(Series { signal, ..Series::new("", Role::Simulated, x, y) });
     if let (Some(tolerance), true) = (tolerance, error.limits.is_empty()) {
@@ -331,7 +343,7 @@ fn sweep_figures(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
         series.stroke = Stroke::Points;
         panel.series.push(series);
         if let Some((expected, tolerance)) = expected_of(outcomes, &column.name) {
-            add_reference(&mut panel, &mut error, (0, column, table.times()), expected, tolerance);
+            add_reference(&mut panel, &mut error, (0, column, table.times()), (expected, "expected"), tolerance);
         }
         error.series.iter_mut().for_each(|s| s.stroke = Stroke::Points);
         let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };

@@ -1,6 +1,8 @@
 //! Figures and page of a run with its variants, sweep and checks.
 
+mod digits;
 mod figures;
+mod mechanism;
 
 use sincro_scene::diagram::ControlDiagram;
 use sincro_sim::Loaded;
@@ -77,6 +79,7 @@ pub fn page(loaded: &Loaded, campaign: &Campaign) -> Page {
         stop: stop(&report.status),
         warnings: warnings(campaign),
         replay: String::new(),
+        mechanism: mechanism::of(loaded, campaign),
         figures: figures(loaded, campaign),
         diagrams: diagrams(loaded, campaign),
         findings: report.findings().map(finding_row).collect(),

@@ -5,7 +5,7 @@ use super::{Analysis, Channel, MAX_CHANNELS, figures};
 use crate::plot::number::significant;
 use crate::plot::{Figure, escape, escape_raised};
 use crate::report::page::figure;
-use crate::report::shell::{document, list, paragraph, section};
+use crate::report::shell::{PLOT_SCRIPT, contents, document, list, paragraph, section};
 
 /// Report page of a linear system as HTML, with its figures inline.
 #[must_use]
@@ -17,15 +17,14 @@ pub fn html(analysis: &Analysis) -> String {
         text::stability(analysis)
     );
     let reach = list(&text::reach_lines(analysis));
-    let body = [
-        banner,
+    let sections = [
         section("Poles", &(table(&StateTable::poles(analysis)) + &reach)),
         reduction(analysis),
         channels(analysis),
         section("Channels", &overview(analysis)),
         section("Matrices", &matrices(analysis)),
     ];
-    document(&analysis.title, "report", &body.concat())
+    document(&analysis.title, "report", &(banner + &contents(&sections) + &sections.concat() + PLOT_SCRIPT))
 }
 
 /// Text of the reduction; empty if nothing was eliminated.

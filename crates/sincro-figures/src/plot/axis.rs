@@ -30,6 +30,8 @@ pub(super) struct Scale {
     power: i32,
     /// Offset that is subtracted in the labels, as text with sign; empty if there is none.
     offset: String,
+    /// The same as a number.
+    origin: f64,
 }
 
 /// A labelled tick.
@@ -75,6 +77,12 @@ impl Scale {
         Some((place - self.low) / (self.high - self.low))
     }
 
+    /// Numbers by which a page's script reads values: both ends (of the logarithm, if it is one), 1 for a logarithmic
+    /// axis, offset of the labels, and their power of ten.
+    pub(super) fn script_data(&self) -> String {
+        format!("{} {} {} {} {}", self.low, self.high, u8::from(self.log), self.origin, self.power)
+    }
+
     /// Label and bracketed unit of an axis divided like this: `("energy − 1234.5 J", "[10⁻⁹ J]")`.
     pub(super) fn caption(&self, axis: &Axis) -> (String, String) {
         let gap = if axis.unit.is_empty() || self.offset.is_empty() { "" } else { " " };
@@ -108,6 +116,7 @@ impl Scale {
             minor: multiples(grid.minor, first, last).map(fraction).collect(),
             power,
             offset: grid.offset_text(origin),
+            origin: scaled(origin, grid.unit),
         }
     }
 
@@ -129,6 +138,7 @@ impl Scale {
             minor: multiples(fine, first, last).map(fraction).collect(),
             power: 0,
             offset: String::new(),
+            origin: 0.0,
         }
     }
 
@@ -155,6 +165,7 @@ impl Scale {
             minor: minor.chain([1.0]).collect(),
             power: 0,
             offset: String::new(),
+            origin: 0.0,
         }
     }
 }

@@ -41,7 +41,9 @@ pub(super) fn picture(figure: &Figure, size: Size, kind: Kind) -> String {
         canvas.bold_text((8.0, baseline), fonts.title, line);
     }
     for at in &layout.panels {
+        canvas.open_group("sp-panel");
         panel::draw(&mut canvas, &layout, at, context);
+        canvas.close_group();
     }
     draw_x_axis(&mut canvas, &layout, figure);
     canvas.close()
@@ -63,7 +65,7 @@ fn draw_x_axis(canvas: &mut Canvas, layout: &Layout, figure: &Figure) {
         let x = layout.left + tick.at * (layout.right - layout.left);
         let half = 0.5 * width(&tick.label, fonts.tick);
         let x = x.min(layout.size.width - 2.0 - half);
-        canvas.text((x, tick_baseline), "middle", fonts.tick, "sp-quiet", &tick.label);
+        canvas.text((x, tick_baseline), "middle", fonts.tick, "sp-quiet sp-x-tick", &tick.label);
     }
     let (label, bracket) = layout.x.caption(&figure.x);
     let label_baseline = tick_baseline + fonts.row() - 2.0;
@@ -79,6 +81,8 @@ fn draw_x_axis(canvas: &mut Canvas, layout: &Layout, figure: &Figure) {
 /// SVG text under construction.
 pub(super) struct Canvas {
     text: String,
+    /// Carries the numbers by which a page's script reads values and magnifies.
+    has_script_data: bool,
 }
 
 impl Canvas {
@@ -105,7 +109,7 @@ impl Canvas {
                 "<svg class=\"sp\" role=\"img\" aria-label=\"{title}\" viewBox=\"0 0 {width} {height}\">\n"
             )),
         }
-        Self { text }
+        Self { text, has_script_data: kind == Kind::Inline }
     }
 
     pub(super) fn close(mut self) -> String {
@@ -145,11 +149,28 @@ impl Canvas {
         self.text.push_str(&format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{attributes}>{content}</text>\n"));
     }
 
-    /// Opens a region outside of which nothing shows, and whose upper left corner is the new origin.
-    pub(super) fn open_clip(&mut self, left: f64, top: f64, right: f64, bottom: f64) {
+    /// An attribute for the script of a page; empty in files and thumbnails.
+    pub(super) fn script_data(&self, name: &str, value: &str) -> String {
+        if self.has_script_data { format!(r#" data-{name}="{}""#, escape(value)) } else { String::new() }
+    }
+
+    /// Opens a region (left, top, right, bottom) outside of which nothing shows, and whose upper left corner is the new
+    /// origin; `data` is for the script of a page.
+    pub(super) fn open_clip(&mut self, (left, top, right, bottom): (f64, f64, f64, f64), data: &[(&str, String)]) {
         let (x, y) = (coordinate(left), coordinate(top));
         let (width, height) = (coordinate(right - left), coordinate(bottom - top));
-        self.text.push_str(&format!("<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\">\n"));
+        let data: String = data.iter().map(|(name, value)| self.script_data(name, value)).collect();
+        self.text.push_str(&format!("<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{data}>\n"));
+    }
+
+    /// Opens a group.
+    pub(super) fn open_group(&mut self, class: &str) {
+        self.text.push_str(&format!("<g class=\"{class}\">\n"));
+    }
+
+    /// Closes the group.
+    pub(super) fn close_group(&mut self) {
+        self.text.push_str("</g>\n");
     }
 
     /// Closes the region.

@@ -5,13 +5,14 @@
 
 use super::axis::{Scale, is_drawable};
 use super::number::short;
-use super::text::{fit, width, wrap};
+use super::robust::{DataRange, range};
+use super::text::{fit_middle, width, wrap};
 use super::{Figure, Limit, Panel, Size};
 
-/// Length of a legend sample `[px]`.
-pub(super) const SAMPLE: f64 = 35.0;
 /// A plot area is never lower than this `[px]`.
 const MIN_AREA: f64 = 56.0;
+/// That of a thumbnail never lower than this `[px]`.
+const MIN_THUMBNAIL_AREA: f64 = 112.0;
 /// Free border around everything `[px]`.
 const BORDER: f64 = 8.0;
 
@@ -21,19 +22,21 @@ pub(super) struct Fonts {
     pub(super) title: f64,
     pub(super) label: f64,
     pub(super) tick: f64,
-    /// True: no title, legend, notes, and only the first panel.
+    /// Length of a legend sample.
+    pub(super) sample: f64,
+    /// True: no title, remarks, notes, and only the first panel.
     pub(super) is_thumbnail: bool,
 }
 
 impl Fonts {
     /// Sizes of a full figure.
-    pub(super) const FULL: Self = Self { title: 15.0, label: 13.0, tick: 12.0, is_thumbnail: false };
+    pub(super) const FULL: Self = Self { title: 15.0, label: 13.0, tick: 12.0, sample: 35.0, is_thumbnail: false };
     /// Sizes of a thumbnail.
-    pub(super) const THUMBNAIL: Self = Self { title: 0.0, label: 11.0, tick: 10.5, is_thumbnail: true };
+    pub(super) const THUMBNAIL: Self = Self { title: 0.0, label: 11.0, tick: 10.5, sample: 22.0, is_thumbnail: true };
 
     /// Distance of lines of label text.
     pub(super) fn row(&self) -> f64 {
-        self.label + 7.0
+        self.label + if self.is_thumbnail { 3.0 } else { 7.0 }
     }
 }
 
@@ -49,6 +52,8 @@ pub(super) struct Layout<'a> {
     pub(super) left: f64,
     pub(super) right: f64,
     pub(super) x: Scale,
+    /// Unit of the shared x axis.
+    pub(super) x_unit: &'a str,
     pub(super) panels: Vec<PanelLayout<'a>>,
     /// Lines under the figure that say what could not be drawn.
     pub(super) notes: Vec<String>,
@@ -65,6 +70,8 @@ pub(super) struct PanelLayout<'a> {
     pub(super) top: f64,
     pub(super) bottom: f64,
     pub(super) y: Scale,
+    /// Range of the values, and the spikes beyond it.
+    pub(super) data: DataRange,
 }
 
 /// A piece of a header: a title, a legend entry or a remark.
@@ -114,56 +121,61 @@ impl<'a> Layout<'a> {
         let left = left_margin(&panels, fonts);
         let right = (size.width - BORDER - 12.0).max(left + 20.0);
         let x = x_scale(figure, right - left, fonts);
-        Self { fonts, size, title, left, right, x, panels, notes }
+        Self { fonts, size, title, left, right, x, x_unit: &figure.x.unit, panels, notes }
     }
 }
 
 /// Places headers and plot areas between `top` and `bottom`.
 fn stack<'a>(shown: &[&'a Panel], top: f64, bottom: f64, width: f64, fonts: Fonts) -> Vec<PanelLayout<'a>> {
-    let headers: Vec<Vec<Entry>> = shown.iter().map(|panel| header(panel, width - 100.0, fonts)).collect();
+    let ranges: Vec<DataRange> = shown.iter().map(|panel| DataRange::of(panel)).collect();
+    let available = width - if fonts.is_thumbnail { 56.0 } else { 100.0 };
+    let headers: Vec<Vec<Entry>> =
+        shown.iter().zip(&ranges).map(|(panel, data)| header(panel, data, available, fonts)).collect();
     let heights: Vec<f64> = headers.iter().enumerate().map(|(i, header)| header_height(i, header, fonts)).collect();
     let shares: f64 = shown.iter().map(|panel| panel.usable_share()).sum();
     let free = bottom - top - heights.iter().sum::<f64>();
     let mut cursor = top;
     let mut panels = Vec::new();
-    for ((panel, header), height) in shown.iter().zip(headers).zip(heights) {
+    for (((panel, header), height), data) in shown.iter().zip(headers).zip(heights).zip(ranges) {
         let gap = if panels.is_empty() { 0.0 } else { 12.0 };
         let header_baseline = cursor + gap + fonts.label;
         let area_top = cursor + height;
-        let area_bottom = area_top + (free * panel.usable_share() / shares).max(MIN_AREA);
-        let y = Scale::of(&panel.y, y_range(panel), ((area_bottom - area_top) / 34.0) as usize);
-        panels.push(PanelLayout { panel, header, header_baseline, top: area_top, bottom: area_bottom, y });
+        let least = if fonts.is_thumbnail { MIN_THUMBNAIL_AREA } else { MIN_AREA };
+        let area_bottom = area_top + (free * panel.usable_share() / shares).max(least);
+        let y = Scale::of(&panel.y, y_range(panel, &data), ((area_bottom - area_top) / 34.0) as usize);
+        panels.push(PanelLayout { panel, header, header_baseline, top: area_top, bottom: area_bottom, y, data });
         cursor = area_bottom;
     }
     panels
 }
 
 fn header_height(index: usize, header: &[Entry], fonts: Fonts) -> f64 {
-    if fonts.is_thumbnail {
-        return 0.0;
-    }
     let gap = if index == 0 { 0.0 } else { 12.0 };
     let rows = header.iter().map(|entry| entry.row + 1).max().unwrap_or(0);
     gap + rows as f64 * fonts.row() + 4.0
 }
 
-/// Title and legend of a panel, flowing into rows of that width.
-fn header(panel: &Panel, available: f64, fonts: Fonts) -> Vec<Entry> {
-    if fonts.is_thumbnail {
-        return Vec::new();
-    }
+/// Title and legend of a panel, flowing into rows of that width. A thumbnail has the names of the curves alone.
+fn header(panel: &Panel, data: &DataRange, available: f64, fonts: Fonts) -> Vec<Entry> {
+    let curves = panel.series.iter().enumerate().map(|(i, series)| (Sample::Series(i), series.name.clone()));
     let mut pieces = Vec::new();
-    pieces.push((Sample::Title, panel.title.clone()));
-    pieces.extend(panel.series.iter().enumerate().map(|(i, series)| (Sample::Series(i), series.name.clone())));
-    pieces.extend(panel.bands.iter().enumerate().map(|(i, band)| (Sample::Band(i), band.name.clone())));
-    pieces.extend(panel.guides.iter().enumerate().map(|(i, guide)| (Sample::Guide(i), guide.name.clone())));
-    pieces.extend(limit_pieces(panel));
+    if fonts.is_thumbnail {
+        pieces.extend(curves);
+    } else {
+        pieces.push((Sample::Title, panel.title.clone()));
+        pieces.extend(curves);
+        pieces.extend(panel.bands.iter().enumerate().map(|(i, band)| (Sample::Band(i), band.name.clone())));
+        pieces.extend(panel.guides.iter().enumerate().map(|(i, guide)| (Sample::Guide(i), guide.name.clone())));
+        pieces.extend(limit_pieces(panel, data));
+        pieces.extend(spike_remark(panel, data).map(|remark| (Sample::Remark, remark)));
+        pieces.push((Sample::Remark, panel.remark.clone()));
+    }
     pieces.retain(|(_, text)| !text.trim().is_empty());
     let (mut x, mut row) = (0.0, 0);
     let mut entries: Vec<Entry> = Vec::new();
     for (sample, text) in pieces {
-        let lead = if matches!(sample, Sample::Title | Sample::Remark) { 0.0 } else { SAMPLE + 6.0 };
-        let text = fit(&text, fonts.label, available - lead);
+        let lead = if matches!(sample, Sample::Title | Sample::Remark) { 0.0 } else { fonts.sample + 6.0 };
+        let text = fit_middle(&text, fonts.label, available - lead);
         let length = lead + width(&text, fonts.label);
         if x > 0.0 && x + length > available {
             (x, row) = (0.0, row + 1);
@@ -175,14 +187,13 @@ fn header(panel: &Panel, available: f64, fonts: Fonts) -> Vec<Entry> {
 }
 
 /// One legend entry for each name of a drawn limit, one remark for each that lies too far away.
-fn limit_pieces(panel: &Panel) -> Vec<(Sample, String)> {
-    let data = data_range(panel);
+fn limit_pieces(panel: &Panel, data: &DataRange) -> Vec<(Sample, String)> {
     let mut pieces: Vec<(Sample, String)> = Vec::new();
     for limit in &panel.limits {
         let sign = if has_mirror_image(limit, panel) { "±" } else { "" };
         let size = if sign.is_empty() { limit.value } else { limit.value.abs() };
         let value = format!("{} {sign}{} {}", limit.name, short(size, 3), panel.y.unit);
-        let piece = match is_near(limit.value, data) {
+        let piece = match is_near(limit.value, data.shown) {
             true => (Sample::Limit, value.trim_end().to_owned()),
             false => (Sample::Remark, format!("({} is off the scale)", value.trim_end())),
         };
@@ -204,29 +215,22 @@ pub(super) fn is_near(limit: f64, data: Option<(f64, f64)>) -> bool {
     room == 0.0 || (low - room..=high + room).contains(&limit)
 }
 
-/// Least and greatest value of the curves and bands of a panel that can be drawn.
-pub(super) fn data_range(panel: &Panel) -> Option<(f64, f64)> {
-    let curves = panel.series.iter().flat_map(|series| series.points());
-    let lower = panel.bands.iter().flat_map(|band| band.x.iter().copied().zip(band.lower.iter().copied()));
-    let upper = panel.bands.iter().flat_map(|band| band.x.iter().copied().zip(band.upper.iter().copied()));
-    range(curves.chain(lower).chain(upper).map(|(_, y)| y), panel.y.log)
+/// Number of the spikes of a panel and the greatest one; `None`: there is none.
+fn spike_remark(panel: &Panel, data: &DataRange) -> Option<String> {
+    let greatest = data.spikes.first()?;
+    let value = format!("{} {}", short(greatest.y, 4), panel.y.unit);
+    Some(match data.spikes.len() {
+        1 => format!("(a spike of {} is off the scale)", value.trim_end()),
+        n => format!("({n} spikes are off the scale, the greatest of {})", value.trim_end()),
+    })
 }
 
-fn y_range(panel: &Panel) -> Option<(f64, f64)> {
-    let data = data_range(panel);
-    let near = panel.limits.iter().map(|limit| limit.value).filter(|&value| is_near(value, data));
-    let (low, high) = range(near.chain(data.into_iter().flat_map(|(low, high)| [low, high])), panel.y.log)?;
+fn y_range(panel: &Panel, data: &DataRange) -> Option<(f64, f64)> {
+    let near = panel.limits.iter().map(|limit| limit.value).filter(|&value| is_near(value, data.shown));
+    let (low, high) = range(near.chain(data.shown.into_iter().flat_map(|(low, high)| [low, high])), panel.y.log)?;
     // A little air, so that no peak touches the frame.
     let air = if panel.y.log { 0.0 } else { 0.03 * (high - low) };
     Some((low - air, high + air))
-}
-
-fn range(values: impl Iterator<Item = f64>, log: bool) -> Option<(f64, f64)> {
-    let drawable = values.filter(|&value| is_drawable(value, log));
-    drawable.fold(None, |range, value| match range {
-        None => Some((value, value)),
-        Some((low, high)) => Some((value.min(low), value.max(high))),
-    })
 }
 
 /// Border, rotated label, gap, widest tick label, gap.

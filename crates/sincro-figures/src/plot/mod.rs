@@ -2,7 +2,10 @@
 //!
 //! A [`Figure`] is plain data: one x axis shared by one or more [`Panel`]s stacked above one another (a signal and
 //! its error; magnitude and phase of a Bode plot). [`svg`] gives a standalone file, [`inline_svg`] the same picture for
-//! a page that carries [`PAGE_CSS`], [`thumbnail`] a small one without title and legend.
+//! a page that carries [`PAGE_CSS`], [`thumbnail`] a small one without title.
+//!
+//! A few extreme values do not flatten the rest: the module `robust` says which range is shown, and spikes beyond it
+//! are marked at the edge with their value.
 //!
 //! The same figure always gives the same bytes: numbers are formatted by [`number`], no map is iterated, no clock is
 //! read and no transcendental function of the platform is called. A series may hold millions of points; what is
@@ -15,6 +18,7 @@ mod draw;
 mod layout;
 pub mod number;
 mod panel;
+mod robust;
 mod space;
 mod style;
 mod text;
@@ -70,6 +74,8 @@ pub struct Panel {
     pub limits: Vec<Limit>,
     /// Auxiliary lines, behind the curves.
     pub guides: Vec<Guide>,
+    /// Stands behind the legend, such as a limit of what the panel can show; may be empty.
+    pub remark: String,
 }
 
 /// A curve or a cloud of points.
@@ -200,6 +206,7 @@ impl Panel {
             bands: Vec::new(),
             limits: Vec::new(),
             guides: Vec::new(),
+            remark: String::new(),
         }
     }
 
@@ -252,7 +259,7 @@ pub fn inline_svg(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Inline)
 }
 
-/// The first panel alone, small, without title and legend, for a page that carries [`PAGE_CSS`].
+/// The first panel alone, small, without title and remarks, for a page that carries [`PAGE_CSS`].
 pub fn thumbnail(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Thumbnail)
 }

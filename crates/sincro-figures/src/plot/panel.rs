@@ -3,8 +3,8 @@
 use super::axis::Scale;
 use super::decimate::{Point, decimate};
 use super::draw::{Canvas, Context};
-use super::layout::{Entry, Fonts, Layout, PanelLayout, SAMPLE, Sample, data_range, is_near};
-use super::number::coordinate;
+use super::layout::{Entry, Fonts, Layout, PanelLayout, Sample, is_near};
+use super::number::{coordinate, short};
 use super::style::{self, Look};
 use super::text::{fit, width};
 use super::{Band, Guide, Role, Series, Stroke, Weight};
@@ -13,6 +13,8 @@ use super::{Band, Guide, Role, Series, Stroke, Weight};
 const SPILL: f64 = 5.0;
 /// Distance of markers along the x axis `[px]`.
 const MARKER_SPACING: f64 = 88.0;
+/// Spikes that are marked in one panel, at most.
+const MAX_SPIKES: usize = 12;
 /// Points of one curve: never more than this, however wide the figure.
 const MAX_COLUMNS: usize = 999;
 
@@ -22,7 +24,14 @@ pub(super) fn draw(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, conte
         Frame { left: layout.left, right: layout.right, top: at.top, bottom: at.bottom, x: &layout.x, y: &at.y };
     frame.draw_grid(canvas);
     frame.draw_axes(canvas, layout, at);
-    canvas.open_clip(frame.left - SPILL, frame.top - SPILL, frame.right + SPILL, frame.bottom + SPILL);
+    let corners = (frame.left - SPILL, frame.top - SPILL, frame.right + SPILL, frame.bottom + SPILL);
+    let data = [
+        ("x", frame.x.script_data()),
+        ("y", frame.y.script_data()),
+        ("x-unit", layout.x_unit.to_owned()),
+        ("unit", at.panel.y.unit.clone()),
+    ];
+    canvas.open_clip(corners, &data);
     let inner = frame.shifted(SPILL - frame.left, SPILL - frame.top);
     for band in &at.panel.bands {
         inner.draw_band(canvas, band);
@@ -30,8 +39,7 @@ pub(super) fn draw(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, conte
     for guide in &at.panel.guides {
         inner.draw_guide(canvas, guide, layout.fonts);
     }
-    let data = data_range(at.panel);
-    for limit in at.panel.limits.iter().filter(|limit| is_near(limit.value, data)) {
+    for limit in at.panel.limits.iter().filter(|limit| is_near(limit.value, at.data.shown)) {
         inner.draw_limit(canvas, limit.value);
     }
     let mut stacked: Vec<(Look, &Series)> =
@@ -41,7 +49,8 @@ pub(super) fn draw(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, conte
         inner.draw_series(canvas, series, look, context);
     }
     canvas.close_clip();
-    if data.is_none() {
+    frame.draw_spikes(canvas, at, layout.fonts, context);
+    if at.data.shown.is_none() {
         let middle = (0.5 * (frame.left + frame.right), 0.5 * (frame.top + frame.bottom));
         canvas.text(middle, "middle", layout.fonts.label, "sp-quiet", "no values to draw");
     }
@@ -75,9 +84,10 @@ impl Frame<'_> {
         self.bottom + fraction * (self.top - self.bottom)
     }
 
-    /// Place of a value pair on the canvas; kept within a few figure sizes, which SVG viewers can count in.
+    /// Place of a value pair on the canvas; kept within a hundred figure sizes, which SVG viewers can
+    /// count in.
     fn place(&self, x: f64, y: f64) -> Option<Point> {
-        let (x, y) = (self.x.fraction(x)?.clamp(-9.0, 9.0), self.y.fraction(y)?.clamp(-9.0, 9.0));
+        let (x, y) = (self.x.fraction(x)?.clamp(-9.0, 9.0), self.y.fraction(y)?.clamp(-99.0, 99.0));
         Some((self.across(x), self.up(y)))
     }
 
@@ -103,7 +113,7 @@ impl Frame<'_> {
         let fonts = layout.fonts;
         for tick in &self.y.major {
             let baseline = self.up(tick.at) + 0.36 * fonts.tick;
-            canvas.text((self.left - 8.0, baseline), "end", fonts.tick, "sp-quiet", &tick.label);
+            canvas.text((self.left - 8.0, baseline), "end", fonts.tick, "sp-quiet sp-tick", &tick.label);
         }
         let corner = (coordinate(self.left), coordinate(self.top), coordinate(self.bottom), coordinate(self.right));
         canvas.path("sp-axis", "", &format!("M{} {}V{}H{}", corner.0, corner.1, corner.2, corner.3));
@@ -167,6 +177,31 @@ impl Frame<'_> {
         canvas.path(&format!("sp-band {}", style::color(band.signal)), "", &data);
     }
 
+    /// Marks the greatest spikes at the edge that they cross, with their values where these have room.
+    fn draw_spikes(&self, canvas: &mut Canvas, at: &PanelLayout, fonts: Fonts, context: Context) {
+        let mut labelled: Vec<(bool, f64, f64)> = Vec::new();
+        for spike in at.data.spikes.iter().take(MAX_SPIKES) {
+            let Some(x) = self.x.fraction(spike.x).filter(|x| (0.0..=1.0).contains(x)) else { continue };
+            let x = self.across(x);
+            let is_above = self.y.fraction(spike.y).is_some_and(|y| y > 0.5);
+            let (edge, tip) = if is_above { (self.top, "l4.5 8h-9z") } else { (self.bottom, "l4.5 -8h-9z") };
+            let class = style::look(&at.panel.series[spike.series], context.n_signals).class;
+            let mark = format!("M{} {}{tip}", coordinate(x), coordinate(edge));
+            canvas.path(&format!("sp-mark sp-spike {class}"), "", &mark);
+            let text = format!("{} {}", short(spike.y, 4), at.panel.y.unit);
+            let length = width(text.trim_end(), fonts.tick);
+            let is_right = x + 8.0 + length <= self.right;
+            let start = if is_right { x + 8.0 } else { x - 8.0 - length };
+            let is_free =
+                |(above, from, to): &(bool, f64, f64)| *above != is_above || start > *to || start + length < *from;
+            if labelled.iter().all(is_free) {
+                labelled.push((is_above, start - 6.0, start + length + 6.0));
+                let baseline = if is_above { edge + fonts.tick } else { edge - 3.0 };
+                canvas.text((start, baseline), "start", fonts.tick, "sp-halo sp-spike", text.trim_end());
+            }
+        }
+    }
+
     fn draw_series(&self, canvas: &mut Canvas, series: &Series, look: Look, context: Context) {
         let pieces = self.pieces(series);
         if series.stroke.is_loose() {
@@ -177,7 +212,8 @@ impl Frame<'_> {
         let (lines, dots): (Vec<_>, Vec<_>) = thinned.iter().partition(|piece| piece.len() > 1);
         let line: String = lines.iter().map(|piece| polyline(piece)).collect();
         let dot: String = dots.iter().map(|piece| format!("{}h0", polyline(piece))).collect();
-        canvas.path(&format!("sp-line {}", look.class), &stroke_attributes(look), &line);
+        let attributes = format!("{}{}", stroke_attributes(look), canvas.script_data("name", &series.name));
+        canvas.path(&format!("sp-line {}", look.class), &attributes, &line);
         canvas.path(&format!("sp-dot {}", look.class), r#"stroke-width="4""#, &dot);
         if series.role == Role::Reference || context.marks_runs {
             draw_markers(canvas, look, &self.sparse(&thinned.concat(), series));
@@ -301,8 +337,9 @@ fn draw_entry(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, entry: &En
     let x = layout.left + entry.x;
     let baseline = at.header_baseline + entry.row as f64 * fonts.row();
     let middle = baseline - 0.35 * fonts.label;
-    let line = format!("M{} {}h{SAMPLE}", coordinate(x), coordinate(middle));
-    let mut lead = SAMPLE + 6.0;
+    let sample = fonts.sample;
+    let line = format!("M{} {}h{sample}", coordinate(x), coordinate(middle));
+    let mut lead = sample + 6.0;
     match entry.sample {
         Sample::Title | Sample::Remark => lead = 0.0,
         Sample::Limit => canvas.path("sp-limit", "", &line),
@@ -312,7 +349,7 @@ fn draw_entry(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, entry: &En
         }
         Sample::Band(index) => {
             let class = style::color(at.panel.bands[index].signal);
-            let shade = format!("M{} {}h{SAMPLE}v10h-{SAMPLE}z", coordinate(x), coordinate(middle - 5.0));
+            let shade = format!("M{} {}h{sample}v10h-{sample}z", coordinate(x), coordinate(middle - 5.0));
             canvas.path(&format!("sp-band {class}"), "", &shade);
         }
         Sample::Series(index) => {
@@ -322,7 +359,7 @@ fn draw_entry(canvas: &mut Canvas, layout: &Layout, at: &PanelLayout, entry: &En
                 canvas.path(&format!("sp-line {}", look.class), &stroke_attributes(look), &line);
             }
             if series.stroke.is_loose() || series.role == Role::Reference || context.marks_runs {
-                draw_loose(canvas, series.stroke, look, &[(x + 0.5 * SAMPLE, middle)]);
+                draw_loose(canvas, series.stroke, look, &[(x + 0.5 * sample, middle)]);
             }
         }
     }

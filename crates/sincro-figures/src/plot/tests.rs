@@ -176,3 +176,32 @@ fn no_coordinate_is_negative_zero() {
     let text = drawn(&oscillation(500));
     assert!(!text.contains("-0 ") && !text.contains("-0\"") && !text.contains("−0 ") && !text.contains(">−0<"));
 }
+
+#[test]
+fn a_thumbnail_names_every_curve() {
+    let mut figure = oscillation(200);
+    let base = figure.panels[0].series[0].clone();
+    figure.panels[0].series =
+        (0..14).map(|k| Series { name: format!("variant-{k}:/arm/elbow.position"), ..base.clone() }).collect();
+    let text = thumbnail(&figure, Size { width: 340.0, height: 186.0 });
+    for k in 0..14 {
+        assert!(text.contains(&format!("variant-{k}:")), "{k}");
+    }
+    assert_balanced(&text);
+}
+
+#[test]
+fn a_spike_stands_at_the_edge_with_its_value() {
+    let mut values: Vec<f64> = (0..1000).map(|k| sin_cos(0.05 * f64::from(k)).0).collect();
+    values[300] = 512.5;
+    let text = drawn(&of_values(values));
+    assert!(text.contains("512.5 m") && text.contains("sp-spike") && text.contains("off the scale"), "{text}");
+    assert_balanced(&text);
+}
+
+#[test]
+fn paths_are_cut_in_the_middle() {
+    let cut = text::fit_middle("variant:/robot/arm/upper/shoulder/elbow.position", 13.0, 200.0);
+    assert!(cut.starts_with("variant:") && cut.ends_with("elbow.position") && cut.contains('…'), "{cut}");
+    assert!(text_width(&cut, 13.0) <= 200.0);
+}

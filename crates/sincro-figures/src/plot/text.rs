@@ -72,6 +72,20 @@ pub(super) fn fit(text: &str, font_size: f64, available: f64) -> String {
     format!("{}…", kept.trim_end())
 }
 
+/// As [`fit`], with the ellipsis in the middle where text has a path: its end says most.
+pub(super) fn fit_middle(text: &str, font_size: f64, available: f64) -> String {
+    if width(text, font_size) <= available || !text.contains('/') {
+        return fit(text, font_size, available);
+    }
+    let chars: Vec<char> = text.chars().collect();
+    let room = (available - font_size).max(0.0);
+    let total = |part: &[char]| part.iter().map(|c| char_width(*c)).sum::<f64>() * font_size;
+    let head = (0..chars.len()).take_while(|&n| total(&chars[..n]) <= 0.3 * room).last().unwrap_or(0);
+    let left = room - total(&chars[..head]);
+    let tail = (0..chars.len() - head).take_while(|&n| total(&chars[chars.len() - n..]) <= left).last().unwrap_or(0);
+    chars[..head].iter().chain(&['…']).chain(&chars[chars.len() - tail..]).collect()
+}
+
 /// Breaks text at spaces into at most `max_lines` lines; the last one is cut with an ellipsis if it must be.
 pub(super) fn wrap(text: &str, font_size: f64, available: f64, max_lines: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();

@@ -1,7 +1,8 @@
 //! Pages of one run (`report.html`), of two runs (`diff.html`) and of many (the index of `sincro reproduce`).
 //!
-//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched; only the replay is a
-//! script. It follows the reader's light or dark preference, prints in black and white on A4, and fits a phone.
+//! Each is one self-contained file: styles, figures and the replay inline, nothing fetched. Its scripts are the replay
+//! and a small one that reads values from the figures and magnifies them; without them the page is whole. It follows
+//! the reader's light or dark preference, prints in black and white on A4, and fits a phone.
 //! [`Page`] and [`IndexPage`] are plain data; whoever fills them need not know any HTML. All text in them may come from
 //! a scene: it is escaped by [`crate::plot::escape`].
 //!
@@ -10,6 +11,7 @@
 mod checks;
 mod comparison;
 mod index;
+mod mechanism;
 pub(crate) mod page;
 pub(crate) mod shell;
 
@@ -32,6 +34,8 @@ pub struct Page {
     pub warnings: Vec<String>,
     /// The replay as HTML with its program; may be empty.
     pub replay: String,
+    /// The simulated mechanism, if anything moves.
+    pub mechanism: Option<Mechanism>,
     /// Figures in order, each over the full width.
     pub figures: Vec<Figure>,
     /// Block diagrams as SVG for a page, each with its title.
@@ -50,6 +54,55 @@ pub struct Page {
     pub messages: Vec<(String, String, String)>,
     /// Remarks at the end.
     pub notes: Vec<String>,
+}
+
+/// Joints, bodies and equations of motion of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mechanism {
+    /// Labelled picture of the scene as SVG; may be empty.
+    pub sketch: String,
+    /// Structure of the equations of motion: `M(q) v̇ + c(q, v) = τ`.
+    pub equation: String,
+    /// Symbols of the equation, with size and meaning.
+    pub sizes: Vec<(String, String)>,
+    /// Joints that move.
+    pub joints: Vec<JointRow>,
+    /// Bodies.
+    pub bodies: Vec<BodyRow>,
+}
+
+/// A joint, as text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointRow {
+    /// Its path.
+    pub path: String,
+    /// Kind of motion: `revolute`.
+    pub kind: String,
+    /// Path of what carries it, or `world`.
+    pub parent: String,
+    /// Axes in the joint's frame; empty where it has none.
+    pub axes: String,
+    /// Its coordinates: `q0`.
+    pub coordinates: String,
+    /// Coordinates at the start, in SI units.
+    pub start: String,
+    /// Motor and springs; may be empty.
+    pub actuation: String,
+}
+
+/// A body, as text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyRow {
+    /// Its path.
+    pub path: String,
+    /// Path of what carries it, or `world`.
+    pub parent: String,
+    /// Mass `[kg]`.
+    pub mass: String,
+    /// Centre of mass in the frame of the body `[m]`.
+    pub center: String,
+    /// Moments of inertia Ixx, Iyy, Izz about the centre of mass [kg·m²].
+    pub inertia: String,
 }
 
 /// A run that ended before its time.

@@ -1,7 +1,8 @@
 //! `report.html`: verdict first, then pictures, then numbers, then settings.
 
 use super::checks::check_table;
-use super::shell::{Outcome, cell, document, list, paragraph, prose, section, settings, table};
+use super::mechanism;
+use super::shell::{Outcome, PLOT_SCRIPT, cell, contents, document, list, paragraph, prose, section, settings, table};
 use super::{Energy, FindingRow, Page, SignalRow};
 use crate::plot::number::{resolved, short, significant};
 use crate::plot::{self, Figure, Size, escape, inline_svg};
@@ -11,11 +12,11 @@ pub(super) fn html(page: &Page) -> String {
     let figures = figures(&page.figures);
     let checks = check_table(&page.checks);
     let checks = if checks.is_empty() { checks } else { checks + CHECKS_KEY };
-    let body = [
-        header(page),
+    let sections = [
         section("Audit", &finding_table(&page.findings)),
         section("Replay", &page.replay),
-        figures,
+        section("Figures", &figures).replacen("<section", "<section class=\"figures\"", 1),
+        section("Mechanism", &page.mechanism.as_ref().map(mechanism::html).unwrap_or_default()),
         section(if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, &diagrams(&page.diagrams)),
         section("Checks", &checks),
         section("Accuracy of the signals", &signal_table(&page.signals)),
@@ -24,7 +25,8 @@ pub(super) fn html(page: &Page) -> String {
         section("Settings", &settings(&page.settings)),
         section("Notes", &list(&page.notes)),
     ];
-    document(&page.title, "report", &body.concat())
+    let body = header(page) + &contents(&sections) + &sections.concat() + PLOT_SCRIPT;
+    document(&page.title, "report", &body)
 }
 
 const CHECKS_KEY: &str = "<p class=\"key\">Limit used: the share of the allowed deviation that was needed. Where a check covers \
@@ -72,8 +74,7 @@ fn diagrams(list: &[(String, String)]) -> String {
 }
 
 fn figures(figures: &[Figure]) -> String {
-    let all: String = figures.iter().map(figure).collect();
-    if all.is_empty() { all } else { format!("<section class=\"figures\" aria-label=\"Figures\">\n{all}</section>\n") }
+    figures.iter().map(figure).collect()
 }
 
 /// The figure twice, for wide and for narrow screens; the style sheet shows one of them.

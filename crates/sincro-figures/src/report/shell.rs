@@ -125,8 +125,32 @@ pub(crate) fn section(heading: &str, content: &str) -> String {
     if content.is_empty() {
         return String::new();
     }
-    format!("<section>\n<h2>{heading}</h2>\n{content}</section>\n")
+    format!("<section id=\"{}\">\n<h2>{heading}</h2>\n{content}</section>\n", anchor(heading))
 }
+
+/// Name of a section in addresses.
+fn anchor(heading: &str) -> String {
+    heading.to_lowercase().replace(' ', "-")
+}
+
+/// Links to sections that [`section`] made; nothing where there is only one.
+pub(crate) fn contents(sections: &[String]) -> String {
+    let heading = |text: &String| {
+        let (_, rest) = text.split_once("<h2>")?;
+        rest.split_once("</h2>").map(|(heading, _)| heading.to_owned())
+    };
+    let headings: Vec<String> =
+        sections.iter().filter(|text| text.starts_with("<section")).filter_map(heading).collect();
+    if headings.len() < 2 {
+        return String::new();
+    }
+    let link = |heading: &String| format!("<a href=\"#{}\">{heading}</a>\n", anchor(heading));
+    let links: String = headings.iter().map(link).collect();
+    format!("<nav class=\"contents\" aria-label=\"Contents\">\n{links}</nav>\n")
+}
+
+/// Script that reads values from the figures of a page and magnifies them; goes once, behind them.
+pub(crate) const PLOT_SCRIPT: &str = concat!("<script>\n", include_str!("plot.js"), "</script>\n");
 
 /// A table cell; `label` names the column where the table is folded on a phone, `content` is HTML.
 pub(crate) fn cell(label: &str, class: &str, content: &str) -> String {

@@ -26,6 +26,12 @@ fn figure() -> Figure {
     Figure { title: "Angle".into(), x: Axis::time(), panels: vec![panel], space: None }
 }
 
+/// A page without its own script, which must be there once.
+fn without_plot_script(page: &str) -> String {
+    assert_eq!(page.matches(shell::PLOT_SCRIPT).count(), 1);
+    page.replace(shell::PLOT_SCRIPT, "")
+}
+
 fn page() -> Page {
     Page {
         title: "Spring".into(),
@@ -88,7 +94,7 @@ fn a_finding_of_the_audit_leaves_no_good_banner() {
 #[test]
 fn a_page_needs_nothing_from_outside() {
     let index = IndexPage { cards: vec![Card { figure: Some(figure()), ..Card::default() }], ..IndexPage::default() };
-    for text in [html(&page()), index_html(&index)] {
+    for text in [without_plot_script(&html(&page())), index_html(&index)] {
         for outside in ["http://", "https://", "<script", "<link", "@import", "url(", " src="] {
             assert!(!text.contains(outside), "{outside}");
         }
@@ -134,7 +140,7 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
         run_time: evil.into(),
     };
     let index = IndexPage { title: evil.into(), description: evil.into(), cards: vec![card], ..IndexPage::default() };
-    assert!(!html(&page).contains("<script"));
+    assert!(!without_plot_script(&html(&page)).contains("<script"));
     assert!(!index_html(&index).contains("<script"));
 }
 
@@ -179,6 +185,43 @@ fn failing_checks_come_first_on_a_card() {
     let text = index_html(&IndexPage { cards: vec![Card { checks, ..Card::default() }], ..IndexPage::default() });
     assert!(text.contains("culprit") && !text.contains("good 3"));
     assert!(text.contains("1 of 1 experiments fails (7 checks)"));
+}
+
+#[test]
+fn contents_lead_to_every_section() {
+    let text = html(&page());
+    let headings = text.matches("<h2>").count();
+    let contents = text.split("class=\"contents\"").nth(1).and_then(|rest| rest.split("</nav>").next()).unwrap_or("");
+    assert_eq!(contents.matches("<a href").count(), headings);
+    for link in contents.split("href=\"#").skip(1) {
+        let name = link.split('"').next().unwrap_or("");
+        assert_eq!(text.matches(&format!("id=\"{name}\"")).count(), 1, "{name}");
+    }
+}
+
+#[test]
+fn the_mechanism_is_a_sketch_two_tables_and_an_equation() {
+    let joint =
+        JointRow { path: "/arm/elbow".into(), kind: "revolute".into(), axes: "y".into(), ..JointRow::default() };
+    let body = BodyRow { path: "/arm/rod<1>".into(), mass: "2.5".into(), ..BodyRow::default() };
+    let mechanism = Mechanism {
+        sketch: "<svg></svg>".into(),
+        equation: "M(q) v̇ + c(q, v) = τ".into(),
+        sizes: vec![("M".into(), "2 × 2".into())],
+        joints: vec![joint; 50],
+        bodies: vec![body],
+    };
+    let text = html(&Page { mechanism: Some(mechanism), ..page() });
+    for part in ["<h2>Mechanism</h2>", "/arm/elbow", "rod&lt;1&gt;", "2 × 2", "and 10 more joints", "M(q) v̇"] {
+        assert!(text.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn numbers_for_the_script_stand_in_the_figures_of_a_page_alone() {
+    let text = html(&page());
+    assert!(text.contains(" data-x=\"") && text.contains(" data-name=\"simulated\""));
+    assert!(!crate::plot::svg(&figure(), crate::plot::Size::wide(&figure())).contains("data-"));
 }
 
 #[test]

@@ -6,9 +6,11 @@
 mod catalogue;
 pub mod contact;
 pub mod probe;
+mod reference;
 
 pub use catalogue::{Entry, catalogue};
 pub use contact::ContactQuantity;
+pub use reference::signal_reference;
 
 use sincro_dynamics::coupled::MechanismResponse;
 use sincro_dynamics::energy::Energy;

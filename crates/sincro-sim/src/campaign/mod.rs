@@ -297,7 +297,7 @@ fn report(
         settings: main.settings.clone(),
         model_hash: main.model_hash.clone(),
         trace_hash: main.simulated.trace.to_string(),
-        n_dof: loaded.scene.model.n_v(),
+        n_dof: loaded.scene.freedom().dofs(),
         columns: main.columns.clone(),
         energy: Some(main.simulated.energy),
         audit: main.audit.clone(),

@@ -9,8 +9,10 @@ mod properties;
 mod scene;
 mod surface;
 mod trajectory;
+mod volume;
 
 pub use contacts::{CONTACT, Contacts};
 pub use properties::{Property, edited, properties};
 pub use scene::{CameraView, JointView, ObjectView, RotorView, SceneView, ShapeView};
 pub use trajectory::{Layout, Trajectory};
+pub use volume::Edge;

@@ -54,7 +54,7 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     let file_of = |key: &str| experiment.text(&format!("/{key}")).map(|name| base_name(name).to_owned());
     let scene = file_of("scene").unwrap_or_else(|| "scene.toml".into());
     if let Some(scene) = parsed(&scene, Target::Scene) {
-        of_scene(&scene, &mut found);
+        of_scene(&scene, loaded, &mut found);
     }
     of_experiment(&experiment, &mut found);
     if let Some(diagram) = file_of("diagram").and_then(|name| parsed(&name, Target::Diagram)) {
@@ -101,7 +101,21 @@ fn base_name(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-fn of_scene(document: &Document, found: &mut Vec<Property>) {
+/// Whole path of an object whose parent may be named by the end of its path.
+fn whole_path<'a>(loaded: &'a Loaded, written: &'a str) -> &'a str {
+    let objects = &loaded.scene.objects;
+    if objects.iter().any(|object| object.path == written) {
+        return written;
+    }
+    let end = format!("/{}", written.trim_start_matches('/'));
+    let mut fitting = objects.iter().filter(|object| object.path.ends_with(&end));
+    match (fitting.next(), fitting.next()) {
+        (Some(object), None) => &object.path,
+        _ => written,
+    }
+}
+
+fn of_scene(document: &Document, loaded: &Loaded, found: &mut Vec<Property>) {
     let schema = scene_schema();
     let mut world = Walk { document, root: schema, owner: "/", prefix: "", second_unit: false, found };
     for key in ["gravity", "air_density"] {
@@ -115,10 +129,10 @@ fn of_scene(document: &Document, found: &mut Vec<Property>) {
         else {
             continue;
         };
-        let prefix = format!("{}.", object.path);
+        let owner = whole_path(loaded, &object.path);
+        let prefix = format!("{owner}.");
         let is_prismatic = table.get("kind").and_then(Value::as_str) == Some("prismatic");
-        let mut walk =
-            Walk { document, root: schema, owner: &object.path, prefix: &prefix, second_unit: is_prismatic, found };
+        let mut walk = Walk { document, root: schema, owner, prefix: &prefix, second_unit: is_prismatic, found };
         for (key, value) in table {
             walk.value(value, property_of(schema, items, key), key, &format!("{}/{}", object.pointer, escape(key)));
         }
@@ -226,6 +240,14 @@ mod tests {
                 assert_eq!(numbers(&again), numbers(&all), "{}", one.path);
             }
         }
+    }
+
+    #[test]
+    fn numbers_belong_to_their_objects_where_parents_have_short_names() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/newcomer/cart-two-pendulums");
+        let all = properties(&load(&folder, &[], Extensions::default()).unwrap(), &[]);
+        let mass = all.iter().find(|p| p.path == "/rail/cart/long/long_rod.mass").unwrap();
+        assert_eq!((mass.owner.as_str(), mass.value), ("/rail/cart/long/long_rod", 0.3));
     }
 
     #[test]

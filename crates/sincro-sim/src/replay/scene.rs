@@ -17,7 +17,9 @@ use sincro_dynamics::state::State;
 
 use super::surface::{self, Triangles};
 use super::trajectory::Layout;
+use super::volume::{self, Edge};
 use sincro_scene::scene::{Object, ObjectKind, Scene, ShownSurface};
+use sincro_scene::sensor::{SensorKind, SensorSpec};
 
 /// Everything of a scene that a picture needs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -71,6 +73,9 @@ pub struct ObjectView {
     pub force: Option<usize>,
     /// Index in the frames of a drag element.
     pub drag: Option<usize>,
+    /// Edges of the volume that a proximity sensor sees, in its frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub volume: Vec<Edge>,
     /// Camera data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraView>,
@@ -154,6 +159,7 @@ impl SceneView {
             scratch,
             placed: Vec::new(),
             n_forces: 0,
+            sensors: &scene.sensors,
             has_visuals: scene.objects.iter().any(|o| !o.visuals.is_empty()),
         };
         let mut objects: Vec<ObjectView> = scene.objects.iter().map(|object| maker.object(object)).collect();
@@ -209,6 +215,7 @@ struct Maker<'a> {
     placed: Vec<(Option<usize>, Pose<f64>)>,
     /// External forces so far; those on what is fixed in the world are not in the model.
     n_forces: usize,
+    sensors: &'a [SensorSpec],
     /// True if the scene says what shows: bodies without geometry then show nothing, not the box of their inertia.
     has_visuals: bool,
 }
@@ -240,6 +247,7 @@ impl Maker<'_> {
             rotor: self.rotor(object),
             force,
             drag: self.model.names().drags.iter().position(|name| *name == object.path),
+            volume: self.volume(object),
             camera: match object.kind {
                 ObjectKind::Camera { field_of_view_deg, .. } => Some(CameraView { field_of_view_deg }),
                 _ => None,
@@ -293,6 +301,14 @@ impl Maker<'_> {
         }
     }
 
+    fn volume(&self, object: &Object) -> Vec<Edge> {
+        let spec = self.sensors.iter().find(|sensor| sensor.path == object.path);
+        match spec.map(|sensor| sensor.kind) {
+            Some(SensorKind::Proximity { volume, offset, range, .. }) => volume::edges(volume, offset, range),
+            _ => Vec::new(),
+        }
+    }
+
     fn rotor(&self, object: &Object) -> Option<RotorView> {
         let index = self.model.names().rotors.iter().position(|name| *name == object.path)?;
         let (radius, spin) = match &self.model.rotors()[index].law {
@@ -318,6 +334,7 @@ fn beside(path: &str, kind: &str) -> ObjectView {
         rotor: None,
         force: None,
         drag: None,
+        volume: Vec::new(),
         camera: None,
         other_end: None,
     }

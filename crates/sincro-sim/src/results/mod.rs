@@ -37,7 +37,7 @@ pub struct RunReport {
     pub model_hash: String,
     /// Hash of the states of all ticks, hexadecimal: the same bits give the same hash.
     pub trace_hash: String,
-    /// Degrees of freedom.
+    /// Degrees of freedom of the mechanism at the start, closed loops counted.
     pub n_dof: usize,
     /// The columns of `signals.csv`, in their order, `t` first.
     pub columns: Vec<ColumnReport>,

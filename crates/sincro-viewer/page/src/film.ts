@@ -45,6 +45,8 @@ export interface ObjectView {
   rotor: RotorView | null;
   force: number | null;
   drag: number | null;
+  /** Edges of the volume that a proximity sensor sees, in its frame [m]. */
+  volume?: [[number, number, number], [number, number, number]][];
   /** Looks along z of its frame, y is up in the picture. */
   camera?: { field_of_view_deg: number };
   /** Of a closure: mover and pose of its other end. */
@@ -101,6 +103,8 @@ export interface Film {
   views: SceneView[];
   properties: Property[];
   plots: [string, string[]][];
+  /** Signals that the experiment records. */
+  record?: string[];
   diagram: string | null;
   runs: Reel[];
   /** All runs are drawn over each other from the start. */

@@ -5,6 +5,7 @@ import { KEYS, keyboard } from "./keyboard";
 import type { Session } from "./session";
 import { Stage } from "./three/stage";
 import { diagram } from "./ui/diagram";
+import { splitters } from "./splitters";
 import { properties } from "./ui/properties";
 import { runs } from "./ui/runs";
 import { Scopes } from "./ui/scopes";
@@ -53,6 +54,12 @@ export function layout(root: HTMLElement, session: Session): void {
     },
   });
   const state = session.link ? el("span", { class: "sv-live", text: "live" }) : el("span", { class: "sv-live sv-replay", text: "replay" });
+  session.on("live", () => {
+    if (!session.link || session.link.isConnected) return;
+    state.textContent = "ended";
+    state.classList.add("sv-ended");
+    state.title = "sincro has ended; what was recorded can still be looked at";
+  });
   const header = el("header", { class: "sv-head" }, el("h2", { class: "sv-heading", text: session.film.title }), state, runs(session), shown(session, stage), isEmbedded ? enlarge : null);
   root.replaceChildren(
     header,
@@ -62,6 +69,10 @@ export function layout(root: HTMLElement, session: Session): void {
     transport(session),
     el("section", { class: "sv-below" }, tabs, ...panels.map(([, node]) => node)),
     el("p", { class: "sv-keys", text: KEYS }),
+    ...splitters(root, () => {
+      scopes.rebuild();
+      session.tell("time");
+    }),
     notice,
   );
   choose(0);

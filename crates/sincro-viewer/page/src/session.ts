@@ -21,6 +21,7 @@ export const SHOWN = {
   drags: { label: "drag", on: true },
   wind: { label: "wind", on: true },
   closures: { label: "closures", on: true },
+  volumes: { label: "volumes of sensors", on: true },
   trace: { label: "path", on: true },
   grid: { label: "ground", on: true },
   shadows: { label: "shadows", on: true },
@@ -43,6 +44,7 @@ export function applies(view: SceneView, key: Shown): boolean {
     case "drags": return view.n_drags > 0;
     case "wind": return view.winds.length > 0;
     case "closures": return some((o) => o.other_end !== undefined);
+    case "volumes": return some((o) => (o.volume?.length ?? 0) > 0);
     default: return true;
   }
 }

@@ -42,12 +42,17 @@ export const blank = (viewport) => browser.newPage({ viewport });
 
 /** Starts `sincro view` and waits for its address. */
 export async function view(what, ...more) {
-  const child = started(spawn(sincro, ["view", what, "--no-browser", ...more], { stdio: ["ignore", "pipe", "inherit"] }));
+  return (await started_view(what, ...more)).url;
+}
+
+/** As `view`, with the process. */
+export async function started_view(what, ...more) {
+  const child = started(spawn(sincro, ["view", what, "--no-browser", ...more], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] }));
   const url = await new Promise((done, failed) => {
     child.stdout.once("data", (data) => done(String(data).trim()));
     child.once("exit", (code) => failed(new Error(`sincro view ended with ${code}`)));
   });
-  return url;
+  return { url, process: child };
 }
 
 /** A page that notes what goes wrong in it. */

@@ -40,7 +40,10 @@ test("a page drives a scene over WebSocket", options, async () => {
   if (process.env.PICTURE) await page.screenshot({ path: process.env.PICTURE });
 
   // without a server it says so
-  server.kill();
+  await new Promise((ended) => {
+    server.once("exit", ended);
+    server.kill();
+  });
   await page.getByRole("button", { name: "Run" }).click();
   await page.waitForFunction(() => document.getElementById("says").textContent.includes("`sincro serve SCENE`"));
   assert.deepEqual(wrong, []);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { test } from "node:test";
-import { clock, folder, open, options, root, scrub, sincro, state, until, view } from "./browser.mjs";
+import { clock, folder, open, options, root, scrub, sincro, started_view, state, until, view } from "./browser.mjs";
 
 for (const [scene, object, signal, number] of [
   ["quadrotor-open-loop", "/air/quadrotor", "/air.velocity.z", "/air/quadrotor.mass"],
@@ -81,6 +81,64 @@ test("a finished run: the report opens without a server, and `sincro view` shows
     assert.deepEqual(wrong, []);
     await page.close();
   }
+});
+
+test("a live run is saved as a result; panels are resized; live ends with the server", options, async () => {
+  const child = await started_view(join(root, "scenes/two-dof-position"));
+  const { page, wrong } = await open(child.url);
+  for (let k = 0; k < 5; k++) await page.keyboard.press("ArrowRight");
+  await until(page, () => Number.parseFloat(document.querySelector(".sv-clock").textContent) > 0.01);
+  await page.click("button:has-text('save as result')");
+  await until(page, () => /saved as results.two-dof-position.0001.report.html, with the same trace hash/.test(document.querySelector(".sv-notice").textContent));
+  const recorded = await page.locator(".sv-signals [data-signal]").first().getAttribute("data-signal");
+  assert.equal(recorded, "/shoulder.position", "what `record` names comes first");
+  assert.equal(await page.locator(".sv-signal bdi").first().innerText(), recorded);
+
+  const wide = async () => (await page.locator(".sv-objects").boundingBox()).width;
+  const before = await wide();
+  const grip = await page.locator('[data-border="--left"]').boundingBox();
+  await page.mouse.move(grip.x + grip.width / 2, grip.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(grip.x + 80, grip.y + 60, { steps: 4 });
+  await page.mouse.up();
+  assert.ok((await wide()) > before + 50, "the objects' panel is wider");
+
+  await page.click(".sv-tabs button:has-text('Diagram')");
+  const box = () => page.locator(".sv-drawing svg").getAttribute("viewBox");
+  const fitted = await box();
+  await page.locator(".sv-drawing").hover();
+  await page.mouse.wheel(0, -300);
+  const near = await box();
+  assert.notEqual(near, fitted, "the wheel magnifies");
+  await page.click(".sv-diagram-tools button");
+  assert.equal(await box(), fitted, "fit shows all of it again");
+
+  child.process.kill();
+  await until(page, () => document.querySelector(".sv-live").textContent === "ended");
+  assert.deepEqual(wrong, []);
+  await page.close();
+});
+
+test("figures of a report tell values under the pointer and magnify", options, async () => {
+  const out = join(folder, "spring");
+  assert.equal(spawnSync(sincro, ["run", join(root, "scenes/spring-dynamic"), "--out", out]).status, 0);
+  const { page, wrong } = await open(`file://${out}/report.html`);
+  const plot = page.locator("figure .wide svg.sp").first();
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 3);
+  assert.match(await page.locator(".reading").first().innerText(), /\d s\s+\/shoulder\.position\s+[−\d.]+/);
+  const ticks = () => plot.evaluate((svg) => [...svg.querySelectorAll("text")].filter((t) => t.getBoundingClientRect().width > 0).map((t) => t.textContent).join());
+  const whole = await ticks();
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.7 * box.width, box.y + box.height / 3, { steps: 5 });
+  await page.mouse.up();
+  assert.notEqual(await ticks(), whole);
+  await plot.dblclick({ position: { x: box.width / 2, y: box.height / 3 } });
+  assert.equal(await ticks(), whole);
+  assert.ok((await page.locator("nav.contents a").count()) >= 5);
+  assert.deepEqual(wrong, []);
+  await page.close();
 });
 
 test("on a phone everything is within the width", options, async () => {

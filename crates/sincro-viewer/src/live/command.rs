@@ -43,6 +43,11 @@ pub enum Command {
     },
     /// No force any more.
     Release {},
+    /// Writes a run as a result, as a run of the command line is.
+    Keep {
+        /// The run.
+        run: usize,
+    },
     /// Writes the scene's files with these settings beside the old ones.
     Save {
         /// Everything that is set.

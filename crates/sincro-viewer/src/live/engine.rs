@@ -15,7 +15,7 @@ use sincro_sim::{Extensions, load, load_without_variants};
 use super::command::Command;
 use super::live_state::{LiveState, RunLog};
 use super::track::{Taken, Track};
-use crate::replay::{FORMAT, Replay, plots};
+use crate::replay::{FORMAT, Replay, plots, record};
 use crate::save::save_scene;
 
 /// Commands that may wait.
@@ -37,13 +37,34 @@ pub struct Source {
     pub extensions: Extensions,
     /// Makes the drawing of a diagram.
     pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
+    /// Writes a run as a result; its path, or a sentence about what prevents it.
+    pub keep: ResultWriter,
 }
+
+/// Writes a run as a result: a sentence with its path, or one about what prevents it.
+pub type ResultWriter = Box<dyn Fn(&KeptRun) -> Result<String, String> + Send>;
+
+/// A live run that is to be written as a result: what is needed to compute it again, bit for bit.
+#[derive(Clone, Debug)]
+pub struct KeptRun {
+    /// Overrides of the scene's files.
+    pub settings: Vec<Override>,
+    /// Simulated time up to which it went `[s]`; none: up to the end of the experiment.
+    pub duration: Option<f64>,
+    /// Hash of its states.
+    pub trace: String,
+}
+
+/// Results that one engine writes; whoever has the link may ask for them, and disks are not endless.
+const MAX_KEPT: usize = 100;
 
 /// A live scene with its runs.
 pub struct Engine {
     source: Source,
     live_state: Arc<LiveState>,
     tracks: Vec<Track>,
+    /// Number of results written.
+    n_kept: usize,
     playing: bool,
     speed: Option<f64>,
     /// Wall clock and simulated time when it last began to play or changed its speed.
@@ -68,13 +89,15 @@ impl Engine {
             views: Vec::new(),
             properties: Vec::new(),
             plots: plots(&loaded),
+            record: record(&loaded),
             diagram: loaded.controller.as_ref().map(|c| (source.draw)(c)),
             runs: Vec::new(),
         };
         let live_state = Arc::new(LiveState::new(replay.to_json()));
         let first = Track::new(loaded, source.settings.clone())?;
         let since = (Instant::now(), 0.0);
-        let mut engine = Self { source, live_state, tracks: Vec::new(), playing: false, speed: Some(1.0), since };
+        let mut engine =
+            Self { source, live_state, tracks: Vec::new(), n_kept: 0, playing: false, speed: Some(1.0), since };
         engine.begin(first, "main", "");
         Ok(engine)
     }
@@ -163,6 +186,7 @@ impl Engine {
                 self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(Some((object, point, force))))
             }
             Command::Release {} => self.tracks.last_mut().map_or(Ok(()), |track| track.set_push(None)),
+            Command::Keep { run } => self.keep(run),
             Command::Save { set } => save_scene(&self.source.folder, &self.settings(&set), self.source.extensions)
                 .map(|folder| self.live_state.say("saved", &format!("saved as {}", folder.display()))),
         };
@@ -214,6 +238,19 @@ impl Engine {
             .map_err(|diagnostics| diagnostics.to_string())?;
         let track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         self.begin_next(track, "from the start");
+        Ok(())
+    }
+
+    /// Writes a run as a result.
+    fn keep(&mut self, run: usize) -> Result<(), String> {
+        self.halt();
+        if self.n_kept >= MAX_KEPT {
+            return Err(format!("{MAX_KEPT} results have been saved from here already: start `sincro view` again"));
+        }
+        let track = self.tracks.get(run).ok_or_else(|| format!("there is no run {run}"))?;
+        let message = (self.source.keep)(&track.kept()?)?;
+        self.n_kept += 1;
+        self.live_state.say("saved", &message);
         Ok(())
     }
 

@@ -12,7 +12,7 @@ mod thinned;
 mod track;
 
 pub use command::Command;
-pub use engine::{Engine, Source};
+pub use engine::{Engine, KeptRun, ResultWriter, Source};
 pub use live_state::{EngineState, LiveState, RunLog};
 
 /// A refusal as a viewer gets it.

@@ -13,6 +13,7 @@ use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
 use sincro_sim::trace::Trace;
 
+use super::engine::KeptRun;
 use super::thinned::Thinned;
 use crate::replay::stop_words;
 
@@ -40,6 +41,8 @@ pub(super) struct Track {
     /// States at the frames.
     snapshots: Thinned<Snapshot>,
     push: Option<Push<f64>>,
+    /// Intervention after which the files and settings alone do not give this run; empty if there was none.
+    intervention: &'static str,
 }
 
 /// Content that a frame adds to the live state.
@@ -75,6 +78,7 @@ impl Track {
             every,
             snapshots: Thinned::new(usize::MAX),
             push: None,
+            intervention: "",
             loaded,
         };
         new.record();
@@ -93,6 +97,8 @@ impl Track {
             return Err("this change alters what the scene consists of: run it from 0 s".into());
         }
         self.lockstep.restore(snapshot);
+        self.intervention =
+            if joints.is_empty() { "begins within another run" } else { "begins where joints were placed" };
         self.trace = snapshot.trace;
         if let Some((index, _)) = joints.iter().find(|(index, _)| *index >= snapshot.state.q.len()) {
             return Err(format!("there is no coordinate {index}"));
@@ -113,6 +119,27 @@ impl Track {
         if let Err(halt) = self.lockstep.start() {
             self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
         }
+    }
+
+    /// Settings from which this run can be computed again.
+    ///
+    /// # Errors
+    ///
+    /// A sentence: an intervention is in no file.
+    pub fn kept(&self) -> Result<KeptRun, String> {
+        if !self.intervention.is_empty() {
+            let what = self.intervention;
+            return Err(format!(
+                "this run {what}, which no file says: it cannot be repeated as a result. Its plots can be saved as CSV; \
+                 a run from the start can be saved whole"
+            ));
+        }
+        let (tick, experiment) = (self.lockstep.tick(), &self.loaded.experiment);
+        if tick == 0 {
+            return Err("nothing has been simulated yet: let it run first".into());
+        }
+        let duration = (tick < experiment.n_steps && self.stop.is_empty()).then_some(tick as f64 * experiment.step);
+        Ok(KeptRun { settings: self.settings.clone(), duration, trace: self.trace.to_string() })
     }
 
     pub fn is_done(&self) -> bool {
@@ -173,6 +200,7 @@ impl Track {
         let (link, t) = (self.layout.links()[mover], self.lockstep.t());
         let x_wl = self.lockstep.observe(t).0.scratch().link_poses()[link];
         let point = x_wl.inverse().point(Vec3(point));
+        self.intervention = "was pulled by hand";
         self.push = Some(Push { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
         Ok(())
     }

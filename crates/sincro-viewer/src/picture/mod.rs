@@ -9,8 +9,11 @@
 //! one whose output is a vector graphic, a few kilobytes that an index page of fifty runs can hold and a printer draws
 //! at any size; frames of a film (`run --frames`) are of the same kind.
 
+mod sketch;
 mod solid;
 mod viewpoint;
+
+pub use sketch::sketch;
 
 use sincro_sim::replay::{ObjectView, SceneView, Trajectory};
 

@@ -50,6 +50,11 @@ impl Viewpoint {
         (ahead > 1e-3).then(|| (dot(d, self.right) / ahead, -dot(d, self.up) / ahead))
     }
 
+    /// Direction of the world in the picture, y down.
+    pub fn direction(&self, axis: V) -> (f64, f64) {
+        (dot(axis, self.right), -dot(axis, self.up))
+    }
+
     /// Increases towards the viewpoint.
     pub fn depth(&self, p: V) -> f64 {
         match self.camera {

@@ -2,12 +2,15 @@
 
 use clap::Subcommand;
 
-use super::{export_fmu, export_robot};
+#[cfg(feature = "adapters")]
+use super::export_fmu;
+use super::export_robot;
 use crate::Exit;
 
 /// Formats.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Format {
+    #[cfg(feature = "adapters")]
     /// A functional mock-up unit for Simulink, Modelica tools and all others that import FMI
     Fmu(export_fmu::Arguments),
     /// Unified Robot Description Format
@@ -22,6 +25,7 @@ pub(crate) enum Format {
 pub(crate) fn run(format: &Format) -> Exit {
     use sincro_import::export::Format as Robot;
     match format {
+        #[cfg(feature = "adapters")]
         Format::Fmu(arguments) => export_fmu::run(arguments),
         Format::Urdf(arguments) => export_robot::run(arguments, Robot::Urdf),
         Format::Mjcf(arguments) => export_robot::run(arguments, Robot::Mjcf),

@@ -16,6 +16,7 @@ pub(crate) mod diff;
 pub(crate) mod draw;
 pub(crate) mod dynamics;
 pub(crate) mod export;
+#[cfg(feature = "adapters")]
 pub(crate) mod export_fmu;
 pub(crate) mod export_robot;
 pub(crate) mod import;
@@ -25,7 +26,9 @@ pub(crate) mod reproduce;
 pub(crate) mod robot_file;
 pub(crate) mod run;
 pub(crate) mod runs;
+#[cfg(feature = "adapters")]
 pub(crate) mod serve;
 pub(crate) mod shell;
 pub(crate) mod trim;
+#[cfg(feature = "adapters")]
 pub(crate) mod view;

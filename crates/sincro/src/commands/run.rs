@@ -7,7 +7,9 @@ use std::sync::{Arc, OnceLock};
 
 use clap::Args;
 use signal_hook::consts::{SIGINT, SIGTERM};
-use sincro::results::{write_camera_frames, write_frames, write_mcap};
+#[cfg(feature = "adapters")]
+use sincro::results::write_mcap;
+use sincro::results::{write_camera_frames, write_frames};
 use sincro::{Campaign, Diagnostics, Loaded, Override, RunRequest, Verdict, load, scene_name};
 use sincro_scene::open::settings_with;
 use sincro_sim::file::FileError;
@@ -51,6 +53,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Write run.mcap too, for Foxglove, Lichtblick or Rerun
+    #[cfg(feature = "adapters")]
     #[arg(long)]
     mcap: bool,
     /// Write pictures of the run too, as SVG files in `frames`: 30 a simulated second, 1800 at most
@@ -218,6 +221,7 @@ fn write_more(
             }
         }
     }
+    #[cfg(feature = "adapters")]
     if arguments.mcap {
         write_mcap(&campaign.main, &out.join("run.mcap"))?;
     }

@@ -3,7 +3,10 @@
 use std::fs;
 use std::path::PathBuf;
 
-use clap::{Args, Command};
+use clap::Args;
+#[cfg(feature = "cli")]
+use clap::Command;
+#[cfg(feature = "cli")]
 use clap_complete::Shell;
 use sincro_scene::diagram::diagram_schema;
 use sincro_scene::experiment::experiment_schema;
@@ -24,6 +27,7 @@ pub(crate) struct SchemaArguments {
     print: Option<String>,
 }
 
+#[cfg(feature = "cli")]
 /// Arguments of `completions`.
 #[derive(Debug, Args)]
 pub(crate) struct CompletionArguments {
@@ -31,6 +35,7 @@ pub(crate) struct CompletionArguments {
     shell: Shell,
 }
 
+#[cfg(feature = "cli")]
 /// Arguments of `man`.
 #[derive(Debug, Args)]
 pub(crate) struct ManArguments {
@@ -90,6 +95,7 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> Exit {
     }
 }
 
+#[cfg(feature = "cli")]
 /// Prints the completions of a shell.
 pub(crate) fn completions(arguments: &CompletionArguments, mut command: Command) -> Exit {
     let mut text = Vec::new();
@@ -98,6 +104,7 @@ pub(crate) fn completions(arguments: &CompletionArguments, mut command: Command)
     Exit::Holds
 }
 
+#[cfg(feature = "cli")]
 /// Prints the manual page, or writes those of all commands.
 pub(crate) fn man(arguments: &ManArguments, command: Command) -> Exit {
     let Some(folder) = &arguments.folder else {

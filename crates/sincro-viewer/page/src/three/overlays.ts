@@ -15,6 +15,7 @@ const CENTER = "#cc79a7";
 const SPRING = "#b58900";
 const CLOSURE = "#7a3e9d";
 const PATH = "#0072b2";
+const VOLUME = "#009e73";
 
 export class Overlays {
   private readonly made: Object3D[] = [];
@@ -45,6 +46,7 @@ export class Overlays {
       if (shown.frames && object.kind !== "force" && object.kind !== "coupling") this.frame(node, 0.12 * bodies.size);
       if (shown.springs && object.joint) this.springs(object, node, bodies.size);
       if (shown.closures && object.other_end) this.closure(object, bodies);
+      if (shown.volumes && object.volume) this.volume(node, object.volume);
       if (shown.frames && object.camera) this.camera(node, object.camera.field_of_view_deg, bodies.size);
     });
     if (shown.trace && this.session.selected !== null) this.path(this.session.selected, bodies);
@@ -123,6 +125,15 @@ export class Overlays {
       ring.renderOrder = 5;
       this.hang(bodies.movers[mover ?? bodies.view.n_movers] as Group, ring);
     });
+  }
+
+  /** Where a proximity sensor sees. */
+  private volume(node: Object3D, edges: NonNullable<ObjectView["volume"]>): void {
+    const points = edges.flat().map((p) => new Vector3(...p));
+    const material = new LineBasicMaterial({ color: VOLUME, transparent: true, opacity: 0.55 });
+    const lines = new LineSegments(new BufferGeometry().setFromPoints(points), material);
+    lines.name = "volume";
+    this.hang(node, lines);
   }
 
   /** What a camera sees, as far as its edges reach. */

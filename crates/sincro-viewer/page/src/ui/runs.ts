@@ -38,6 +38,14 @@ export function runs(session: Session): HTMLElement {
     if (!link) return;
     const button = (text: string, isOn: boolean, action: () => void) => el("button", { class: "sv-small", disabled: !isOn, text, onclick: action });
     const n = link.edits.length;
+    const { run } = session;
+    const canKeep = link.isConnected && !link.isRunning && run !== undefined && run.times.n > 1;
+    const keep = button("save as result", canKeep, () => {
+      session.say("saving …");
+      link.send({ do: "keep", run: run.id });
+    });
+    keep.title = "writes this run with report, signals and figures into results/, as `sincro run` does";
+    pending.append(keep);
     if (n === 0 && !link.canUndo && !link.canRedo) return;
     pending.append(
       el("span", { class: "sv-quiet", text: n === 1 ? "1 number changed" : `${n} numbers changed` }),

@@ -72,14 +72,18 @@ export class Scopes {
     return scope;
   }
 
-  /** What the experiment plots; else what was recorded first. */
+  /** What the experiment plots; else what it records, a plot a unit. */
   private open(): void {
     const run = this.session.run;
     if (!run) return;
     const known = new Set(run.columns.map((c) => c.name));
     const asked = this.session.film.plots.map(([title, signals]) => ({ title, signals: signals.filter((s) => known.has(s)) })).filter(({ signals }) => signals.length > 0);
-    const first = run.columns[0];
-    const groups = asked.length > 0 ? asked.slice(0, 3) : first ? [{ title: "", signals: run.columns.filter((c) => c.unit === first.unit).slice(0, 4).map((c) => c.name) }] : [];
+    const recorded = new Set(this.session.film.record ?? []);
+    const named = run.columns.filter((c) => recorded.has(c.name));
+    const offered = named.length > 0 ? named : run.columns.slice(0, 4);
+    const units = [...new Set(offered.map((c) => c.unit))];
+    const byUnit = units.map((unit) => ({ title: "", signals: offered.filter((c) => c.unit === unit).slice(0, 6).map((c) => c.name) }));
+    const groups = asked.length > 0 ? asked.slice(0, 3) : byUnit.slice(0, 4);
     this.scopes = groups.map(({ title, signals }) => this.scope(signals, title));
     this.show();
   }
@@ -96,15 +100,19 @@ export class Scopes {
     if (!run) return;
     const wanted = this.search.value.trim().toLowerCase();
     const shown = run.columns.filter((c) => c.name.toLowerCase().includes(wanted)).slice(0, 400);
-    this.list.replaceChildren(
-      ...shown.map((column) => {
-        const isOn = this.scopes.some((scope) => scope.signals.includes(column.name));
-        const bar = column.errorBar === null ? "" : `, known to ± ${format(column.errorBar, 2)} ${column.unit}`;
-        return el("li", {}, el("button", {
-          class: isOn ? "sv-signal sv-on" : "sv-signal", "aria-pressed": String(isOn), "data-signal": column.name, title: `${column.name}${bar}`, onclick: () => this.toggle(column.name),
-        }, el("span", { class: "sv-name", text: column.name }), el("span", { class: "sv-value" })));
-      }),
-    );
+    const recorded = new Set(this.session.film.record ?? []);
+    const item = (column: (typeof shown)[number]) => {
+      const isOn = this.scopes.some((scope) => scope.signals.includes(column.name));
+      const bar = column.errorBar === null ? "" : `, known to ± ${format(column.errorBar, 2)} ${column.unit}`;
+      return el("li", {}, el("button", {
+        class: isOn ? "sv-signal sv-on" : "sv-signal", "aria-pressed": String(isOn), "data-signal": column.name, title: `${column.name}${bar}`, onclick: () => this.toggle(column.name),
+      }, el("span", { class: "sv-name" }, el("bdi", { text: column.name })), el("span", { class: "sv-value" })));
+    };
+    const others = shown.filter((column) => !recorded.has(column.name));
+    const own = shown.filter((column) => recorded.has(column.name));
+    this.list.replaceChildren(...own.map(item));
+    if (others.length > 0 && own.length > 0) this.list.append(el("li", { class: "sv-quiet sv-more", text: "not in `record`:" }));
+    this.list.append(...others.map(item));
     this.drawValues();
   }
 

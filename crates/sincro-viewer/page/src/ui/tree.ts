@@ -34,7 +34,7 @@ export function tree(session: Session): HTMLElement {
           onkeydown: (event) => {
             if ((event as KeyboardEvent).key === "Enter") session.select(k);
           },
-        }, fold, icon(object.kind), el("span", { class: "sv-name", text: wanted ? object.path : object.name })),
+        }, fold, icon(object.kind), el("span", { class: "sv-name" }, el("bdi", { text: wanted ? object.path : object.name }))),
       );
     });
     // deep trees are indented less
