@@ -108,11 +108,7 @@ fn material(file: &ContactFile, pointer: &str, document: &Document, diagnostics:
         let diagnostic = Diagnostic::error(&at, "`dissipation` has no meaning for a rigid contact");
         diagnostics.push(diagnostic.with_help("give `stiffness` [N/m] too, or `restitution` instead"));
     }
-    if file.restitution > 1.0 {
-        let at = document.at(&format!("{pointer}/restitution"));
-        let message = format!("`restitution` is {}, expected 0 to 1", file.restitution);
-        diagnostics.push(Diagnostic::error(&at, message).with_help("above 1 an impact would add energy"));
-    }
+    check_restitution(file.restitution, pointer, document, diagnostics);
     Material {
         friction: file.friction,
         restitution: file.restitution,
@@ -121,6 +117,14 @@ fn material(file: &ContactFile, pointer: &str, document: &Document, diagnostics:
         stiffness: file.stiffness.unwrap_or(f64::INFINITY),
         dissipation: file.dissipation.unwrap_or(0.0),
         group: file.group,
+    }
+}
+
+fn check_restitution(restitution: f64, pointer: &str, document: &Document, diagnostics: &mut Diagnostics) {
+    if restitution > 1.0 {
+        let at = document.at(&format!("{pointer}/restitution"));
+        let message = format!("`restitution` is {restitution}, expected 0 to 1");
+        diagnostics.push(Diagnostic::error(&at, message).with_help("above 1 an impact would add energy"));
     }
 }
 
@@ -215,6 +219,7 @@ impl Joiner<'_> {
             let diagnostic = Diagnostic::error(&at, "`dissipation` has no meaning for a rigid contact");
             self.diagnostics.push(diagnostic.with_help("give a finite `stiffness` [N/m], or `restitution` instead"));
         }
+        check_restitution(file.restitution.unwrap_or(0.0), pointer, self.document, self.diagnostics);
         let law = PairLaw {
             is_excluded: !file.touches,
             friction: file.friction,

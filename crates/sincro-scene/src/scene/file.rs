@@ -237,7 +237,7 @@ pub(crate) struct JointFile {
     /// Where it starts.
     #[serde(default)]
     pub initial: InitialFile,
-    /// Spring: τ = −stiffness·(q − rest); a list for several degrees of freedom. Ball joints: about the axes of the child, q and rest are rotation vectors; free joints: these three, then along the axes of the joint frame.
+    /// Spring: τ = −stiffness·(q − rest); a list for several degrees of freedom.
     pub spring: Option<OneOrList<SpringFile>>,
     /// Viscous coefficient: τ = −damping·q̇; a list for several degrees of freedom [N·m·s/rad] or [N·s/m].
     pub damping: Option<OneOrList<f64>>,
