@@ -26,53 +26,100 @@ fn campaign_of(scene: &str, duration: f64, signal: &str) -> Campaign {
     run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
 }
 
-/// A body on two driven wheels and a castor without friction, at rest on a floor.
-fn robot(limit: f64, command: f64) -> String {
-    let mut scene = r#"
+/// A body with a castor without friction, at rest on a floor.
+struct Chassis {
+    /// Coefficient of friction of the floor.
+    floor: f64,
+    /// `[kg]`
+    mass: f64,
+    /// x and z of the centre of mass `[m]`.
+    center: [f64; 2],
+    /// Principal moments [kg·m²].
+    inertia: [f64; 3],
+    /// x of the castor `[m]`.
+    castor: f64,
+}
+
+/// A driven wheel of 0.1 m.
+struct Wheel {
+    name: &'static str,
+    /// x and y of its axle `[m]`.
+    at: [f64; 2],
+    /// [N·m]
+    limit: f64,
+    /// [rad/s]
+    command: f64,
+    /// `[kg]`
+    mass: f64,
+    /// Principal moments [kg·m²].
+    inertia: [f64; 3],
+    friction: f64,
+}
+
+impl Chassis {
+    fn on(&self, wheels: [Wheel; 2]) -> String {
+        let Self { floor, mass, center: [x, z], inertia: [xx, yy, zz], castor } = self;
+        let mut scene = format!(
+            r#"
 [[body]]
 name = "floor"
-shape = [ { plane = {} } ]
-contact = { friction = 0.7 }
+shape = [ {{ plane = {{}} }} ]
+contact = {{ friction = {floor} }}
 
 [[joint]]
 name = "base"
 kind = "free"
-initial = { position = [0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0] }
+initial = {{ position = [0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0] }}
 
 [[body]]
 name = "robot"
 parent = "/base"
-mass = 3.0
-center_of_mass = [0.0, 0.0, 0.0]
-inertia = { xx = 0.03, yy = 0.03, zz = 0.03 }
-shape = [ { sphere = { radius = 0.05 }, position = [-0.12, 0.0, -0.05] } ]
-contact = { friction = 0.0 }
+mass = {mass}
+center_of_mass = [{x}, 0.0, {z}]
+inertia = {{ xx = {xx}, yy = {yy}, zz = {zz} }}
+shape = [ {{ sphere = {{ radius = 0.05 }}, position = [{castor}, 0.0, -0.05] }} ]
+contact = {{ friction = 0.0 }}
 "#
-    .to_owned();
-    for (name, y) in [("left", 0.15), ("right", -0.15)] {
-        let _ = write!(
-            scene,
-            r#"
+        );
+        for Wheel { name, at: [x, y], limit, command, mass, inertia: [xx, yy, zz], friction } in wheels {
+            let _ = write!(
+                scene,
+                r#"
 [[joint]]
 name = "{name}"
 parent = "/base/robot"
 kind = "revolute"
 axis = [0.0, 1.0, 0.0]
-position = [0.05, {y}, 0.0]
+position = [{x}, {y}, 0.0]
 motor = {{ mode = "velocity", max_torque = {limit:e}, command = {command:e} }}
 
 [[body]]
 name = "wheel"
 parent = "/base/robot/{name}"
-mass = 0.3
+mass = {mass}
 center_of_mass = [0.0, 0.0, 0.0]
-inertia = {{ xx = 0.001, yy = 0.001, zz = 0.001 }}
+inertia = {{ xx = {xx}, yy = {yy}, zz = {zz} }}
 shape = [ {{ cylinder = {{ radius = 0.1, length = 0.03 }}, rotation_deg = [90.0, 0.0, 0.0] }} ]
-contact = {{ friction = 0.8 }}
+contact = {{ friction = {friction} }}
 "#
-        );
+            );
+        }
+        scene
     }
-    scene
+}
+
+/// A robot on two wheels with the same motors.
+fn robot(limit: f64, command: f64) -> String {
+    let chassis = Chassis { floor: 0.7, mass: 3.0, center: [0.0; 2], inertia: [0.03; 3], castor: -0.12 };
+    chassis.on([("left", 0.15), ("right", -0.15)].map(|(name, y)| Wheel {
+        name,
+        at: [0.05, y],
+        limit,
+        command,
+        mass: 0.3,
+        inertia: [0.001; 3],
+        friction: 0.8,
+    }))
 }
 
 #[test]
@@ -90,59 +137,32 @@ fn a_robot_starts_with_slipping_wheels_and_keeps_the_energy() {
 
 /// A robot whose strong right motor turns it about the left wheel, the rim of which sticks at one end and slides at the
 /// other; its figures are those of a random draw.
-const TURNING: &str = r#"format = 2
-[[body]]
-name = "floor"
-shape = [{ plane = {} }]
-contact = { friction = 0.3, restitution = 0 }
-[[joint]]
-name = "base"
-kind = "free"
-initial = { position = [0, 0, 0.1, 1, 0, 0, 0] }
-[[body]]
-name = "robot"
-parent = "/base"
-mass = 3.94397
-inertia = { xx = 0.0295797, yy = 0.0354957, zz = 0.0266218 }
-shape = [{ sphere = { radius = 0.05 }, position = [-0.1, 0, -0.05] }]
-contact = { friction = 0.0 }
-center_of_mass = [-0.02, 0, -0.01942]
-
-[[joint]]
-name = "w0"
-parent = "/base/robot"
-kind = "revolute"
-axis = [0, 1, 0]
-position = [0.08, -0.15, 0]
-motor = { mode = "velocity", max_torque = 0.112991, command = 7.7814 }
-[[body]]
-name = "wheel0"
-parent = "/base/robot/w0"
-mass = 0.106752
-inertia = { xx = 0.000355841, yy = 0.000427009, zz = 0.000320257 }
-shape = [{ cylinder = { radius = 0.1, length = 0.03 }, rotation_deg = [90, 0, 0] }]
-contact = { friction = 0.3 }
-
-[[joint]]
-name = "w1"
-parent = "/base/robot"
-kind = "revolute"
-axis = [0, 1, 0]
-position = [0.08, 0.15, 0]
-motor = { mode = "velocity", max_torque = 37.8634, command = 2.9016 }
-[[body]]
-name = "wheel1"
-parent = "/base/robot/w1"
-mass = 0.442937
-inertia = { xx = 0.00147646, yy = 0.00177175, zz = 0.00132881 }
-shape = [{ cylinder = { radius = 0.1, length = 0.03 }, rotation_deg = [90, 0, 0] }]
-contact = { friction = 0.3 }
-"#;
+fn turning() -> String {
+    let chassis = Chassis {
+        floor: 0.3,
+        mass: 3.94397,
+        center: [-0.02, -0.01942],
+        inertia: [0.0295797, 0.0354957, 0.0266218],
+        castor: -0.1,
+    };
+    let wheel = |name, y, limit, command, mass, inertia| Wheel {
+        name,
+        at: [0.08, y],
+        limit,
+        command,
+        mass,
+        inertia,
+        friction: 0.3,
+    };
+    let left = wheel("w0", -0.15, 0.112991, 7.7814, 0.106752, [0.000355841, 0.000427009, 0.000320257]);
+    let right = wheel("w1", 0.15, 37.8634, 2.9016, 0.442937, [0.00147646, 0.00177175, 0.00132881]);
+    chassis.on([left, right])
+}
 
 #[test]
 fn a_wheel_that_stops_slipping_does_not_unload_the_rim_of_another() {
     // both rims carry load all the time: left to one of them, the wheel lost 0.2 rad/s in half a millisecond
-    let done = campaign_of(TURNING, 1.0, "/base/robot/w0.position");
+    let done = campaign_of(&turning(), 1.0, "/base/robot/w0.position");
     assert!(done.main.audit.ok, "{:?}", done.main.audit.findings);
     let error_bar = done.report.columns.last().and_then(|column| column.error_bar).unwrap();
     assert!(error_bar < 1e-5, "{error_bar}");
