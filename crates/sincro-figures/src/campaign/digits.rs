@@ -11,18 +11,37 @@ const MAX_VALUES: usize = 4000;
 /// Share of the greatest difference from which on rounding is named.
 const MIN_SHARE: f64 = 0.2;
 
-/// Remark for an error panel whose curve is mostly the rounding of its reference; `None`: it is not.
-pub(super) fn remark(reference: &[f64], differences: &[f64], unit: &str) -> Option<String> {
-    let (digits, rounding) = rounding(reference)?;
-    let greatest = differences.iter().filter(|d| d.is_finite()).fold(0.0_f64, |a, d| a.max(d.abs()));
-    let bound = format!("±{} {unit}", short(rounding, 2));
-    (rounding >= MIN_SHARE * greatest && greatest > 0.0)
-        .then(|| format!("the reference has {digits} digits: {} of the difference is its rounding", bound.trim_end()))
+/// Rounding of a reference.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounding {
+    /// Significant digits.
+    digits: i32,
+    /// Half a unit of the last digit of the greatest value.
+    bound: f64,
 }
 
-/// Significant digits of a reference, and half a unit of the last one of its greatest value. A table with a fixed count
-/// of decimals has most digits where it is greatest, one with a fixed number of digits has them everywhere.
-fn rounding(values: &[f64]) -> Option<(i32, f64)> {
+impl Rounding {
+    /// The rounding that differences from a reference mostly are; `None`: they are not.
+    pub fn limiting(reference: &[f64], differences: &[f64]) -> Option<Self> {
+        let greatest = differences.iter().filter(|d| d.is_finite()).fold(0.0_f64, |a, d| a.max(d.abs()));
+        rounding(reference).filter(|found| found.bound >= MIN_SHARE * greatest && greatest > 0.0)
+    }
+
+    /// The coarser of two roundings.
+    pub fn coarser(a: Option<Self>, b: Option<Self>) -> Option<Self> {
+        a.into_iter().chain(b).max_by(|a, b| a.bound.total_cmp(&b.bound))
+    }
+
+    /// Remark for an error panel.
+    pub fn remark(self, unit: &str) -> String {
+        let bound = format!("±{} {unit}", short(self.bound, 2));
+        format!("the reference has {} digits: {} of the difference is its rounding", self.digits, bound.trim_end())
+    }
+}
+
+/// Rounding of the values of a reference. A table with a fixed count of decimals has most digits where it is greatest,
+/// one with a fixed number of digits has them everywhere.
+fn rounding(values: &[f64]) -> Option<Rounding> {
     let greatest = values.iter().filter(|v| v.is_finite()).fold(0.0_f64, |a, v| a.max(v.abs()));
     let large: Vec<f64> = values.iter().copied().filter(|v| v.abs() >= 0.1 * greatest).take(MAX_VALUES).collect();
     if greatest == 0.0 || large.len() < MIN_VALUES || large.iter().all(|v| *v == large[0]) {
@@ -30,7 +49,7 @@ fn rounding(values: &[f64]) -> Option<(i32, f64)> {
     }
     let digits = large.iter().map(|v| significant_digits(*v)).max()?;
     let last = exponent(greatest) - digits + 1;
-    (2..=MAX_DIGITS).contains(&digits).then(|| (digits, 0.5 * pow10(last)))
+    (2..=MAX_DIGITS).contains(&digits).then(|| Rounding { digits, bound: 0.5 * pow10(last) })
 }
 
 /// Digits of the shortest text that reads as this number, without zeros at either end.
@@ -43,6 +62,19 @@ fn significant_digits(value: f64) -> i32 {
 mod tests {
     use super::*;
     use sincro_math::elementary::sin_cos;
+
+    fn remark(reference: &[f64], differences: &[f64], unit: &str) -> Option<String> {
+        Rounding::limiting(reference, differences).map(|rounding| rounding.remark(unit))
+    }
+
+    #[test]
+    fn the_coarsest_of_several_references_is_named() {
+        let [fine, coarse] = [1e-8, 5e-8].map(|bound| Rounding { digits: 9, bound });
+        for (a, b) in [(fine, coarse), (coarse, fine)] {
+            assert_eq!(Rounding::coarser(Some(a), Some(b)).unwrap().bound, coarse.bound);
+        }
+        assert!(Rounding::coarser(None, None).is_none());
+    }
 
     fn wave() -> Vec<f64> {
         (0..200).map(|k| sin_cos(0.05 * f64::from(k)).0).collect()

@@ -9,7 +9,7 @@ use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::check::{Outcome, Series as Expected};
 use sincro_sim::table::{Column, Table};
 
-use super::digits;
+use super::digits::Rounding;
 use crate::plot::{Axis, Band, Figure, Limit, Panel, Role, Series, Space, Stroke, Track};
 
 /// Most signals in a figure that nobody asked for.
@@ -188,6 +188,7 @@ fn panels(
 ) -> Vec<Panel> {
     let mut panel = Panel::new(Axis::new(quantities(drawn), unit));
     let mut error = Panel::error(unit);
+    let mut rounding = None;
     for (k, Drawn { name, column, done, of_variant }) in drawn.iter().enumerate() {
         let times = done.simulated.table.times();
         panel.series.push(curve(column, name, Role::Simulated, k, times));
@@ -195,7 +196,8 @@ fn panels(
         let given = if k == 0 { reference.clone().map(|r| (r, None)) } else { None };
         if let Some((expected, tolerance)) = given.or(checked) {
             let label = if drawn.len() > 1 { format!("expected {name}") } else { "expected".to_owned() };
-            add_reference(&mut panel, &mut error, (k, column, times), (expected, &label), tolerance);
+            let found = add_reference(&mut panel, &mut error, (k, column, times), (expected, &label), tolerance);
+            rounding = Rounding::coarser(rounding, found);
             add_band(&mut error, k, column, done, times);
         }
         let others = if *of_variant { &[][..] } else { &campaign.variants };
@@ -207,6 +209,7 @@ fn panels(
             }
         }
     }
+    error.remark = rounding.map(|rounding| rounding.remark(unit)).unwrap_or_default();
     let below = match wanted.compares_variants {
         Some(true) => comparison(drawn, unit, wanted, campaign),
         Some(false) => error,
@@ -281,13 +284,15 @@ fn expected_of(outcomes: &[Outcome], name: &str) -> Option<(Expected, Option<f64
     Some((widest.series.clone()?, (!widest.relative).then_some(widest.limit)))
 }
 
+/// Adds an expected curve, and the difference from it below. Returns the rounding of the reference where it limits what
+/// the difference shows.
 fn add_reference(
     panel: &mut Panel,
     error: &mut Panel,
     (signal, column, times): (usize, &Column, &[f64]),
     (expected, label): (Expected, &str),
     tolerance: Option<f64>,
-) {
+) -> Option<Rounding> {
     let (mut x, mut y) = (Vec::new(), Vec::new());
     for (t, value) in expected.times.iter().zip(&expected.values) {
         let at = times.partition_point(|row| *row < t - SAME_INSTANT);
@@ -296,18 +301,14 @@ fn add_reference(
             y.push(column.values[at] - value);
         }
     }
-    if let Some(remark) = digits::remark(&expected.values, &y, &column.unit)
-        && !error.remark.contains(&remark)
-    {
-        let gap = if error.remark.is_empty() { "" } else { "; " };
-        error.remark = format!("{}{gap}{remark}", error.remark);
-    }
+    let rounding = Rounding::limiting(&expected.values, &y);
     let reference = Series::new(label, Role::Reference, expected.times, expected.values);
     panel.series.push(Series { signal, ..reference });
     error.series.push(Series { signal, ..Series::new("", Role::Simulated, x, y) });
     if let (Some(tolerance), true) = (tolerance, error.limits.is_empty()) {
         error.limits.extend([tolerance, -tolerance].map(|value| Limit { name: "tolerance".into(), value }));
     }
+    rounding
 }
 
 /// The error bar of the run around zero difference.
@@ -343,7 +344,9 @@ fn sweep_figures(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
         series.stroke = Stroke::Points;
         panel.series.push(series);
         if let Some((expected, tolerance)) = expected_of(outcomes, &column.name) {
-            add_reference(&mut panel, &mut error, (0, column, table.times()), (expected, "expected"), tolerance);
+            let series = (0, *column, table.times());
+            let rounding = add_reference(&mut panel, &mut error, series, (expected, "expected"), tolerance);
+            error.remark = rounding.map(|rounding| rounding.remark(&column.unit)).unwrap_or_default();
         }
         error.series.iter_mut().for_each(|s| s.stroke = Stroke::Points);
         let panels = if error.series.is_empty() { vec![panel] } else { vec![panel, error] };

@@ -5,7 +5,7 @@ use super::{Analysis, Channel, MAX_CHANNELS, figures};
 use crate::plot::number::significant;
 use crate::plot::{Figure, escape, escape_raised};
 use crate::report::page::figure;
-use crate::report::shell::{PLOT_SCRIPT, contents, document, list, paragraph, section};
+use crate::report::shell::{PLOT_SCRIPT, document, list, paragraph, sections};
 
 /// Report page of a linear system as HTML, with its figures inline.
 #[must_use]
@@ -16,38 +16,25 @@ pub fn html(analysis: &Analysis) -> String {
         paragraph("lead", &text::summary(analysis)),
         text::stability(analysis)
     );
-    let reach = list(&text::reach_lines(analysis));
-    let sections = [
-        section("Poles", &(table(&StateTable::poles(analysis)) + &reach)),
-        reduction(analysis),
-        channels(analysis),
-        section("Channels", &overview(analysis)),
-        section("Matrices", &matrices(analysis)),
+    let poles = table(&StateTable::poles(analysis)) + &list(&text::reach_lines(analysis));
+    let map = if analysis.channels.is_empty() { figures_of(&[figures::map(analysis, None)]) } else { String::new() };
+    let mut all = vec![
+        ("Poles".to_owned(), poles + &map),
+        ("Reduced to independent coordinates".to_owned(), list(&analysis.reduction)),
     ];
-    document(&analysis.title, "report", &(banner + &contents(&sections) + &sections.concat() + PLOT_SCRIPT))
+    all.extend(analysis.shown().iter().map(|channel| channel_section(analysis, channel)));
+    all.push(("Channels".to_owned(), overview(analysis)));
+    all.push(("Matrices".to_owned(), matrices(analysis)));
+    document(&analysis.title, "report", &(banner + &sections(&all) + PLOT_SCRIPT))
 }
 
-/// Text of the reduction; empty if nothing was eliminated.
-fn reduction(analysis: &Analysis) -> String {
-    if analysis.reduction.is_empty() {
-        return String::new();
-    }
-    section("Reduced to independent coordinates", &list(&analysis.reduction))
-}
-
-fn channels(analysis: &Analysis) -> String {
-    if analysis.channels.is_empty() {
-        return figures_of(&[figures::map(analysis, None)]);
-    }
-    analysis.shown().iter().map(|channel| channel_section(analysis, channel)).collect()
-}
-
-fn channel_section(analysis: &Analysis, channel: &Channel) -> String {
+/// Heading and content of the section about a channel.
+fn channel_section(analysis: &Analysis, channel: &Channel) -> (String, String) {
     let name = analysis.name(channel);
     let name = name[..1].to_uppercase() + &name[1..];
     let shown =
         [figures::bode(analysis, channel), figures::map(analysis, Some(channel)), figures::step(analysis, channel)];
-    section(&escape(&name), &(figures_of(&shown) + &paragraph("", &step_words(channel))))
+    (escape(&name), figures_of(&shown) + &paragraph("", &step_words(channel)))
 }
 
 /// Rise time, overshoot and settling time of the step response, in one sentence.

@@ -59,6 +59,9 @@ fn many_channels_are_listed_not_drawn() {
     assert_eq!((analysis.channels.len(), analysis.shown().len(), analysis.unshown().len()), (9, 6, 3));
     assert_eq!(super::figures(&analysis).len(), 18);
     assert!(page::html(&analysis).contains("the other 3 are in <code>bode.csv</code>"));
+    // the contents lead to every channel that is drawn, and to all else
+    let html = page::html(&analysis);
+    assert_eq!(html.matches("<a href=\"#").count(), html.matches("<h2>").count());
 }
 
 #[test]

@@ -32,6 +32,10 @@ fn rows<T>(all: &[T], row: fn(&T) -> String) -> Vec<String> {
     all.iter().take(MAX_ROWS).map(row).collect()
 }
 
+fn code(text: &str) -> String {
+    format!("<code>{}</code>", escape(text))
+}
+
 fn more(n: usize, what: &str) -> String {
     if n > MAX_ROWS { format!("<p class=\"key\">and {} more {what}</p>\n", n - MAX_ROWS) } else { String::new() }
 }
@@ -47,7 +51,6 @@ const JOINT_COLUMNS: [(&str, &str); 7] = [
 ];
 
 fn joint(row: &JointRow) -> String {
-    let code = |text: &str| format!("<code>{}</code>", escape(text));
     [
         cell("Joint", "name", &code(&row.path)),
         cell("Kind", "", &escape(&row.kind)),
@@ -64,7 +67,6 @@ const BODY_COLUMNS: [(&str, &str); 5] =
     [("", "Body"), ("", "Carried by"), ("num", "Mass [kg]"), ("", "Centre of mass [m]"), ("", "Ixx, Iyy, Izz [kg·m²]")];
 
 fn body(row: &BodyRow) -> String {
-    let code = |text: &str| format!("<code>{}</code>", escape(text));
     [
         cell("Body", "name", &code(&row.path)),
         cell("Carried by", "", &code(&row.parent)),

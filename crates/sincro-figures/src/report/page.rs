@@ -2,7 +2,7 @@
 
 use super::checks::check_table;
 use super::mechanism;
-use super::shell::{Outcome, PLOT_SCRIPT, cell, contents, document, list, paragraph, prose, section, settings, table};
+use super::shell::{Outcome, PLOT_SCRIPT, cell, document, list, paragraph, prose, sections, settings, table};
 use super::{Energy, FindingRow, Page, SignalRow};
 use crate::plot::number::{resolved, short, significant};
 use crate::plot::{self, Figure, Size, escape, inline_svg};
@@ -12,20 +12,21 @@ pub(super) fn html(page: &Page) -> String {
     let figures = figures(&page.figures);
     let checks = check_table(&page.checks);
     let checks = if checks.is_empty() { checks } else { checks + CHECKS_KEY };
-    let sections = [
-        section("Audit", &finding_table(&page.findings)),
-        section("Replay", &page.replay),
-        section("Figures", &figures).replacen("<section", "<section class=\"figures\"", 1),
-        section("Mechanism", &page.mechanism.as_ref().map(mechanism::html).unwrap_or_default()),
-        section(if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, &diagrams(&page.diagrams)),
-        section("Checks", &checks),
-        section("Accuracy of the signals", &signal_table(&page.signals)),
-        section("Energy", &page.energy.map(|energy| energy_line(&energy)).unwrap_or_default()),
-        section("Messages", &messages(&page.messages)),
-        section("Settings", &settings(&page.settings)),
-        section("Notes", &list(&page.notes)),
+    let all = [
+        ("Audit", finding_table(&page.findings)),
+        ("Replay", page.replay.clone()),
+        ("Figures", figures),
+        ("Mechanism", page.mechanism.as_ref().map(mechanism::html).unwrap_or_default()),
+        (if page.diagrams.len() > 1 { "Diagrams" } else { "Diagram" }, diagrams(&page.diagrams)),
+        ("Checks", checks),
+        ("Accuracy of the signals", signal_table(&page.signals)),
+        ("Energy", page.energy.map(|energy| energy_line(&energy)).unwrap_or_default()),
+        ("Messages", messages(&page.messages)),
+        ("Settings", settings(&page.settings)),
+        ("Notes", list(&page.notes)),
     ];
-    let body = header(page) + &contents(&sections) + &sections.concat() + PLOT_SCRIPT;
+    let all = all.map(|(heading, content)| (heading.to_owned(), content));
+    let body = header(page) + &sections(&all) + PLOT_SCRIPT;
     document(&page.title, "report", &body)
 }
 

@@ -276,7 +276,7 @@
     const clips = [...svg.querySelectorAll("svg[data-x]")];
     if (clips.length > 0) new Plot(svg, clips);
   }
-  const figures = document.querySelector(".figures");
+  const figures = document.querySelector("#figures");
   if (figures) {
     const hint = document.createElement("p");
     hint.className = "key plot-hint";

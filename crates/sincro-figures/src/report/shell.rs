@@ -133,20 +133,16 @@ fn anchor(heading: &str) -> String {
     heading.to_lowercase().replace(' ', "-")
 }
 
-/// Links to sections that [`section`] made; nothing where there is only one.
-pub(crate) fn contents(sections: &[String]) -> String {
-    let heading = |text: &String| {
-        let (_, rest) = text.split_once("<h2>")?;
-        rest.split_once("</h2>").map(|(heading, _)| heading.to_owned())
+/// Sections with their headings and contents, behind links to them; empty ones are left out.
+pub(crate) fn sections(all: &[(String, String)]) -> String {
+    let filled = || all.iter().filter(|(_, content)| !content.is_empty());
+    let link = |(heading, _): &(String, String)| format!("<a href=\"#{}\">{heading}</a>\n", anchor(heading));
+    let links: String = if filled().count() > 1 { filled().map(link).collect() } else { String::new() };
+    let contents = match links.is_empty() {
+        true => links,
+        false => format!("<nav class=\"contents\" aria-label=\"Contents\">\n{links}</nav>\n"),
     };
-    let headings: Vec<String> =
-        sections.iter().filter(|text| text.starts_with("<section")).filter_map(heading).collect();
-    if headings.len() < 2 {
-        return String::new();
-    }
-    let link = |heading: &String| format!("<a href=\"#{}\">{heading}</a>\n", anchor(heading));
-    let links: String = headings.iter().map(link).collect();
-    format!("<nav class=\"contents\" aria-label=\"Contents\">\n{links}</nav>\n")
+    filled().fold(contents, |page, (heading, content)| page + &section(heading, content))
 }
 
 /// Script that reads values from the figures of a page and magnifies them; goes once, behind them.
