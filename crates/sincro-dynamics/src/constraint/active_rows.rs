@@ -59,7 +59,7 @@ impl<R: Real> Constraints<R> {
             rate: rate(row),
         });
         let mut active: Vec<ActiveRow<R>> = bilateral.collect();
-        for block in self.blocks.iter().filter(|block| !block.open) {
+        for block in self.blocks.iter().filter(|block| !block.open && !block.is_drive()) {
             let (normal, friction) = match block.slot.checked_sub(set.limits.len()) {
                 None => (ActiveSource::Limit(block.slot), ActiveSource::Limit(block.slot)),
                 Some(contact) => {

@@ -17,6 +17,9 @@ pub(crate) struct FrictionGroup<R> {
     pub row: usize,
     pub dim: usize,
     pub coefficient: f64,
+    /// Factor on the tolerance by which its force may exceed its limit: a limit that is given is kept more closely than
+    /// one that follows from a force which is a part of the solution.
+    pub slack: f64,
     /// True if it slides with a velocity that gives the direction; else the direction follows from the solution
     /// (impending slip).
     pub slides: bool,

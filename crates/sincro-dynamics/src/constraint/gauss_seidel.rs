@@ -24,7 +24,7 @@ pub(super) fn sweep<R: Real>(
         }
         for block in blocks.iter() {
             match block.given {
-                Some(force) => relax(problem, block.row, |_| force.lane(0), (lambda, rates)),
+                Some(force) => set(problem, block.row, force.lane(0), (lambda, rates)),
                 None => relax(problem, block.row, |free| free.max(0.0), (lambda, rates)),
             }
             let normal = lambda[block.row].lane(0).max(0.0);

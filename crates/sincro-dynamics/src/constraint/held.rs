@@ -180,7 +180,7 @@ fn excess<R: Real>(
         HeldLaw::Open(k) => -rates[blocks[k].row].lane(0) / small.rate * SLACK - SLACK,
         HeldLaw::Stick(k, g) => group(k, g).map_or(f64::NAN, |group| {
             let beyond = norm(pair(group, lambda)) - group.coefficient * normal(k).max(0.0);
-            beyond / small.force * SLACK - SLACK
+            beyond / small.force * SLACK - SLACK * group.slack
         }),
         HeldLaw::Slip(k, g) => group(k, g).map_or(f64::NAN, |group| {
             let (rate, d) = (pair(group, rates), group.direction.map(|d| d.lane(0)));

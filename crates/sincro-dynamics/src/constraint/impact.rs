@@ -185,7 +185,7 @@ impl Constraints<f64> {
     /// Contact points with a force, as of the last evaluation.
     pub fn points(&self, model: &Model<f64>, scratch: &Scratch<f64>) -> impl Iterator<Item = ContactPoint> {
         let set = &model.constraints;
-        self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open).filter_map(move |block| {
+        self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open && !b.is_drive()).filter_map(move |block| {
             let k = block.slot - set.limits.len();
             let at = self.candidates[k]?.kinematics(&self.motions.at(scratch));
             let (t1, t2) = tangents(at.normal);

@@ -23,6 +23,7 @@
 //! | `cone` | unilateral constraints, friction groups, contact modes |
 //! | `active_set` | linear system of the current active set |
 //! | `load_share` | least multipliers of redundant constraints |
+//! | `kink` | limited drives at the kink of their law, as constraints of the contact problem |
 //! | `held` | solution with held contact modes; laws that it may violate |
 //! | `admm` | ADMM for the same problem, without an active set |
 //! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
@@ -46,6 +47,7 @@ mod engage;
 mod gauss_seidel;
 mod held;
 mod impact;
+pub(crate) mod kink;
 mod load_share;
 mod loop_joint;
 mod projection;
@@ -71,6 +73,7 @@ use active_set::ContactProblem;
 use cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 pub(crate) use held::HeldLaw;
 use held::{Solution, is_observable};
+use kink::Kink;
 use row::{Motions, Row, force_at, force_rate};
 use solver::Solver;
 use warm_start::WarmStart;
@@ -151,6 +154,8 @@ pub(crate) struct Constraints<R> {
     pub residual: Vec<R>,
     pub n_free: usize,
     pub blocks: Vec<UnilateralConstraint<R>>,
+    /// Limited drives that are constraints of the next evaluation.
+    pub kinks: Vec<Kink>,
     jacobian: Vec<R>,
     delassus_factors: delassus::Delassus<R>,
     a: Vec<R>,
@@ -181,6 +186,8 @@ pub(crate) struct Constraints<R> {
     /// Law that the held modes violate in the last evaluation.
     pub violation: Option<HeldLaw>,
     held: Solution<R>,
+    /// True while the instant of a violation is being located: other modes are looked for near the held ones only.
+    pub is_locating: bool,
     pub solver: Solver<R>,
 }
 
@@ -202,6 +209,7 @@ impl<R: Real> Constraints<R> {
             residual: Vec::new(),
             n_free: 0,
             blocks: Vec::new(),
+            kinks: Vec::with_capacity(model.n_drives()),
             jacobian: Vec::new(),
             delassus_factors: delassus::Delassus::new(model),
             a: Vec::new(),
@@ -222,12 +230,14 @@ impl<R: Real> Constraints<R> {
             lost_modes: false,
             violation: None,
             held: Solution::default(),
+            is_locating: false,
             solver: Solver::default(),
         };
         // more contacts than this at once enlarge the memory, once for every new maximum
         let groups = |p: &Pair| 1 + 2 * usize::from(p.material.friction > 0.0);
         let of_contacts: usize = set.pairs.iter().map(|p| p.slots * groups(p)).sum();
-        new.reserve(set.n_bilateral() + set.limits.len() + of_contacts.min(RESERVED), model.n_v());
+        let of_drives = 2 * model.n_drives();
+        new.reserve(set.n_bilateral() + set.limits.len() + of_drives + of_contacts.min(RESERVED), model.n_v());
         Some(Box::new(new))
     }
 
@@ -265,6 +275,7 @@ impl<R: Real> Constraints<R> {
         }
         // at velocity level the poses and twists of the last contact detection stand
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
+        self.add_kinks();
         if self.rows.is_empty() {
             return;
         }
@@ -275,13 +286,17 @@ impl<R: Real> Constraints<R> {
                 self.motions.accelerate(model, scratch);
                 self.b.extend(self.rows.iter().map(|row| self.motions.acceleration(row, v_dot)));
             }
-            Level::Velocity(h) => self.velocity_level_rates(model, h, v, v_dot),
+            Level::Velocity(h) => {
+                self.velocity_level_rates(model, h, v, v_dot);
+                self.aim_at_targets(h);
+            }
         }
         let vanishing = self.drop_vanishing_rows();
         self.solve();
         // redundant contacts are no singular position
         self.conditioning = if self.blocks.is_empty() { vanishing * self.solver.smallest_pivot } else { 1.0 };
         self.push(model, scratch, v_dot, has_drives);
+        self.take_drive_torques(level == Level::Acceleration, scratch, v_dot);
     }
 
     /// Drops loop rows that vanish at a singular position, whose forces would be rounding; returns the smallest square
@@ -316,7 +331,7 @@ impl<R: Real> Constraints<R> {
             self.b.push(sum);
         }
         let rest_speed = model.constraints.rest_speed;
-        for block in &self.blocks {
+        for block in self.blocks.iter().filter(|block| !block.is_drive()) {
             let i = block.row;
             let row = &self.jacobian[i * n..(i + 1) * n];
             let speed = dot(row, v);
@@ -436,6 +451,7 @@ impl<R: Real> Constraints<R> {
                 row: first,
                 dim,
                 coefficient,
+                slack: 1.0,
                 slides,
                 mode: ContactMode::Stick,
                 direction: [R::zero(); 2],
@@ -538,8 +554,12 @@ impl<R: Real> Constraints<R> {
         let Some(law) = self.solver.worst_law(&problem, &self.blocks, &self.lambda) else { return };
         self.held.keep(&self.blocks, &self.lambda, self.solver.rates());
         let report = self.solver.report;
-        self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
-        let is_solved = self.solver.report.not_converged == report.not_converged;
+        let is_solved = if self.is_locating {
+            self.solver.solve_nearby(&problem, &mut self.blocks, &mut self.lambda)
+        } else {
+            self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
+            self.solver.report.not_converged == report.not_converged
+        };
         if is_solved && !is_observable(&problem, self.solver.rates(), &self.held.rates) {
             return;
         }
@@ -588,7 +608,10 @@ impl<R: Real> Constraints<R> {
     pub fn dissipation(&self, v: &[R]) -> R {
         let n = v.len();
         let mut sum = R::zero();
-        for (i, lambda) in self.lambda.iter().enumerate() {
+        // the work of drives is counted by themselves
+        let of_drives = self.blocks.iter().find(|block| block.is_drive());
+        let rows = of_drives.map_or(self.lambda.len(), |block| block.row);
+        for (i, lambda) in self.lambda[..rows].iter().enumerate() {
             sum += *lambda * dot(&self.jacobian[i * n..(i + 1) * n], v);
         }
         -sum

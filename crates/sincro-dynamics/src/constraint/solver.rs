@@ -24,7 +24,7 @@ pub(super) const SLACK: f64 = 1e-9;
 
 /// Tolerance of rates that must be zero, relative to the largest rate: redundant contacts whose distances differ by
 /// rounding contradict each other by as much; an inconsistent active set leaves far more.
-const HELD_RATE: f64 = 1e-6;
+pub(super) const HELD_RATE: f64 = 1e-6;
 
 /// Relative rate above which a solution of the linear system is refined once.
 const REFINED: f64 = 1e-12;
@@ -117,12 +117,25 @@ impl<R: Real> Solver<R> {
         self.trial = None;
     }
 
-    /// Finds λ, which holds the warm start (or zeros) before, and the contact modes.
-    pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+    /// Finds λ and the contact modes by the active set alone, from those of the warm start; returns true on convergence.
+    pub fn solve_nearby(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
         self.report.solved += 1;
         self.rank = RANK;
-        if self.iterate_active_set(problem, blocks, lambda) {
+        let is_solved = self.iterate_active_set(problem, blocks, lambda);
+        if is_solved {
             self.engage(problem, blocks, lambda);
+        }
+        is_solved
+    }
+
+    /// Finds λ, which holds the warm start (or zeros) before, and the contact modes.
+    pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        if self.solve_nearby(problem, blocks, lambda) {
             return;
         }
         self.report.split += 1;
@@ -418,7 +431,7 @@ fn update_friction_mode<R: Real>(
     if group.mode == ContactMode::Stick {
         let force = pair(group, lambda);
         let size = norm(force);
-        if size > group.coefficient * normal + small.force {
+        if size > group.coefficient * normal + small.force * group.slack {
             group.slip(force.map(|x| R::splat(x / size)), None);
             return true;
         }
@@ -444,7 +457,7 @@ pub(super) fn turn_impending_slip<R: Real>(
     let (size, speed) = (norm(force), norm(rate));
     if speed <= small.rate {
         // at its limit without a rate; a direction that can turn must not have turned beyond the limit
-        let beyond = size > limit + small.force;
+        let beyond = size > limit + small.force * group.slack;
         // and a compliant direction must not creep
         let creeps = group.compliance.is_some() && speed > small.none && size > 0.0;
         if beyond || creeps {

@@ -26,6 +26,7 @@ fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstra
         row,
         dim: 2,
         coefficient: friction,
+        slack: 1.0,
         slides: false,
         mode: ContactMode::Stick,
         direction: [0.0; 2],

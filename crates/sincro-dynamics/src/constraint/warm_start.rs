@@ -90,6 +90,11 @@ impl<R: Real> WarmStart<R> {
         self.closed[slot]
     }
 
+    /// Returns true if any slot is closed.
+    pub fn has_closed(&self) -> bool {
+        self.closed.contains(&true)
+    }
+
     /// Returns true once after a slot has closed.
     pub fn take_new(&mut self, slot: usize) -> bool {
         core::mem::take(&mut self.is_new[slot])
@@ -127,7 +132,7 @@ impl<R: Real> WarmStart<R> {
 
     /// Restores multipliers and modes of the last solution, or with `holds` the modes of the start of the sub-step.
     pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R], holds: bool) {
-        for block in blocks {
+        for block in blocks.iter_mut().filter(|block| !block.is_drive()) {
             let code = code(if holds { &self.start } else { &self.numbers }, block.slot);
             if code == 0 {
                 continue;
@@ -155,7 +160,7 @@ impl<R: Real> WarmStart<R> {
 
     /// Stores a solution.
     pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
-        for block in blocks {
+        for block in blocks.iter().filter(|block| !block.is_drive()) {
             let kept = &mut self.numbers[block.slot * SLOT_LEN..(block.slot + 1) * SLOT_LEN];
             kept[0] = lambda[block.row];
             let mut code = 1 + u32::from(block.open);

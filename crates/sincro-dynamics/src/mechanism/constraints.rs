@@ -132,6 +132,13 @@ impl Mechanism<f64> {
         }
     }
 
+    /// Tells whether the instant of a violation is being located.
+    pub(crate) fn set_locating(&mut self, is_locating: bool) {
+        if let Some(c) = &mut self.constraints {
+            c.is_locating = is_locating;
+        }
+    }
+
     /// Zero crossings of contacts and limits that have happened in the state last evaluated, with held modes, one of
     /// each kind: a law that they violate, a reversal of sliding, a compliant contact that has opened, a distance that
     /// has closed.

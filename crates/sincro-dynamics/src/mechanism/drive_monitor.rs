@@ -214,7 +214,8 @@ impl<R: Real> Mechanism<R> {
                 let (drive, saturation) = (&self.model.drives[i], self.drives[i].lane(0));
                 match self.model.drive_limit(drive) {
                     None => false,
-                    Some(_) if saturation == 0.0 => self.is_drive_overloaded(i),
+                    // contacts see to those that are constraints
+                    Some(_) if saturation == 0.0 => self.is_locked(drive.dof) && self.is_drive_overloaded(i),
                     Some(_) => {
                         let monitor = &self.drive_monitor;
                         monitor.band.is_beyond(monitor.targets[i], v[drive.dof].lane(0), saturation)

@@ -13,6 +13,7 @@
 mod analysis;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
+mod kinks;
 mod loop_rank;
 mod singular;
 mod torques;
@@ -220,12 +221,16 @@ impl<R: Real> Mechanism<R> {
         &mut self.scratch
     }
 
-    /// Marks the degrees of freedom whose drives are locked, with zero acceleration.
+    /// Marks the degrees of freedom whose drives are locked, with zero acceleration; no drive is a constraint of the
+    /// contact problem.
     #[inline(always)]
     pub fn mark_locked(&mut self) {
         let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
         if self.drives.is_empty() {
             return;
+        }
+        if let Some(constraints) = &mut self.constraints {
+            constraints.kinks.clear();
         }
         self.locked_mask.fill(zero);
         self.prescribed_acceleration.fill(zero);

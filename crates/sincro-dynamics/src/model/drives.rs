@@ -19,6 +19,11 @@ impl<R: Real> Model<R> {
         limit.is_finite().then_some(limit)
     }
 
+    /// Returns true if a drive without limit holds a degree of freedom.
+    pub(crate) fn is_held(&self, dof: usize) -> bool {
+        self.drives.iter().any(|drive| drive.dof == dof && self.drive_limit(drive).is_none())
+    }
+
     /// Torque of a saturated drive at rate `v`, without its sign [N·m] or `[N]`: its limit, or less for friction in
     /// motion; none if no lane has a limit.
     #[inline(always)]

@@ -305,7 +305,7 @@ impl Observation<'_> {
 fn add_forces(model: &Model<f64>, c: &Constraints<f64>, found: &mut LawResiduals) {
     let set = model.constraints();
     let force = c.force_scale();
-    for block in &c.blocks {
+    for block in c.blocks.iter().filter(|block| !block.is_drive()) {
         let element = match set.limits.get(block.slot) {
             Some(_) => LawElement::Limit(block.slot),
             None => LawElement::Pair(pair_of(set, block.slot - set.limits.len())),

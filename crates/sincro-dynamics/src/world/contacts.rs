@@ -3,7 +3,7 @@
 
 use super::{Stop, World};
 use crate::actuation::DriveKind;
-use crate::constraint::warm_start::{WarmStart, ZenoFallback};
+use crate::constraint::warm_start::ZenoFallback;
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler, System};
 use crate::mechanism::constraints::ActivationRule;
@@ -70,43 +70,6 @@ impl World {
         self.add_motor_impulses(Self::is_unlimited);
     }
 
-    /// Evaluates constraint forces at the start of a sub-step of about `h`, after classification, and records the
-    /// contact modes: after an event those a little later. A force reaches its bound continuously, so that at the event
-    /// itself rounding decides between the modes on both sides of it.
-    pub(super) fn resolve_contact_modes<A: CoupledSystem<f64> + ?Sized>(
-        &mut self,
-        t: f64,
-        (h, after_event): (f64, bool),
-        system: &mut A,
-    ) {
-        if !self.is_constrained() {
-            return;
-        }
-        self.mechanism.mark_locked();
-        self.evaluate_slope(t, system);
-        self.mechanism.mark_start();
-        if after_event {
-            self.look_ahead_at_contacts(t, h, system);
-        }
-    }
-
-    /// Takes the contact modes a little later than `t` for those at `t`, where they hold as well but for the change of
-    /// a mode that is due; state and time stay.
-    fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
-        let report = self.solver_report();
-        let ahead = self.move_ahead(t, h);
-        self.evaluate_slope(ahead, system);
-        self.y.copy_from_slice(&self.present);
-        if self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes()) {
-            self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
-            self.evaluate_held(t, system);
-            if !self.mechanism.is_grazing() {
-                self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
-            }
-        }
-        report.into_iter().for_each(|before| self.discard_failures(&before));
-    }
-
     /// Projects onto the constraints after a sub-step, rates of sticking contacts included.
     pub(super) fn project(&mut self) {
         if self.is_constrained() {
@@ -162,8 +125,7 @@ impl World {
         let n = self.model().n_v();
         self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
         self.save_step_start();
-        self.solve_step_modes(|world| {
-            world.mark_targets(h);
+        self.solve_step_modes(h, |world| {
             world.restore();
             if let Some(constraints) = &mut world.mechanism.constraints {
                 constraints.sub_step = h;

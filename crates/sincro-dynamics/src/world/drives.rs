@@ -30,7 +30,9 @@ impl World {
             self.apply_impact();
             self.resolve_impacts();
         }
-        self.resolve_actuator_modes(t, h, system);
+        if !self.mechanism.couples_drives() {
+            self.resolve_actuator_modes(t, h, system);
+        }
     }
 
     /// Brings unlimited motors to their target velocity at once; returns true if a velocity has jumped.

@@ -69,7 +69,12 @@ impl World {
 
     /// f(t, y) with held modes into `self.slope`.
     pub(super) fn evaluate_held<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
-        self.mechanism.mark_locked();
+        self.mechanism.mark_modes();
+        self.evaluate_checked(t, system);
+    }
+
+    /// f(t, y) into `self.slope` with the modes held that are marked.
+    pub(super) fn evaluate_checked<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         self.mechanism.set_mode_rule(ModeRule::HeldAndChecked);
         self.evaluate_slope(t, system);
         self.mechanism.set_mode_rule(ModeRule::Decided);
@@ -156,7 +161,10 @@ impl World {
     ) -> Result<f64, (f64, Stop)> {
         // of the step's own time: t itself may be too coarse
         let resolution = h * EVENT_RESOLUTION;
-        let at = self.narrow(t, (bad, resolution), crossing, control, system)?;
+        self.mechanism.set_locating(true);
+        let at = self.narrow(t, (bad, resolution), crossing, control, system);
+        self.mechanism.set_locating(false);
+        let at = at?;
         self.repeat_step(t, at, control, system)?;
         // beyond the event the modes of the sub-step may fit no forces; those after it are found below
         let report = self.solver_report();
@@ -175,7 +183,9 @@ impl World {
         if reached {
             self.apply_impulse();
         }
-        self.resolve_actuator_modes(t + at, h, system);
+        if !self.mechanism.couples_drives() {
+            self.resolve_actuator_modes(t + at, h, system);
+        }
         Ok(t + at)
     }
 

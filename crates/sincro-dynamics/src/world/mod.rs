@@ -15,6 +15,7 @@ mod builder;
 mod contacts;
 mod drives;
 mod events;
+mod modes;
 mod parameters;
 mod step;
 mod switching;
@@ -25,6 +26,7 @@ pub use step::{StepError, StepReport};
 use crate::actuation::DriveKind;
 use crate::actuation::{Motor, Push};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::constraint::kink::Kink;
 use crate::constraint::warm_start::ZenoFallback;
 use crate::constraint::{ContactPoint, ModeRule, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
@@ -39,7 +41,7 @@ use crate::spatial::Force;
 use crate::state::State;
 use contacts::MAX_CONTACT_EVENTS;
 use events::{Crossing, MAX_CROSSINGS};
-use switching::{Kink, NO_KINK};
+use switching::NO_KINK;
 
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
@@ -52,6 +54,13 @@ const MAX_IDLE_EVENTS: usize = 20;
 
 /// Time between events, relative to the tick, that counts as none.
 const IDLE: f64 = 1e-12;
+
+/// Maximum number of events in a row that are close to each other: redundant contacts at the verge of slipping can have
+/// forces that jump between solutions.
+const MAX_CLOSE_EVENTS: usize = 150;
+
+/// Time between close events, relative to the tick.
+const CLOSE: f64 = 1e-5;
 
 /// Maximum number of sub-steps in a row that make next to no progress: sliding friction that turns with a velocity near
 /// zero can hold error control back without end.
@@ -150,6 +159,8 @@ pub struct World {
     /// Limited drives whose modes are being decided, and the kink of each drive among them.
     kinks: Vec<Kink>,
     kink_of: Vec<usize>,
+    /// Those at the present instant during a look-ahead.
+    present_kinks: Vec<Kink>,
     /// Zero crossings last found.
     crossings: Vec<Crossing>,
     /// y at the present instant during a look-ahead.
@@ -322,6 +333,7 @@ impl World {
             jumps: vec![false; n_drives],
             kinks: Vec::with_capacity(n_drives),
             kink_of: vec![NO_KINK; n_drives],
+            present_kinks: Vec::with_capacity(n_drives),
             crossings: Vec::with_capacity(MAX_CROSSINGS),
             present: vec![0.0; dim],
             accelerations,
@@ -396,8 +408,7 @@ impl World {
         self.load(system);
         self.latch_target_velocities();
         self.resolve_impacts();
-        self.resolve_actuator_modes(t, self.step_size, system);
-        self.resolve_contact_modes(t, (0.0, false), system);
+        self.resolve_modes(t, (self.step_size, false), system);
         self.mechanism.store(&self.y, &mut self.state);
     }
 
@@ -508,7 +519,7 @@ impl World {
         let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.detect_contacts(&self.state.v, ActivationRule::Touching);
-        self.mechanism.mark_locked();
+        self.mechanism.mark_modes();
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
         self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
@@ -585,7 +596,7 @@ impl World {
         span: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        let (mut t, end, mut events, mut idle) = (start, start + span, 0, 0);
+        let (mut t, end, mut events, mut idle, mut close) = (start, start + span, 0, 0, 0);
         let (mut share, mut after_event, mut crawling) = (IDLE_STEP, false, 0);
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
@@ -608,12 +619,8 @@ impl World {
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
             if self.is_constrained() {
                 self.resolve_impacts();
-                self.resolve_actuator_modes(t, h_max, system);
-                let before = self.solver_report().unwrap_or_default();
-                self.resolve_contact_modes(t, (h_max, after_event), system);
-                if self.solver_report().is_some_and(|r| r.not_converged > before.not_converged) {
+                if !self.resolve_modes(t, (h_max, after_event), system) {
                     // no finite forces keep the laws here (Painlevé): impulses do
-                    self.discard_failures(&before);
                     t = self.fallback_step(t, span, (&mut share, end), system)?;
                     continue;
                 }
@@ -648,6 +655,7 @@ impl World {
             after_event = is_event;
             if is_event {
                 idle = if reached - t > IDLE * span { 0 } else { idle + 1 };
+                close = if reached - t > CLOSE * span { 0 } else { close + 1 };
                 events += 1;
                 self.statistics.events += 1;
                 if events > MAX_EVENTS {
@@ -658,14 +666,14 @@ impl World {
                     return self.finish_at_velocity_level(reached, end - reached, system);
                 }
             } else {
-                idle = 0;
+                (idle, close) = (0, 0);
             }
             crawling = if self.is_constrained() && reached - t < CRAWLING * span { crawling + 1 } else { 0 };
             t = reached;
-            if idle > MAX_IDLE_EVENTS || crawling > MAX_CRAWLING_STEPS {
+            if idle > MAX_IDLE_EVENTS || close > MAX_CLOSE_EVENTS || crawling > MAX_CRAWLING_STEPS {
                 // whatever alternates here is decided over a short step as a whole
                 t = self.fallback_step(t, span, (&mut share, end), system)?;
-                (idle, crawling) = (0, 0);
+                (idle, close, crawling) = (0, 0, 0);
             }
         }
         self.set_patience(ZenoFallback::default());

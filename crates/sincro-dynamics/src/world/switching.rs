@@ -19,6 +19,7 @@
 use std::cmp::Ordering;
 
 use super::World;
+use crate::constraint::kink::Kink;
 use crate::coupled::CoupledSystem;
 
 /// Distance of a velocity from its target, relative to 1 + |v|, within which drives reach their targets at one event.
@@ -38,19 +39,6 @@ const MAX_ENUMERATED: usize = 5;
 
 /// Kink of a drive that is at none.
 pub(super) const NO_KINK: usize = usize::MAX;
-
-/// Limited drives of one degree of freedom at one kink.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Kink {
-    dof: usize,
-    /// Sum of the limits [N·m] or `[N]`.
-    limit: f64,
-    /// Target velocity [rad/s] or [m/s].
-    target: f64,
-    /// 0 locked, ±1 saturated.
-    saturation: f64,
-    infeasible: bool,
-}
 
 /// Level at which the problem is posed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +79,7 @@ impl World {
 
     /// Collects the limited drives at their kink, with their present modes; saturates the others. Returns true if no
     /// mode was changed by that.
-    fn collect_kinks(&mut self) -> bool {
+    pub(super) fn collect_kinks(&mut self) -> bool {
         self.kinks.clear();
         let mut unchanged = true;
         for i in 0..self.target_velocities.len() {
@@ -102,7 +90,7 @@ impl World {
             let (missing, before) = (self.velocity_error(i), self.mechanism.drives[i]);
             if missing != 0.0 {
                 self.mechanism.drives[i] = missing.signum();
-            } else if self.is_held(self.mechanism.model.drives[i].dof) {
+            } else if self.model().is_held(self.mechanism.model.drives[i].dof) {
                 self.mechanism.drives[i] = 0.0;
             } else {
                 let dof = self.mechanism.model.drives[i].dof;
@@ -132,14 +120,8 @@ impl World {
         self.mechanism.drives[i] = self.kinks[k].saturation;
     }
 
-    /// Returns true if a drive without limit holds a degree of freedom.
-    fn is_held(&self, dof: usize) -> bool {
-        let model = &self.mechanism.model;
-        model.drives.iter().any(|drive| drive.dof == dof && model.drive_limit(drive).is_none())
-    }
-
     /// Writes the modes of the kinks to their drives.
-    fn write_modes(&mut self) {
+    pub(super) fn write_modes(&mut self) {
         for (drive, k) in self.mechanism.drives.iter_mut().zip(&self.kink_of) {
             if let Some(kink) = self.kinks.get(*k) {
                 *drive = kink.saturation;
@@ -287,19 +269,26 @@ impl World {
         target != v && (target - v).abs() <= SIMULTANEOUS * (1.0 + v.abs()) + 4.0 * resolution * acceleration
     }
 
-    /// The locked drive that is overloaded most in the last evaluation.
+    /// The locked drive that is overloaded most in the last evaluation, of those that are no constraints.
     pub(super) fn find_overload(&self) -> Option<usize> {
         let overload = |i: &usize| self.mechanism.drive_overload(*i);
-        let locked = (0..self.target_velocities.len()).filter(|i| self.mechanism.drives[*i] == 0.0);
+        let is_locked = |i: &usize| self.mechanism.is_locked(self.mechanism.model.drives[*i].dof);
+        let locked = (0..self.target_velocities.len()).filter(|i| self.mechanism.drives[*i] == 0.0 && is_locked(i));
         locked.filter(|i| overload(i) > 0.0).max_by(|i, j| overload(i).total_cmp(&overload(j)))
     }
 
     /// Decides the modes over a step at velocity level by trial steps: each limited drive either ends at its target
-    /// velocity or is saturated. `step` makes a trial step with the present modes.
-    pub(super) fn solve_step_modes(&mut self, mut step: impl FnMut(&mut Self)) {
+    /// velocity or is saturated; with closed contacts they are decided together. `step` makes a trial step of length `h`
+    /// with the present modes.
+    pub(super) fn solve_step_modes(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
         self.collect_all_limited();
+        if self.mechanism.couples_drives() {
+            self.solve_coupled_step_modes(h, step);
+            return;
+        }
         let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
         for _ in 0..16 + 16 * self.kinks.len() {
+            self.mark_targets(h);
             step(self);
             let infeasible = self.mark_infeasible(Law::Velocity);
             if infeasible == 0 {
@@ -312,12 +301,12 @@ impl World {
     }
 
     /// Collects all limited drives, with their present modes.
-    fn collect_all_limited(&mut self) {
+    pub(super) fn collect_all_limited(&mut self) {
         self.kinks.clear();
         for i in 0..self.target_velocities.len() {
             self.kink_of[i] = NO_KINK;
             let dof = self.mechanism.model.drives[i].dof;
-            if !self.is_unlimited(i) && !self.is_held(dof) {
+            if !self.is_unlimited(i) && !self.model().is_held(dof) {
                 let target = self.target_velocities[i];
                 let known = self.kinks.iter().position(|kink| kink.dof == dof && kink.target == target);
                 self.add_to_kink(i, known);

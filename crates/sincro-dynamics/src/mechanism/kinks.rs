@@ -1,0 +1,53 @@
+//! Limited drives as constraints of the contact problem ([`crate::constraint::kink`]), for the evaluations that follow.
+
+use super::Mechanism;
+use crate::constraint::kink::Kink;
+use crate::constraint::warm_start::WarmStart;
+
+impl Mechanism<f64> {
+    /// Returns true if a contact or limit is closed.
+    pub(crate) fn has_closed(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| WarmStart::has_closed(&c.memory))
+    }
+
+    /// Returns true if limited drives at their kink are constraints of one problem with contacts: where any are closed.
+    pub(crate) fn couples_drives(&self) -> bool {
+        !self.drives.is_empty() && self.has_closed()
+    }
+
+    /// Marks locked drives for evaluations with their modes: with closed contacts, limited ones are constraints of the
+    /// same problem, the others prescribed degrees of freedom.
+    pub(crate) fn mark_modes(&mut self) {
+        self.mark_locked();
+        if !self.couples_drives() {
+            return;
+        }
+        let (model, drives) = (&self.model, &self.drives);
+        let c = self.constraints.as_deref_mut().expect("there are contacts");
+        for (drive, _) in model.drives.iter().zip(drives).filter(|(_, saturation)| **saturation == 0.0) {
+            let dof = drive.dof;
+            let Some(limit) = model.drive_limit(drive).filter(|_| !model.is_held(dof)) else { continue };
+            self.locked_mask[dof] = 0.0;
+            match c.kinks.iter_mut().find(|kink| kink.dof == dof) {
+                Some(kink) => kink.limit += limit,
+                None => c.kinks.push(Kink { dof, limit, target: 0.0, saturation: 0.0, infeasible: false }),
+            }
+        }
+    }
+
+    /// Makes drives constraints of the contact problem, whatever their modes; those of the problem apply no torque of
+    /// their own.
+    pub(crate) fn pose_kinks<'a>(&mut self, kinks: impl Iterator<Item = &'a Kink>) {
+        let c = self.constraints.as_deref_mut().expect("there are contacts");
+        c.kinks.clear();
+        for kink in kinks {
+            self.locked_mask[kink.dof] = 0.0;
+            c.kinks.push(*kink);
+        }
+    }
+
+    /// Reads the modes of the drives that were posed from the last evaluation.
+    pub(crate) fn read_kinks(&self, kinks: &mut [Kink]) {
+        self.constraints.iter().for_each(|c| c.read_kinks(kinks));
+    }
+}

@@ -1,0 +1,153 @@
+//! Modes of limited drives and contacts at the start of a sub-step.
+//!
+//! Where contacts or limits are closed, limited drives at their kink are constraints of the same complementarity problem
+//! ([`crate::constraint::kink`]), and one solution decides all modes. Elsewhere the drives are decided among themselves
+//! ([`super::switching`]).
+
+use super::World;
+use crate::constraint::warm_start::WarmStart;
+use crate::coupled::CoupledSystem;
+
+impl World {
+    /// Decides the modes of limited drives, contacts and limits at the start of a sub-step of about `h`, `after_event`
+    /// those a little later, and records them. Returns false if no forces keep the laws.
+    pub(super) fn resolve_modes<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (h, after_event): (f64, bool),
+        system: &mut A,
+    ) -> bool {
+        if !(self.mechanism.couples_drives() && self.has_limited_drives()) {
+            self.resolve_actuator_modes(t, h, system);
+        }
+        let before = self.solver_report();
+        if self.mechanism.couples_drives() && self.has_limited_drives() {
+            self.decide_coupled_modes(t, (h, after_event), system);
+        } else {
+            self.resolve_contact_modes(t, (h, after_event), system);
+        }
+        let (Some(before), Some(after)) = (before, self.solver_report()) else { return true };
+        let is_solved = after.not_converged == before.not_converged;
+        self.discard_failures(&before);
+        is_solved
+    }
+
+    /// Evaluates constraint forces at the start of a sub-step of about `h`, after classification, and records the
+    /// contact modes: after an event those a little later. A force reaches its bound continuously, so that at the event
+    /// itself rounding decides between the modes on both sides of it.
+    fn resolve_contact_modes<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (h, after_event): (f64, bool),
+        system: &mut A,
+    ) {
+        if !self.is_constrained() {
+            return;
+        }
+        self.mechanism.mark_locked();
+        self.evaluate_slope(t, system);
+        self.mechanism.mark_start();
+        if after_event {
+            self.look_ahead_at_contacts(t, h, system);
+        }
+    }
+
+    /// Takes the contact modes a little later than `t` for those at `t`, where they hold as well but for the change of
+    /// a mode that is due; state and time stay.
+    fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+        let report = self.solver_report();
+        let ahead = self.move_ahead(t, h);
+        self.evaluate_slope(ahead, system);
+        self.y.copy_from_slice(&self.present);
+        if self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes()) {
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
+            self.evaluate_held(t, system);
+            if !self.mechanism.is_grazing() {
+                self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
+            }
+        }
+        report.into_iter().for_each(|before| self.discard_failures(&before));
+    }
+
+    /// Decides limited drives and contacts together.
+    fn decide_coupled_modes<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (h, after_event): (f64, bool),
+        system: &mut A,
+    ) {
+        let unchanged = self.collect_kinks();
+        self.present_kinks.clone_from(&self.kinks);
+        self.decide_kinks(t, system);
+        self.mechanism.mark_start();
+        if after_event || !unchanged || self.has_other_kinks() {
+            self.look_ahead_at_all(t, h, system);
+        }
+        self.write_modes();
+        self.mechanism.mark_modes();
+    }
+
+    /// Decides the kinks together with the contacts.
+    fn decide_kinks<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+        self.pose_kinks();
+        self.evaluate_slope(t, system);
+        self.mechanism.read_kinks(&mut self.kinks);
+    }
+
+    /// Makes the kinks constraints of the next evaluations, whatever their modes.
+    fn pose_kinks(&mut self) {
+        self.release_kinks();
+        self.mechanism.mark_locked();
+        self.mechanism.pose_kinks(self.kinks.iter());
+    }
+
+    /// Lets the drives of the kinks apply no torque of their own.
+    fn release_kinks(&mut self) {
+        let drives = self.mechanism.drives.iter_mut().zip(&self.kink_of);
+        drives.filter(|(_, k)| **k < self.kinks.len()).for_each(|(saturation, _)| *saturation = 0.0);
+    }
+
+    /// Decides all limited drives together with the contacts over a step of length `h` at velocity level, which `step`
+    /// makes, and makes it with these modes.
+    pub(super) fn solve_coupled_step_modes(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
+        self.release_kinks();
+        self.mark_targets(h);
+        self.mechanism.pose_kinks(self.kinks.iter());
+        step(self);
+        self.mechanism.read_kinks(&mut self.kinks);
+        self.write_modes();
+        self.mark_targets(h);
+        self.mechanism.pose_kinks(self.kinks.iter().filter(|kink| kink.saturation == 0.0));
+        step(self);
+    }
+
+    /// Returns true if the modes of the kinks differ from those at the present instant.
+    fn has_other_kinks(&self) -> bool {
+        self.kinks.iter().zip(&self.present_kinks).any(|(kink, present)| kink.saturation != present.saturation)
+    }
+
+    /// Takes the modes a little later than `t` for those at `t`, where they hold as well but for the change of a mode
+    /// that is due; state and time stay.
+    fn look_ahead_at_all<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+        let report = self.solver_report();
+        self.present_kinks.clone_from(&self.kinks);
+        let ahead = self.move_ahead(t, h);
+        let n = self.model().n_v();
+        for kink in &self.kinks {
+            self.y[n + kink.dof] = kink.target;
+        }
+        self.decide_kinks(ahead, system);
+        self.y.copy_from_slice(&self.present);
+        let contacts_differ = self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes());
+        if contacts_differ || self.has_other_kinks() {
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
+            self.pose_kinks();
+            self.evaluate_checked(t, system);
+            if !self.mechanism.is_grazing() {
+                self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
+                self.kinks.clone_from(&self.present_kinks);
+            }
+        }
+        report.into_iter().for_each(|before| self.discard_failures(&before));
+    }
+}
