@@ -187,6 +187,22 @@ impl<R: Real> WarmStart<R> {
         (0..self.closed.len()).any(|slot| self.closed[slot] && code(&self.start, slot) != code(&self.numbers, slot))
     }
 
+    /// Returns true if a mode differs from the start of the last sub-step, and every closed slot had one there.
+    pub fn has_left_modes(&self) -> bool {
+        let has_former = |slot: usize| !self.closed[slot] || code(&self.start, slot) != 0;
+        self.has_other_modes() && (0..self.closed.len()).all(has_former)
+    }
+
+    /// Keeps the present multipliers and modes while others are looked at.
+    pub fn set_aside(&mut self) {
+        self.decided.copy_from_slice(&self.numbers);
+    }
+
+    /// Goes back to the multipliers and modes that were set aside.
+    pub fn take_set_aside(&mut self) {
+        self.numbers.copy_from_slice(&self.decided);
+    }
+
     /// Takes the present multipliers and modes for those at the start of the sub-step; directions stay.
     pub fn propose_modes(&mut self) {
         self.decided.copy_from_slice(&self.start);

@@ -16,7 +16,7 @@ use crate::recursions::kinematics;
 use crate::spatial::{Pose, Vec3};
 
 /// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
-const PROJECTED: f64 = 1e-12;
+const PROJECTED: f64 = crate::world::audit::PROJECTION_TOLERANCE;
 
 /// Projection tolerance after steps at velocity level, which are of first order.
 const PROJECTED_ROUGHLY: f64 = 1e-10;
@@ -328,6 +328,11 @@ impl Mechanism<f64> {
     pub(crate) fn is_grazing(&self) -> bool {
         let Some(c) = self.constraints.as_deref() else { return true };
         !c.lost_modes && c.violation.is_none_or(|law| c.excess(law) <= GRAZING)
+    }
+
+    /// Returns true if the held modes have a solution and violate no law.
+    pub(crate) fn keeps_laws(&self) -> bool {
+        self.constraints.as_deref().is_none_or(|c| !c.lost_modes && c.violation.is_none())
     }
 
     /// Goes back to the contact modes and multipliers at [`Mechanism::mark_start`].

@@ -8,6 +8,9 @@ use super::World;
 use crate::constraint::warm_start::WarmStart;
 use crate::coupled::CoupledSystem;
 
+/// Relative difference of accelerations above which solutions are different motions.
+const OTHER_MOTION: f64 = 1e-9;
+
 impl World {
     /// Decides the modes of limited drives, contacts and limits at the start of a sub-step of about `h`, `after_event`
     /// those a little later, and records them. Returns false if no forces keep the laws.
@@ -46,6 +49,10 @@ impl World {
         }
         self.mechanism.mark_locked();
         self.evaluate_slope(t, system);
+        let has_left = self.mechanism.contact_memory().is_some_and(|memory| memory.has_left_modes());
+        if !after_event && has_left {
+            self.prefer_former_modes(t, system);
+        }
         self.mechanism.mark_start();
         if after_event {
             self.look_ahead_at_contacts(t, h, system);
@@ -69,6 +76,25 @@ impl World {
         report.into_iter().for_each(|before| self.discard_failures(&before));
     }
 
+    /// Goes back from the modes just decided to those of the last sub-step if they keep all laws and give other
+    /// accelerations: of several solutions, the one that the motion came with continues until an event. Returns true if
+    /// it went back.
+    fn prefer_former_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
+        let (n, report) = (self.model().n_v(), self.solver_report());
+        self.present.copy_from_slice(&self.slope);
+        self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
+        self.evaluate_checked(t, system);
+        let (former, decided) = (&self.slope[n..2 * n], &self.present[n..2 * n]);
+        let largest = decided.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        let differ = former.iter().zip(decided).any(|(x, y)| (x - y).abs() > OTHER_MOTION * largest);
+        let goes_back = self.mechanism.keeps_laws() && differ;
+        if !goes_back {
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
+        }
+        report.into_iter().for_each(|before| self.discard_failures(&before));
+        goes_back
+    }
+
     /// Decides limited drives and contacts together.
     fn decide_coupled_modes<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
@@ -79,6 +105,16 @@ impl World {
         let unchanged = self.collect_kinks();
         self.present_kinks.clone_from(&self.kinks);
         self.decide_kinks(t, system);
+        let has_left = self.mechanism.contact_memory().is_some_and(|memory| memory.has_left_modes());
+        if !after_event && unchanged && (has_left || self.has_other_kinks()) {
+            std::mem::swap(&mut self.kinks, &mut self.present_kinks);
+            self.pose_kinks();
+            if !self.prefer_former_modes(t, system) {
+                std::mem::swap(&mut self.kinks, &mut self.present_kinks);
+            } else {
+                self.present_kinks.clone_from(&self.kinks);
+            }
+        }
         self.mechanism.mark_start();
         if after_event || !unchanged || self.has_other_kinks() {
             self.look_ahead_at_all(t, h, system);

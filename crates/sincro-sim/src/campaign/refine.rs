@@ -3,10 +3,12 @@
 //!
 //! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a
 //! method estimates of itself. The bar of an energy is never below the largest energy balance, which is an error of the
-//! run whatever a finer one says. Where the finer run cannot halve the step of scripts, which is part of the error,
+//! run whatever a finer one says; that of a position or velocity of a mechanism with constraints never below the
+//! tolerance to which it is projected onto them. Where the finer run cannot halve the step of scripts, which is part of the error,
 //! there are no bars.
 
 use sincro_dynamics::world::MethodKind;
+use sincro_dynamics::world::audit::PROJECTION_TOLERANCE;
 
 use crate::load::Loaded;
 use crate::results::{ColumnReport, Status};
@@ -39,20 +41,29 @@ pub(super) fn columns(
     if !loaded.scene.scripts.is_empty() {
         method += "; step of scripts halved";
     }
+    let is_constrained = !loaded.scene.model.constraints().is_empty();
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
         // a script may have made another stream in the finer run
         let Some(fine) = finer.table.column(&column.path).map(|c| &c.values) else { continue };
         let bar = factor * largest_difference(&run.table.columns[k].values, fine);
-        let balance = if column.path.starts_with("energy.") { run.energy.residual } else { 0.0 };
-        column.error_bar = Some(bar.max(balance));
-        column.error_bar_method = if balance > bar {
-            format!("largest energy balance; by a finer run {bar:.1e}: {method}")
-        } else {
-            method.clone()
-        };
+        let (least, of_least) = least_bar(column, run, is_constrained);
+        column.error_bar = Some(bar.max(least));
+        column.error_bar_method =
+            if least > bar { format!("{of_least}; by a finer run {bar:.1e}: {method}") } else { method.clone() };
     }
     Ok((columns, Some(finer)))
+}
+
+/// Least error bar of a column whatever a finer run says, and its source.
+fn least_bar(column: &ColumnReport, run: &Simulated, is_constrained: bool) -> (f64, &'static str) {
+    if column.path.starts_with("energy.") {
+        return (run.energy.residual, "largest energy balance");
+    }
+    if is_constrained && matches!(&*column.unit, "m" | "rad" | "m/s" | "rad/s") {
+        return (PROJECTION_TOLERANCE, "tolerance of projections onto constraints");
+    }
+    (0.0, "")
 }
 
 /// The finer run; none if it cannot halve the step of scripts.
