@@ -20,8 +20,32 @@ const SCENES: [(&str, f64, f64); 9] = [
     ("stack", 1.0, 0.01),
 ];
 
-/// Rotation about a unit axis `[deg]`.
-const ROTATIONS: [([f64; 3], f64); 2] = [([0.0, 0.0, 1.0], 30.0), ([0.48, -0.6, 0.64], 137.0)];
+/// Unit quaternions (w, x, y, z): a turn by 30° about z, one about no axis of a scene, and random ones.
+fn rotations() -> Vec<[f64; 4]> {
+    let draws = std::env::var("SINCRO_DRAWS").ok().and_then(|n| n.parse().ok()).unwrap_or(1);
+    let mut seed = 3_u64;
+    let mut number = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let random = (0..draws).map(|_| std::array::from_fn(|_| number()));
+    let first = [about([0.0, 0.0, 1.0], 30.0), about([0.48, -0.6, 0.64], 137.0)];
+    first
+        .into_iter()
+        .chain(random)
+        .map(|q: [f64; 4]| {
+            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            q.map(|x| x / norm)
+        })
+        .collect()
+}
+
+/// Rotation about a unit axis by an angle `[deg]`.
+fn about([x, y, z]: [f64; 3], degrees: f64) -> [f64; 4] {
+    let half = (degrees / 2.0).to_radians();
+    let (c, s) = (libm::cos(half), libm::sin(half));
+    [c, s * x, s * y, s * z]
+}
 
 fn scene_text(name: &str) -> String {
     std::fs::read_to_string(repository_scene(name).join("scene.toml")).unwrap()
@@ -73,10 +97,7 @@ fn turned_with_gravity() {
             continue;
         }
         let g = gravity(&inner);
-        let run = |([x, y, z], degrees): ([f64; 3], f64)| {
-            let half = (degrees / 2.0_f64).to_radians();
-            let (c, s) = (libm::cos(half), libm::sin(half));
-            let q = [c, s * x, s * y, s * z];
+        let run = |q: [f64; 4]| {
             let [gx, gy, gz] = turned(q, g);
             let outer = format!(
                 "gravity = [{gx:e}, {gy:e}, {gz:e}]\n[[instance]]\nfile = \"inner.toml\"\nname = \"t\"\n\
@@ -85,9 +106,9 @@ fn turned_with_gravity() {
             );
             run_around(&inner, &outer, (duration, step), ENERGIES)
         };
-        let plain = run(([0.0, 0.0, 1.0], 0.0));
-        for rotation in ROTATIONS {
-            assert_alike(&format!("{name} turned by {rotation:?}"), &plain, &run(rotation), 1e-9);
+        let plain = run([1.0, 0.0, 0.0, 0.0]);
+        for q in rotations() {
+            assert_alike(&format!("{name} turned by {q:?}"), &plain, &run(q), 1e-9);
         }
     }
 }
@@ -121,4 +142,96 @@ fn reversed(text: &str) -> String {
         }
     }
     table.to_string()
+}
+
+#[test]
+fn on_a_base_that_moves_uniformly() {
+    let cases = [
+        ("four-bar", 2.0, 0.005, "\"/t/rod0.position\", \"/t/rod0.velocity\""),
+        ("gripper", 5.0, 0.05, "\"/t/thing.position.z\", \"/t/left/pad.friction_force\""),
+        ("slider-crank", 1.0, 0.005, "\"/t/slide.position\", \"/t/crank.motor_torque_now\""),
+    ];
+    for (name, duration, step, record) in cases {
+        let inner = scene_text(name);
+        let [x, y, z] = gravity(&inner);
+        let run = |speed: f64| {
+            let outer = format!(
+                "gravity = [{x}, {y}, {z}]\n[[joint]]\nname = \"rail\"\nkind = \"prismatic\"\naxis = [0.48, -0.6, 0.64]\n\
+                 initial = {{ velocity = {speed} }}\nmotor = {{ mode = \"velocity\", command = {speed} }}\n\
+                 [[body]]\nname = \"base\"\nparent = \"/rail\"\ndensity = 500.0\nshape = [ {{ sphere = {{ radius = 0.05 }} }} ]\n\
+                 [[instance]]\nfile = \"inner.toml\"\nname = \"t\"\nparent = \"/rail/base\"\n"
+            );
+            let record = record.replace("/t/", "/rail/base/t/");
+            run_around(&inner, &outer, (duration, step), &record)
+        };
+        assert_alike(&format!("{name} on a base"), &run(0.0), &run(0.7), 1e-9);
+    }
+}
+
+/// An arm with a limited motor, joint friction, a spring and a joint limit that drops its tip to the floor. All lengths
+/// are in units of `s` metres, with the densities and the gravity as they are.
+const ARM: &str = r#"
+format = 2
+
+[[body]]
+name = "floor"
+shape = [ { plane = {} } ]
+contact = { friction = 0.4 }
+
+[[joint]]
+name = "shoulder"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+position = [0.0, 0.0, "0.35*s"]
+initial = { position = -0.3 }
+motor = { mode = "velocity", max_torque = "3.0*s^4", command = "0.5/sqrt(s)" }
+
+[[body]]
+name = "upper"
+parent = "/shoulder"
+density = 1000.0
+shape = [ { cuboid = { size = ["0.4*s", "0.06*s", "0.06*s"] }, position = ["0.2*s", 0.0, 0.0] } ]
+
+[[joint]]
+name = "elbow"
+parent = "/shoulder/upper"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+position = ["0.4*s", 0.0, 0.0]
+friction = "0.02*s^4"
+spring = { stiffness = "0.5*s^4", rest = 0.2 }
+limits = { lower = -0.5, upper = 1.0 }
+
+[[body]]
+name = "lower"
+parent = "/shoulder/upper/elbow"
+density = 1000.0
+shape = [
+  { cuboid = { size = ["0.3*s", "0.05*s", "0.05*s"] }, position = ["0.15*s", 0.0, 0.0] },
+  { sphere = { radius = "0.03*s" }, position = ["0.3*s", 0.0, 0.0] },
+]
+contact = { friction = 0.4 }
+"#;
+
+#[test]
+fn with_lengths_a_thousand_times_as_large_or_small() {
+    // times are as the root of lengths: angles at the same number of ticks are the same
+    let run = |s: f64| {
+        let time = s.sqrt();
+        let experiment = format!(
+            "title = \"Scaled\"\nscene = \"scene.toml\"\nduration = {:?}\nstep = {:?}\nerror_bar = \"refine\"\n\
+             record = [\"/shoulder.position\", \"/shoulder/upper/elbow.position\"]\n[parameters]\ns = {s:?}\n",
+            128.0 * 0.0078125 * time,
+            0.0078125 * time
+        );
+        let folder = SceneFolder::of(ARM, &experiment);
+        let loaded = folder.load(&[]).unwrap_or_else(|message| panic!("{message}"));
+        run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
+    };
+    let plain = run(1.0);
+    assert!(plain.main.simulated.statistics.impacts > 0, "it meets the floor or its limit");
+    // 4^k: the root and the ticks are exact
+    for (s, least) in [(1024.0, 1e-8), (1.0 / 1024.0, 1e-5)] {
+        assert_alike(&format!("lengths in units of {s} m"), &plain, &run(s), least);
+    }
 }
