@@ -30,7 +30,7 @@ impl Client {
     /// The handshake is refused.
     pub fn connect_to(address: SocketAddr, link: &str) -> Result<Self, String> {
         let stream = TcpStream::connect(address).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
         let (socket, _) = tungstenite::client(link, stream).map_err(|e| e.to_string())?;
         Ok(Self { socket })
     }
