@@ -1,8 +1,9 @@
 //! Impacts and contact points: constraint rows outside of the evaluation of rates.
 
 use super::active_set::ContactProblem;
+use super::assembly::restitution;
 use super::cone::{ContactMode, UnilateralConstraint};
-use super::{Constraints, ContactPoint, dot, pair_of, restitution};
+use super::{Constraints, ContactPoint, dot, pair_of};
 use crate::contact::candidate::tangents;
 use crate::model::Model;
 use crate::scratch::Scratch;

@@ -1,0 +1,219 @@
+//! Assembly of the contact problem: rows, residuals and unilateral constraints of everything closed; the Delassus matrix;
+//! the vector b at velocity level.
+
+use sincro_math::Real;
+
+use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
+use super::row::{Row, force_at, force_rate};
+use super::{CLOSED_DISTANCE, Constraints, ModeRule, dot, pair_of};
+use crate::contact::Pair;
+use crate::contact::candidate::{ContactCandidate, tangents};
+use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::spatial::{Force, Vec3};
+
+impl<R: Real> Constraints<R> {
+    /// Assembles rows, residuals and unilateral constraints of everything closed, at the poses of `scratch` and the
+    /// twists of `motions`.
+    pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, slides: bool) {
+        let set = &*model.constraints;
+        self.assemble_loops(model, q, scratch);
+        for (slot, limit) in set.limits.iter().enumerate() {
+            if self.memory.is_closed(slot) {
+                let sign = R::splat(limit.sign);
+                self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::joint::WORLD, R::zero())]));
+                self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
+                let row = self.rows.len() - 1;
+                self.blocks.push(UnilateralConstraint {
+                    slot,
+                    row,
+                    open: false,
+                    given: None,
+                    is_compliant: false,
+                    groups: [None; 3],
+                });
+            }
+        }
+        for pair in &set.pairs {
+            for k in pair.first..pair.first + pair.slots {
+                let slot = set.limits.len() + k;
+                if let (true, Some(candidate)) = (self.memory.is_closed(slot), self.candidates[k]) {
+                    self.contact(slot, &candidate, pair, v, scratch, slides);
+                }
+            }
+        }
+        self.lambda.clear();
+        self.lambda.resize(self.rows.len(), R::zero());
+        self.memory.restore(&mut self.blocks, &mut self.lambda, self.mode_rule != ModeRule::Decided);
+    }
+
+    /// Assembles the rows and residuals of loop joints and gears that are used, and nothing else.
+    pub fn assemble_loops(&mut self, model: &Model<R>, q: &[R], scratch: &Scratch<R>) {
+        let set = &*model.constraints;
+        self.rows.clear();
+        self.residual.clear();
+        self.blocks.clear();
+        for joint in &set.loop_joints {
+            joint.rows(scratch, &self.motions, &mut self.rows, &mut self.residual);
+        }
+        for gear in &set.gears {
+            let [one, two] = gear.dofs.map(|k| k as u32);
+            let ratio = R::splat(gear.ratio);
+            self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
+            let [q1, q2] = gear.coordinates.map(|k| q[k]);
+            self.residual.push(q2 - ratio * q1 - R::splat(gear.offset));
+        }
+        let mut is_used = self.is_independent.iter();
+        self.rows.retain(|_| *is_used.next().unwrap_or(&true));
+        let mut is_used = self.is_independent.iter();
+        self.residual.retain(|_| *is_used.next().unwrap_or(&true));
+        self.n_free = self.rows.len();
+    }
+
+    fn contact(
+        &mut self,
+        slot: usize,
+        candidate: &ContactCandidate,
+        pair: &Pair,
+        v: &[R],
+        scratch: &Scratch<R>,
+        slides: bool,
+    ) {
+        let at = candidate.kinematics(&self.motions.at(scratch));
+        let row = self.rows.len();
+        let (c, n) = (at.point, at.normal);
+        let normal =
+            Row::between(candidate.a, candidate.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
+        self.add(normal, at.distance);
+        let material = &pair.material;
+        let given = material.stiffness.is_finite().then(|| {
+            let rate = self.motions.rate(&normal, v);
+            let k = R::splat(material.stiffness);
+            let force = -(k * at.distance) * (R::one() - R::splat(material.dissipation) * rate);
+            // no adhesion
+            force.max(R::zero())
+        });
+        let (t1, t2) = tangents(n);
+        let zero = Vec3::zero();
+        let mut groups = [None; 3];
+        let wanted = [(2, material.friction), (2, material.rolling_friction), (1, material.spinning_friction)];
+        for (g, (dim, coefficient)) in wanted.into_iter().enumerate() {
+            if coefficient <= 0.0 {
+                continue;
+            }
+            let first = self.rows.len();
+            let axes = if g == 2 { [n, n] } else { [t1, t2] };
+            for t in axes.into_iter().take(dim) {
+                let row = if g == 0 {
+                    Row::between(candidate.a, candidate.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
+                } else {
+                    Row::between(candidate.a, candidate.b, Force { ang: t, lin: zero }, Force::zero())
+                };
+                self.add(row, R::zero());
+            }
+            let slides = slides && self.memory.slides(slot, g);
+            let mut group = FrictionGroup {
+                row: first,
+                dim,
+                coefficient,
+                slack: 1.0,
+                slides,
+                mode: ContactMode::Stick,
+                direction: [R::zero(); 2],
+                compliance: None,
+                slow_sliding: SlowSliding::default(),
+            };
+            if slides {
+                group.mode = ContactMode::Slip;
+                let (direction, speed) = self.direction_against(first, dim, v, self.memory.direction(slot, g));
+                group.direction = self.memory.set_direction(slot, g, direction, speed);
+                if dim == 2 {
+                    self.align(&mut group, speed);
+                }
+            }
+            groups[g] = Some(group);
+        }
+        self.blocks.push(UnilateralConstraint { slot, row, open: false, given, is_compliant: given.is_some(), groups });
+    }
+
+    pub(super) fn add(&mut self, row: Row<R>, residual: R) {
+        self.rows.push(row);
+        self.residual.push(residual);
+    }
+
+    /// Unit direction opposite to the velocity of a group of rows, and the speed; `last` where the velocity is zero.
+    fn direction_against(&self, first: usize, dim: usize, v: &[R], last: [R; 2]) -> ([R; 2], R) {
+        let mut u = [R::zero(); 2];
+        for k in 0..dim {
+            u[k] = self.motions.rate(&self.rows[first + k], v);
+        }
+        let square = u[0] * u[0] + u[1] * u[1];
+        if square.lane(0) < 1e-28 {
+            return (last, R::zero());
+        }
+        let speed = square.sqrt();
+        let inverse = R::one() / speed;
+        (u.map(|x| -(x * inverse)), speed)
+    }
+
+    /// Rotates the two rows of a sliding group to one along and one across the sliding direction; stores the speed.
+    fn align(&mut self, group: &mut FrictionGroup<R>, speed: R) {
+        let (i, j) = (group.row, group.row + 1);
+        let (one, two, d) = (self.rows[i], self.rows[j], group.direction);
+        self.rows[i] = one.combined(&two, -d[0], -d[1]);
+        self.rows[j] = one.combined(&two, d[1], -d[0]);
+        group.direction = [-R::one(), R::zero()];
+        group.compliance = Some(speed);
+    }
+
+    /// Jacobian and Delassus matrix of the rows.
+    pub fn assemble_delassus(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
+        let (m, n) = (self.rows.len(), model.n_v());
+        self.solver.reserve(m);
+        self.jacobian.clear();
+        self.jacobian.resize(m * n, R::zero());
+        for (row, j) in self.rows.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
+            self.motions.jacobian(model, row, j);
+        }
+        self.delassus_factors.products(model, scratch, self.motions.columns(), &self.rows, &mut self.a);
+    }
+
+    /// Vector b at velocity level: (J v)/h + J v̇, relaxed by the remaining distance of open constraints, with
+    /// restitution for impacts.
+    pub(super) fn velocity_level_rates(&mut self, model: &Model<R>, h: f64, v: &[R], v_dot: &[R]) {
+        let n = model.n_v();
+        let per_h = R::splat(1.0 / h);
+        for i in 0..self.rows.len() {
+            let row = &self.jacobian[i * n..(i + 1) * n];
+            let mut sum = R::zero();
+            for k in 0..n {
+                sum += row[k] * (v[k] * per_h + v_dot[k]);
+            }
+            self.b.push(sum);
+        }
+        let rest_speed = model.constraints.rest_speed;
+        for block in self.blocks.iter().filter(|block| !block.is_drive()) {
+            let i = block.row;
+            let row = &self.jacobian[i * n..(i + 1) * n];
+            let speed = dot(row, v);
+            let bounce = restitution(model, block.slot);
+            let has_impact = self.residual[i].lane(0) + h * h * self.b[i].lane(0) <= 0.0;
+            if speed.lane(0) < -rest_speed && bounce > 0.0 && has_impact {
+                // from the present distance: to close it first would take the approach velocity away
+                self.b[i] += speed * per_h * R::splat(bounce);
+            } else if self.residual[i].lane(0) > CLOSED_DISTANCE {
+                // a distance that is zero but for rounding is not used: several distances of one face would contradict
+                // each other
+                self.b[i] += self.residual[i] * per_h * per_h;
+            }
+        }
+    }
+}
+
+pub(super) fn restitution<R: Real>(model: &Model<R>, slot: usize) -> f64 {
+    let set = &model.constraints;
+    match set.limits.get(slot) {
+        Some(limit) => limit.restitution,
+        None => set.pairs[pair_of(set, slot - set.limits.len())].material.restitution,
+    }
+}

@@ -1,0 +1,119 @@
+//! Outputs of a world at one instant.
+
+use super::{SAME_INSTANT, World};
+use crate::actuation::DriveKind;
+use crate::constraint::ContactPoint;
+use crate::energy::{Energy, energy, momentum};
+use crate::mechanism::Mechanism;
+use crate::model::Model;
+use crate::scratch::Scratch;
+use crate::spatial::Force;
+use crate::state::State;
+
+/// Outputs of a world at one instant: kinematics are computed, nothing can be changed.
+#[derive(Clone, Copy, Debug)]
+pub struct Observation<'a> {
+    /// The state.
+    pub state: &'a State<f64>,
+    /// Accelerations [rad/s²] or [m/s²].
+    pub accelerations: &'a [f64],
+    pub(super) mechanism: &'a Mechanism<f64>,
+    /// Target velocity of each drive in the tick that ends here.
+    pub(super) target_velocities: &'a [f64],
+    /// True if the state is that at the end of a tick, and nothing has been changed from outside since.
+    pub(super) is_settled: bool,
+    /// True if no input jumps at this instant.
+    pub(super) inputs_are_continuous: bool,
+}
+
+impl Observation<'_> {
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model<f64> {
+        self.mechanism.model()
+    }
+
+    /// Smooth torque of each motor now [N·m] or `[N]`.
+    #[must_use]
+    pub fn motor_torque(&self) -> &[f64] {
+        self.mechanism.motor_torque()
+    }
+
+    /// Torque [N·m] of Coulomb friction on a degree of freedom.
+    #[must_use]
+    pub fn friction_torque(&self, dof: usize) -> f64 {
+        let drives = self.model().drives();
+        let friction = drives.iter().position(|d| d.dof == dof && d.kind == DriveKind::Friction);
+        friction.map_or(0.0, |i| self.mechanism.friction_torque(i, self.state.v[dof]))
+    }
+
+    /// Contact points with their forces.
+    pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
+        contacts_of(self.mechanism)
+    }
+
+    /// Constraint residual of loop joint `k` (gears after loop joints) `[m]` or `[rad]`.
+    #[must_use]
+    pub fn residual(&self, k: usize) -> f64 {
+        let set = self.model().constraints();
+        match set.loop_joints.get(k) {
+            Some(joint) => joint.residual(self.scratch()).0,
+            None => {
+                let gear = &set.gears[k - set.loop_joints.len()];
+                let [q1, q2] = gear.coordinates.map(|k| self.state.q[k]);
+                (q2 - gear.ratio * q1 - gear.offset).abs()
+            }
+        }
+    }
+
+    /// Torque [N·m] or force `[N]` of the joint limits on a degree of freedom.
+    #[must_use]
+    pub fn limit_torque(&self, dof: usize) -> f64 {
+        self.mechanism.constraints.as_deref().map_or(0.0, |c| c.limit_torque(self.model(), dof))
+    }
+
+    /// Poses, twists and accelerations of the links.
+    #[must_use]
+    pub fn scratch(&self) -> &Scratch<f64> {
+        &self.mechanism.scratch
+    }
+
+    /// Kinetic and potential energy.
+    #[must_use]
+    pub fn energy(&self) -> Energy<f64> {
+        energy(self.model(), &self.state.q, &self.state.v, self.scratch())
+    }
+
+    /// Momentum of all bodies about the world's origin.
+    #[must_use]
+    pub fn momentum(&self) -> Force<f64> {
+        momentum(self.model(), self.scratch())
+    }
+}
+
+pub(super) fn contacts_of(mechanism: &Mechanism<f64>) -> impl Iterator<Item = ContactPoint> {
+    let constraints = mechanism.constraints.as_deref();
+    constraints.into_iter().flat_map(|c| c.points(mechanism.model(), &mechanism.scratch))
+}
+
+impl World {
+    /// Computes accelerations and kinematics in the present state and returns the outputs.
+    pub fn observe(&mut self, t: f64) -> Observation<'_> {
+        self.rates(t);
+        self.mechanism.update_kinematics(&self.state, &self.accelerations);
+        self.observation(t)
+    }
+
+    /// Outputs as last computed.
+    pub(super) fn observation(&self, t: f64) -> Observation<'_> {
+        let next_jump = self.model().next_time_event(t - 2.0 * SAME_INSTANT);
+        Observation {
+            state: &self.state,
+            accelerations: &self.accelerations,
+            mechanism: &self.mechanism,
+            target_velocities: &self.target_velocities,
+            is_settled: self.settled_at == Some(self.state.tick),
+            inputs_are_continuous: next_jump > t + SAME_INSTANT && !self.mechanism.is_pushed(),
+        }
+    }
+}

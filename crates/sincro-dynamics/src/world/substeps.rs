@@ -1,0 +1,267 @@
+//! Sub-steps of a tick: as many as the method and the events need, and what ends storms of events.
+
+use super::contacts::MAX_CONTACT_EVENTS;
+use super::{Method, SAME_INSTANT, Stop, World};
+use crate::constraint::warm_start::ZenoFallback;
+use crate::constraint::{ModeRule, SolverReport};
+use crate::coupled::{Coupled, CoupledSystem};
+use crate::integrate::{Control, Failure, FixedStep, System};
+
+/// Maximum number of changes of drives in one tick; more are called chatter.
+const MAX_EVENTS: usize = 10_000;
+
+/// Maximum number of events in a row without progress in time.
+const MAX_IDLE_EVENTS: usize = 20;
+
+/// Time between events, relative to the tick, that counts as none.
+const IDLE: f64 = 1e-12;
+
+/// Maximum number of events in a row that are close to each other: redundant contacts at the verge of slipping can have
+/// forces that jump between solutions.
+const MAX_CLOSE_EVENTS: usize = 150;
+
+/// Time between close events, relative to the tick.
+const CLOSE: f64 = 1e-5;
+
+/// Maximum number of sub-steps in a row that make next to no progress: sliding friction that turns with a velocity near
+/// zero can hold error control back without end.
+const MAX_CRAWLING_STEPS: usize = 200;
+
+/// Length of a sub-step, relative to the tick, that makes next to no progress.
+const CRAWLING: f64 = 1e-9;
+
+/// Maximum number of steps in which a sub-step, made in one, is repeated.
+const MAX_REPEATED_STEPS: usize = 1000;
+
+/// Length of the first step at velocity level after too many of them, relative to the tick.
+const IDLE_STEP: f64 = 1e-3;
+
+/// Maximum number of constraint problems without convergence in a run.
+const MAX_UNSOLVED: u64 = 100_000;
+
+impl World {
+    /// Makes sub-steps over `span` from `start`, ending at time events and at events of drives and contacts.
+    pub(super) fn sub_steps<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        start: f64,
+        span: f64,
+        system: &mut A,
+    ) -> Result<(), (f64, Stop)> {
+        let (mut t, end, mut events, mut idle, mut close) = (start, start + span, 0, 0, 0);
+        let (mut share, mut after_event, mut crawling) = (IDLE_STEP, false, 0);
+        let zeno_fallback = self.zeno_fallback();
+        if zeno_fallback.left > 0 {
+            self.set_patience(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
+            return self.finish_at_velocity_level(start, span, system);
+        }
+        while t < end {
+            let reach_target_velocities = system.next_time_event(t);
+            let corner = self.model().next_time_event(t).min(reach_target_velocities).min(end);
+            system.set_time_event(if reach_target_velocities <= corner + SAME_INSTANT {
+                corner
+            } else {
+                f64::INFINITY
+            });
+            if self.is_constrained() && end - t < 1e-13 * span {
+                break;
+            }
+            // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
+            let h_max = if t == start && corner == end { span } else { corner - t };
+            let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
+            if self.is_constrained() {
+                self.resolve_impacts();
+                if !self.resolve_modes(t, (h_max, after_event), system) {
+                    // no finite forces keep the laws here (Painlevé): impulses do
+                    t = self.fallback_step(t, span, (&mut share, end), system)?;
+                    continue;
+                }
+                if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
+                    return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
+                }
+            }
+            let limited = self.has_limited_drives() || self.is_constrained();
+            let control = if limited { self.control() } else { None };
+            if limited {
+                self.save_step_start();
+                let band = self.mechanism.velocity_band();
+                self.mechanism.drive_monitor.begin(&self.target_velocities, band);
+            }
+            let (reached, is_event) = match self.sub_step(t, (h_max, corner), (limited, control), system) {
+                Err((_, Stop::Integration(_))) if limited && self.before.iter().all(|x| x.is_finite()) => {
+                    // laws without a continuous solution here: no step is small enough
+                    self.restore();
+                    control.into_iter().for_each(|control| self.set_control(control));
+                    t = self.fallback_step(t, span, (&mut share, end), system)?;
+                    continue;
+                }
+                Err((t, Stop::Integration(Failure::NotFinite { .. }))) if !self.y.iter().all(|x| x.is_finite()) => {
+                    // the coupled system has last seen a trial state: its own is the saved one
+                    let own = self.mechanism.dim();
+                    self.mechanism.load(&self.state, &mut self.y);
+                    self.y[own..].copy_from_slice(&self.attached_before);
+                    return Err((start, Stop::Integration(Failure::NotFinite { t })));
+                }
+                made => made?,
+            };
+            after_event = is_event;
+            if is_event {
+                idle = if reached - t > IDLE * span { 0 } else { idle + 1 };
+                close = if reached - t > CLOSE * span { 0 } else { close + 1 };
+                events += 1;
+                self.statistics.events += 1;
+                if events > MAX_EVENTS {
+                    return Err((reached, Stop::Chatter { t: reached }));
+                }
+                if self.is_constrained() && events > MAX_CONTACT_EVENTS {
+                    self.set_patience(zeno_fallback.lost());
+                    return self.finish_at_velocity_level(reached, end - reached, system);
+                }
+            } else {
+                (idle, close) = (0, 0);
+            }
+            crawling = if self.is_constrained() && reached - t < CRAWLING * span { crawling + 1 } else { 0 };
+            t = reached;
+            if idle > MAX_IDLE_EVENTS || close > MAX_CLOSE_EVENTS || crawling > MAX_CRAWLING_STEPS {
+                // whatever alternates here is decided over a short step as a whole
+                t = self.fallback_step(t, span, (&mut share, end), system)?;
+                (idle, close, crawling) = (0, 0, 0);
+            }
+        }
+        self.set_patience(ZenoFallback::default());
+        Ok(())
+    }
+
+    /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`; with `limited` drives or
+    /// contacts its events are located, from the error control at its start. Returns the time reached, and true if it
+    /// ends at an event.
+    pub(super) fn sub_step<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        (h_max, corner): (f64, f64),
+        (limited, control): (bool, Option<Control>),
+        system: &mut A,
+    ) -> Result<(f64, bool), (f64, Stop)> {
+        let h = self
+            .method_step(t, h_max, ModeRule::HeldAndChecked, system)
+            .map_err(|failure| (t, Stop::Integration(failure)));
+        let violated = self.mechanism.drive_monitor.end() - t;
+        let h = h?;
+        if !self.y.iter().all(|x| x.is_finite()) {
+            return Err((t, Stop::Integration(Failure::NotFinite { t })));
+        }
+        self.statistics.steps += 1;
+        let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
+        let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
+        if let Some((bad, crossing)) = event {
+            return Ok((self.locate_event(t, (bad, h), crossing, control, system)?, true));
+        }
+        self.project();
+        Ok((reached, false))
+    }
+
+    /// Makes a step at velocity level from `t` over a `share` of the tick, which doubles each time.
+    pub(super) fn fallback_step<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        span: f64,
+        (share, end): (&mut f64, f64),
+        system: &mut A,
+    ) -> Result<f64, (f64, Stop)> {
+        let h = (*share * span).min(end - t);
+        *share *= 2.0;
+        self.statistics.fallback_steps += 1;
+        self.velocity_level_step(t, h, system)?;
+        Ok(if h < end - t { t + h } else { end })
+    }
+
+    /// Longest step within a tick of `span`, for methods with error control too: a finer run must not end up the same.
+    pub(super) fn substep(&self, span: f64) -> f64 {
+        // a hair longer, so that rounding leaves no sliver behind
+        span / f64::from(self.substeps) * (1.0 + 1e-12)
+    }
+
+    /// One step of the method from `t`, at most `h_max`, with contact modes by `rule`; y is charted anew. Returns the
+    /// length made.
+    pub(super) fn method_step<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h_max: f64,
+        rule: ModeRule,
+        system: &mut A,
+    ) -> Result<f64, Failure> {
+        let h = self.control().map_or(h_max, |c| c.h.min(h_max));
+        if let Some(constraints) = &mut self.mechanism.constraints {
+            constraints.sub_step = h;
+        }
+        self.mechanism.set_mode_rule(rule);
+        let system = &mut Coupled {
+            mechanism: &mut self.mechanism,
+            system,
+            negated_jacobian_diagonal: &mut self.negated_jacobian_diagonal,
+        };
+        let y = &mut self.y;
+        let made = match &mut self.method {
+            Method::SemiImplicitEuler => unreachable!("its steps are those at velocity level"),
+            Method::Rk4(m) => {
+                m.step(system, t, h_max, y);
+                Ok(h_max)
+            }
+            Method::Implicit(m) => {
+                m.step(system, t, h_max, y);
+                Ok(h_max)
+            }
+            Method::DormandPrince(m) => m.step(system, t, h_max, y),
+            Method::Stiff(m) => m.adaptive_step(system, t, h_max, y),
+        };
+        self.mechanism.set_mode_rule(ModeRule::Decided);
+        made
+    }
+
+    pub(super) fn save_step_start(&mut self) {
+        self.before.copy_from_slice(&self.y);
+        self.base_before.copy_from_slice(self.mechanism.base());
+        self.report_before = self.solver_report().unwrap_or_default();
+    }
+
+    pub(super) fn restore(&mut self) {
+        self.y.copy_from_slice(&self.before);
+        self.mechanism.set_base(&self.base_before);
+        let before = self.report_before;
+        self.discard_failures(&before);
+    }
+
+    /// Takes back the failures of the constraint solver since `before`, of evaluations that nothing came of.
+    pub(super) fn discard_failures(&mut self, before: &SolverReport) {
+        if let Some(constraints) = &mut self.mechanism.constraints {
+            constraints.solver.report.discard(before);
+        }
+    }
+
+    /// Repeats the integration from the saved start of the sub-step, exactly `h` further.
+    pub(super) fn repeat_step<A: CoupledSystem<f64> + ?Sized>(
+        &mut self,
+        t: f64,
+        h: f64,
+        control: Option<Control>,
+        system: &mut A,
+    ) -> Result<(), (f64, Stop)> {
+        self.restore();
+        self.mechanism.return_to_start();
+        if let Some(control) = control {
+            self.set_control(control);
+        }
+        let (mut done, mut steps) = (0.0, 0);
+        while done < h {
+            let at = t + done;
+            let step = self
+                .method_step(at, h - done, ModeRule::Held, system)
+                .map_err(|failure| (at, Stop::Integration(failure)))?;
+            steps += 1;
+            if steps > MAX_REPEATED_STEPS {
+                return Err((at, Stop::Integration(Failure::StepTooSmall { t: at, h: step })));
+            }
+            done = if step >= h - done { h } else { done + step };
+        }
+        Ok(())
+    }
+}
