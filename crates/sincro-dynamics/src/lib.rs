@@ -5,8 +5,8 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`spatial`], [`signal`], [`ids`], [`error`] | spatial algebra; functions of time; ids; refused parameters |
-//! | [`geometry`] | shapes, support mappings, GJK, bounding volume hierarchy, separating axes, ray casts |
+//! | [`spatial`], [`geometry`] | spatial algebra; shapes, distances, ray casts: the crate `sincro-geometry` |
+//! | [`signal`], [`ids`], [`error`] | functions of time; ids; refused parameters |
 //! | [`joint`] | joints, links, passive properties of degrees of freedom |
 //! | [`contact`] | colliders, materials, broad and narrow phase, contact manifolds |
 //! | [`actuation`], [`aero`] | motors, drives, friction, springs, dampers; rotors, drag, wind |
@@ -33,7 +33,6 @@ pub mod contact;
 pub mod coupled;
 pub mod energy;
 pub mod error;
-pub mod geometry;
 pub mod ids;
 pub mod initial;
 pub mod integrate;
@@ -44,9 +43,10 @@ pub mod prelude;
 pub mod recursions;
 pub mod scratch;
 pub mod signal;
-pub mod spatial;
 pub mod state;
 pub mod stiffness;
 pub mod world;
+
+pub use sincro_geometry::{self as geometry, spatial};
 
 pub use recursions::{aba, crba, kinematics, rnea};

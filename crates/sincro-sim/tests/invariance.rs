@@ -1,6 +1,6 @@
-//! Scenes with loops, contacts and limits do not depend on how they are written down: turned with gravity, on a base that
-//! moves uniformly, with their objects in another order, and with all lengths a thousand times as large or small, they
-//! move alike.
+//! Scenes with loops, contacts and limits do not depend on how they are written down: turned with gravity, on a base
+//! that moves uniformly, with their objects in another order, and with all lengths a thousand times as large or small,
+//! they move alike.
 
 use std::sync::atomic::AtomicBool;
 

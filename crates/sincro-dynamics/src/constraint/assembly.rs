@@ -1,5 +1,5 @@
-//! Assembly of the contact problem: rows, residuals and unilateral constraints of everything closed; the Delassus matrix;
-//! the vector b at velocity level.
+//! Assembly of the contact problem: rows, residuals and unilateral constraints of everything closed; the Delassus
+//! matrix; the vector b at velocity level.
 
 use sincro_math::Real;
 

@@ -117,7 +117,8 @@ impl<R: Real> Solver<R> {
         self.trial = None;
     }
 
-    /// Finds λ and the contact modes by the active set alone, from those of the warm start; returns true on convergence.
+    /// Finds λ and the contact modes by the active set alone, from those of the warm start; returns true on
+    /// convergence.
     pub fn solve_nearby(
         &mut self,
         problem: &ContactProblem<'_, R>,

@@ -10,13 +10,13 @@ use crate::constraint::{
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::{Collider, Pair};
 use crate::integrate::System;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::spatial::{Pose, Vec3};
 
 /// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
-const PROJECTED: f64 = crate::world::audit::PROJECTION_TOLERANCE;
+const PROJECTED: f64 = PROJECTION_TOLERANCE;
 
 /// Projection tolerance after steps at velocity level, which are of first order.
 const PROJECTED_ROUGHLY: f64 = 1e-10;

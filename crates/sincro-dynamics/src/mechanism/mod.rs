@@ -36,6 +36,10 @@ use drive_monitor::DriveMonitor;
 use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
 
+/// Tolerance to which positions and rates are kept on constraints `[m]`, `[rad]`, [m/s], [rad/s]: no position or
+/// velocity of a mechanism with contacts, limits or loops is more exact than that.
+pub const PROJECTION_TOLERANCE: f64 = 1e-12;
+
 /// A model with its commands and everything needed to evaluate its rates without allocation.
 #[derive(Clone, Debug)]
 pub struct Mechanism<R> {

@@ -27,10 +27,6 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::state::State;
 
-/// Tolerance to which positions and rates are kept on constraints `[m]`, `[rad]`, [m/s], [rad/s]: no recorded position or
-/// velocity of a mechanism with contacts, limits or loops is more exact than that.
-pub const PROJECTION_TOLERANCE: f64 = 1e-12;
-
 /// Law of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Law {

@@ -1,8 +1,8 @@
 //! Modes of limited drives and contacts at the start of a sub-step.
 //!
-//! Where contacts or limits are closed, limited drives at their kink are constraints of the same complementarity problem
-//! ([`crate::constraint::kink`]), and one solution decides all modes. Elsewhere the drives are decided among themselves
-//! ([`super::switching`]).
+//! Where contacts or limits are closed, limited drives at their kink are constraints of the same complementarity
+//! problem ([`crate::constraint::kink`]), and one solution decides all modes. Elsewhere the drives are decided among
+//! themselves ([`super::switching`]).
 
 use super::World;
 use crate::constraint::warm_start::WarmStart;

@@ -4,11 +4,11 @@
 //! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a
 //! method estimates of itself. The bar of an energy is never below the largest energy balance, which is an error of the
 //! run whatever a finer one says; that of a position or velocity of a mechanism with constraints never below the
-//! tolerance to which it is projected onto them. Where the finer run cannot halve the step of scripts, which is part of the error,
-//! there are no bars.
+//! tolerance to which it is projected onto them. Where the finer run cannot halve the step of scripts, which is part of
+//! the error, there are no bars.
 
+use sincro_dynamics::mechanism::PROJECTION_TOLERANCE;
 use sincro_dynamics::world::MethodKind;
-use sincro_dynamics::world::audit::PROJECTION_TOLERANCE;
 
 use crate::load::Loaded;
 use crate::results::{ColumnReport, Status};

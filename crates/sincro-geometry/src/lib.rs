@@ -1,5 +1,5 @@
-//! Geometry of surfaces: shapes with their mass properties, support mappings, distances, ray casts, fields of view of
-//! proximity sensors.
+#![doc = include_str!("../README.md")]
+//! # Geometry of surfaces
 //!
 //! A [`Geometry`] is a surface prepared for queries. Ray casts have closed forms on solids, hulls are cut by the planes
 //! of their faces, meshes and height fields use the collision library. Distances are those of convex sets by GJK on
@@ -8,6 +8,7 @@
 //!
 //! | file | content |
 //! |---|---|
+//! | [`spatial`] | spatial algebra: vectors, rotations, poses, six-vectors, inertias |
 //! | `shape`, `mass`, `polyhedron`, `surface` | solids, mass properties, triangle meshes, surfaces of colliders |
 //! | `support` | support mappings of the convex surfaces |
 //! | `gjk` | distance of two convex sets |
@@ -27,14 +28,15 @@ mod distance_tests;
 mod field_of_view;
 mod gjk;
 mod mass;
-pub(crate) mod parry;
+pub mod parry;
 pub mod polyhedron;
 mod proximity;
 #[cfg(test)]
 mod proximity_tests;
 mod ray_cast;
-pub(crate) mod sat;
+pub mod sat;
 mod shape;
+pub mod spatial;
 mod support;
 mod surface;
 #[cfg(test)]

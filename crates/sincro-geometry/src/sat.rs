@@ -43,7 +43,7 @@ struct Edge {
 
 /// A convex polytope in the frame of its link.
 #[derive(Clone, Debug)]
-pub(crate) struct Polytope {
+pub struct Polytope {
     vertices: Vec<Vec3<f64>>,
     faces: Vec<Face>,
     loops: Vec<usize>,
@@ -101,9 +101,10 @@ fn corner(k: usize, size: &[f64; 3]) -> [f64; 3] {
 
 /// Point of one polytope over a plane of the other, each in the frame of its own link.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PointOnPlane {
+pub struct PointOnPlane {
     /// True if the point belongs to the first polytope and the plane to the second.
     pub is_on_first: bool,
+    /// The point `[m]`.
     pub point: Vec3<f64>,
     /// Point of the plane `[m]`.
     pub origin: Vec3<f64>,
@@ -113,7 +114,7 @@ pub(crate) struct PointOnPlane {
 
 /// Working memory: the second polytope in the frame of the first one's link, and outlines.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct FaceClipper {
+pub struct FaceClipper {
     vertices: Vec<Vec3<f64>>,
     normals: Vec<Vec3<f64>>,
     outline: Vec<Vec3<f64>>,

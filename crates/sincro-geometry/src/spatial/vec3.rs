@@ -18,7 +18,7 @@ impl<R: Real> Vec3<R> {
     /// Coefficient c of φ×(φ×ω) in the rate of a rotation vector φ `[rad]`, and in the gradient of a function of it:
     /// c = (1 − (θ/2) cot(θ/2))/θ², θ = |φ|. Source: key `iserles2000`, section 2.5.
     #[inline(always)]
-    pub(crate) fn rotation_rate_coefficient(self) -> R {
+    pub fn rotation_rate_coefficient(self) -> R {
         let square = self.dot(self);
         // series below θ = 0.1, where its next term is 1e-16 of the first
         let near = R::splat(1e-2);

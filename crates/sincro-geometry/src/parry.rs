@@ -10,7 +10,7 @@ use crate::spatial::{Mat3, Pose, Quat, Vec3};
 
 /// Shape of the library, and the pose of its frame in the surface's own.
 #[derive(Clone)]
-pub(crate) struct ParryShape {
+pub struct ParryShape {
     /// The shape.
     pub shape: SharedShape,
     /// Pose of its frame in the surface's own.
@@ -70,7 +70,7 @@ impl ParryShape {
 }
 
 /// Converts a pose.
-pub(crate) fn parry_pose(x: &Pose<f64>) -> LibraryPose {
+pub fn parry_pose(x: &Pose<f64>) -> LibraryPose {
     let q = Quat::from_matrix(&x.rot);
     let mut pose = LibraryPose::IDENTITY;
     pose.translation = Vector::from_array(x.pos.0);
@@ -79,6 +79,6 @@ pub(crate) fn parry_pose(x: &Pose<f64>) -> LibraryPose {
 }
 
 /// Converts a vector of the library.
-pub(crate) fn vec3(v: Vector) -> Vec3<f64> {
+pub fn vec3(v: Vector) -> Vec3<f64> {
     Vec3([v.x, v.y, v.z])
 }
