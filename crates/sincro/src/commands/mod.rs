@@ -29,6 +29,7 @@ pub(crate) mod runs;
 #[cfg(feature = "adapters")]
 pub(crate) mod serve;
 pub(crate) mod shell;
+pub(crate) mod sweep;
 pub(crate) mod trim;
 #[cfg(feature = "adapters")]
 pub(crate) mod view;
