@@ -178,8 +178,18 @@ impl Campaign {
     ///
     /// What the scene refuses.
     pub fn loaded_at(&self, point: &RunPoint) -> Result<Loaded, Diagnostics> {
+        self.loaded_with(point, &[])
+    }
+
+    /// As [`Campaign::loaded_at`], with further settings, which win.
+    ///
+    /// # Errors
+    ///
+    /// What the scene refuses.
+    pub fn loaded_with(&self, point: &RunPoint, more: &[Override]) -> Result<Loaded, Diagnostics> {
         let variant = &self.variants[point.variant_idx];
-        let mut loaded = self.loaded.with_overrides_without_variants(&self.settings(point))?;
+        let settings: Vec<Override> = self.settings(point).into_iter().chain(more.iter().cloned()).collect();
+        let mut loaded = self.loaded.with_overrides_without_variants(&settings)?;
         for signal in self.plan.measures.iter().flat_map(|m| m.source.subject.signals()) {
             if !loaded.experiment.record.iter().any(|known| known.value == signal.value) {
                 loaded.experiment.record.push(signal.clone());
@@ -207,6 +217,15 @@ impl Campaign {
     ///
     /// A signal that is not there. A scene that refuses the values is a result, not an error.
     pub fn run(&self, k: u64, interrupt: &AtomicBool) -> Result<Option<Row>, RunError> {
+        self.run_with(k, &[], interrupt)
+    }
+
+    /// Makes run `k` with further settings, which win; none if it was interrupted.
+    ///
+    /// # Errors
+    ///
+    /// As [`Campaign::run`].
+    pub fn run_with(&self, k: u64, more: &[Override], interrupt: &AtomicBool) -> Result<Option<Row>, RunError> {
         let point = self.plan.point(k);
         let mut row = Row {
             k,
@@ -223,7 +242,7 @@ impl Campaign {
             trace: String::new(),
             reason: String::new(),
         };
-        let loaded = match self.loaded_at(&point) {
+        let loaded = match self.loaded_with(&point, more) {
             Ok(loaded) => loaded,
             Err(found) => {
                 let first = found.0.into_iter().find(Diagnostic::is_error);

@@ -9,16 +9,20 @@
 //! | [`engine`] | the runs of a shard on all processors, restartable |
 //! | [`store`] | the folder of a campaign: parts, description, collecting |
 //! | [`statistics`], [`report`] | intervals, moments, ranks; the page of a campaign |
+//! | [`fit`] | identification: parameters from measured data |
+//! | [`tune`] | parameters for the least value of a goal within limits |
 
 pub mod campaign;
 pub mod design;
 pub mod engine;
+pub mod fit;
 pub mod measure;
 pub mod plan;
 pub mod report;
 pub mod row;
 pub mod statistics;
 pub mod store;
+pub mod tune;
 
 pub use campaign::Campaign;
 pub use engine::{Shard, run_shard};

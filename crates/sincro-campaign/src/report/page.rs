@@ -112,7 +112,7 @@ fn measures(manifest: &Manifest, summary: &Summary) -> String {
             let interval = |share: f64| {
                 let (low, high) = quantile_interval(&values, share, manifest.confidence);
                 format!(
-                    "{} <small>{} … {}</small>",
+                    "{}<br><small>{} … {}</small>",
                     escape_raised(&significant(quantile(&values, share), 4)),
                     escape_raised(&significant(low, 4)),
                     escape_raised(&significant(high, 4))
@@ -120,7 +120,11 @@ fn measures(manifest: &Manifest, summary: &Summary) -> String {
             };
             let half = significant(moments.mean_half_width(manifest.confidence), 2);
             [
-                cell("Measure", "name", &format!("{} <small>{}</small>", escape(&column.name), escape(&column.words))),
+                cell(
+                    "Measure",
+                    "name",
+                    &format!("{}<br><small>{}</small>", escape(&column.name), escape(&column.words)),
+                ),
                 cell("Unit", "", &escape_raised(&column.unit)),
                 cell(
                     "Mean",
@@ -131,7 +135,6 @@ fn measures(manifest: &Manifest, summary: &Summary) -> String {
                         escape_raised(&half)
                     ),
                 ),
-                num("Std", moments.std()),
                 num("Least", moments.min),
                 cell("5 %", "num", &interval(0.05)),
                 cell("Median", "num", &interval(0.5)),
@@ -146,7 +149,6 @@ fn measures(manifest: &Manifest, summary: &Summary) -> String {
         ("", "Measure"),
         ("", "Unit"),
         ("num", "Mean"),
-        ("num", "Std"),
         ("num", "Least"),
         ("num", "5 %"),
         ("num", "Median"),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use sincro::{RunRequest, Verdict, load};
 use sincro_campaign::engine::{ShardDone, ShardError};
 use sincro_campaign::report::{self, Replay};
@@ -58,6 +58,24 @@ enum Action {
         #[arg(long, value_name = "N", default_value_t = 3)]
         replays: usize,
     },
+    /// Write the job of all shards for an engine, and give it to the engine
+    Submit {
+        /// Plan of the campaign
+        #[arg(value_name = "PLAN.toml")]
+        plan: PathBuf,
+        /// Folder of the results, on a disk that all machines see
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// local: processes of this machine; hq: HyperQueue; slurm: an array of Slurm
+        #[arg(long, value_name = "ENGINE", value_enum)]
+        on: Engine,
+        /// Number of shards
+        #[arg(long, value_name = "N", default_value_t = 2)]
+        shards: u64,
+        /// Write the script, and do not submit it
+        #[arg(long)]
+        dry_run: bool,
+    },
     /// Say how much of a campaign is done
     Status {
         /// Folder of the campaign
@@ -66,11 +84,23 @@ enum Action {
     },
 }
 
+/// Engines that run shards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Engine {
+    /// Processes of this machine, one after the other started in the background.
+    Local,
+    /// HyperQueue: `hq submit`.
+    Hq,
+    /// Slurm: `sbatch` with an array.
+    Slurm,
+}
+
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
     match (&arguments.action, &arguments.plan, &arguments.out) {
         (Some(Action::Collect { folder, replays }), ..) => collect_folder(folder, *replays, false),
         (Some(Action::Status { folder }), ..) => status(folder),
+        (Some(Action::Submit { plan, out, on, shards, dry_run }), ..) => submit(plan, out, *on, *shards, *dry_run),
         (None, Some(plan), Some(out)) => sweep(arguments, plan, out),
         _ => diagnostics::refuse("a plan and --out DIR are needed", None),
     }
@@ -239,6 +269,82 @@ fn rerun(campaign: &Campaign, store: &Store, k: u64) -> Result<(String, sincro::
         .map_err(|failure| diagnostics::refuse_run(&failure))?;
     folder.publish().map_err(|error| diagnostics::refuse_file(&error))?;
     Ok((format!("runs/{k}/report.html"), done))
+}
+
+/// Writes the script of an engine into the folder of the campaign, and submits it.
+fn submit(plan: &Path, out: &Path, engine: Engine, n_shards: u64, is_dry: bool) -> Exit {
+    let campaign = match Plan::open(plan).and_then(|plan| Campaign::new(plan, load)) {
+        Ok(campaign) => campaign,
+        Err(found) => return diagnostics::refuse_diagnostics(&found),
+    };
+    if let Err(error) = Store::open(out, &campaign, &plan.display().to_string()) {
+        return refuse_store(&error);
+    }
+    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let quoted = |path: &Path| format!("'{}'", whole(path).display().to_string().replace('\'', "'\\''"));
+    let program = std::env::current_exe().unwrap_or_else(|_| "sincro".into());
+    let jobs = whole(out).join("jobs");
+    let shard = |index: &str| {
+        format!(
+            "exec {} sweep {} --out {} --shard {index}/{n_shards} --quiet",
+            quoted(&program),
+            quoted(plan),
+            quoted(out)
+        )
+    };
+    let (name, text, command) = match engine {
+        Engine::Local => {
+            let lines: Vec<String> = (1..=n_shards).map(|i| format!("({}) &", shard(&i.to_string()))).collect();
+            let wait = "failed=0\nfor job in $(jobs -p); do wait \"$job\" || failed=1; done\nexit $failed\n";
+            ("local.sh", format!("#!/bin/bash\n{}\n{wait}", lines.join("\n")), vec!["bash".to_owned()])
+        }
+        Engine::Hq => {
+            let array = format!("1-{n_shards}");
+            let command = ["hq", "submit", "--array", &array, "--"].map(str::to_owned).to_vec();
+            ("hq.sh", format!("#!/bin/bash\n{} --threads 1\n", shard("$HQ_TASK_ID")), command)
+        }
+        Engine::Slurm => {
+            let head =
+                format!("#!/bin/bash\n#SBATCH --array=1-{n_shards}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1");
+            let logs = format!("#SBATCH --output={}/slurm-%A-%a.log", jobs.display());
+            let run = format!("{} --threads 1", shard("$SLURM_ARRAY_TASK_ID"));
+            ("slurm.sh", format!("{head}\n{logs}\n{run}\n"), vec!["sbatch".to_owned()])
+        }
+    };
+    let script = jobs.join(name);
+    let written = sincro_sim::file::prepare(&jobs)
+        .and_then(|()| sincro_sim::file::write_atomically(&script, text.as_bytes()))
+        .and_then(|()| make_executable(&script));
+    if let Err(error) = written {
+        return diagnostics::refuse_file(&error);
+    }
+    let mut command = command;
+    command.push(script.display().to_string());
+    say!("{}", command.join(" "));
+    if is_dry {
+        return Exit::Holds;
+    }
+    match std::process::Command::new(&command[0]).args(&command[1..]).status() {
+        Ok(status) if status.success() => {
+            say!("then: sincro sweep status {0}, and at the end: sincro sweep collect {0}", out.display());
+            Exit::Holds
+        }
+        Ok(status) => diagnostics::refuse(&format!("`{}` failed: {status}", command[0]), None),
+        Err(error) => {
+            let help = "install the engine, or write the script alone with --dry-run";
+            diagnostics::refuse(&format!("cannot start `{}`: {error}", command[0]), Some(help))
+        }
+    }
+}
+
+fn make_executable(path: &Path) -> Result<(), sincro_sim::file::FileError> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        let set = std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o755));
+        set.map_err(|error| sincro_sim::file::FileError::new("make executable", path, error))?;
+    }
+    Ok(())
 }
 
 fn status(folder: &Path) -> Exit {
