@@ -76,7 +76,7 @@ impl DataSet {
         let shown = path.display();
         let refuse = |message: String| Diagnostic::without_location(message);
         let times = table.times().to_vec();
-        if times.len() < 3 || times.windows(2).any(|pair| !(pair[0] < pair[1])) || !times[0].is_finite() {
+        if times.len() < 3 || !times.is_sorted_by(|a, b| a < b) || !times[0].is_finite() {
             let message = format!("`{shown}`: its first column is not a time that ascends over three rows or more");
             return Err(refuse(message).into());
         }

@@ -39,7 +39,14 @@ fn header(fit: &Fit<'_>) -> String {
         escape(&format!("{}: fit", fit.title)),
         paragraph(
             "lead",
-            &format!("Fitted to {} measured values in {} files.", fit.inference.n_values, fit.model.sets.len())
+            &format!(
+                "Fitted to {} measured values in {}.",
+                fit.inference.n_values,
+                match fit.model.sets.len() {
+                    1 => "one file".to_owned(),
+                    n => format!("{n} files"),
+                }
+            )
         )
     )
 }

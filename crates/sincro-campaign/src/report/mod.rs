@@ -46,7 +46,7 @@ pub fn text(store: &Store, summary: &Summary) -> String {
     let manifest = &store.manifest;
     let mut out = format!("{}\n", manifest.title);
     let (low, high) = summary.yield_interval(manifest.confidence);
-    let percent = |x: f64| significant(100.0 * x, 3);
+    let percent = |x: f64| significant(100.0 * x, 4);
     let _ = writeln!(
         out,
         "  {} of {} runs are good: yield {} % (between {} % and {} % at {} % confidence)",

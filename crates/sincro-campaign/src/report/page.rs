@@ -37,7 +37,7 @@ pub(super) fn html(store: &Store, summary: &Summary, replays: &[Replay]) -> Stri
 }
 
 fn percent(x: f64) -> String {
-    format!("{} %", significant(100.0 * x, 3))
+    format!("{} %", significant(100.0 * x, 4))
 }
 
 fn header(manifest: &Manifest, summary: &Summary) -> String {

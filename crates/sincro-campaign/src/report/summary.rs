@@ -176,7 +176,7 @@ impl Summary {
                 variant.1 += 1;
                 variant.2 += u64::from(is_good);
             }
-            if k[row] as u64 % self.sample.stride == 0 {
+            if (k[row] as u64).is_multiple_of(self.sample.stride) {
                 self.sample.k.push(k[row] as u64);
                 self.sample.good.push(is_good);
                 for (j, values) in self.sample.parameters.iter_mut().enumerate() {
@@ -193,8 +193,8 @@ impl Summary {
                 if x.is_finite() {
                     moments.add(*x);
                 }
-                let misses = column.at_most.is_some_and(|most| !(*x <= most))
-                    || column.at_least.is_some_and(|least| !(*x >= least));
+                let misses = column.at_most.is_some_and(|most| x.is_nan() || *x > most)
+                    || column.at_least.is_some_and(|least| x.is_nan() || *x < least);
                 self.misses[j] += u64::from(misses);
             }
         }

@@ -122,7 +122,7 @@ impl Tuning<'_> {
     ) -> Result<Option<Tuned>, RunError> {
         let clock = std::time::Instant::now();
         let start: Vec<f64> = self.free.iter().map(|free| to_unit(free, free.start)).collect();
-        let Some(before) = self.evaluate(&[start.clone()], interrupt)?.pop() else { return Ok(None) };
+        let Some(before) = self.evaluate(std::slice::from_ref(&start), interrupt)?.pop() else { return Ok(None) };
         let mut best = before.clone();
         let (mut history, mut n, mut has_converged) = (vec![(1, before.goal)], 1, false);
         match self.method {

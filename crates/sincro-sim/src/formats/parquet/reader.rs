@@ -177,7 +177,7 @@ fn group(group: &Value, n_columns: usize) -> Result<(u64, Vec<Chunk>), ParquetEr
 
 /// Plain values of a page; none if they are more or fewer than said.
 fn values(kind: &Values, data: &[u8], n: usize) -> Option<Values> {
-    let eights = || (n.checked_mul(8)? == data.len()).then(|| data.as_chunks::<8>().0);
+    let eights = || (n.checked_mul(8)? == data.len()).then_some(data.as_chunks::<8>().0);
     Some(match kind {
         Values::Doubles(_) => Values::Doubles(eights()?.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()),
         Values::Ints(_) => Values::Ints(eights()?.iter().map(|bytes| i64::from_le_bytes(*bytes)).collect()),
