@@ -87,6 +87,14 @@ fn what_is_missing_damaged_or_foreign_is_named() {
     let exit = SINCRO.call(&["sweep", "collect", out_text]);
     assert!(exit.status == 2 && exit.stderr.contains("not a part of this campaign"), "{}", exit.stderr);
 
+    fs::remove_file(out.join("parts/part-000000009-000000012.parquet")).unwrap();
+    let lock = fs::File::create(out.join(".lock")).unwrap();
+    lock.lock().unwrap();
+    let exit = SINCRO.call(&["sweep", "collect", out_text]);
+    assert!(exit.status == 2 && exit.stderr.contains("another process collects"), "{}", exit.stderr);
+    drop(lock);
+    call(&["sweep", "collect", out_text, "--replays", "0"]);
+
     let other = fs::read_to_string(&plan).unwrap().replace("to = 4.0", "to = 5.0");
     fs::write(&plan, other).unwrap();
     let exit = SINCRO.call(&["sweep", path, "--out", out_text]);

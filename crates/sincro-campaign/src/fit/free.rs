@@ -11,7 +11,7 @@ use sincro_sim::Loaded;
 pub struct FreeParameter {
     /// Its path as after `--set`.
     pub path: String,
-    /// Where the search starts.
+    /// Start of the search.
     pub start: f64,
     /// Lower bound; may be −∞.
     pub low: f64,

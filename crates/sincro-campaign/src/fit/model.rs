@@ -58,7 +58,7 @@ impl From<Diagnostics> for ModelError {
 /// Sensitivities of all residuals.
 #[derive(Clone, Debug)]
 pub struct Sensitivities {
-    /// Of each parameter, the derivative of each predicted value.
+    /// Derivatives of all predicted values, a column for each parameter.
     pub columns: Vec<Vec<f64>>,
     /// Estimated error, relative to the largest derivative of the same parameter.
     pub error: f64,

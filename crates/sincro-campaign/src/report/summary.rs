@@ -71,8 +71,8 @@ pub struct Worst {
 /// Variance-based sensitivities of a measure: shares of its variance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Indices {
-    /// Rows of the drawn parameters: index among the parameters, share alone, half width of its interval, share with all its
-    /// interactions, half width.
+    /// Rows of the drawn parameters: index among the parameters, share alone, half width of its interval, share with
+    /// all its interactions, half width.
     pub rows: Vec<(usize, f64, f64, f64, f64)>,
     /// Number of blocks in which all runs have a value, and of all.
     pub n_blocks: (u64, u64),

@@ -34,7 +34,7 @@ pub enum Method {
     Local,
 }
 
-/// How the values of several runs become one.
+/// Rule by which the values of several runs become one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Robust {
     /// The worst of all runs.

@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// Parameters to be found: PATH=LOW..HIGH or "PATH=START in LOW..HIGH"; several with commas
     #[arg(long, value_name = "PATH=LOW..HIGH,…", required = true)]
     free: Vec<String>,
-    /// What is to be small: a formula of measures and of the scene's checks
+    /// Formula of measures and of the scene's checks that is to be small
     #[arg(long, value_name = "FORMULA")]
     goal: String,
     /// Limit that is kept: MEASURE <= NUMBER or MEASURE >= NUMBER; may be repeated

@@ -4,8 +4,8 @@ usage: campaigns.py SINCRO WORK [RUNS]
 
 Bounds: `runs.parquet` of all shardings has the same bytes; drawn runs, made again alone, have the trace of their row;
 a campaign makes at least five times as many runs of the closed-loop quadrotor as `sincro run` in a shell loop on all
-processors. HyperQueue and Slurm take part where `hq` and `sbatch` are installed, DuckDB and Polars where Python has
-them; what is skipped is said.
+processors. HyperQueue (its Python package) and Slurm (its daemons, as root) take part where they are installed, DuckDB and
+Polars where Python has them; what is skipped is said.
 """
 
 import json
@@ -130,7 +130,7 @@ def readers(whole, n_runs):
     try:
         import duckdb
 
-        n, least, most = duckdb.sql(f"select count(distinct k), min(k), max(k) from '{query}'").fetchone()
+        n, least, most = duckdb.sql(f"select count(distinct k), min(k), max(k) from '{query}'").fetchall()[0]
         bound((n, least, most) == (n_runs, 0, n_runs - 1), "DuckDB reads every run once")
     except ImportError:
         skip("DuckDB is not installed")
@@ -162,21 +162,104 @@ def throughput(sincro, work):
     bound(of_campaign >= 5 * of_loop, words)
 
 
-def engines(sincro, work, n_runs):
+SLURM = """ClusterName=one
+SlurmctldHost={host}(127.0.0.1)
+SlurmctldPort=16817
+SlurmdPort=16818
+AuthType=auth/munge
+AuthInfo=socket={work}/munge.socket
+CredType=cred/munge
+MpiDefault=none
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+ReturnToService=2
+SlurmUser=root
+SlurmdUser=root
+SlurmctldPidFile={work}/slurmctld.pid
+SlurmdPidFile={work}/slurmd.pid
+SlurmdSpoolDir={work}/slurmd
+StateSaveLocation={work}/slurmctld
+SlurmctldLogFile={work}/slurmctld.log
+SlurmdLogFile={work}/slurmd.log
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
+PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def slurm(sincro, work, plan, table):
+    """An array of Slurm on one node, all of it on loopback and in the folder of the judge."""
+    if any(shutil.which(name) is None for name in ("slurmctld", "slurmd", "munged", "sbatch")) or os.geteuid() != 0:
+        skip("slurm: slurmctld, slurmd, munge and sbatch are not installed, or this is not root")
+        return
+    node = work / "slurm-node"
+    for name in ("slurmd", "slurmctld"):
+        (node / name).mkdir(parents=True)
+    os.chmod(node, 0o755)
+    host = os.uname().nodename.split(".")[0]
+    (node / "slurm.conf").write_text(SLURM.format(host=host, work=node, cpus=os.cpu_count()))
+    key = node / "munge.key"
+    key.write_bytes(os.urandom(1024))
+    key.chmod(0o400)
+    os.environ["SLURM_CONF"] = str(node / "slurm.conf")
+    munge = [f"--{name}={node}/munge.{ending}" for name, ending in
+             (("key-file", "key"), ("socket", "socket"), ("pid-file", "pid"), ("log-file", "log"), ("seed-file", "seed"))]
+    started = [
+        subprocess.Popen(["munged", "--force", "--foreground", *munge], stderr=subprocess.DEVNULL),
+    ]
+    time.sleep(1)
+    started += [subprocess.Popen([name, "-D"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for name in ("slurmctld", "slurmd")]
+    try:
+        for _ in range(60):
+            state = subprocess.run(["sinfo", "-h", "-o", "%t"], capture_output=True, text=True).stdout.strip()
+            if state == "idle":
+                break
+            time.sleep(0.5)
+        else:
+            skip(f"slurm: the node does not come up ({state or 'no answer'})")
+            return
+        out, clock = work / "slurm", time.monotonic()
+        call(sincro, "sweep", "submit", plan, "--out", out, "--on", "slurm", "--shards", "4")
+        while subprocess.run(["squeue", "-h"], capture_output=True, text=True).stdout.strip():
+            time.sleep(0.5)
+        seconds = time.monotonic() - clock
+        call(sincro, "sweep", "collect", out, "--replays", "0")
+        bound((out / "runs.parquet").read_bytes() == table, f"slurm, 4 shards in {seconds:.1f} s: the same bytes")
+    finally:
+        for process in reversed(started):
+            process.terminate()
+            process.wait()
+
+
+def hyperqueue(sincro, work, plan, table):
+    """Shards as tasks of a server and a worker of HyperQueue on loopback, from its Python package."""
+    try:
+        from hyperqueue import Job, LocalCluster
+        from hyperqueue.cluster import WorkerConfig
+    except ImportError:
+        skip("hyperqueue: the Python package is not installed")
+        return
+    out, n = work / "hyperqueue", 8
+    with LocalCluster() as cluster:
+        cluster.start_worker(WorkerConfig(cores=os.cpu_count()))
+        job = Job()
+        for index in range(1, n + 1):
+            arguments = [sincro, "sweep", plan, "--out", out, "--shard", f"{index}/{n}", "--threads", 1, "--quiet"]
+            job.program([str(a) for a in arguments])
+        client = cluster.client()
+        clock = time.monotonic()
+        client.wait_for_jobs([client.submit(job)])
+        seconds = time.monotonic() - clock
+    call(sincro, "sweep", "collect", out, "--replays", "0")
+    bound((out / "runs.parquet").read_bytes() == table, f"hyperqueue, {n} shards in {seconds:.1f} s: the same bytes")
+
+
+def engines(sincro, work):
     plan = work / "alexandros.toml"
     table = (work / "whole/runs.parquet").read_bytes()
-    for engine, program, wait in (
-        ("hq", "hq", ["hq", "job", "wait", "all"]),
-        ("slurm", "sbatch", ["sh", "-c", "while squeue -h | grep -q .; do sleep 1; done"]),
-    ):
-        if shutil.which(program) is None:
-            skip(f"{engine}: `{program}` is not installed")
-            continue
-        out = work / engine
-        call(sincro, "sweep", "submit", plan, "--out", out, "--on", engine, "--shards", "8")
-        call(*wait)
-        call(sincro, "sweep", "collect", out, "--replays", "0")
-        bound((out / "runs.parquet").read_bytes() == table, f"{engine}: the same bytes")
+    slurm(sincro, work, plan, table)
+    hyperqueue(sincro, work, plan, table)
     out = work / "local"
     call(sincro, "sweep", "submit", plan, "--out", out, "--on", "local", "--shards", "2")
     call(sincro, "sweep", "collect", out, "--replays", "0")
@@ -191,7 +274,7 @@ def main():
     work = work.resolve()
     whole = shards(sincro, work, n_runs)
     readers(whole, n_runs)
-    engines(sincro, work, n_runs)
+    engines(sincro, work)
     throughput(sincro, work)
     sys.exit(1 if failures else 0)
 
