@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
-use sincro_scene::experiment::check::{Check, Expected, Sense};
+use sincro_scene::experiment::check::{Check, Expected, Measure, Sense};
 use sincro_scene::open::settings_with;
 use sincro_scene::overrides::Override;
 use sincro_scene::suggest;
@@ -43,6 +43,8 @@ struct VariantPlan {
     checks: Vec<(usize, Check)>,
     own_checks: Vec<Check>,
     inherits: bool,
+    /// Settings that take away what rows do not need; the motion is the same.
+    light: Vec<Override>,
 }
 
 /// Description of a measure or parameter, kept beside the results.
@@ -101,7 +103,12 @@ impl Campaign {
                 });
                 of_variant.push((plan.measures.len() + place, check.clone()));
             }
+            // a check that wants a divergence ends its run
+            let ends = own.iter().chain(inherited).any(|check| check.measure == Measure::Divergence);
+            let unneeded = ["plot", "variant", "check"].into_iter();
+            let unneeded = unneeded.filter(|key| *key != "check" || (of_variant.is_empty() && !ends));
             variants.push(VariantPlan {
+                light: unneeded.map(|key| Override::new(key, "[]")).collect(),
                 name: name.value.clone(),
                 settings,
                 checks: of_variant,
@@ -242,7 +249,10 @@ impl Campaign {
             trace: String::new(),
             reason: String::new(),
         };
-        let loaded = match self.loaded_with(&point, more) {
+        // what a row does not need is not read: references, variants, plots
+        let light = self.variants[point.variant_idx].light.iter().cloned();
+        let more: Vec<Override> = more.iter().cloned().chain(light).collect();
+        let loaded = match self.loaded_with(&point, &more) {
             Ok(loaded) => loaded,
             Err(found) => {
                 let first = found.0.into_iter().find(Diagnostic::is_error);

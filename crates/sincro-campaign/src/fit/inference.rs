@@ -123,7 +123,7 @@ pub struct Whiteness {
 
 /// Whiteness of residuals in the order of their times; none of fewer than eight.
 #[must_use]
-pub fn whiteness(residuals: &[f64], n_unknowns: usize) -> Option<Whiteness> {
+pub fn whiteness(residuals: &[f64]) -> Option<Whiteness> {
     let r: Vec<f64> = residuals.iter().copied().filter(|r| r.is_finite()).collect();
     let n = r.len();
     if n < 8 {
@@ -140,7 +140,7 @@ pub fn whiteness(residuals: &[f64], n_unknowns: usize) -> Option<Whiteness> {
     let n_tested = n_lags.min(20);
     let statistic = (n * (n + 2)) as f64
         * (1..=n_tested).map(|lag| autocorrelation[lag - 1] * autocorrelation[lag - 1] / (n - lag) as f64).sum::<f64>();
-    let freedom = n_tested.saturating_sub(n_unknowns).max(1) as f64;
+    let freedom = n_tested.max(1) as f64;
     // Wilson and Hilferty 1931
     let third = 2.0 / (9.0 * freedom);
     let z = (libm::cbrt(statistic / freedom) - (1.0 - third)) / third.sqrt();

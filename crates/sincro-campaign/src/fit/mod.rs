@@ -87,8 +87,7 @@ impl<'a> Fit<'a> {
     /// Whiteness of the residuals of each column.
     #[must_use]
     pub fn whiteness(&self) -> Vec<Option<Whiteness>> {
-        let n = self.model.n_unknowns();
-        self.columns().into_iter().map(|(_, _, range)| whiteness(&self.solution.residuals[range], n)).collect()
+        self.columns().into_iter().map(|(_, _, range)| whiteness(&self.solution.residuals[range])).collect()
     }
 
     /// Settings that give a run the fitted values, as they are typed.

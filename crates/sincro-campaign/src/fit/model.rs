@@ -16,8 +16,10 @@ use super::free::{FreeParameter, settings};
 /// Width of the wider difference, relative to the scale of a parameter; the narrower is half of it. With Richardson's
 /// extrapolation the truncation is of the fourth power, 1e-12, and the rounding of a run at 1e-12 about 1e-9.
 const WIDTH: f64 = 1e-3;
-/// Tolerance of the runs of a fit.
+/// Tolerance of the runs at the solution.
 const ACCURACY: f64 = 1e-12;
+/// Tolerance of the runs on the way there.
+const COARSE: f64 = 1e-9;
 
 /// A model of measured data: the scene with its free parameters, and for each file a time offset if that is free.
 #[derive(Debug)]
@@ -36,6 +38,8 @@ pub struct Model<'a> {
     pub interrupt: &'a AtomicBool,
     /// Runs that were made.
     n_runs: AtomicUsize,
+    /// True while the search is on its way.
+    is_coarse: AtomicBool,
 }
 
 /// Error of a model.
@@ -85,10 +89,15 @@ impl<'a> Model<'a> {
         fixed.push(Override::new("duration", &format!("{duration:?}")));
         fixed.push(Override::new("record_every", "1"));
         fixed.push(Override::new("error_bar", "none"));
-        if loaded.experiment.accuracy > ACCURACY {
-            fixed.push(Override::new("accuracy", &format!("{ACCURACY:?}")));
-        }
-        Self { loaded, fixed, free, sets, has_offsets, interrupt, n_runs: AtomicUsize::new(0) }
+        // what a fit does not look at is not read
+        fixed.extend(["check", "plot", "variant"].map(|key| Override::new(key, "[]")));
+        let (n_runs, is_coarse) = (AtomicUsize::new(0), AtomicBool::new(false));
+        Self { loaded, fixed, free, sets, has_offsets, interrupt, n_runs, is_coarse }
+    }
+
+    /// Makes runs at the tolerance of the way to the solution, or at that of the solution itself.
+    pub fn set_coarse(&self, is_coarse: bool) {
+        self.is_coarse.store(is_coarse, Ordering::Relaxed);
     }
 
     /// Number of unknowns: free parameters and time offsets.
@@ -131,7 +140,10 @@ impl<'a> Model<'a> {
     pub fn predict(&self, unknowns: &[f64]) -> Result<Vec<f64>, ModelError> {
         self.n_runs.fetch_add(1, Ordering::Relaxed);
         let values = &unknowns[..self.free.len()];
-        let mut at = self.loaded.with_overrides_without_variants(&settings(&self.fixed, &self.free, values))?;
+        let mut settings = settings(&self.fixed, &self.free, values);
+        let accuracy = if self.is_coarse.load(Ordering::Relaxed) { COARSE } else { ACCURACY };
+        settings.push(Override::new("accuracy", &format!("{accuracy:?}")));
+        let mut at = self.loaded.with_overrides_without_variants(&settings)?;
         let source = std::sync::Arc::new(SourceText { path: "--signal".into(), text: String::new() });
         at.experiment.record.clear();
         for column in self.sets.iter().flat_map(|set| &set.columns) {

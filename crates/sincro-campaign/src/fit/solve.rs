@@ -115,6 +115,7 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
     let mut x: Vec<f64> = (0..n).map(|k| model.bounds(k).0).collect();
     let scales: Vec<f64> = (0..n).map(|k| model.bounds(k).3).collect();
     let clamp = |k: usize, value: f64| value.clamp(model.bounds(k).1, model.bounds(k).2);
+    model.set_coarse(true);
     let mut residuals = residuals_of(&model.predict(&x)?);
     let n_values = residuals.iter().filter(|r| r.is_finite()).count();
     if n_values <= n {
@@ -191,7 +192,25 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
             robust = next;
         }
     }
+    model.set_coarse(false);
     let mut sensitivities = model.sensitivities(&x, true)?;
+    residuals = residuals_of(&model.predict(&x)?);
+    // the last step, a Gauss–Newton step at the tolerance of the solution
+    let (jacobian, r) = reduced(&sensitivities.columns, &weights, &scales, &robust, &residuals);
+    let is_inside = |k: usize| x[k] > model.bounds(k).1 && x[k] < model.bounds(k).2;
+    if (0..n).all(is_inside)
+        && let Some(factor) = (jacobian.transpose() * &jacobian).cholesky()
+    {
+        let step = factor.solve(&-(jacobian.transpose() * r));
+        let next: Vec<f64> = (0..n).map(|k| clamp(k, x[k] + step[k] * scales[k])).collect();
+        let is_small = step.iter().all(|s| s.abs() < 1e-3);
+        let tried = if is_small { model.predict(&next).ok().map(|predicted| residuals_of(&predicted)) } else { None };
+        if let Some(tried) = tried
+            && weighted_half_square(&tried, &robust) <= weighted_half_square(&residuals, &robust)
+        {
+            (x, residuals) = (next, tried);
+        }
+    }
     for column in &mut sensitivities.columns {
         column.iter_mut().zip(&weights).for_each(|(slope, weight)| *slope *= weight);
     }
