@@ -196,7 +196,7 @@ pub(super) fn tornado(bars: &[Bar], label: &str, from_zero: bool) -> String {
     } else {
         (0.5 * (LEFT + WIDTH - 70.0), 0.5 * (WIDTH - LEFT - 70.0))
     };
-    let at = |value: f64| x0 + span * (value / most).clamp(if from_zero { -0.02 } else { -1.0 }, 1.0);
+    let at = |value: f64| x0 + span * (value / most).clamp(if from_zero { 0.0 } else { -1.0 }, 1.0);
     let height = bars.len() as f64 * ROW;
     let mut out = format!(
         "<svg class=\"sp\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",

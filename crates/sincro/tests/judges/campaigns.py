@@ -84,7 +84,7 @@ def call(*arguments):
     return done.stdout
 
 
-def killed_until_done(sincro, plan, out, shards, rng):
+def killed_until_done(sincro, plan, out, shards, rng, longest):
     """All shards, each killed after random times until it comes to its end; the number of kills."""
     n_kills, left = 0, list(range(1, shards + 1))
     while left:
@@ -92,8 +92,7 @@ def killed_until_done(sincro, plan, out, shards, rng):
         command = [sincro, "sweep", plan, "--out", out, "--shard", f"{index}/{shards}", "--quiet"]
         process = subprocess.Popen([str(c) for c in command])
         try:
-            # a shard that was killed often is left alone at last
-            if process.wait(timeout=rng.uniform(0.3, 9.0)) != 0:
+            if process.wait(timeout=rng.uniform(0.1, longest)) != 0:
                 raise SystemExit(f"shard {index}/{shards}: {process.returncode}")
             left.remove(index)
         except subprocess.TimeoutExpired:
@@ -114,7 +113,7 @@ def shards(sincro, work, n_runs):
     table = (whole / "runs.parquet").read_bytes()
     for count in (1, 2, 7):
         out = work / f"shards-{count}"
-        n_kills = killed_until_done(sincro, plan, out, count, rng)
+        n_kills = killed_until_done(sincro, plan, out, count, rng, max(1.0, 9e-4 * n_runs))
         call(sincro, "sweep", "collect", out, "--replays", "0")
         same = (out / "runs.parquet").read_bytes() == table
         bound(same, f"{count} shards, killed {n_kills} times: the same bytes")
