@@ -8,7 +8,7 @@ use std::process::Command;
 type Judge = fn(&Path) -> bool;
 
 /// The judges by name.
-const JUDGES: &[(&str, Judge)] = &[("error-bars", error_bars), ("import", import)];
+const JUDGES: &[(&str, Judge)] = &[("campaigns", campaigns), ("error-bars", error_bars), ("import", import)];
 
 /// Runs a judge; true if its bounds hold.
 pub fn run(root: &Path, name: Option<&str>) -> bool {
@@ -20,6 +20,16 @@ pub fn run(root: &Path, name: Option<&str>) -> bool {
             false
         }
     }
+}
+
+/// Makes 10,000 runs in 1, 2 and 7 shards that are killed at random times, and compares the bytes of their tables.
+fn campaigns(root: &Path) -> bool {
+    crate::runs(&mut crate::cargo(&["build", "--release", "--package", "sincro"]))
+        && crate::runs(
+            Command::new("python3")
+                .arg(root.join("crates/sincro/tests/judges/campaigns.py"))
+                .args([root.join("target/release/sincro"), root.join("target/judges/campaigns")]),
+        )
 }
 
 /// Draws mechanisms that switch, close and collide, and holds 2,000 of their signals against their error bars.

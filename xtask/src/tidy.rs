@@ -30,6 +30,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-import", &["sincro-math", "sincro-dynamics", "sincro-scene"]),
     ("sincro-figures", &["sincro-math", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-analysis"]),
     (
+        "sincro-campaign",
+        &["sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim", "sincro-analysis", "sincro-figures"],
+    ),
+    (
         "sincro-bench",
         &[
             "sincro-math",
@@ -63,6 +67,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-remote",
             "sincro-viewer",
             "sincro-figures",
+            "sincro-campaign",
             "sincro-import",
             "sincro-bench",
         ],

@@ -25,6 +25,12 @@ struct Cli {
 enum Command {
     /// Run a scene folder, judge its checks, write signals, figures and a report
     Run(commands::run::Arguments),
+    /// Run a campaign: many runs with drawn or gridded parameters, in shards, with a report
+    Sweep(commands::sweep::Arguments),
+    /// Find parameters of a scene from measured data, with intervals and what the data cannot tell
+    Fit(commands::fit::Arguments),
+    /// Find parameters of a scene for the least value of a goal, within limits, over one run or a campaign
+    Tune(commands::tune::Arguments),
     /// Check a scene without running it: objects, degrees of freedom, warnings, available signals
     Check(commands::check::Arguments),
     /// Draw the block diagram of a scene as SVG
@@ -120,6 +126,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let exit = match command {
         Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Sweep(arguments) => commands::sweep::run(&arguments),
+        Command::Fit(arguments) => commands::fit::run(&arguments),
+        Command::Tune(arguments) => commands::tune::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Draw(arguments) => commands::draw::run(&arguments),
         Command::Linearize(arguments) => commands::linearize::run(&arguments),

@@ -19,7 +19,7 @@ const SINCRO: CommandLine = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
 const FOREIGN: [&str; 8] = ["cargo", "git", "tar", "sudo", "python3", "pip", "mdbook", "rustup"];
 
 /// Pages whose commands are run.
-const PAGES: [&str; 14] = [
+const PAGES: [&str; 15] = [
     "tutorial.md",
     "from-vrep-simulink.md",
     "from-mujoco.md",
@@ -34,6 +34,7 @@ const PAGES: [&str; 14] = [
     "how-to/linearize.md",
     "how-to/results.md",
     "how-to/script.md",
+    "campaigns.md",
 ];
 
 fn docs() -> PathBuf {

@@ -26,8 +26,8 @@ mod text;
 pub use space::{Space, Track};
 pub use style::PAGE_CSS;
 pub(crate) use style::with_light_colors;
-pub use text::escape;
-pub(crate) use text::{escape_raised, rich, width as text_width};
+pub use text::{escape, escape_raised};
+pub(crate) use text::{rich, width as text_width};
 
 /// A picture: a title and panels over one shared x axis.
 #[derive(Clone, Debug, Default, PartialEq)]

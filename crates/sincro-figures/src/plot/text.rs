@@ -21,7 +21,8 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Escaped content for HTML with superscripts as `<sup>`: for numbers and units.
-pub(crate) fn escape_raised(text: &str) -> String {
+#[must_use]
+pub fn escape_raised(text: &str) -> String {
     raised(text, |run| format!("<sup>{run}</sup>"))
 }
 

@@ -13,11 +13,12 @@ mod comparison;
 mod index;
 mod mechanism;
 pub(crate) mod page;
-pub(crate) mod shell;
+pub mod shell;
 
 use sincro_scene::experiment::check::Sense;
 
 use crate::plot::Figure;
+pub use page::figure;
 
 /// The report of one run.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -79,7 +79,8 @@ fn figures(figures: &[Figure]) -> String {
 }
 
 /// The figure twice, for wide and for narrow screens; the style sheet shows one of them.
-pub(crate) fn figure(figure: &Figure) -> String {
+#[must_use]
+pub fn figure(figure: &Figure) -> String {
     format!(
         "<figure>\n<div class=\"wide\">{}</div>\n<div class=\"narrow\">{}</div>\n</figure>\n",
         inline_svg(figure, Size::wide(figure)),

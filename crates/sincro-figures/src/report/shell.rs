@@ -6,7 +6,8 @@ use crate::plot::number::short;
 use crate::plot::{self, escape, escape_raised};
 
 /// The whole document around a body.
-pub(crate) fn document(title: &str, class: &str, body: &str) -> String {
+#[must_use]
+pub fn document(title: &str, class: &str, body: &str) -> String {
     let title = escape(title);
     let (plot_css, draw_css, page_css) = (plot::PAGE_CSS, DRAW_CSS, include_str!("style.css"));
     format!(
@@ -107,7 +108,8 @@ impl Outcome {
 }
 
 /// Symbol and word as a coloured piece of text.
-pub(super) fn badge(class: &str, symbol: &str, word: &str) -> String {
+#[must_use]
+pub fn badge(class: &str, symbol: &str, word: &str) -> String {
     format!("<span class=\"badge {class}\"><span aria-hidden=\"true\">{symbol}</span> {word}</span>")
 }
 
@@ -121,7 +123,8 @@ pub(super) fn check_badge(verdict: CheckVerdict) -> String {
 }
 
 /// A section with a heading; nothing if its content is empty.
-pub(crate) fn section(heading: &str, content: &str) -> String {
+#[must_use]
+pub fn section(heading: &str, content: &str) -> String {
     if content.is_empty() {
         return String::new();
     }
@@ -134,7 +137,8 @@ fn anchor(heading: &str) -> String {
 }
 
 /// Sections with their headings and contents, behind links to them; empty ones are left out.
-pub(crate) fn sections(all: &[(String, String)]) -> String {
+#[must_use]
+pub fn sections(all: &[(String, String)]) -> String {
     let filled = || all.iter().filter(|(_, content)| !content.is_empty());
     let link = |(heading, _): &(String, String)| format!("<a href=\"#{}\">{heading}</a>\n", anchor(heading));
     let links: String = if filled().count() > 1 { filled().map(link).collect() } else { String::new() };
@@ -146,16 +150,18 @@ pub(crate) fn sections(all: &[(String, String)]) -> String {
 }
 
 /// Script that reads values from the figures of a page and magnifies them; goes once, behind them.
-pub(crate) const PLOT_SCRIPT: &str = concat!("<script>\n", include_str!("plot.js"), "</script>\n");
+pub const PLOT_SCRIPT: &str = concat!("<script>\n", include_str!("plot.js"), "</script>\n");
 
 /// A table cell; `label` names the column where the table is folded on a phone, `content` is HTML.
-pub(crate) fn cell(label: &str, class: &str, content: &str) -> String {
+#[must_use]
+pub fn cell(label: &str, class: &str, content: &str) -> String {
     let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
     format!("<td{class} data-label=\"{label}\">{content}</td>")
 }
 
 /// A table: column headings with their classes, and rows of cells.
-pub(crate) fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> String {
+#[must_use]
+pub fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> String {
     if rows.is_empty() {
         return String::new();
     }
@@ -166,7 +172,8 @@ pub(crate) fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> S
 }
 
 /// Names and values in two columns.
-pub(crate) fn settings(settings: &[(String, String)]) -> String {
+#[must_use]
+pub fn settings(settings: &[(String, String)]) -> String {
     if settings.is_empty() {
         return String::new();
     }
@@ -176,7 +183,8 @@ pub(crate) fn settings(settings: &[(String, String)]) -> String {
 }
 
 /// A list of sentences.
-pub(crate) fn list(items: &[String]) -> String {
+#[must_use]
+pub fn list(items: &[String]) -> String {
     if items.is_empty() {
         return String::new();
     }
@@ -185,12 +193,14 @@ pub(crate) fn list(items: &[String]) -> String {
 }
 
 /// A paragraph; nothing if the text is empty.
-pub(crate) fn paragraph(class: &str, text: &str) -> String {
+#[must_use]
+pub fn paragraph(class: &str, text: &str) -> String {
     if text.trim().is_empty() { String::new() } else { format!("<p class=\"{class}\">{}</p>\n", prose(text)) }
 }
 
 /// Escaped text in which names between backticks are set as code, as in the messages of a terminal.
-pub(super) fn prose(text: &str) -> String {
+#[must_use]
+pub fn prose(text: &str) -> String {
     let escaped = escape(text);
     let pieces: Vec<&str> = escaped.split('`').collect();
     if pieces.len().is_multiple_of(2) {

@@ -4,7 +4,7 @@
 
 mod mat;
 mod npz;
-mod parquet;
+pub mod parquet;
 
 use std::path::Path;
 

@@ -19,6 +19,7 @@ pub(crate) mod export;
 #[cfg(feature = "adapters")]
 pub(crate) mod export_fmu;
 pub(crate) mod export_robot;
+pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod linearize;
 pub(crate) mod new;
@@ -29,6 +30,8 @@ pub(crate) mod runs;
 #[cfg(feature = "adapters")]
 pub(crate) mod serve;
 pub(crate) mod shell;
+pub(crate) mod sweep;
 pub(crate) mod trim;
+pub(crate) mod tune;
 #[cfg(feature = "adapters")]
 pub(crate) mod view;

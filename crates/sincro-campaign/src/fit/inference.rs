@@ -1,0 +1,148 @@
+//! Trust in a fit: covariance, intervals, correlation, identifiability, whiteness of the residuals.
+
+use sincro_analysis::linear::DMatrix;
+
+use super::solve::Solution;
+use crate::design::normal_cdf;
+use crate::statistics::student_quantile;
+
+/// Singular value of the scaled sensitivities, relative to the largest, below which a combination is not told.
+const RANK: f64 = 1e-7;
+/// Interval, relative to the value, beyond which a parameter is practically not told.
+const LOOSE: f64 = 1.0;
+/// Lags of the autocorrelation.
+const MAX_LAG: usize = 40;
+
+/// One unknown with its interval.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Value.
+    pub value: f64,
+    /// Standard deviation; infinite if the data do not tell it.
+    pub std: f64,
+    /// Half width of its interval.
+    pub half_width: f64,
+    /// True if the data tell it.
+    pub is_told: bool,
+}
+
+/// A combination of unknowns that the data do not tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Untold {
+    /// Singular value relative to the largest.
+    pub share: f64,
+    /// Unknowns in it and their parts, relative to their scales, the largest first.
+    pub parts: Vec<(usize, f64)>,
+}
+
+/// Statistics of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inference {
+    /// Estimates of the unknowns.
+    pub estimates: Vec<Estimate>,
+    /// Correlation matrix.
+    pub correlation: Vec<Vec<f64>>,
+    /// Singular values of the scaled sensitivities, relative to the largest.
+    pub singular: Vec<f64>,
+    /// Combinations that the data do not tell.
+    pub untold: Vec<Untold>,
+    /// Standard deviation of the weighted residuals.
+    pub sigma: f64,
+    /// Data and unknowns.
+    pub n_values: usize,
+    /// Degrees of freedom.
+    pub freedom: f64,
+}
+
+/// Statistics of a solution; `scales` are those of the unknowns.
+#[must_use]
+pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference {
+    let n = scales.len();
+    let rows: Vec<usize> = (0..solution.residuals.len()).filter(|i| solution.residuals[*i].is_finite()).collect();
+    let freedom = (rows.len() - n).max(1) as f64;
+    let weight = |i: usize| solution.robust[i].sqrt();
+    let squares: f64 = rows.iter().map(|i| solution.robust[*i] * solution.residuals[*i] * solution.residuals[*i]).sum();
+    let sigma = (squares / freedom).sqrt();
+    // relative to what is found, which may be far from the start
+    let scales: Vec<f64> =
+        scales.iter().zip(&solution.unknowns).map(|(s, x)| if *x == 0.0 { *s } else { x.abs() }).collect();
+    let jacobian = DMatrix::from_fn(rows.len(), n, |i, k| {
+        let slope = solution.sensitivities.columns[k][rows[i]];
+        weight(rows[i]) * scales[k] * if slope.is_finite() { slope } else { 0.0 }
+    });
+    let svd = jacobian.svd(false, true);
+    let v_t = svd.v_t.expect("it was asked for");
+    let largest = svd.singular_values.iter().fold(0.0_f64, |a, b| a.max(*b)).max(f64::MIN_POSITIVE);
+    let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
+    order.sort_by(|a, b| svd.singular_values[*b].total_cmp(&svd.singular_values[*a]));
+    let t = student_quantile(0.5 + 0.5 * confidence, freedom);
+    let mut covariance = DMatrix::<f64>::zeros(n, n);
+    let (mut untold, mut singular) = (Vec::new(), Vec::new());
+    let mut is_told = vec![true; n];
+    for i in order {
+        let value = svd.singular_values[i];
+        singular.push(value / largest);
+        // a combination whose own interval is as large as the parameters
+        let is_loose = t * sigma / value.max(f64::MIN_POSITIVE) > LOOSE;
+        if value <= RANK * largest || is_loose {
+            let mut parts: Vec<(usize, f64)> = (0..n).map(|k| (k, v_t[(i, k)])).collect();
+            parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+            parts.retain(|(_, part)| part.abs() > 0.1);
+            parts.iter().for_each(|(k, _)| is_told[*k] = false);
+            untold.push(Untold { share: value / largest, parts });
+        }
+        if value > RANK * largest {
+            for a in 0..n {
+                (0..n).for_each(|b| covariance[(a, b)] += v_t[(i, a)] * v_t[(i, b)] / (value * value));
+            }
+        }
+    }
+    let std_of = |k: usize| sigma * covariance[(k, k)].sqrt() * scales[k];
+    let estimates = (0..n)
+        .map(|k| {
+            let std = if is_told[k] { std_of(k) } else { f64::INFINITY };
+            Estimate { value: solution.unknowns[k], std, half_width: t * std, is_told: is_told[k] }
+        })
+        .collect();
+    let correlation = (0..n)
+        .map(|a| (0..n).map(|b| covariance[(a, b)] / (covariance[(a, a)] * covariance[(b, b)]).sqrt()).collect())
+        .collect();
+    Inference { estimates, correlation, singular, untold, sigma, n_values: rows.len(), freedom }
+}
+
+/// Whiteness of a series of residuals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whiteness {
+    /// Autocorrelation from lag 1 on.
+    pub autocorrelation: Vec<f64>,
+    /// Bound that white noise exceeds at one lag in twenty.
+    pub bound: f64,
+    /// Probability that white noise has a statistic of Ljung and Box (1978) as large.
+    pub p_value: f64,
+}
+
+/// Whiteness of residuals in the order of their times; none of fewer than eight.
+#[must_use]
+pub fn whiteness(residuals: &[f64]) -> Option<Whiteness> {
+    let r: Vec<f64> = residuals.iter().copied().filter(|r| r.is_finite()).collect();
+    let n = r.len();
+    if n < 8 {
+        return None;
+    }
+    let mean = r.iter().sum::<f64>() / n as f64;
+    let power: f64 = r.iter().map(|x| (x - mean) * (x - mean)).sum();
+    if power <= 0.0 {
+        return None;
+    }
+    let n_lags = MAX_LAG.min(n / 4);
+    let at = |lag: usize| (lag..n).map(|k| (r[k] - mean) * (r[k - lag] - mean)).sum::<f64>() / power;
+    let autocorrelation: Vec<f64> = (1..=n_lags).map(at).collect();
+    let n_tested = n_lags.min(20);
+    let statistic = (n * (n + 2)) as f64
+        * (1..=n_tested).map(|lag| autocorrelation[lag - 1] * autocorrelation[lag - 1] / (n - lag) as f64).sum::<f64>();
+    let freedom = n_tested.max(1) as f64;
+    // Wilson and Hilferty 1931
+    let third = 2.0 / (9.0 * freedom);
+    let z = (libm::cbrt(statistic / freedom) - (1.0 - third)) / third.sqrt();
+    Some(Whiteness { autocorrelation, bound: 1.96 / (n as f64).sqrt(), p_value: 1.0 - normal_cdf(z) })
+}

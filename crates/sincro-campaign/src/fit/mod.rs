@@ -1,0 +1,235 @@
+//! Identification: parameters of a scene from measured data, and how far they can be trusted.
+
+pub mod data;
+pub mod free;
+pub mod inference;
+pub mod model;
+mod page;
+pub mod solve;
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+use sincro_figures::plot::number::{short, significant};
+use sincro_sim::file::FileError;
+
+pub use data::{DataSet, SignalChoice};
+pub use free::{FreeParameter, parse_all};
+pub use inference::{Inference, Whiteness, infer, whiteness};
+pub use model::{Model, ModelError};
+pub use solve::{Loss, Solution, SolveError, solve};
+
+/// A fit with everything that its report says.
+#[derive(Debug)]
+pub struct Fit<'a> {
+    /// Title of the scene.
+    pub title: String,
+    /// The model and its data.
+    pub model: Model<'a>,
+    /// Loss.
+    pub loss: Loss,
+    /// Probability of the intervals.
+    pub confidence: f64,
+    /// The solution.
+    pub solution: Solution,
+    /// Its statistics.
+    pub inference: Inference,
+    /// Predicted values at the start and at the end, in the order of [`Model::predict`].
+    pub predicted: (Vec<f64>, Vec<f64>),
+    /// Data that were held back, with what the fitted model predicts.
+    pub validation: Vec<(DataSet, Vec<f64>)>,
+    /// Wall time of the fit `[s]`.
+    pub wall_time: f64,
+}
+
+impl<'a> Fit<'a> {
+    /// Fits a model, and judges it on data that were held back.
+    ///
+    /// # Errors
+    ///
+    /// See [`SolveError`].
+    pub fn new(
+        title: String,
+        model: Model<'a>,
+        loss: Loss,
+        confidence: f64,
+        validation: &[DataSet],
+    ) -> Result<Self, SolveError> {
+        let clock = std::time::Instant::now();
+        let start: Vec<f64> = (0..model.n_unknowns()).map(|k| model.bounds(k).0).collect();
+        let solution = solve(&model, loss)?;
+        let scales: Vec<f64> = (0..model.n_unknowns()).map(|k| model.bounds(k).3).collect();
+        let inference = infer(&solution, &scales, confidence);
+        let wall_time = clock.elapsed().as_secs_f64();
+        let predicted = (model.predict(&start)?, model.predict(&solution.unknowns)?);
+        let mut held_back = Vec::new();
+        for set in validation {
+            let sets = std::slice::from_ref(set);
+            let other = Model::new(model.loaded, &[], model.free.clone(), sets, false, model.interrupt);
+            held_back.push((set.clone(), other.predict(&solution.unknowns[..model.free.len()])?));
+        }
+        Ok(Self { title, model, loss, confidence, solution, inference, predicted, validation: held_back, wall_time })
+    }
+
+    /// Residuals of each column, in the units of the data: the set, the column, predicted less measured.
+    pub(crate) fn columns(&self) -> Vec<(&DataSet, &data::DataColumn, std::ops::Range<usize>)> {
+        let mut from = 0;
+        let mut all = Vec::new();
+        for set in self.model.sets {
+            for column in &set.columns {
+                all.push((set, column, from..from + set.times.len()));
+                from += set.times.len();
+            }
+        }
+        all
+    }
+
+    /// Whiteness of the residuals of each column.
+    #[must_use]
+    pub fn whiteness(&self) -> Vec<Option<Whiteness>> {
+        self.columns().into_iter().map(|(_, _, range)| whiteness(&self.solution.residuals[range])).collect()
+    }
+
+    /// Settings that give a run the fitted values, as they are typed.
+    #[must_use]
+    pub fn command(&self) -> String {
+        let set = self.model.free.iter().zip(&self.solution.unknowns);
+        set.map(|(free, value)| format!("--set '{}={value:?}'", free.path)).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Summary for the terminal.
+    #[must_use]
+    pub fn text(&self) -> String {
+        use std::fmt::Write as _;
+        let mut out = format!("{}, fitted to {} values\n", self.title, self.inference.n_values);
+        let names = self.model.names();
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        for (k, name) in names.iter().enumerate() {
+            let of = &self.inference.estimates[k];
+            let from = short(self.model.bounds(k).0, 6);
+            let interval = match of.is_told {
+                true => format!("± {} at {} %", significant(of.half_width, 2), short(100.0 * self.confidence, 4)),
+                false => "not told by these data".into(),
+            };
+            let bound = if self.solution.at_bound[k] { ", at its bound" } else { "" };
+            let _ = writeln!(out, "  {name:<width$}  {} {interval}{bound}   (start {from})", significant(of.value, 6));
+        }
+        for untold in &self.inference.untold {
+            let _ = writeln!(out, "  not told: {}", self.untold_words(untold));
+        }
+        let _ = writeln!(
+            out,
+            "  {} in {} iterations, {} runs, {} s; cost {} → {}",
+            if self.solution.has_converged { "converged" } else { "NOT converged" },
+            self.solution.n_iterations,
+            self.model.n_runs(),
+            significant(self.wall_time, 2),
+            significant(self.solution.cost.0, 3),
+            significant(self.solution.cost.1, 3)
+        );
+        let _ = writeln!(
+            out,
+            "  sensitivities by central differences of runs at accuracy 1e-12, relative error about {}",
+            significant(self.solution.sensitivities.error, 1)
+        );
+        for ((_, column, _), white) in self.columns().iter().zip(self.whiteness()) {
+            if let Some(white) = white {
+                let words = if white.p_value > 0.01 { "white" } else { "not white: the model misses something" };
+                let _ =
+                    writeln!(out, "  residuals of {}: {words} (p = {})", column.column, significant(white.p_value, 2));
+            }
+        }
+        for (set, predicted) in &self.validation {
+            let _ = writeln!(
+                out,
+                "  held back {}: fit {} %",
+                set.path.display(),
+                significant(100.0 * share(set, predicted), 4)
+            );
+        }
+        let _ = writeln!(out, "  {}", self.command());
+        out
+    }
+
+    /// A combination that the data do not tell, in words.
+    pub(crate) fn untold_words(&self, untold: &inference::Untold) -> String {
+        let names = self.model.names();
+        let parts: Vec<String> = untold.parts.iter().map(|(k, _)| format!("`{}`", names[*k])).collect();
+        match parts.as_slice() {
+            [one] => format!("{one} hardly changes what was measured; excite it more, or measure more"),
+            [a, b] => {
+                let sign = untold.parts[0].1 * untold.parts[1].1;
+                let what = if sign > 0.0 { "ratio" } else { "product" };
+                let other = if sign > 0.0 { "product" } else { "ratio" };
+                format!("{a} and {b} together: the data see their {what} at most, not their {other}; hold one of them")
+            }
+            all => format!("a combination of {}; hold one of them, or measure more", all.join(", ")),
+        }
+    }
+
+    /// Writes `fit.json` and `report.html` into a folder.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), FileError> {
+        sincro_sim::file::prepare(folder)?;
+        let json = serde_json::to_string_pretty(&self.json()).expect("plain data");
+        sincro_sim::file::write_atomically(&folder.join("fit.json"), (json + "\n").as_bytes())?;
+        sincro_sim::file::write_atomically(&folder.join("report.html"), page::html(self).as_bytes())
+    }
+
+    /// The fit as JSON; numbers that are not finite are null.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let names = self.model.names();
+        let estimates: Vec<Value> = names
+            .iter()
+            .enumerate()
+            .map(|(k, name)| {
+                let of = &self.inference.estimates[k];
+                json!({
+                    "name": name, "value": of.value, "std": of.std, "half_width": of.half_width, "told": of.is_told,
+                    "start": self.model.bounds(k).0, "at_bound": self.solution.at_bound[k],
+                })
+            })
+            .collect();
+        let white: Vec<Value> = self
+            .columns()
+            .iter()
+            .zip(self.whiteness())
+            .map(|((_, c, _), w)| json!({ "column": c.column, "p_value": w.map(|w| w.p_value) }))
+            .collect();
+        let held: Vec<Value> = self
+            .validation
+            .iter()
+            .map(|(set, predicted)| json!({ "file": set.path.display().to_string(), "fit": share(set, predicted) }))
+            .collect();
+        json!({
+            "title": self.title, "sincro_version": env!("CARGO_PKG_VERSION"), "loss": self.loss.word(),
+            "confidence": self.confidence, "estimates": estimates, "correlation": self.inference.correlation,
+            "singular_values": self.inference.singular, "sigma": self.inference.sigma, "n": self.inference.n_values,
+            "untold": self.inference.untold.iter().map(|u| self.untold_words(u)).collect::<Vec<_>>(),
+            "converged": self.solution.has_converged, "iterations": self.solution.n_iterations,
+            "runs": self.model.n_runs(), "cost_start": self.solution.cost.0, "cost": self.solution.cost.1,
+            "sensitivities": "central differences of runs at accuracy 1e-12",
+            "sensitivity_error": self.solution.sensitivities.error, "whiteness": white, "validation": held,
+        })
+    }
+}
+
+/// Share of the spread of data that a prediction explains: 1 − ‖p − m‖/‖m − mean‖.
+pub(crate) fn share(set: &DataSet, predicted: &[f64]) -> f64 {
+    let n = set.times.len();
+    let (mut left, mut all) = (0.0, 0.0);
+    for (c, column) in set.columns.iter().enumerate() {
+        let finite: Vec<f64> = column.values.iter().copied().filter(|x| x.is_finite()).collect();
+        let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
+        for (k, measured) in column.values.iter().enumerate().filter(|(_, x)| x.is_finite()) {
+            let (r, d) = (predicted[c * n + k] - measured, measured - mean);
+            left += column.weight * column.weight * r * r;
+            all += column.weight * column.weight * d * d;
+        }
+    }
+    1.0 - (left / all).sqrt()
+}

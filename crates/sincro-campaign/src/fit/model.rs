@@ -1,0 +1,250 @@
+//! The simulated counterpart of measured data, and its derivatives by the free parameters.
+//!
+//! Derivatives are central differences of runs at a tight tolerance (Richardson's extrapolation of two widths), because
+//! the lock-step computes on plain numbers. The two widths give an estimate of their error, which the report states.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
+use sincro_scene::overrides::Override;
+use sincro_sim::Loaded;
+use sincro_sim::run::{RunError, RunMonitor, RunOptions, simulate};
+
+use super::data::{DataSet, interpolate};
+use super::free::{FreeParameter, settings};
+
+/// Width of the wider difference, relative to the scale of a parameter; the narrower is half of it. With Richardson's
+/// extrapolation the truncation is of the fourth power, 1e-12, and the rounding of a run at 1e-12 about 1e-9.
+const WIDTH: f64 = 1e-3;
+/// Tolerance of the runs at the solution.
+const ACCURACY: f64 = 1e-12;
+/// Tolerance of the runs on the way there.
+const COARSE: f64 = 1e-9;
+
+/// A model of measured data: the scene with its free parameters, and for each file a time offset if that is free.
+#[derive(Debug)]
+pub struct Model<'a> {
+    /// The scene.
+    pub loaded: &'a Loaded,
+    /// Settings of all runs.
+    pub fixed: Vec<Override>,
+    /// Free parameters.
+    pub free: Vec<FreeParameter>,
+    /// Data that are fitted.
+    pub sets: &'a [DataSet],
+    /// True if the data of each file may be shifted in time.
+    pub has_offsets: bool,
+    /// Ends all runs.
+    pub interrupt: &'a AtomicBool,
+    /// Runs that were made.
+    n_runs: AtomicUsize,
+    /// True while the search is on its way.
+    is_coarse: AtomicBool,
+}
+
+/// Error of a model.
+#[derive(Debug)]
+pub enum ModelError {
+    /// The scene refuses the values.
+    Refused(Diagnostics),
+    /// The run stopped; the reason.
+    Stopped(String),
+    /// It was interrupted.
+    Interrupted,
+}
+
+impl From<Diagnostics> for ModelError {
+    fn from(found: Diagnostics) -> Self {
+        Self::Refused(found)
+    }
+}
+
+/// Sensitivities of all residuals.
+#[derive(Clone, Debug)]
+pub struct Sensitivities {
+    /// Derivatives of all predicted values, a column for each parameter.
+    pub columns: Vec<Vec<f64>>,
+    /// Estimated error, relative to the largest derivative of the same parameter.
+    pub error: f64,
+}
+
+impl<'a> Model<'a> {
+    /// A model with the settings that its runs need: the signals of the data recorded at every step, until the last of
+    /// the data.
+    #[must_use]
+    pub fn new(
+        loaded: &'a Loaded,
+        fixed: &[Override],
+        free: Vec<FreeParameter>,
+        sets: &'a [DataSet],
+        has_offsets: bool,
+        interrupt: &'a AtomicBool,
+    ) -> Self {
+        let mut fixed = fixed.to_vec();
+        let last = sets.iter().filter_map(|set| set.times.last()).fold(0.0_f64, |a, b| a.max(*b));
+        let step = loaded.experiment.step;
+        // four rows behind the last time, for the cubic
+        let duration = if has_offsets { last + 0.25 * last + 4.0 * step } else { last };
+        let duration = (duration / step - 1e-6).ceil().max(1.0) * step;
+        fixed.push(Override::new("duration", &format!("{duration:?}")));
+        fixed.push(Override::new("record_every", "1"));
+        fixed.push(Override::new("error_bar", "none"));
+        // what a fit does not look at is not read
+        fixed.extend(["check", "plot", "variant"].map(|key| Override::new(key, "[]")));
+        let (n_runs, is_coarse) = (AtomicUsize::new(0), AtomicBool::new(false));
+        Self { loaded, fixed, free, sets, has_offsets, interrupt, n_runs, is_coarse }
+    }
+
+    /// Makes runs at the tolerance of the way to the solution, or at that of the solution itself.
+    pub fn set_coarse(&self, is_coarse: bool) {
+        self.is_coarse.store(is_coarse, Ordering::Relaxed);
+    }
+
+    /// Number of unknowns: free parameters and time offsets.
+    #[must_use]
+    pub fn n_unknowns(&self) -> usize {
+        self.free.len() + if self.has_offsets { self.sets.len() } else { 0 }
+    }
+
+    /// Names of the unknowns.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        let offsets = self.sets.iter().take(self.n_unknowns() - self.free.len());
+        let names = self.free.iter().map(|free| free.path.clone());
+        names.chain(offsets.map(|set| format!("time offset of {}", set.path.display()))).collect()
+    }
+
+    /// Start, lower bound, upper bound and scale of an unknown.
+    #[must_use]
+    pub fn bounds(&self, k: usize) -> (f64, f64, f64, f64) {
+        match self.free.get(k) {
+            Some(free) => (free.start, free.low, free.high, free.scale()),
+            None => {
+                let last = self.sets[k - self.free.len()].times.last().copied().unwrap_or(1.0);
+                (0.0, -0.2 * last, 0.2 * last, 0.01 * last)
+            }
+        }
+    }
+
+    /// Runs made so far.
+    #[must_use]
+    pub fn n_runs(&self) -> usize {
+        self.n_runs.load(Ordering::Relaxed)
+    }
+
+    /// Predicted values of all data, set by set, column by column; NaN where the data have none.
+    ///
+    /// # Errors
+    ///
+    /// The scene refuses the values, or the run stops.
+    pub fn predict(&self, unknowns: &[f64]) -> Result<Vec<f64>, ModelError> {
+        self.n_runs.fetch_add(1, Ordering::Relaxed);
+        let values = &unknowns[..self.free.len()];
+        let mut settings = settings(&self.fixed, &self.free, values);
+        let accuracy = if self.is_coarse.load(Ordering::Relaxed) { COARSE } else { ACCURACY };
+        settings.push(Override::new("accuracy", &format!("{accuracy:?}")));
+        let mut at = self.loaded.with_overrides_without_variants(&settings)?;
+        let source = std::sync::Arc::new(SourceText { path: "--signal".into(), text: String::new() });
+        at.experiment.record.clear();
+        for column in self.sets.iter().flat_map(|set| &set.columns) {
+            if !at.experiment.record.iter().any(|known| known.value == column.signal) {
+                let place = Location { source: source.clone(), span: 0..0 };
+                at.experiment.record.push(Located { value: column.signal.clone(), at: place });
+            }
+        }
+        at.experiment.stops.clear();
+        at.experiment.checks.clear();
+        let mut monitor = RunMonitor { interrupt: self.interrupt, progress: &mut |_| {} };
+        let run = simulate(&at, RunOptions::default(), &mut monitor).map_err(|error| match error {
+            RunError::Diagnostics(found) => ModelError::Refused(found),
+            RunError::File(error) => ModelError::Stopped(error.to_string()),
+        })?;
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Err(ModelError::Interrupted);
+        }
+        if let sincro_sim::results::Status::Stopped { reason, .. } = run.status {
+            return Err(ModelError::Stopped(reason));
+        }
+        let times = run.table.times();
+        let mut predicted = Vec::new();
+        for (s, set) in self.sets.iter().enumerate() {
+            let offset = unknowns.get(self.free.len() + s).copied().unwrap_or(0.0);
+            for column in &set.columns {
+                let simulated = run.table.column(&column.signal).map_or(&[][..], |c| c.values.as_slice());
+                let value = |(t, measured): (&f64, &f64)| {
+                    if !measured.is_finite() { f64::NAN } else { interpolate(times, simulated, t + offset) }
+                };
+                predicted.extend(set.times.iter().zip(&column.values).map(value));
+            }
+        }
+        Ok(predicted)
+    }
+
+    /// Derivatives of all predicted values by all unknowns, on all processors.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::predict`].
+    pub fn sensitivities(&self, unknowns: &[f64], with_error: bool) -> Result<Sensitivities, ModelError> {
+        let n = self.n_unknowns();
+        let widths: &[f64] = if with_error { &[WIDTH, 0.5 * WIDTH] } else { &[0.5 * WIDTH] };
+        let jobs: Vec<(usize, f64)> =
+            (0..n).flat_map(|k| widths.iter().flat_map(move |w| [(k, *w), (k, -*w)])).collect();
+        let next = AtomicUsize::new(0);
+        let mut results: Vec<Option<Result<Vec<f64>, ModelError>>> = jobs.iter().map(|_| None).collect();
+        let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len().max(1));
+        let worker = || {
+            let mut mine = Vec::new();
+            loop {
+                let j = next.fetch_add(1, Ordering::Relaxed);
+                let Some((k, width)) = jobs.get(j) else { return mine };
+                let mut at = unknowns.to_vec();
+                at[*k] += width * self.bounds(*k).3;
+                mine.push((j, self.predict(&at)));
+            }
+        };
+        std::thread::scope(|scope| {
+            let others: Vec<_> = (1..n_threads).map(|_| scope.spawn(worker)).collect();
+            let own = worker();
+            let all = others.into_iter().flat_map(|thread| thread.join().expect("a run does not panic")).chain(own);
+            all.for_each(|(j, result)| results[j] = Some(result));
+        });
+        let mut values = results.into_iter().map(|result| result.expect("every job was done"));
+        let (mut columns, mut worst) = (Vec::with_capacity(n), 0.0_f64);
+        for k in 0..n {
+            let mut slopes = Vec::new();
+            for width in widths {
+                let (up, down) = (values.next().expect("two a width")?, values.next().expect("two a width")?);
+                let h = 2.0 * width * self.bounds(k).3;
+                slopes.push(up.iter().zip(&down).map(|(a, b)| (a - b) / h).collect::<Vec<f64>>());
+            }
+            if let [wide, narrow] = slopes.as_slice() {
+                let better: Vec<f64> = narrow.iter().zip(wide).map(|(n, w)| n + (n - w) / 3.0).collect();
+                let largest = better.iter().copied().filter(|x| x.is_finite()).fold(0.0_f64, |a, b| a.max(b.abs()));
+                // what is left after the extrapolation is of the square of what it took away
+                let taken = narrow.iter().zip(wide).map(|(n, w)| (n - w).abs() / 3.0).filter(|x| x.is_finite());
+                let share = taken.fold(0.0_f64, f64::max) / largest.max(f64::MIN_POSITIVE);
+                worst = worst.max((share * share).max(1e-15 / WIDTH));
+                columns.push(better);
+            } else {
+                columns.push(slopes.pop().expect("one width"));
+            }
+        }
+        Ok(Sensitivities { columns, error: worst })
+    }
+}
+
+/// Problem in words for a model that cannot be run.
+impl From<ModelError> for Diagnostics {
+    fn from(error: ModelError) -> Self {
+        match error {
+            ModelError::Refused(found) => found,
+            ModelError::Stopped(reason) => {
+                Diagnostic::without_location(format!("the run with these values stopped: {reason}"))
+                    .with_help("start elsewhere, or give bounds: --free PATH=START in LOW..HIGH")
+                    .into()
+            }
+            ModelError::Interrupted => Diagnostic::without_location("it was interrupted").into(),
+        }
+    }
+}

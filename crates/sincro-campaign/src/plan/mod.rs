@@ -1,0 +1,264 @@
+//! Plan of a campaign: which runs there are, as a function of their number, and which numbers are kept of each.
+//!
+//! | | |
+//! |---|---|
+//! | run `k` | sample `k / n_variants` in variant `k % n_variants` |
+//! | sample `s` | point `s / n_draws` of the grid with draw `s % n_draws` |
+//! | draw `i` | coordinates in the unit cube by the design, correlated, then through the inverse distribution functions |
+//!
+//! Every point of the grid has the same draws (common random numbers), so that differences between points are theirs.
+
+mod file;
+mod read;
+mod resolve;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sincro_scene::diagnostic::{Diagnostics, Located, SourceText};
+use sincro_scene::overrides::Override;
+
+use crate::design::random::{Purpose, bits, permuted, uniform};
+use crate::design::{Distribution, inverse_normal, normal_cdf, sobol};
+use crate::measure::MeasurePlan;
+
+/// Most runs of a campaign.
+pub const MAX_RUNS: u64 = 1_000_000_000;
+
+/// Design of the draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Design {
+    /// Independent draws.
+    Random,
+    /// One draw in each of `n` intervals of equal probability of every parameter.
+    LatinHypercube,
+    /// Points of the Sobol' sequence with a random digital shift.
+    Sobol,
+    /// Two Sobol' matrices and their mixtures, from which first-order and total indices follow (Saltelli 2002).
+    Saltelli,
+}
+
+impl Design {
+    /// All designs.
+    pub const ALL: [Self; 4] = [Self::Random, Self::LatinHypercube, Self::Sobol, Self::Saltelli];
+
+    /// The word in the file.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::LatinHypercube => "latin-hypercube",
+            Self::Sobol => "sobol",
+            Self::Saltelli => "saltelli",
+        }
+    }
+}
+
+/// A number that differs from run to run.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Name of its column.
+    pub name: String,
+    /// Paths as after `--set` that take its value.
+    pub paths: Vec<Located<String>>,
+    /// Unit; may be empty.
+    pub unit: String,
+    /// True if values are rounded to whole numbers.
+    pub is_integer: bool,
+    /// Its distribution, or its values.
+    pub distribution: Distribution,
+}
+
+/// Which checks of the scene are measured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Checks {
+    /// All of each variant.
+    All,
+    /// None.
+    None,
+    /// Those of these names.
+    Named(Vec<String>),
+}
+
+/// A plan that was read and found sound, as far as that can be said without its scene.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Title of the report; may be empty.
+    pub title: String,
+    /// Description under the title; may be empty.
+    pub description: String,
+    /// Folder of the scene.
+    pub scene: PathBuf,
+    /// Seed of all draws.
+    pub seed: u64,
+    /// True if each sample gives the scene a seed of its own.
+    pub random_seeds: bool,
+    /// Probability of all intervals.
+    pub confidence: f64,
+    /// Design of the draws.
+    pub design: Design,
+    /// Draws for each point of the grid; 1 if nothing is drawn.
+    pub n_draws: u64,
+    /// Parameters in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// Cholesky factor of the correlation of the drawn parameters, row by row; none if they are independent.
+    pub correlation: Option<Vec<Vec<f64>>>,
+    /// Parts of the experiment that are run: `main` and variants by their names.
+    pub variants: Vec<Located<String>>,
+    /// Settings of all runs.
+    pub set: Vec<Override>,
+    /// Numbers that are kept of each run.
+    pub measures: Vec<MeasurePlan>,
+    /// Checks of the scene that are measured, too.
+    pub checks: Checks,
+    /// Rows in each part of the results, if the file says so.
+    pub rows_per_part: Option<u64>,
+    /// The file.
+    pub source: Arc<SourceText>,
+}
+
+/// Point of a run: all that distinguishes it from the others, a function of the plan and `k`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunPoint {
+    /// Number of the run, from 0.
+    pub k: u64,
+    /// Number of the sample, from 0.
+    pub sample: u64,
+    /// Index of the variant.
+    pub variant_idx: usize,
+    /// Seed that the scene is given; none if it keeps its own.
+    pub seed: Option<u64>,
+    /// Values of the parameters in their order.
+    pub values: Vec<f64>,
+}
+
+impl Plan {
+    /// Reads a plan file.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with it.
+    pub fn open(path: &Path) -> Result<Self, Diagnostics> {
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let words = format!("cannot read the plan `{}`: {error}", path.display());
+            Diagnostics::from(sincro_scene::diagnostic::Diagnostic::without_location(words))
+        })?;
+        Self::parse(path, text)
+    }
+
+    /// Reads the text of a plan file; `path` is where its own paths start from.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with it.
+    pub fn parse(path: &Path, text: String) -> Result<Self, Diagnostics> {
+        read::plan(path, text)
+    }
+
+    /// Number of points of the grid.
+    #[must_use]
+    pub fn n_grid(&self) -> u64 {
+        self.parameters.iter().map(|p| grid_len(&p.distribution)).product()
+    }
+
+    /// Number of samples: points of the grid times draws.
+    #[must_use]
+    pub fn n_samples(&self) -> u64 {
+        self.n_grid().saturating_mul(self.n_draws)
+    }
+
+    /// Number of runs.
+    #[must_use]
+    pub fn n_runs(&self) -> u64 {
+        self.n_samples().saturating_mul(self.variants.len() as u64)
+    }
+
+    /// Number of parameters that are drawn.
+    #[must_use]
+    pub fn n_drawn(&self) -> usize {
+        self.parameters.iter().filter(|p| !p.distribution.is_grid()).count()
+    }
+
+    /// The point of run `k`.
+    #[must_use]
+    pub fn point(&self, k: u64) -> RunPoint {
+        let n_variants = self.variants.len() as u64;
+        let (sample, variant_idx) = (k / n_variants, (k % n_variants) as usize);
+        let (mut grid, draw) = (sample / self.n_draws, sample % self.n_draws);
+        let drawn = self.draw(draw);
+        let mut values = Vec::with_capacity(self.parameters.len());
+        let mut next = drawn.iter();
+        for parameter in &self.parameters {
+            let value = if let Distribution::Grid(all) = &parameter.distribution {
+                let place = (grid % all.len() as u64) as usize;
+                grid /= all.len() as u64;
+                all[place]
+            } else {
+                parameter.distribution.quantile(*next.next().expect("a coordinate for each drawn parameter"))
+            };
+            values.push(if parameter.is_integer { value.round() } else { value });
+        }
+        let seed = self.random_seeds.then(|| bits(self.seed, Purpose::Seed, 0, sample) >> 2);
+        RunPoint { k, sample, variant_idx, seed, values }
+    }
+
+    /// Coordinates of draw `i` in the unit cube, one for each drawn parameter.
+    fn draw(&self, i: u64) -> Vec<f64> {
+        let drawn: Vec<&Distribution> =
+            self.parameters.iter().map(|p| &p.distribution).filter(|d| !d.is_grid()).collect();
+        let u: Vec<f64> = (0..drawn.len()).map(|j| self.coordinate(i, shared(&drawn, j), drawn.len())).collect();
+        let Some(factor) = &self.correlation else { return u };
+        let z: Vec<f64> = u.iter().map(|u| inverse_normal(*u)).collect();
+        let row = |row: &Vec<f64>| row.iter().zip(&z).map(|(l, z)| l * z).sum::<f64>();
+        // rounding must not lead out of the open interval
+        factor.iter().map(|l| normal_cdf(row(l)).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0)).collect()
+    }
+
+    fn coordinate(&self, i: u64, j: usize, n_drawn: usize) -> f64 {
+        match self.design {
+            Design::Random => uniform(self.seed, Purpose::Value, j as u32, i),
+            Design::LatinHypercube => {
+                let place = permuted(self.seed, j as u32, i, self.n_draws) as f64;
+                (place + uniform(self.seed, Purpose::Value, j as u32, i)) / self.n_draws as f64
+            }
+            Design::Sobol => sobol::point(self.seed, i, j),
+            Design::Saltelli => {
+                let (block, which) = (i / (n_drawn as u64 + 2), (i % (n_drawn as u64 + 2)) as usize);
+                let is_second = which == 1 || which == j + 2;
+                sobol::point(self.seed, block, if is_second { n_drawn + j } else { j })
+            }
+        }
+    }
+
+    /// Settings of a run, after those of its variant.
+    #[must_use]
+    pub fn settings(&self, point: &RunPoint) -> Vec<Override> {
+        let mut settings = Vec::new();
+        for (parameter, value) in self.parameters.iter().zip(&point.values) {
+            let text = if parameter.is_integer { format!("{value:.0}") } else { format!("{value:?}") };
+            settings.extend(parameter.paths.iter().map(|path| Override::new(&path.value, &text)));
+        }
+        settings.extend(point.seed.map(|seed| Override::new("seed", &seed.to_string())));
+        settings
+    }
+
+    /// Rows in each part of the results: a function of the plan alone, so that parts are the same for any sharding.
+    #[must_use]
+    pub fn rows_per_part(&self) -> u64 {
+        self.rows_per_part.unwrap_or_else(|| self.n_runs().div_ceil(128).clamp(1, 1024))
+    }
+}
+
+/// Factor of the grid; 1 for drawn parameters.
+fn grid_len(distribution: &Distribution) -> u64 {
+    if let Distribution::Grid(values) = distribution { values.len() as u64 } else { 1 }
+}
+
+/// Index of the coordinate that a drawn parameter uses: columns of one table share that of the first.
+fn shared(drawn: &[&Distribution], j: usize) -> usize {
+    let Distribution::Table { file, .. } = drawn[j] else { return j };
+    drawn.iter().position(|d| matches!(d, Distribution::Table { file: other, .. } if other == file)).unwrap_or(j)
+}
+
+#[cfg(test)]
+mod tests;

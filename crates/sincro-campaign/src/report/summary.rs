@@ -1,0 +1,344 @@
+//! Statistics of a campaign, read from its table in two passes; memory does not grow with the number of runs.
+
+use serde::Serialize;
+use sincro_sim::formats::parquet::{ParquetFile, Values};
+
+use crate::design::inverse_normal;
+use crate::row::N_LEADING;
+use crate::statistics::{Moments, wilson};
+use crate::store::{Manifest, Store, StoreError};
+
+/// Most rows that are kept for quantiles, pictures and ranks; of more runs every second, third … is taken.
+const MAX_SAMPLE: u64 = 20_000;
+/// Worst runs that are listed.
+const N_WORST: usize = 10;
+
+/// Statistics of all runs.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// Number of runs.
+    pub n: u64,
+    /// Good runs.
+    pub n_good: u64,
+    /// Numbers of runs by their status: completed, ended, stopped, refused.
+    pub statuses: Vec<(String, u64)>,
+    /// Name of each variant, its runs, its good runs.
+    pub variants: Vec<(String, u64, u64)>,
+    /// Runs with findings of the audit.
+    pub n_with_findings: u64,
+    /// Moments of each measure over the runs that have it.
+    pub measures: Vec<Moments>,
+    /// Runs that miss the limits of each measure; 0 if it has none.
+    pub misses: Vec<u64>,
+    /// Rows that are kept for quantiles and pictures.
+    pub sample: Sample,
+    /// The worst runs, the worst first.
+    pub worst: Vec<Worst>,
+    /// Sobol' indices of each measure, if the design tells them.
+    pub indices: Vec<Option<Indices>>,
+}
+
+/// Every `stride`-th row.
+#[derive(Clone, Debug, Default)]
+pub struct Sample {
+    /// Distance of the rows that are kept.
+    pub stride: u64,
+    /// Numbers of the runs.
+    pub k: Vec<u64>,
+    /// Values of each parameter.
+    pub parameters: Vec<Vec<f64>>,
+    /// Values of each measure; NaN where there is none.
+    pub measures: Vec<Vec<f64>>,
+    /// True for good runs.
+    pub good: Vec<bool>,
+}
+
+/// One of the worst runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// Its number.
+    pub k: u64,
+    /// Its variant.
+    pub variant: String,
+    /// Distance beyond the limits, in standard deviations; infinite for a run that stopped.
+    pub score: f64,
+    /// Reason for a person.
+    pub reason: String,
+    /// Values of the parameters.
+    pub parameters: Vec<f64>,
+}
+
+/// Variance-based sensitivities of a measure: shares of its variance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Indices {
+    /// Rows of the drawn parameters: index among the parameters, share alone, half width of its interval, share with
+    /// all its interactions, half width.
+    pub rows: Vec<(usize, f64, f64, f64, f64)>,
+    /// Number of blocks in which all runs have a value, and of all.
+    pub n_blocks: (u64, u64),
+}
+
+/// A row group with its columns by their use.
+struct Group<'a> {
+    manifest: &'a Manifest,
+    columns: &'a [Values],
+}
+
+impl Group<'_> {
+    fn ints(&self, column: usize) -> &[i64] {
+        if let Values::Ints(values) = &self.columns[column] { values } else { &[] }
+    }
+
+    fn texts(&self, column: usize) -> &[String] {
+        if let Values::Texts(values) = &self.columns[column] { values } else { &[] }
+    }
+
+    fn doubles(&self, column: usize) -> &[f64] {
+        if let Values::Doubles(values) = &self.columns[column] { values } else { &[] }
+    }
+
+    fn parameter(&self, j: usize) -> &[f64] {
+        self.doubles(N_LEADING + j)
+    }
+
+    fn measure(&self, j: usize) -> &[f64] {
+        self.doubles(N_LEADING + self.manifest.parameters.len() + j)
+    }
+
+    /// A column behind the measures: 0 status, 1 t_end, 2 good, 3 failed checks, 4 findings, 5 trace, 6 reason.
+    fn trailing(&self, k: usize) -> usize {
+        N_LEADING + self.manifest.parameters.len() + self.manifest.measures.len() + k
+    }
+
+    fn n(&self) -> usize {
+        self.columns[0].len()
+    }
+}
+
+impl Summary {
+    /// Reads the table of a campaign that was collected.
+    ///
+    /// # Errors
+    ///
+    /// The table cannot be read.
+    pub fn of(store: &Store) -> Result<Self, StoreError> {
+        let manifest = &store.manifest;
+        let (n_parameters, n_measures) = (manifest.parameters.len(), manifest.measures.len());
+        let mut summary = Self {
+            n: 0,
+            n_good: 0,
+            statuses: ["completed", "ended", "stopped", "refused"].map(|word| (word.to_owned(), 0)).to_vec(),
+            variants: manifest.variants.iter().map(|name| (name.clone(), 0, 0)).collect(),
+            n_with_findings: 0,
+            measures: vec![Moments::default(); n_measures],
+            misses: vec![0; n_measures],
+            sample: Sample {
+                stride: manifest.n_runs.div_ceil(MAX_SAMPLE).max(1),
+                parameters: vec![Vec::new(); n_parameters],
+                measures: vec![Vec::new(); n_measures],
+                ..Sample::default()
+            },
+            worst: Vec::new(),
+            indices: vec![None; n_measures],
+        };
+        let mut sobol: Vec<SobolSums> = vec![SobolSums::new(manifest); n_measures];
+        each_group(store, |group| {
+            summary.first_pass(&group);
+            if manifest.design == "saltelli" {
+                (0..n_measures).for_each(|j| sobol[j].add(&group, j));
+            }
+        })?;
+        each_group(store, |group| summary.rank(&group))?;
+        if manifest.design == "saltelli" {
+            summary.indices = sobol.iter().map(|sums| sums.indices(manifest)).collect();
+        }
+        Ok(summary)
+    }
+
+    /// Interval of the yield.
+    #[must_use]
+    pub fn yield_interval(&self, confidence: f64) -> (f64, f64) {
+        wilson(self.n_good, self.n, confidence)
+    }
+
+    fn first_pass(&mut self, group: &Group<'_>) {
+        let (k, statuses) = (group.ints(0), group.texts(group.trailing(0)));
+        let (good, findings) = (group.ints(group.trailing(2)), group.ints(group.trailing(4)));
+        for row in 0..group.n() {
+            let is_good = good[row] == 1;
+            self.n += 1;
+            self.n_good += u64::from(is_good);
+            self.n_with_findings += u64::from(findings[row] > 0);
+            if let Some(found) = self.statuses.iter_mut().find(|(word, _)| *word == statuses[row]) {
+                found.1 += 1;
+            }
+            if let Some(variant) = self.variants.iter_mut().find(|(name, ..)| *name == group.texts(2)[row]) {
+                variant.1 += 1;
+                variant.2 += u64::from(is_good);
+            }
+            if (k[row] as u64).is_multiple_of(self.sample.stride) {
+                self.sample.k.push(k[row] as u64);
+                self.sample.good.push(is_good);
+                for (j, values) in self.sample.parameters.iter_mut().enumerate() {
+                    values.push(group.parameter(j)[row]);
+                }
+                for (j, values) in self.sample.measures.iter_mut().enumerate() {
+                    values.push(group.measure(j)[row]);
+                }
+            }
+        }
+        for (j, moments) in self.measures.iter_mut().enumerate() {
+            let column = &group.manifest.measures[j];
+            for x in group.measure(j) {
+                if x.is_finite() {
+                    moments.add(*x);
+                }
+                let misses = column.at_most.is_some_and(|most| x.is_nan() || *x > most)
+                    || column.at_least.is_some_and(|least| x.is_nan() || *x < least);
+                self.misses[j] += u64::from(misses);
+            }
+        }
+    }
+
+    /// Keeps the worst runs of a group.
+    fn rank(&mut self, group: &Group<'_>) {
+        for row in 0..group.n() {
+            let (score, reason) = self.score(group, row);
+            if self.worst.len() == N_WORST && self.worst.last().is_some_and(|last| score <= last.score) {
+                continue;
+            }
+            let worst = Worst {
+                k: group.ints(0)[row] as u64,
+                variant: group.texts(2)[row].clone(),
+                score,
+                reason,
+                parameters: (0..group.manifest.parameters.len()).map(|j| group.parameter(j)[row]).collect(),
+            };
+            // of equals the first run stays first
+            let at = self.worst.partition_point(|other| other.score >= score);
+            self.worst.insert(at, worst);
+            self.worst.truncate(N_WORST);
+        }
+    }
+
+    /// Badness of a run: beyond its limits by how many standard deviations, or nearest to them; without limits, how far
+    /// the first measure is from its mean.
+    fn score(&self, group: &Group<'_>, row: usize) -> (f64, String) {
+        let status = &group.texts(group.trailing(0))[row];
+        if status == "stopped" || status == "refused" {
+            return (f64::INFINITY, format!("{status}: {}", group.texts(group.trailing(6))[row]));
+        }
+        let short = |x: f64| sincro_figures::plot::number::significant(x, 4);
+        let mut worst = (f64::NEG_INFINITY, String::new());
+        for (j, column) in group.manifest.measures.iter().enumerate() {
+            let (x, spread) = (group.measure(j)[row], self.measures[j].std().max(f64::MIN_POSITIVE));
+            let beyond = column.at_most.map(|most| x - most).into_iter().chain(column.at_least.map(|least| least - x));
+            for beyond in beyond {
+                let score = if beyond.is_nan() { 1e6 } else { beyond / spread };
+                if score > worst.0 {
+                    worst = (score, format!("{} = {} {}", column.name, short(x), column.unit).trim_end().to_owned());
+                }
+            }
+        }
+        let n_failed = group.ints(group.trailing(3))[row];
+        if n_failed > 0 {
+            let words = if n_failed == 1 { "check fails" } else { "checks fail" };
+            let reason = format!("{n_failed} {words}; {}", worst.1);
+            return (1e6 + n_failed as f64 + worst.0.clamp(-1e3, 1e3), reason.trim_end_matches("; ").to_owned());
+        }
+        if worst.1.is_empty() {
+            let (x, moments) = (group.measure(0)[row], &self.measures[0]);
+            let score = (x - moments.mean).abs() / moments.std().max(f64::MIN_POSITIVE);
+            let column = &group.manifest.measures[0];
+            let reason = format!("{} = {} {}", column.name, short(x), column.unit).trim_end().to_owned();
+            return (if score.is_nan() { 1e6 } else { score }, reason);
+        }
+        worst
+    }
+}
+
+fn each_group(store: &Store, mut of: impl FnMut(Group<'_>)) -> Result<(), StoreError> {
+    let path = store.runs_path();
+    let damaged =
+        |error: sincro_sim::formats::parquet::ParquetError| StoreError::Damaged(path.clone(), error.to_string());
+    let mut file = ParquetFile::open(&path).map_err(damaged)?;
+    for k in 0..file.n_groups() {
+        let columns = file.group(k).map_err(damaged)?;
+        of(Group { manifest: &store.manifest, columns: &columns });
+    }
+    Ok(())
+}
+
+/// Sums over the blocks of a Saltelli design of the first variant and the first point of the grid (estimators of Jansen
+/// 1999).
+#[derive(Clone, Debug)]
+struct SobolSums {
+    n_drawn: usize,
+    n_variants: u64,
+    n_draws: u64,
+    block: Vec<f64>,
+    n_all: u64,
+    variance: Moments,
+    /// Terms of each parameter, (f(B) − f(AB))²/2 and (f(A) − f(AB))²/2.
+    terms: Vec<(Moments, Moments)>,
+}
+
+impl SobolSums {
+    fn new(manifest: &Manifest) -> Self {
+        Self {
+            n_drawn: manifest.n_drawn,
+            n_variants: manifest.variants.len() as u64,
+            n_draws: manifest.n_draws,
+            block: Vec::new(),
+            n_all: 0,
+            variance: Moments::default(),
+            terms: vec![(Moments::default(), Moments::default()); manifest.n_drawn],
+        }
+    }
+
+    fn add(&mut self, group: &Group<'_>, j: usize) {
+        for (row, value) in group.measure(j).iter().enumerate() {
+            let k = group.ints(0)[row] as u64;
+            if !k.is_multiple_of(self.n_variants) || k / self.n_variants >= self.n_draws {
+                continue;
+            }
+            self.block.push(*value);
+            if self.block.len() == self.n_drawn + 2 {
+                self.close();
+            }
+        }
+    }
+
+    fn close(&mut self) {
+        self.n_all += 1;
+        let block = std::mem::take(&mut self.block);
+        if block.iter().any(|x| !x.is_finite()) {
+            return;
+        }
+        let half_square = |x: f64| 0.5 * x * x;
+        self.variance.add(block[0]);
+        self.variance.add(block[1]);
+        for (j, (first, total)) in self.terms.iter_mut().enumerate() {
+            first.add(half_square(block[1] - block[2 + j]));
+            total.add(half_square(block[0] - block[2 + j]));
+        }
+    }
+
+    fn indices(&self, manifest: &Manifest) -> Option<Indices> {
+        let variance = self.variance.std() * self.variance.std();
+        let n = self.terms.first()?.0.n;
+        if n < 8 || variance <= 1e-24 * (1.0 + self.variance.mean * self.variance.mean) {
+            return None;
+        }
+        let z = inverse_normal(0.5 + 0.5 * manifest.confidence);
+        let half = |of: &Moments| z * of.std() / ((n as f64).sqrt() * variance);
+        let drawn = (0..manifest.parameters.len()).filter(|j| manifest.is_drawn[*j]);
+        let rows = drawn
+            .zip(&self.terms)
+            .map(|(j, (first, total))| {
+                (j, 1.0 - first.mean / variance, half(first), total.mean / variance, half(total))
+            })
+            .collect();
+        Some(Indices { rows, n_blocks: (n, self.n_all) })
+    }
+}

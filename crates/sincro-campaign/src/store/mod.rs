@@ -1,0 +1,328 @@
+//! Folder of a campaign: what it holds, how several processes share it, and what is refused.
+//!
+//! ```text
+//! DIR/campaign.json            description, hash of the inputs
+//! DIR/plan.toml                the plan
+//! DIR/parts/part-F-L.parquet   rows F to L, each file whole or not there
+//! DIR/runs.parquet             all rows, by `collect`
+//! DIR/report.html, summary.json
+//! DIR/runs/K/                  runs that were made again, by `--only K`
+//! DIR/jobs/                    scripts of `submit`
+//! ```
+//!
+//! A part is a function of the inputs and its number. It is written under a name of its own process, synchronised and
+//! renamed: two processes that make the same part leave the same bytes, and one that is killed leaves a file that
+//! nobody reads. No time stamp is looked at.
+
+mod collect;
+mod part;
+
+use std::fmt;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sincro_sim::file::{FileError, write_atomically};
+use sincro_sim::formats::parquet::ParquetError;
+
+use crate::campaign::{Campaign, Column};
+use crate::row::Layout;
+
+pub use collect::{Collected, collect};
+pub use part::PartState;
+
+/// Name of the description.
+const MANIFEST: &str = "campaign.json";
+/// Name of the collected table.
+pub const RUNS: &str = "runs.parquet";
+
+/// Description of a campaign beside its results: all that `collect` and the report need of the plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Hash of the inputs.
+    pub input: String,
+    /// Version of the program.
+    pub sincro_version: String,
+    /// Path of the plan as it was named.
+    pub plan: String,
+    /// Name of the scene.
+    pub scene: String,
+    /// Title of the report.
+    pub title: String,
+    /// Description; may be empty.
+    pub description: String,
+    /// Design of the draws.
+    pub design: String,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Probability of the intervals.
+    pub confidence: f64,
+    /// Number of runs.
+    pub n_runs: u64,
+    /// Number of draws for each point of the grid.
+    pub n_draws: u64,
+    /// Number of parameters that are drawn.
+    pub n_drawn: usize,
+    /// Rows in each part; the last has the rest.
+    pub rows_per_part: u64,
+    /// Parts of the experiment.
+    pub variants: Vec<String>,
+    /// Parameters.
+    pub parameters: Vec<Column>,
+    /// True for those that are drawn.
+    pub is_drawn: Vec<bool>,
+    /// Measures.
+    pub measures: Vec<Column>,
+}
+
+/// Error of a campaign's folder.
+#[derive(Debug)]
+pub enum StoreError {
+    /// A file cannot be written or read.
+    File(FileError),
+    /// The folder belongs to another campaign, or holds something else; message and help.
+    Foreign(String, String),
+    /// A part of the results is damaged: its file and the reason.
+    Damaged(PathBuf, String),
+    /// Parts are missing: ranges of runs.
+    Missing(Vec<(u64, u64)>),
+    /// Another process collects.
+    Busy(PathBuf),
+}
+
+impl fmt::Display for StoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(error) => write!(f, "{error}"),
+            Self::Foreign(message, _) => write!(f, "{message}"),
+            Self::Damaged(path, reason) => write!(f, "`{}` is no sound part of the results: {reason}", path.display()),
+            Self::Missing(ranges) => {
+                let n: u64 = ranges.iter().map(|(first, last)| last - first + 1).sum();
+                let shown: Vec<String> = ranges.iter().take(5).map(|(first, last)| format!("{first}–{last}")).collect();
+                let more = if ranges.len() > 5 { ", …" } else { "" };
+                write!(f, "{n} runs are missing: {}{more}", shown.join(", "))
+            }
+            Self::Busy(folder) => write!(f, "another process collects `{}`", folder.display()),
+        }
+    }
+}
+
+impl std::error::Error for StoreError {}
+
+impl StoreError {
+    /// Remedy; may be empty.
+    #[must_use]
+    pub fn help(&self) -> String {
+        match self {
+            Self::File(error) if error.cause.kind() == std::io::ErrorKind::StorageFull => {
+                "make room and run the same command again: what is there is kept".into()
+            }
+            Self::File(_) => String::new(),
+            Self::Foreign(_, help) => help.clone(),
+            Self::Damaged(..) => "delete that file and run the same command again: only it is made anew".into(),
+            Self::Missing(_) => "run `sincro sweep PLAN --out DIR` again: only what is missing is made".into(),
+            Self::Busy(_) => "wait until it has finished".into(),
+        }
+    }
+}
+
+impl From<FileError> for StoreError {
+    fn from(error: FileError) -> Self {
+        Self::File(error)
+    }
+}
+
+/// The folder of a campaign.
+#[derive(Clone, Debug)]
+pub struct Store {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Its description.
+    pub manifest: Manifest,
+}
+
+impl Store {
+    /// Opens the folder of a campaign, or makes it; `plan` is how its plan was named.
+    ///
+    /// # Errors
+    ///
+    /// It holds another campaign or other files, or cannot be written.
+    pub fn open(folder: &Path, campaign: &Campaign, plan: &str) -> Result<Self, StoreError> {
+        let manifest = Manifest::of(campaign, plan);
+        if let Some(found) = Manifest::read(folder)? {
+            if found.input != manifest.input {
+                let message = format!(
+                    "`{}` holds another campaign: its inputs have the hash {}, those of this plan {}",
+                    folder.display(),
+                    found.input,
+                    manifest.input
+                );
+                let help = "name another folder, or delete that one; the plan, the scene or the version has changed";
+                return Err(StoreError::Foreign(message, help.into()));
+            }
+            return Ok(Self { folder: folder.to_owned(), manifest: found });
+        }
+        if let Some(name) = foreign_entry(folder) {
+            let message = format!("`{}` holds `{name}`, which is no part of a campaign", folder.display());
+            return Err(StoreError::Foreign(message, "name a folder that is absent or empty".into()));
+        }
+        sincro_sim::file::prepare(folder)?;
+        let parts = folder.join("parts");
+        std::fs::create_dir_all(&parts).map_err(|e| FileError::new("create the folder", &parts, e))?;
+        write_own(&folder.join("plan.toml"), campaign.plan.source.text.as_bytes())?;
+        let json = serde_json::to_string_pretty(&manifest).expect("a description is plain data");
+        write_own(&folder.join(MANIFEST), (json + "\n").as_bytes())?;
+        Ok(Self { folder: folder.to_owned(), manifest })
+    }
+
+    /// Opens the folder of a campaign that was begun.
+    ///
+    /// # Errors
+    ///
+    /// It holds none.
+    pub fn existing(folder: &Path) -> Result<Self, StoreError> {
+        let manifest = Manifest::read(folder)?.ok_or_else(|| {
+            let message = format!("`{}` is no folder of a campaign: it has no `{MANIFEST}`", folder.display());
+            StoreError::Foreign(message, "name the folder that was given to `sincro sweep … --out DIR`".into())
+        })?;
+        Ok(Self { folder: folder.to_owned(), manifest })
+    }
+
+    /// Columns of the results.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.manifest.layout()
+    }
+
+    /// Number of parts.
+    #[must_use]
+    pub fn n_parts(&self) -> u64 {
+        self.manifest.n_runs.div_ceil(self.manifest.rows_per_part)
+    }
+
+    /// First and last run of a part.
+    #[must_use]
+    pub fn range(&self, part: u64) -> (u64, u64) {
+        let size = self.manifest.rows_per_part;
+        (part * size, ((part + 1) * size).min(self.manifest.n_runs) - 1)
+    }
+
+    /// File of a part.
+    #[must_use]
+    pub fn part_path(&self, part: u64) -> PathBuf {
+        let (first, last) = self.range(part);
+        self.folder.join("parts").join(format!("part-{first:09}-{last:09}.parquet"))
+    }
+
+    /// The results of all runs.
+    #[must_use]
+    pub fn runs_path(&self) -> PathBuf {
+        self.folder.join(RUNS)
+    }
+}
+
+impl Manifest {
+    fn of(campaign: &Campaign, plan: &str) -> Self {
+        let of = &campaign.plan;
+        let title = if of.title.is_empty() { &campaign.loaded.experiment.title } else { &of.title };
+        Self {
+            input: campaign.input.clone(),
+            sincro_version: env!("CARGO_PKG_VERSION").into(),
+            plan: plan.to_owned(),
+            scene: sincro_scene::open::folder_name(&of.scene),
+            title: title.clone(),
+            description: of.description.clone(),
+            design: of.design.word().into(),
+            seed: of.seed,
+            confidence: of.confidence,
+            n_runs: of.n_runs(),
+            n_draws: of.n_draws,
+            n_drawn: of.n_drawn(),
+            rows_per_part: of.rows_per_part(),
+            variants: of.variants.iter().map(|v| v.value.clone()).collect(),
+            parameters: campaign.parameter_columns(),
+            is_drawn: of.parameters.iter().map(|p| !p.distribution.is_grid()).collect(),
+            measures: campaign.measure_columns(),
+        }
+    }
+
+    fn read(folder: &Path) -> Result<Option<Self>, StoreError> {
+        let path = folder.join(MANIFEST);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == std::io::ErrorKind::NotADirectory => {
+                let message = format!("`{}` is a file", folder.display());
+                return Err(StoreError::Foreign(message, "name a folder".into()));
+            }
+            Err(error) => return Err(FileError::new("read", &path, error).into()),
+        };
+        let read = serde_json::from_str(&text);
+        read.map(Some).map_err(|error| StoreError::Damaged(path, error.to_string()))
+    }
+
+    /// Columns of the results.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        let names = |columns: &[Column]| columns.iter().map(|c| c.name.clone()).collect();
+        Layout { parameters: names(&self.parameters), measures: names(&self.measures) }
+    }
+}
+
+/// Something in a folder that no campaign leaves there before its description.
+fn foreign_entry(folder: &Path) -> Option<String> {
+    let known = ["plan.toml", "parts", "runs", "jobs", ".lock"];
+    let names = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
+    // other processes that begin at the same time
+    names
+        .into_iter()
+        .find(|name| !known.contains(&name.as_str()) && !name.contains(".partial") && name != ".sincro-trial")
+}
+
+/// Writes a file under a name of this process, and moves it to its place.
+pub(crate) fn write_own(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let own = own_name(path);
+    let written = File::create(&own).and_then(|mut file| {
+        std::io::Write::write_all(&mut file, content)?;
+        file.sync_all()
+    });
+    put(&own, path, written)
+}
+
+/// Name of a file until it is complete: one of this process alone.
+pub(crate) fn own_name(path: &Path) -> PathBuf {
+    use std::sync::atomic::{AtomicU64, Ordering};
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    let host: String = host.trim().chars().filter(char::is_ascii_alphanumeric).collect();
+    let mut name = path.as_os_str().to_owned();
+    name.push(format!(".{host}-{}-{}.partial", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed)));
+    PathBuf::from(name)
+}
+
+/// Moves a file that was written to its place; one that could not be written is taken away.
+pub(crate) fn put(own: &Path, path: &Path, written: std::io::Result<()>) -> Result<(), FileError> {
+    let done = written
+        .map_err(|e| FileError::new("write", path, e))
+        .and_then(|()| std::fs::rename(own, path).map_err(|e| FileError::new("rename a file to", path, e)));
+    if done.is_err() {
+        let _ = std::fs::remove_file(own);
+    }
+    done
+}
+
+/// Writes a text of the report.
+///
+/// # Errors
+///
+/// The file cannot be written.
+pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+    write_atomically(path, text.as_bytes())
+}
+
+fn damaged(path: &Path, error: ParquetError) -> StoreError {
+    match error {
+        ParquetError::File(cause) => StoreError::File(FileError::new("read", path, cause)),
+        ParquetError::Content(reason) => StoreError::Damaged(path.to_owned(), reason),
+    }
+}

@@ -1,0 +1,121 @@
+//! One part of the results: written whole, and verified before it is believed.
+
+use std::fs::File;
+use std::hash::Hasher;
+use std::io::{BufWriter, ErrorKind, Write};
+use std::path::Path;
+
+use sincro_sim::file::FileError;
+use sincro_sim::formats::parquet::{ParquetFile, Values, Writer};
+use twox_hash::XxHash3_64;
+
+use super::{Store, StoreError, damaged, own_name, put};
+use crate::row::Row;
+
+/// State of a part.
+#[derive(Debug)]
+pub enum PartState {
+    /// Its file is not there.
+    Missing,
+    /// Its file is whole and belongs to this campaign.
+    Whole,
+    /// Its file is there and cannot be used; the reason.
+    Damaged(String),
+}
+
+impl Store {
+    /// Writes the rows of a part.
+    ///
+    /// # Errors
+    ///
+    /// The disk is full, or the folder takes no files.
+    pub fn write_part(&self, part: u64, rows: &[Row]) -> Result<(), StoreError> {
+        let path = self.part_path(part);
+        let group = self.layout().group(rows);
+        let footer = [
+            ("input".to_owned(), self.manifest.input.clone()),
+            ("version".to_owned(), self.manifest.sincro_version.clone()),
+            ("content".to_owned(), content_hash(&group)),
+        ];
+        let own = own_name(&path);
+        let written = File::create(&own).and_then(|file| {
+            let mut writer = Writer::new(BufWriter::new(file), "runs", self.layout().columns())?;
+            writer.group(&group)?;
+            let mut sink = writer.finish(&footer)?;
+            sink.flush()?;
+            sink.get_ref().sync_all()
+        });
+        Ok(put(&own, &path, written)?)
+    }
+
+    /// Reads the rows of a part as columns and verifies them.
+    ///
+    /// # Errors
+    ///
+    /// It is not there, damaged, or of another campaign.
+    pub fn read_part(&self, part: u64) -> Result<Vec<Values>, StoreError> {
+        let path = self.part_path(part);
+        let mut file = ParquetFile::open(&path).map_err(|error| damaged(&path, error))?;
+        let refuse = |reason: String| Err(StoreError::Damaged(path.clone(), reason));
+        let input = file.footer("input").unwrap_or("none");
+        if input != self.manifest.input {
+            return refuse(format!("it belongs to another campaign, of inputs {input}"));
+        }
+        if file.columns != self.layout().columns() || file.n_groups() != 1 {
+            return refuse("its columns are others than those of the campaign".into());
+        }
+        let content = file.footer("content").unwrap_or("").to_owned();
+        let group = file.group(0).map_err(|error| damaged(&path, error))?;
+        if content != content_hash(&group) {
+            return refuse("its content is not what was written: it has another hash".into());
+        }
+        let (first, last) = self.range(part);
+        let is_numbered = matches!(&group[0], Values::Ints(k) if k.iter().copied().eq(first as i64..=last as i64));
+        if !is_numbered {
+            return refuse(format!("it does not hold each of the runs {first} to {last} once, in their order"));
+        }
+        Ok(group)
+    }
+
+    /// State of a part; everything in it is read.
+    ///
+    /// # Errors
+    ///
+    /// A file that is there cannot be read.
+    pub fn part_state(&self, part: u64) -> Result<PartState, StoreError> {
+        match self.read_part(part) {
+            Ok(_) => Ok(PartState::Whole),
+            Err(StoreError::File(error)) if error.cause.kind() == ErrorKind::NotFound => Ok(PartState::Missing),
+            Err(StoreError::Damaged(_, reason)) => Ok(PartState::Damaged(reason)),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Number of parts whose file is there, without reading them.
+    ///
+    /// # Errors
+    ///
+    /// The folder cannot be read.
+    pub fn n_present(&self) -> Result<u64, FileError> {
+        let folder = self.folder.join("parts");
+        let entries = std::fs::read_dir(&folder).map_err(|e| FileError::new("read the folder", &folder, e))?;
+        let is_part = |path: &Path| path.extension().is_some_and(|e| e == "parquet");
+        Ok(entries.flatten().filter(|entry| is_part(&entry.path())).count() as u64)
+    }
+}
+
+/// Hash of all values, bit by bit.
+fn content_hash(group: &[Values]) -> String {
+    let mut hasher = XxHash3_64::with_seed(0);
+    for values in group {
+        match values {
+            Values::Doubles(values) => values.iter().for_each(|x| hasher.write(&x.to_bits().to_le_bytes())),
+            Values::Ints(values) => values.iter().for_each(|x| hasher.write(&x.to_le_bytes())),
+            Values::Texts(values) => values.iter().for_each(|text| {
+                hasher.write(&(text.len() as u64).to_le_bytes());
+                hasher.write(text.as_bytes());
+            }),
+        }
+    }
+    format!("{:016x}", hasher.finish())
+}

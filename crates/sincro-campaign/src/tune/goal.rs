@@ -1,0 +1,167 @@
+//! Goals and limits as formulas of measures, and measures in one line.
+
+use sincro_math::expression::Expression;
+use sincro_scene::diagnostic::Diagnostic;
+
+use crate::measure::{measure_of_word, words_of_measures};
+
+/// Names of measures as formulas write them: letters and digits, everything else `_`.
+fn slug(name: &str) -> String {
+    let name = name.strip_prefix("check: ").unwrap_or(name);
+    let mut out = String::new();
+    for c in name.chars() {
+        if c.is_ascii_alphanumeric() {
+            out.push(c.to_ascii_lowercase());
+        } else if !out.ends_with('_') {
+            out.push('_');
+        }
+    }
+    let out = out.trim_matches('_').to_owned();
+    if out.starts_with(|c: char| c.is_ascii_digit()) { format!("_{out}") } else { out }
+}
+
+/// Reads a formula of measures.
+fn parse(text: &str, measures: &[String]) -> Result<Expression, Diagnostic> {
+    let names: Vec<String> = measures.iter().map(|name| slug(name)).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    Expression::parse(text, &names).map_err(|error| {
+        let problem = Diagnostic::without_location(format!("`{text}`: {}", error.message));
+        let known = format!("measures are: {}", names.join(", "));
+        problem.with_help(error.help.map_or_else(|| known.clone(), |help| format!("{help}; {known}")))
+    })
+}
+
+/// A goal: the smaller the better.
+#[derive(Clone, Debug)]
+pub struct Goal {
+    /// Its text.
+    pub text: String,
+    formula: Expression,
+}
+
+impl Goal {
+    /// Reads a goal.
+    ///
+    /// # Errors
+    ///
+    /// It is no formula of the measures.
+    pub fn parse(text: &str, measures: &[String]) -> Result<Self, Diagnostic> {
+        Ok(Self { text: text.to_owned(), formula: parse(text, measures)? })
+    }
+
+    /// Its value for the measures of a run.
+    #[must_use]
+    pub fn value(&self, measures: &[f64]) -> f64 {
+        self.formula.eval(measures, &mut self.formula.scratch())
+    }
+}
+
+/// A limit: `FORMULA <= FORMULA` or `FORMULA >= FORMULA`.
+#[derive(Clone, Debug)]
+pub struct Limit {
+    /// Its text.
+    pub text: String,
+    left: Expression,
+    right: Expression,
+    is_upper: bool,
+}
+
+impl Limit {
+    /// Reads a limit.
+    ///
+    /// # Errors
+    ///
+    /// It has no `<=` or `>=`, or its sides are no formulas of the measures.
+    pub fn parse(text: &str, measures: &[String]) -> Result<Self, Diagnostic> {
+        let (sides, is_upper) = match (text.split_once("<="), text.split_once(">=")) {
+            (Some(sides), _) => (sides, true),
+            (None, Some(sides)) => (sides, false),
+            (None, None) => {
+                let problem = Diagnostic::without_location(format!("`{text}` is no limit"));
+                return Err(problem.with_help("write MEASURE <= NUMBER or MEASURE >= NUMBER"));
+            }
+        };
+        let (left, right) = (parse(sides.0.trim(), measures)?, parse(sides.1.trim(), measures)?);
+        Ok(Self { text: text.to_owned(), left, right, is_upper })
+    }
+
+    /// Value of its left side.
+    #[must_use]
+    pub fn left(&self, measures: &[f64]) -> f64 {
+        self.left.eval(measures, &mut self.left.scratch())
+    }
+
+    /// By how much it is broken, relative to its right side; 0 if it is kept.
+    #[must_use]
+    pub fn violation(&self, measures: &[f64]) -> f64 {
+        let (left, right) = (self.left(measures), self.right.eval(measures, &mut self.right.scratch()));
+        let beyond = if self.is_upper { left - right } else { right - left };
+        if beyond.is_nan() { f64::INFINITY } else { beyond.max(0.0) / right.abs().max(1e-9) }
+    }
+}
+
+/// Tables of a plan for measures in one line: `NAME = MEASURE(FORMULA)` with signals in braces, such as
+/// `iae = integral(abs(1 - {/shaft.position}))`, and times `[s]` behind `from` and `to`.
+///
+/// # Errors
+///
+/// A line is not of this form.
+pub fn measure_tables(lines: &[String]) -> Result<String, Diagnostic> {
+    let mut out = String::new();
+    for line in lines {
+        let refuse = |message: String| {
+            Diagnostic::without_location(message)
+                .with_help("write NAME=MEASURE(FORMULA), signals in braces: iae=integral(abs(1 - {/shaft.position}))")
+        };
+        let (name, rest) = line.split_once('=').ok_or_else(|| refuse(format!("`{line}` has no `=`")))?;
+        let (word, rest) = rest.split_once('(').ok_or_else(|| refuse(format!("`{line}` has no measure")))?;
+        let formula = rest.trim().strip_suffix(')').ok_or_else(|| refuse(format!("`{line}` has no `)` at its end")))?;
+        let word = word.trim();
+        if measure_of_word(word).is_none() {
+            let known = words_of_measures().join(", ");
+            return Err(refuse(format!("there is no measure `{word}`")).with_help(format!("measures are: {known}")));
+        }
+        let (mut text, mut signals, mut rest) = (String::new(), Vec::<String>::new(), formula);
+        while let Some((before, behind)) = rest.split_once('{') {
+            let (signal, behind) = behind.split_once('}').ok_or_else(|| refuse(format!("`{line}` has no `}}`")))?;
+            let k = signals.iter().position(|known| known == signal).unwrap_or_else(|| {
+                signals.push(signal.to_owned());
+                signals.len() - 1
+            });
+            text += &format!("{before}signal_{k}");
+            rest = behind;
+        }
+        text += rest;
+        let list: Vec<String> = signals.iter().enumerate().map(|(k, s)| format!("signal_{k} = {s:?}")).collect();
+        out += &format!(
+            "[[measure]]\nname = {:?}\nformula = {text:?}\nsignals = {{ {} }}\nmeasure = {word:?}\n",
+            name.trim(),
+            list.join(", ")
+        );
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_and_limits_are_formulas_of_measures() {
+        let names = ["iae".to_owned(), "check: rise time, 10–90 %".to_owned()];
+        let goal = Goal::parse("iae + 0.5*rise_time_10_90", &names).unwrap();
+        assert_eq!(goal.value(&[1.0, 4.0]), 3.0);
+        let limit = Limit::parse("iae <= 2", &names).unwrap();
+        assert_eq!((limit.violation(&[1.0, 0.0]), limit.violation(&[3.0, 0.0])), (0.0, 0.5));
+        assert_eq!(limit.violation(&[f64::NAN, 0.0]), f64::INFINITY);
+        assert!(Goal::parse("ise", &names).unwrap_err().help.unwrap().contains("iae"));
+        assert!(Limit::parse("iae < 2", &names).is_err());
+    }
+
+    #[test]
+    fn a_measure_in_one_line_becomes_a_table() {
+        let text = measure_tables(&["iae=integral(abs({/a.b} - {/a.b}) + {c[0]})".to_owned()]).unwrap();
+        assert!(text.contains("formula = \"abs(signal_0 - signal_0) + signal_1\""), "{text}");
+        assert!(measure_tables(&["iae".to_owned()]).is_err() && measure_tables(&["a=sum({b})".to_owned()]).is_err());
+    }
+}

@@ -1,0 +1,372 @@
+//! Tuning: free parameters of a scene for the least value of a goal, within limits, over one run or a whole campaign.
+//!
+//! Candidates are compared by Deb's rules (2000): of two that keep all limits the one with the smaller goal is better,
+//! else the one that breaks them less. Neither method needs more than the order, so that no penalty has to be chosen.
+
+mod cma;
+mod goal;
+mod local;
+mod page;
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use serde_json::json;
+use sincro_figures::plot::number::{short, significant};
+use sincro_math::elementary::{exp, ln};
+use sincro_scene::overrides::Override;
+use sincro_sim::file::FileError;
+use sincro_sim::run::RunError;
+
+use crate::campaign::Campaign;
+use crate::fit::FreeParameter;
+pub use cma::Cma;
+pub use goal::{Goal, Limit, measure_tables};
+pub use local::Simplex;
+
+/// Method of the search.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// CMA-ES between the bounds.
+    #[default]
+    Global,
+    /// Simplex search from the start.
+    Local,
+}
+
+/// Rule by which the values of several runs become one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Robust {
+    /// The worst of all runs.
+    Worst,
+    /// The value that this share of the runs does not exceed.
+    Quantile(f64),
+    /// The mean.
+    Mean,
+}
+
+/// A search.
+#[derive(Debug)]
+pub struct Tuning<'a> {
+    /// The runs that every candidate makes.
+    pub campaign: &'a Campaign,
+    /// Free parameters, with finite bounds.
+    pub free: Vec<FreeParameter>,
+    /// Goal.
+    pub goal: Goal,
+    /// Limits.
+    pub limits: Vec<Limit>,
+    /// Several runs as one.
+    pub robust: Robust,
+    /// Method.
+    pub method: Method,
+    /// Most candidates.
+    pub budget: usize,
+    /// Seed of the draws.
+    pub seed: u64,
+}
+
+/// A candidate that was tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Values of the free parameters.
+    pub values: Vec<f64>,
+    /// Value of the goal; infinite if a run has none.
+    pub goal: f64,
+    /// Sum of what the limits are broken by, relative to them; 0 if they are kept.
+    pub violation: f64,
+    /// Measures of the first run.
+    pub measures: Vec<f64>,
+}
+
+impl Candidate {
+    /// Returns true if it is better by Deb's rules.
+    #[must_use]
+    pub fn is_better_than(&self, other: &Self) -> bool {
+        match (self.violation > 0.0, other.violation > 0.0) {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) => self.violation < other.violation,
+            (false, false) => self.goal < other.goal,
+        }
+    }
+}
+
+/// Result of a search.
+#[derive(Clone, Debug)]
+pub struct Tuned {
+    /// The start.
+    pub before: Candidate,
+    /// The best candidate.
+    pub after: Candidate,
+    /// Goal of the best candidate after so many, as far as it keeps the limits.
+    pub history: Vec<(usize, f64)>,
+    /// Candidates tried.
+    pub n_candidates: usize,
+    /// True if the search ended of itself, not by its budget.
+    pub has_converged: bool,
+    /// Wall time `[s]`.
+    pub wall_time: f64,
+}
+
+impl Tuning<'_> {
+    /// Searches; `progress` is told the share of the budget that is used and the best goal.
+    ///
+    /// # Errors
+    ///
+    /// A measured signal does not exist.
+    pub fn search(
+        &self,
+        interrupt: &AtomicBool,
+        progress: &mut dyn FnMut(f64, f64),
+    ) -> Result<Option<Tuned>, RunError> {
+        let clock = std::time::Instant::now();
+        let start: Vec<f64> = self.free.iter().map(|free| to_unit(free, free.start)).collect();
+        let Some(before) = self.evaluate(std::slice::from_ref(&start), interrupt)?.pop() else { return Ok(None) };
+        let mut best = before.clone();
+        let (mut history, mut n, mut has_converged) = (vec![(1, before.goal)], 1, false);
+        match self.method {
+            Method::Global => {
+                let mut search = Cma::new(&start, 0.3, self.seed);
+                while n < self.budget && !has_converged {
+                    let points = search.ask();
+                    let tried = self.evaluate(&points, interrupt)?;
+                    if tried.len() < points.len() {
+                        break;
+                    }
+                    n += tried.len();
+                    let mut order: Vec<usize> = (0..tried.len()).collect();
+                    order.sort_by(|a, b| compare(&tried[*a], &tried[*b]));
+                    if tried[order[0]].is_better_than(&best) {
+                        best = tried[order[0]].clone();
+                        history.push((n, best.goal));
+                    }
+                    search.tell(&order.iter().map(|i| points[*i].clone()).collect::<Vec<_>>());
+                    has_converged = search.has_converged();
+                    progress(n as f64 / self.budget as f64, best.goal);
+                }
+            }
+            Method::Local => {
+                let mut failure = None;
+                let merit = |x: &[f64]| {
+                    let candidate = match self.evaluate(&[x.to_vec()], interrupt) {
+                        Ok(mut found) => found.pop()?,
+                        Err(error) => {
+                            failure = Some(error);
+                            return None;
+                        }
+                    };
+                    n += 1;
+                    if candidate.is_better_than(&best) {
+                        best = candidate.clone();
+                        history.push((n, best.goal));
+                    }
+                    progress(n as f64 / self.budget as f64, best.goal);
+                    Some(candidate)
+                };
+                let made = Simplex::new(&start, 0.05).search(self.budget, merit, Candidate::is_better_than);
+                has_converged = made < self.budget;
+                if let Some(error) = failure {
+                    return Err(error);
+                }
+            }
+        }
+        if interrupt.load(Ordering::Relaxed) {
+            has_converged = false;
+        }
+        let wall_time = clock.elapsed().as_secs_f64();
+        Ok(Some(Tuned { before, after: best, history, n_candidates: n, has_converged, wall_time }))
+    }
+
+    /// Evaluates points of the unit cube on all processors; fewer come back if it was interrupted.
+    fn evaluate(&self, points: &[Vec<f64>], interrupt: &AtomicBool) -> Result<Vec<Candidate>, RunError> {
+        let n_runs = self.campaign.plan.n_runs();
+        let jobs = points.len() as u64 * n_runs;
+        let next = AtomicUsize::new(0);
+        let worker = || {
+            let mut mine = Vec::new();
+            loop {
+                let job = next.fetch_add(1, Ordering::Relaxed) as u64;
+                if job >= jobs || interrupt.load(Ordering::Relaxed) {
+                    return mine;
+                }
+                let settings = self.settings(&self.values(&points[(job / n_runs) as usize]));
+                mine.push((job, self.campaign.run_with(job % n_runs, &settings, interrupt)));
+            }
+        };
+        let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.max(1) as usize);
+        let mut rows: Vec<_> = std::thread::scope(|scope| {
+            let others: Vec<_> = (1..n_threads).map(|_| scope.spawn(worker)).collect();
+            let own = worker();
+            others.into_iter().flat_map(|thread| thread.join().expect("a run does not panic")).chain(own).collect()
+        });
+        rows.sort_by_key(|(job, _)| *job);
+        let mut found = Vec::with_capacity(rows.len());
+        for (_, row) in rows {
+            match row? {
+                Some(row) => found.push(row.measures),
+                None => return Ok(Vec::new()),
+            }
+        }
+        if found.len() as u64 != jobs {
+            return Ok(Vec::new());
+        }
+        let of_point = |(point, runs): (&Vec<f64>, &[Vec<f64>])| {
+            let value = |of: &dyn Fn(&[f64]) -> f64| self.robust.of(runs.iter().map(|run| of(run)).collect());
+            let goal = value(&|run| self.goal.value(run));
+            let violation = self.limits.iter().map(|limit| value(&|run| limit.violation(run))).sum::<f64>();
+            // a goal without value is worse than any limit that is broken
+            let violation = if goal.is_finite() { violation } else { f64::INFINITY };
+            Candidate { values: self.values(point), goal, violation, measures: runs[0].clone() }
+        };
+        Ok(points.iter().zip(found.chunks(n_runs as usize)).map(of_point).collect())
+    }
+
+    fn values(&self, unit: &[f64]) -> Vec<f64> {
+        self.free.iter().zip(unit).map(|(free, u)| from_unit(free, *u)).collect()
+    }
+
+    /// Settings of values of the free parameters.
+    #[must_use]
+    pub fn settings(&self, values: &[f64]) -> Vec<Override> {
+        self.free.iter().zip(values).map(|(free, value)| free.setting(*value)).collect()
+    }
+
+    /// Settings as they are typed.
+    #[must_use]
+    pub fn command(&self, values: &[f64]) -> String {
+        let set = self.free.iter().zip(values);
+        set.map(|(free, value)| format!("--set '{}={value:?}'", free.path)).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Summary for the terminal.
+    #[must_use]
+    pub fn text(&self, tuned: &Tuned) -> String {
+        use std::fmt::Write as _;
+        let mut out = format!("{}, tuned\n", self.campaign.loaded.experiment.title);
+        let width = self.free.iter().map(|free| free.path.chars().count()).max().unwrap_or(0);
+        for (k, free) in self.free.iter().enumerate() {
+            let (before, after) = (significant(tuned.before.values[k], 5), significant(tuned.after.values[k], 6));
+            let _ = writeln!(out, "  {:<width$}  {before} → {after}", free.path);
+        }
+        let change = 100.0 * (tuned.after.goal / tuned.before.goal - 1.0);
+        let _ = writeln!(
+            out,
+            "  goal {}: {} → {} ({} %)",
+            self.goal.text,
+            significant(tuned.before.goal, 5),
+            significant(tuned.after.goal, 5),
+            significant(change, 3)
+        );
+        for limit in &self.limits {
+            let of = |candidate: &Candidate| significant(limit.left(&candidate.measures), 4);
+            let kept = if limit.violation(&tuned.after.measures) > 0.0 { "BROKEN" } else { "kept" };
+            let _ = writeln!(out, "  {}: {} → {}, {kept}", limit.text, of(&tuned.before), of(&tuned.after));
+        }
+        let ended = if tuned.has_converged { "converged" } else { "ended by its budget" };
+        let _ = writeln!(
+            out,
+            "  {ended} after {} candidates of {} in {} s, seed {}",
+            tuned.n_candidates,
+            runs(self.campaign.plan.n_runs()),
+            significant(tuned.wall_time, 2),
+            self.seed
+        );
+        let _ = writeln!(out, "  {}", self.command(&tuned.after.values));
+        out
+    }
+
+    /// Writes `tune.json` and `report.html` into a folder.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be written.
+    pub fn write(&self, tuned: &Tuned, folder: &Path) -> Result<(), FileError> {
+        sincro_sim::file::prepare(folder)?;
+        let names = &self.campaign.layout.measures;
+        let of = |candidate: &Candidate| {
+            json!({
+                "goal": candidate.goal, "violation": candidate.violation,
+                "values": self.free.iter().zip(&candidate.values).map(|(f, x)| (f.path.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
+                "measures": names.iter().zip(&candidate.measures).map(|(n, x)| (n.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
+            })
+        };
+        let document = json!({
+            "title": self.campaign.loaded.experiment.title, "goal": self.goal.text, "seed": self.seed,
+            "sincro_version": env!("CARGO_PKG_VERSION"),
+            "subject": self.limits.iter().map(|limit| limit.text.clone()).collect::<Vec<_>>(),
+            "before": of(&tuned.before), "after": of(&tuned.after),
+            "candidates": tuned.n_candidates, "converged": tuned.has_converged,
+        });
+        let text = serde_json::to_string_pretty(&document).expect("plain data") + "\n";
+        sincro_sim::file::write_atomically(&folder.join("tune.json"), text.as_bytes())?;
+        sincro_sim::file::write_atomically(&folder.join("report.html"), page::html(self, tuned).as_bytes())
+    }
+}
+
+fn runs(n: u64) -> String {
+    if n == 1 { "one run".into() } else { format!("{n} runs") }
+}
+
+/// Order of candidates, the better first; equals keep theirs.
+fn compare(a: &Candidate, b: &Candidate) -> std::cmp::Ordering {
+    match (a.is_better_than(b), b.is_better_than(a)) {
+        (true, _) => std::cmp::Ordering::Less,
+        (_, true) => std::cmp::Ordering::Greater,
+        _ => std::cmp::Ordering::Equal,
+    }
+}
+
+impl Robust {
+    /// Reads `worst`, `mean` or a share such as `0.9`.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Self> {
+        match word {
+            "worst" => Some(Self::Worst),
+            "mean" => Some(Self::Mean),
+            share => share.parse().ok().filter(|x| (0.0..=1.0).contains(x)).map(Self::Quantile),
+        }
+    }
+
+    fn of(self, mut values: Vec<f64>) -> f64 {
+        // what has no value is worse than anything
+        values.iter_mut().filter(|x| x.is_nan()).for_each(|x| *x = f64::INFINITY);
+        values.sort_by(f64::total_cmp);
+        match self {
+            Self::Worst => values.last().copied().unwrap_or(f64::INFINITY),
+            Self::Mean => values.iter().sum::<f64>() / values.len() as f64,
+            // no straight line towards an infinite value
+            Self::Quantile(share) => {
+                values[((share * (values.len() - 1) as f64).ceil() as usize).min(values.len() - 1)]
+            }
+        }
+    }
+}
+
+/// True if a parameter is searched on a logarithmic scale: positive bounds that are far apart.
+fn is_logarithmic(free: &FreeParameter) -> bool {
+    free.low > 0.0 && free.high / free.low > 10.0
+}
+
+fn to_unit(free: &FreeParameter, value: f64) -> f64 {
+    let u = if is_logarithmic(free) {
+        (ln(value).0 - ln(free.low).0) / (ln(free.high).0 - ln(free.low).0)
+    } else {
+        (value - free.low) / (free.high - free.low)
+    };
+    u.clamp(0.0, 1.0)
+}
+
+fn from_unit(free: &FreeParameter, u: f64) -> f64 {
+    let value = if is_logarithmic(free) {
+        exp(ln(free.low).0 + u * (ln(free.high).0 - ln(free.low).0)).0
+    } else {
+        free.low + u * (free.high - free.low)
+    };
+    value.clamp(free.low, free.high)
+}
+
+/// Words of a number for the page.
+pub(crate) fn number(x: f64) -> String {
+    if x.is_finite() { short(x, 6) } else { "none".into() }
+}
