@@ -75,6 +75,17 @@ impl<R: Real> WarmStart<R> {
         }
     }
 
+    /// Takes multipliers and modes from a state; they are those that the motion came with.
+    pub fn load(&mut self, numbers: &[R]) {
+        self.numbers.copy_from_slice(numbers);
+        self.start.copy_from_slice(numbers);
+    }
+
+    /// Forgets the modes that the motion came with: those of a step at velocity level are no modes of forces.
+    pub fn forget_start(&mut self) {
+        self.start.fill(R::zero());
+    }
+
     pub fn zeno_fallback(&self) -> ZenoFallback {
         let number = self.numbers.last().map_or(0, |x| x.lane(0) as u32);
         ZenoFallback { pause: number / 256, left: number % 256 }

@@ -145,7 +145,7 @@ impl<R: Real> Mechanism<R> {
         self.commands.copy_from_slice(&x.commands);
         self.drives.copy_from_slice(&x.drives);
         if let Some(constraints) = &mut self.constraints {
-            constraints.memory.numbers.copy_from_slice(&x.contacts);
+            constraints.memory.load(&x.contacts);
         }
         y[..n].fill(R::zero());
         y[n..2 * n].copy_from_slice(&x.v);

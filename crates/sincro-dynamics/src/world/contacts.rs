@@ -3,7 +3,7 @@
 
 use super::{Stop, World};
 use crate::actuation::DriveKind;
-use crate::constraint::warm_start::ZenoFallback;
+use crate::constraint::warm_start::{WarmStart, ZenoFallback};
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler, System};
 use crate::mechanism::constraints::ActivationRule;
@@ -138,6 +138,7 @@ impl World {
             method.step(system, t, h, &mut world.y);
         });
         self.time_stepping = Some(method);
+        self.mechanism.contact_memory().into_iter().for_each(WarmStart::forget_start);
         if !self.y.iter().all(|x| x.is_finite()) {
             self.restore();
             return Err((t, Stop::Integration(Failure::NotFinite { t })));

@@ -109,7 +109,7 @@ impl World {
     /// Adds limited drive `i` to a kink, or a new one with its mode; it takes the mode of the kink.
     fn add_to_kink(&mut self, i: usize, known: Option<usize>) {
         let drive = self.mechanism.model.drives[i];
-        let limit = self.mechanism.model.drive_limit(&drive).unwrap_or(f64::INFINITY);
+        let limit = self.mechanism.model.saturated_torque(&drive, self.velocity(drive.dof)).unwrap_or(f64::INFINITY);
         let k = known.unwrap_or(self.kinks.len());
         if known.is_none() {
             let (target, saturation) = (self.target_velocities[i], self.mechanism.drives[i]);
