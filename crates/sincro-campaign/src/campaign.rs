@@ -183,7 +183,7 @@ impl Campaign {
     ///
     /// # Errors
     ///
-    /// What the scene refuses.
+    /// Everything that the scene refuses.
     pub fn loaded_at(&self, point: &RunPoint) -> Result<Loaded, Diagnostics> {
         self.loaded_with(point, &[])
     }
@@ -192,7 +192,7 @@ impl Campaign {
     ///
     /// # Errors
     ///
-    /// What the scene refuses.
+    /// Everything that the scene refuses.
     pub fn loaded_with(&self, point: &RunPoint, more: &[Override]) -> Result<Loaded, Diagnostics> {
         let variant = &self.variants[point.variant_idx];
         let settings: Vec<Override> = self.settings(point).into_iter().chain(more.iter().cloned()).collect();
@@ -289,7 +289,7 @@ impl Campaign {
             let own = loaded.experiment.checks.iter().find(|c| c.name == check.name).unwrap_or(check);
             let outcomes = evaluate(std::slice::from_ref(own), &run.table, stopped);
             let Some(outcome) = outcomes.first() else { continue };
-            row.measures[*j] = outcome.measured.unwrap_or(f64::NAN);
+            row.measures[*j] = outcome.measured.filter(|_| is_whole).unwrap_or(f64::NAN);
             row.n_failed += u64::from(outcome.verdict == Verdict::Fails);
         }
         row.is_good = keeps && row.n_failed == 0;

@@ -42,6 +42,8 @@ pub enum Purpose {
     Mutation,
     /// Noise added to data.
     Noise,
+    /// A choice of the runs that are shown.
+    Sample,
 }
 
 /// 64 random bits: a function of the seed, the purpose, a stream and an index.

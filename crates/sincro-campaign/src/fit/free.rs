@@ -86,7 +86,7 @@ pub fn settings(fixed: &[Override], free: &[FreeParameter], values: &[f64]) -> V
     fixed.iter().cloned().chain(free.iter().zip(values).map(|(free, value)| free.setting(*value))).collect()
 }
 
-/// Reads all that stand after `--free`, separated by commas outside of brackets.
+/// Reads all texts after `--free`; each may hold several, separated by commas.
 ///
 /// # Errors
 ///

@@ -65,7 +65,8 @@ impl<'a> Fit<'a> {
         let mut held_back = Vec::new();
         for set in validation {
             let sets = std::slice::from_ref(set);
-            let other = Model::new(model.loaded, &[], model.free.clone(), sets, false, model.interrupt);
+            let own = model.own_settings();
+            let other = Model::new(model.loaded, own, model.free.clone(), sets, false, model.interrupt);
             held_back.push((set.clone(), other.predict(&solution.unknowns[..model.free.len()])?));
         }
         Ok(Self { title, model, loss, confidence, solution, inference, predicted, validation: held_back, wall_time })

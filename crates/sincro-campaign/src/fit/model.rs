@@ -1,7 +1,7 @@
 //! The simulated counterpart of measured data, and its derivatives by the free parameters.
 //!
-//! Derivatives are central differences of runs at a tight tolerance (Richardson's extrapolation of two widths), because
-//! the lock-step computes on plain numbers. The two widths give an estimate of their error, which the report states.
+//! Derivatives are differences of runs at a tight tolerance (Richardson's extrapolation of two widths), central inside of
+//! the bounds and one-sided at a bound, because the lock-step computes on plain numbers. The two widths give an estimate of their error, which the report states.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -26,8 +26,10 @@ const COARSE: f64 = 1e-9;
 pub struct Model<'a> {
     /// The scene.
     pub loaded: &'a Loaded,
-    /// Settings of all runs.
+    /// Settings of all runs: those of the caller, then those that the runs of a fit need.
     pub fixed: Vec<Override>,
+    /// Number of the caller's settings.
+    n_own: usize,
     /// Free parameters.
     pub free: Vec<FreeParameter>,
     /// Data that are fitted.
@@ -80,7 +82,7 @@ impl<'a> Model<'a> {
         has_offsets: bool,
         interrupt: &'a AtomicBool,
     ) -> Self {
-        let mut fixed = fixed.to_vec();
+        let (mut fixed, n_own) = (fixed.to_vec(), fixed.len());
         let last = sets.iter().filter_map(|set| set.times.last()).fold(0.0_f64, |a, b| a.max(*b));
         let step = loaded.experiment.step;
         // four rows behind the last time, for the cubic
@@ -92,7 +94,13 @@ impl<'a> Model<'a> {
         // what a fit does not look at is not read
         fixed.extend(["check", "plot", "variant"].map(|key| Override::new(key, "[]")));
         let (n_runs, is_coarse) = (AtomicUsize::new(0), AtomicBool::new(false));
-        Self { loaded, fixed, free, sets, has_offsets, interrupt, n_runs, is_coarse }
+        Self { loaded, fixed, n_own, free, sets, has_offsets, interrupt, n_runs, is_coarse }
+    }
+
+    /// Settings that the caller gave.
+    #[must_use]
+    pub fn own_settings(&self) -> &[Override] {
+        &self.fixed[..self.n_own]
     }
 
     /// Makes runs at the tolerance of the way to the solution, or at that of the solution itself.
@@ -188,8 +196,13 @@ impl<'a> Model<'a> {
     pub fn sensitivities(&self, unknowns: &[f64], with_error: bool) -> Result<Sensitivities, ModelError> {
         let n = self.n_unknowns();
         let widths: &[f64] = if with_error { &[WIDTH, 0.5 * WIDTH] } else { &[0.5 * WIDTH] };
-        let jobs: Vec<(usize, f64)> =
-            (0..n).flat_map(|k| widths.iter().flat_map(move |w| [(k, *w), (k, -*w)])).collect();
+        let differences: Vec<Difference> = (0..n).map(|k| Difference::at(unknowns[k], self.bounds(k))).collect();
+        let points = |k: usize| widths.iter().flat_map(move |w| [(k, *w, 0), (k, *w, 1)]);
+        let mut jobs: Vec<(usize, f64)> =
+            (0..n).flat_map(points).map(|(k, width, i)| (k, differences[k].steps(width)[i])).collect();
+        // one-sided differences need the place itself
+        let needs_middle = differences.iter().any(|d| d.side != 0.0);
+        jobs.extend(needs_middle.then_some((0, 0.0)));
         let next = AtomicUsize::new(0);
         let mut results: Vec<Option<Result<Vec<f64>, ModelError>>> = jobs.iter().map(|_| None).collect();
         let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len().max(1));
@@ -197,9 +210,10 @@ impl<'a> Model<'a> {
             let mut mine = Vec::new();
             loop {
                 let j = next.fetch_add(1, Ordering::Relaxed);
-                let Some((k, width)) = jobs.get(j) else { return mine };
+                let Some((k, step)) = jobs.get(j) else { return mine };
                 let mut at = unknowns.to_vec();
-                at[*k] += width * self.bounds(*k).3;
+                let (_, low, high, _) = self.bounds(*k);
+                at[*k] = (at[*k] + step).clamp(low, high);
                 mine.push((j, self.predict(&at)));
             }
         };
@@ -209,28 +223,70 @@ impl<'a> Model<'a> {
             let all = others.into_iter().flat_map(|thread| thread.join().expect("a run does not panic")).chain(own);
             all.for_each(|(j, result)| results[j] = Some(result));
         });
+        let middle = if needs_middle { results.pop().flatten().transpose()? } else { None }.unwrap_or_default();
         let mut values = results.into_iter().map(|result| result.expect("every job was done"));
         let (mut columns, mut worst) = (Vec::with_capacity(n), 0.0_f64);
         for k in 0..n {
             let mut slopes = Vec::new();
             for width in widths {
-                let (up, down) = (values.next().expect("two a width")?, values.next().expect("two a width")?);
-                let h = 2.0 * width * self.bounds(k).3;
-                slopes.push(up.iter().zip(&down).map(|(a, b)| (a - b) / h).collect::<Vec<f64>>());
+                let (first, second) = (values.next().expect("two a width")?, values.next().expect("two a width")?);
+                slopes.push(differences[k].slopes(*width, &first, &second, &middle));
             }
             if let [wide, narrow] = slopes.as_slice() {
                 let better: Vec<f64> = narrow.iter().zip(wide).map(|(n, w)| n + (n - w) / 3.0).collect();
                 let largest = better.iter().copied().filter(|x| x.is_finite()).fold(0.0_f64, |a, b| a.max(b.abs()));
-                // what is left after the extrapolation is of the square of what it took away
+                // what is left after the extrapolation is of the square of what it took away, one-sided of its power 3/2
                 let taken = narrow.iter().zip(wide).map(|(n, w)| (n - w).abs() / 3.0).filter(|x| x.is_finite());
                 let share = taken.fold(0.0_f64, f64::max) / largest.max(f64::MIN_POSITIVE);
-                worst = worst.max((share * share).max(1e-15 / WIDTH));
+                let left = if differences[k].side == 0.0 { share * share } else { share * share.sqrt() };
+                worst = worst.max(left.max(1e-15 / WIDTH));
                 columns.push(better);
             } else {
                 columns.push(slopes.pop().expect("one width"));
             }
         }
         Ok(Sensitivities { columns, error: worst })
+    }
+}
+
+/// Difference of second order for the derivative by an unknown: central, or one-sided where that would leave its bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Difference {
+    /// 0 for a central difference, 1 for one towards larger values, −1 for one towards smaller.
+    side: f64,
+    /// Unit of the widths.
+    scale: f64,
+}
+
+impl Difference {
+    /// The difference at a value; `bounds` as of [`Model::bounds`].
+    fn at(value: f64, (_, low, high, scale): (f64, f64, f64, f64)) -> Self {
+        // the wider difference fits between the bounds to one side or the other
+        let scale = scale.min((high - low) / (4.0 * WIDTH));
+        let side = match scale * WIDTH {
+            h if value - h >= low && value + h <= high => 0.0,
+            h if value + 2.0 * h <= high => 1.0,
+            _ => -1.0,
+        };
+        Self { side, scale }
+    }
+
+    /// Distances of its two points from the value.
+    fn steps(self, width: f64) -> [f64; 2] {
+        let h = width * self.scale;
+        if self.side == 0.0 { [h, -h] } else { [self.side * h, 2.0 * self.side * h] }
+    }
+
+    /// Slopes from what is predicted at its two points and, if it is one-sided, at the value.
+    fn slopes(self, width: f64, first: &[f64], second: &[f64], middle: &[f64]) -> Vec<f64> {
+        let h = width * self.scale;
+        let points = first.iter().zip(second);
+        if self.side == 0.0 {
+            points.map(|(up, down)| (up - down) / (2.0 * h)).collect()
+        } else {
+            let slope = |((near, far), at): ((&f64, &f64), &f64)| (4.0 * near - far - 3.0 * at) / (2.0 * h * self.side);
+            points.zip(middle).map(slope).collect()
+        }
     }
 }
 
@@ -245,6 +301,26 @@ impl From<ModelError> for Diagnostics {
                     .into()
             }
             ModelError::Interrupted => Diagnostic::without_location("it was interrupted").into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_stay_between_the_bounds_and_are_of_second_order() {
+        let square = |x: f64| [x * x];
+        for (value, low, high, side) in
+            [(2.0, 0.0, 9.0, 0.0), (0.0, 0.0, 9.0, 1.0), (9.0, 0.0, 9.0, -1.0), (3.0, 3.0, 3.0 + 1e-6, 1.0)]
+        {
+            let difference = Difference::at(value, (value, low, high, 2.0));
+            assert_eq!(difference.side, side, "{value}");
+            let points = difference.steps(WIDTH).map(|step| value + step);
+            assert!(points.iter().all(|x| (low..=high).contains(x)), "{points:?}");
+            let slope = difference.slopes(WIDTH, &square(points[0]), &square(points[1]), &square(value))[0];
+            assert!((slope - 2.0 * value).abs() < 1e-6, "{value}: {slope}");
         }
     }
 }

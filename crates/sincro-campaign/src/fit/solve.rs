@@ -8,6 +8,13 @@ use super::model::{Model, ModelError, Sensitivities};
 const MAX_ITERATIONS: usize = 60;
 /// Relative change of the cost or of all unknowns below which the search has converged.
 const CONVERGED: f64 = 1e-10;
+/// Scaled gradient below which a point is stationary: the largest cosine of an angle between the residuals and a column of
+/// the sensitivities. A relative decrease of the cost by [`CONVERGED`] is one of its square.
+const STATIONARY: f64 = 1e-4;
+/// Part of the residuals along a column, relative to the data, that is below the accuracy of the runs.
+const NOISE: f64 = 1e-8;
+/// Damping at the start, and after the weights of a robust loss have changed.
+const DAMPING: f64 = 1e-3;
 /// Derivative, relative to the data, below which a parameter does nothing.
 const DEAD: f64 = 1e-11;
 
@@ -70,7 +77,8 @@ pub struct Solution {
     pub cost: (f64, f64),
     /// Iterations made.
     pub n_iterations: usize,
-    /// True if the change fell below the tolerance; else the iteration limit was reached.
+    /// True if the change or the gradient fell below its tolerance; else no better point was found, or the iteration
+    /// limit was reached.
     pub has_converged: bool,
     /// Unknowns at a bound.
     pub at_bound: Vec<bool>,
@@ -123,8 +131,10 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
     }
     let start_cost = half_square(&residuals);
     let mut robust = weights_of(loss, &residuals);
-    let (mut damping, mut converged, mut n_iterations) = (1e-3, false, 0);
+    let (mut damping, mut converged, mut n_iterations) = (DAMPING, false, 0);
     let size = measured.iter().zip(&weights).map(|(m, w)| (w * m).abs()).filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let data_norm =
+        measured.iter().zip(&weights).map(|(m, w)| w * m).filter(|x| x.is_finite()).map(|x| x * x).sum::<f64>().sqrt();
     while n_iterations < MAX_ITERATIONS && !converged {
         n_iterations += 1;
         let sensitivities = model.sensitivities(&x, false)?;
@@ -143,6 +153,7 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
             })
             .collect();
         let mut hessian = jacobian.transpose() * &jacobian;
+        let stationary = is_stationary(&gradient, &hessian, &is_held, r.norm(), data_norm);
         let mut right = -gradient;
         for k in (0..n).filter(|k| is_held[*k]) {
             (0..n).for_each(|j| {
@@ -153,7 +164,7 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
             right[k] = 0.0;
         }
         let cost = 0.5 * r.norm_squared();
-        let mut accepted = false;
+        let (mut accepted, mut is_stuck) = (false, false);
         while damping < 1e12 {
             let mut damped = hessian.clone();
             (0..n).for_each(|k| damped[(k, k)] += damping * hessian[(k, k)].max(1e-12));
@@ -174,7 +185,10 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
             let tried_cost = weighted_half_square(&tried, &robust);
             if tried_cost.is_finite() && tried_cost <= cost && count(&tried) == n_values {
                 let change = (0..n).map(|k| ((next[k] - x[k]) / scales[k]).abs()).fold(0.0, f64::max);
-                converged = change < CONVERGED || (cost - tried_cost) <= CONVERGED * cost;
+                let is_small = change < CONVERGED || (cost - tried_cost) <= CONVERGED * cost;
+                // a small step says nothing if it is the damping that makes it small
+                converged = is_small && (stationary || damping <= 1.0);
+                is_stuck = is_small && !converged;
                 (x, residuals) = (next, tried);
                 damping = (damping * 0.2).max(1e-12);
                 accepted = true;
@@ -183,13 +197,18 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
             damping *= 5.0;
         }
         if !accepted {
-            converged = true;
+            (converged, is_stuck) = (stationary, !stationary);
         }
         if loss != Loss::Squares {
             let next = weights_of(loss, &residuals);
             let change = next.iter().zip(&robust).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            converged &= change < 1e-6;
             robust = next;
+            if change >= 1e-6 {
+                (converged, is_stuck, damping) = (false, false, DAMPING);
+            }
+        }
+        if is_stuck {
+            break;
         }
     }
     model.set_coarse(false);
@@ -224,6 +243,20 @@ pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
         n_iterations,
         has_converged: converged,
         at_bound,
+    })
+}
+
+/// True if no unknown that is not held moves the residuals along themselves, beyond the accuracy of the runs.
+fn is_stationary(
+    gradient: &DVector<f64>,
+    hessian: &DMatrix<f64>,
+    is_held: &[bool],
+    residual_norm: f64,
+    data_norm: f64,
+) -> bool {
+    (0..gradient.len()).filter(|k| !is_held[*k]).all(|k| {
+        let along = gradient[k].abs() / hessian[(k, k)].sqrt().max(f64::MIN_POSITIVE);
+        along <= STATIONARY * residual_norm || along <= NOISE * data_norm
     })
 }
 
@@ -271,4 +304,20 @@ fn reduced(
     });
     let r = DVector::from_fn(rows.len(), |i, _| robust[rows[i]].sqrt() * residuals[rows[i]]);
     (jacobian, r)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_is_stationary_by_the_angle_of_its_residuals() {
+        let hessian = DMatrix::from_fn(2, 2, |i, j| if i == j { 4.0 } else { 0.0 });
+        let of = |a: f64, b: f64, held: [bool; 2], data: f64| {
+            is_stationary(&DVector::from_fn(2, |i, _| [a, b][i]), &hessian, &held, 1.0, data)
+        };
+        assert!(of(1e-5, -1e-5, [false; 2], 1.0));
+        assert!(!of(1e-5, -0.1, [false; 2], 1.0));
+        assert!(of(1e-5, -0.1, [false, true], 1.0) && of(1e-5, -0.1, [false; 2], 1e8));
+    }
 }

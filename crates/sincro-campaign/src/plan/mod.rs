@@ -4,7 +4,7 @@
 //! |---|---|
 //! | run `k` | sample `k / n_variants` in variant `k % n_variants` |
 //! | sample `s` | point `s / n_draws` of the grid with draw `s % n_draws` |
-//! | draw `i` | coordinates in the unit cube by the design, correlated, then through the inverse distribution functions |
+//! | draw `i` | coordinates in the unit cube by the design, correlated, through the inverse distribution functions |
 //!
 //! Every point of the grid has the same draws (common random numbers), so that differences between points are theirs.
 
@@ -69,7 +69,7 @@ pub struct Parameter {
     pub distribution: Distribution,
 }
 
-/// Which checks of the scene are measured.
+/// Checks of the scene that are measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Checks {
     /// All of each variant.
@@ -155,10 +155,10 @@ impl Plan {
         read::plan(path, text)
     }
 
-    /// Number of points of the grid.
+    /// Number of points of the grid; `u64::MAX` if there are more than that.
     #[must_use]
     pub fn n_grid(&self) -> u64 {
-        self.parameters.iter().map(|p| grid_len(&p.distribution)).product()
+        self.parameters.iter().map(|p| grid_len(&p.distribution)).fold(1, u64::saturating_mul)
     }
 
     /// Number of samples: points of the grid times draws.

@@ -63,13 +63,17 @@ pub(super) fn resolve(file: PlanFile, places: &Places) -> Result<Plan, Diagnosti
             Checks::None
         }
     };
+    if let Some(n) = file.rows_per_part.as_ref().filter(|n| *n.get_ref() == 0) {
+        found.push(places.error(n, "`rows_per_part` is 0").with_help("write 1 or more, or leave it away"));
+    }
+    refuse_twice(&file, places, &mut found);
     let located = |s: &Spanned<String>| Located { value: s.get_ref().clone(), at: places.of(s) };
     let mut variants: Vec<Located<String>> = file.variants.iter().map(located).collect();
     if variants.is_empty() {
         variants.push(Located { value: "main".into(), at: places.start() });
     }
     let setting = |(path, value): (&Spanned<String>, &Spanned<toml::Value>)| {
-        let text = Override::new(path.get_ref(), &inline(value.get_ref()));
+        let text = Override::new(path.get_ref(), &value.get_ref().to_string());
         Override { path: located(path), value: Located { value: text.value.value, at: places.of(value) } }
     };
     let set = file.set.iter().map(setting).collect();
@@ -88,31 +92,21 @@ pub(super) fn resolve(file: PlanFile, places: &Places) -> Result<Plan, Diagnosti
         set,
         measures,
         checks,
-        rows_per_part: file.rows_per_part.as_ref().map(|n| (*n.get_ref()).clamp(1, 1 << 20)),
+        rows_per_part: file.rows_per_part.as_ref().map(|n| (*n.get_ref()).min(1 << 20)),
         source: places.source.clone(),
     };
     if plan.n_runs() > MAX_RUNS {
-        let problem =
-            Diagnostic::error(&places.start(), format!("{} runs are more than a campaign has", plan.n_runs()));
+        let problem = Diagnostic::error(
+            &places.start(),
+            format!("{} are more than a campaign has", words_of_runs(plan.n_runs())),
+        );
         found.push(problem.with_help(format!("make fewer: at most {MAX_RUNS}")));
     }
     if found.any_error() { Err(found.sorted()) } else { Ok(plan) }
 }
 
-/// A TOML value on one line.
-fn inline(value: &toml::Value) -> String {
-    match value {
-        toml::Value::String(text) => format!("{:?}", text),
-        toml::Value::Array(items) => format!("[{}]", items.iter().map(inline).collect::<Vec<_>>().join(", ")),
-        toml::Value::Table(table) => {
-            let pairs: Vec<String> = table.iter().map(|(key, value)| format!("{key:?} = {}", inline(value))).collect();
-            format!("{{ {} }}", pairs.join(", "))
-        }
-        toml::Value::Float(x) => format!("{x:?}"),
-        toml::Value::Integer(n) => n.to_string(),
-        toml::Value::Boolean(is_true) => is_true.to_string(),
-        toml::Value::Datetime(time) => time.to_string(),
-    }
+fn words_of_runs(n: u64) -> String {
+    if n == u64::MAX { "over 10¹⁹ runs".into() } else { format!("{n} runs") }
 }
 
 fn resolve_design(file: &PlanFile, places: &Places, found: &mut Diagnostics) -> Design {
@@ -183,6 +177,23 @@ fn refuse_doubles<'a>(names: impl Iterator<Item = &'a str>, places: &Places, fou
             found.push(problem.with_help("give a parameter or a measure another `name`"));
         }
         seen.push(name);
+    }
+}
+
+/// Refuses variants that are named twice and paths that two parameters set.
+fn refuse_twice(file: &PlanFile, places: &Places, found: &mut Diagnostics) {
+    for (k, variant) in file.variants.iter().enumerate() {
+        if file.variants[..k].iter().any(|other| other.get_ref() == variant.get_ref()) {
+            found.push(places.error(variant, format!("the variant `{}` is named twice", variant.get_ref())));
+        }
+    }
+    let mut seen: Vec<&str> = Vec::new();
+    for path in file.parameter.iter().flat_map(|p| std::iter::once(&p.get_ref().path).chain(&p.get_ref().also)) {
+        if seen.contains(&path.get_ref().as_str()) {
+            let problem = places.error(path, format!("`{}` is set by two parameters", path.get_ref()));
+            found.push(problem.with_help("a number takes its value from one parameter"));
+        }
+        seen.push(path.get_ref());
     }
 }
 
@@ -323,6 +334,20 @@ fn resolve_correlation(
         };
         if i == j || of.value.is_nan() || of.value.abs() >= 1.0 {
             found.push(places.error(correlation, "a correlation lies between −1 and 1 and has two parameters"));
+            continue;
+        }
+        let file_of = |name: &str| {
+            let of = parameters.iter().find(|p| p.name == name).map(|p| &p.distribution);
+            if let Some(Distribution::Table { file, .. }) = of { Some(*file) } else { None }
+        };
+        let is_joint = |name: &&str| {
+            file_of(name).is_some_and(|file| drawn.iter().filter(|d| file_of(d) == Some(file)).count() > 1)
+        };
+        if let Some(name) = [drawn[i], drawn[j]].iter().find(|name| is_joint(name)) {
+            let message =
+                format!("`{name}` is drawn with other columns of its table, which say how they vary together");
+            let problem = places.error(correlation, message);
+            found.push(problem.with_help("leave the correlation away, or draw only one column of that table"));
             continue;
         }
         matrix[i][j] = of.value;

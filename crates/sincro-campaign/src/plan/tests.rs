@@ -82,3 +82,45 @@ fn everything_wrong_is_said_at_once() {
     assert!(found[0].contains("unknown field `run`"), "{found:?}");
     assert!(problems(&DRAWN.replace("runs = 100\n", ""))[0].contains("`runs` is missing"));
 }
+
+#[test]
+fn what_is_there_twice_or_too_large_is_refused() {
+    let grid = |path: &str| {
+        format!("[[parameter]]\npath = \"{path}\"\nrange = {{ from = 0.0, to = 1.0, points = 1000000 }}\n")
+    };
+    let paths = ["/c.mass", "/d.mass", "/e.mass", "/f.mass"];
+    let found = problems(&format!("{DRAWN}{}", paths.map(grid).concat()));
+    assert!(found.iter().any(|message| message.contains("more than a campaign has")), "{found:?}");
+    let found = problems(
+        "scene = \"x\"\nvariants = [\"main\", \"main\"]\nrows_per_part = 0\n\
+         [[parameter]]\npath = \"/a.mass\"\nvalues = [1.0]\n\
+         [[parameter]]\nname = \"b\"\npath = \"/a.mass\"\nvalues = [1.0]\n",
+    );
+    for part in ["`main` is named twice", "`rows_per_part` is 0", "`/a.mass` is set by two"] {
+        assert!(found.iter().any(|message| message.contains(part)), "{part}: {found:?}");
+    }
+}
+
+#[test]
+fn settings_are_written_as_toml() {
+    let plan = plan("scene = \"x\"\n[set]\na = \"tab\\t, \\u0001\"\nb = [1.0, inf]\nc = 2\n");
+    for set in &plan.set {
+        let value: toml::Table = format!("x = {}", set.value.value).parse().unwrap();
+        assert!(value.contains_key("x"), "{}", set.value.value);
+    }
+}
+
+#[test]
+fn a_correlation_with_columns_of_one_table_is_refused() {
+    let folder = std::env::temp_dir().join(format!("sincro-plan-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("t.csv"), "time,p,q\n0,1,2\n1,3,4\n").unwrap();
+    let column =
+        |c: &str| format!("[[parameter]]\npath = \"/{c}.x\"\ntable = {{ file = \"t.csv\", column = \"{c}\" }}\n");
+    let with = "[[correlation]]\nbetween = [\"/a.mass\", \"/p.x\"]\nvalue = 0.5\n";
+    let read = |text: String| Plan::parse(&folder.join("plan.toml"), text);
+    assert!(read(format!("{DRAWN}{}{with}", column("p"))).is_ok());
+    let found = read(format!("{DRAWN}{}{}{with}", column("p"), column("q"))).unwrap_err();
+    assert!(found.0[0].message.contains("`/p.x` is drawn with other columns"), "{:?}", found.0[0].message);
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -109,13 +109,14 @@ fn measures(manifest: &Manifest, summary: &Summary) -> String {
         .map(|(j, column)| {
             let (moments, values) = (&summary.measures[j], ascending(summary, j));
             let num = |label: &str, x: f64| cell(label, "num", &escape_raised(&significant(x, 4)));
+            let end = |end: Option<f64>| end.map_or_else(|| "–".into(), |x| escape_raised(&significant(x, 4)));
             let interval = |share: f64| {
                 let (low, high) = quantile_interval(&values, share, manifest.confidence);
                 format!(
                     "{}<br><small>{} … {}</small>",
                     escape_raised(&significant(quantile(&values, share), 4)),
-                    escape_raised(&significant(low, 4)),
-                    escape_raised(&significant(high, 4))
+                    end(low),
+                    end(high)
                 )
             };
             let half = significant(moments.mean_half_width(manifest.confidence), 2);
@@ -156,9 +157,9 @@ fn measures(manifest: &Manifest, summary: &Summary) -> String {
         ("num", "Greatest"),
         ("num", "None"),
     ];
-    let of_sample = match summary.sample.stride {
-        1 => String::new(),
-        n => format!(" Quantiles and pictures are of every {n}th run."),
+    let of_sample = match summary.sample.k.len() as u64 {
+        n if n == summary.n => String::new(),
+        n => format!(" Quantiles and pictures are of {n} runs that were drawn at random."),
     };
     format!("<div class=\"scroll\">\n{}</div>\n", table("fold", &columns, &rows))
         + &format!(
@@ -231,12 +232,7 @@ fn histogram(manifest: &Manifest, summary: &Summary, j: usize) -> Option<Figure>
         range: Some((range.0 - margin, range.1 + margin)),
         ..Axis::new(column.name.clone(), column.unit.clone())
     };
-    Some(Figure {
-        title: format!("{} of {} runs", column.name, values.len() as u64 * summary.sample.stride),
-        x,
-        panels: vec![panel],
-        space: None,
-    })
+    Some(Figure { title: format!("{} of {} runs", column.name, values.len()), x, panels: vec![panel], space: None })
 }
 
 /// Pairs of a parameter and a measure where both have a value.

@@ -4,11 +4,12 @@ use serde::Serialize;
 use sincro_sim::formats::parquet::{ParquetFile, Values};
 
 use crate::design::inverse_normal;
+use crate::design::random::{Purpose, uniform};
 use crate::row::N_LEADING;
 use crate::statistics::{Moments, wilson};
 use crate::store::{Manifest, Store, StoreError};
 
-/// Most rows that are kept for quantiles, pictures and ranks; of more runs every second, third … is taken.
+/// Number of rows about which are kept for quantiles, pictures and ranks; of more runs so many are drawn.
 const MAX_SAMPLE: u64 = 20_000;
 /// Worst runs that are listed.
 const N_WORST: usize = 10;
@@ -38,11 +39,11 @@ pub struct Summary {
     pub indices: Vec<Option<Indices>>,
 }
 
-/// Every `stride`-th row.
+/// Rows that are kept: all, or a draw that depends on the seed and the number of the run alone.
 #[derive(Clone, Debug, Default)]
 pub struct Sample {
-    /// Distance of the rows that are kept.
-    pub stride: u64,
+    /// Share of the rows that is kept.
+    pub share: f64,
     /// Numbers of the runs.
     pub k: Vec<u64>,
     /// Values of each parameter.
@@ -53,6 +54,14 @@ pub struct Sample {
     pub good: Vec<bool>,
 }
 
+impl Sample {
+    /// Returns true for a run that is kept. Runs are drawn: every n-th would always be of one variant, or of one place
+    /// in the blocks of a design.
+    fn keeps(&self, seed: u64, k: u64) -> bool {
+        self.share >= 1.0 || uniform(seed, Purpose::Sample, 0, k) < self.share
+    }
+}
+
 /// One of the worst runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Worst {
@@ -60,6 +69,8 @@ pub struct Worst {
     pub k: u64,
     /// Its variant.
     pub variant: String,
+    /// Its status.
+    pub status: String,
     /// Distance beyond the limits, in standard deviations; infinite for a run that stopped.
     pub score: f64,
     /// Reason for a person.
@@ -133,7 +144,7 @@ impl Summary {
             measures: vec![Moments::default(); n_measures],
             misses: vec![0; n_measures],
             sample: Sample {
-                stride: manifest.n_runs.div_ceil(MAX_SAMPLE).max(1),
+                share: MAX_SAMPLE as f64 / manifest.n_runs as f64,
                 parameters: vec![Vec::new(); n_parameters],
                 measures: vec![Vec::new(); n_measures],
                 ..Sample::default()
@@ -176,7 +187,7 @@ impl Summary {
                 variant.1 += 1;
                 variant.2 += u64::from(is_good);
             }
-            if (k[row] as u64).is_multiple_of(self.sample.stride) {
+            if self.sample.keeps(group.manifest.seed, k[row] as u64) {
                 self.sample.k.push(k[row] as u64);
                 self.sample.good.push(is_good);
                 for (j, values) in self.sample.parameters.iter_mut().enumerate() {
@@ -210,6 +221,7 @@ impl Summary {
             let worst = Worst {
                 k: group.ints(0)[row] as u64,
                 variant: group.texts(2)[row].clone(),
+                status: group.texts(group.trailing(0))[row].clone(),
                 score,
                 reason,
                 parameters: (0..group.manifest.parameters.len()).map(|j| group.parameter(j)[row]).collect(),
@@ -340,5 +352,21 @@ impl SobolSums {
             })
             .collect();
         Some(Indices { rows, n_blocks: (n, self.n_all) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_has_all_variants_in_equal_parts() {
+        let n_runs = 4 * MAX_SAMPLE;
+        let sample = Sample { share: 0.25, ..Sample::default() };
+        let mut of_variants = [0_u64; 4];
+        (0..n_runs).filter(|k| sample.keeps(7, *k)).for_each(|k| of_variants[(k % 4) as usize] += 1);
+        // five standard deviations of the binomial distribution
+        assert!(of_variants.iter().all(|n| n.abs_diff(MAX_SAMPLE / 4) < 310), "{of_variants:?}");
+        assert!((0..100).all(|k| Sample { share: 1.0, ..Sample::default() }.keeps(7, k)));
     }
 }

@@ -19,11 +19,12 @@ mod part;
 
 use std::fmt;
 use std::fs::File;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sincro_sim::file::{FileError, write_atomically};
-use sincro_sim::formats::parquet::ParquetError;
+use sincro_sim::formats::parquet::{ParquetError, ParquetFile, Values};
 
 use crate::campaign::{Campaign, Column};
 use crate::row::Layout;
@@ -150,17 +151,7 @@ impl Store {
     pub fn open(folder: &Path, campaign: &Campaign, plan: &str) -> Result<Self, StoreError> {
         let manifest = Manifest::of(campaign, plan);
         if let Some(found) = Manifest::read(folder)? {
-            if found.input != manifest.input {
-                let message = format!(
-                    "`{}` holds another campaign: its inputs have the hash {}, those of this plan {}",
-                    folder.display(),
-                    found.input,
-                    manifest.input
-                );
-                let help = "name another folder, or delete that one; the plan, the scene or the version has changed";
-                return Err(StoreError::Foreign(message, help.into()));
-            }
-            return Ok(Self { folder: folder.to_owned(), manifest: found });
+            return Self::same(folder, found, &manifest, campaign);
         }
         if let Some(name) = foreign_entry(folder) {
             let message = format!("`{}` holds `{name}`, which is no part of a campaign", folder.display());
@@ -169,10 +160,30 @@ impl Store {
         sincro_sim::file::prepare(folder)?;
         let parts = folder.join("parts");
         std::fs::create_dir_all(&parts).map_err(|e| FileError::new("create the folder", &parts, e))?;
-        write_own(&folder.join("plan.toml"), campaign.plan.source.text.as_bytes())?;
         let json = serde_json::to_string_pretty(&manifest).expect("a description is plain data");
-        write_own(&folder.join(MANIFEST), (json + "\n").as_bytes())?;
-        Ok(Self { folder: folder.to_owned(), manifest })
+        publish_once(&folder.join(MANIFEST), (json + "\n").as_bytes())?;
+        // another process may have been the first, with another plan
+        let found = Manifest::read(folder)?.unwrap_or_else(|| manifest.clone());
+        Self::same(folder, found, &manifest, campaign)
+    }
+
+    /// The store of a description that was found, if it is of this campaign.
+    fn same(folder: &Path, found: Manifest, manifest: &Manifest, campaign: &Campaign) -> Result<Self, StoreError> {
+        if found.input != manifest.input {
+            let message = format!(
+                "`{}` holds another campaign: its inputs have the hash {}, those of this plan {}",
+                folder.display(),
+                found.input,
+                manifest.input
+            );
+            let help = "name another folder, or delete that one; the plan, the scene or the version has changed";
+            return Err(StoreError::Foreign(message, help.into()));
+        }
+        let plan = folder.join("plan.toml");
+        if !plan.is_file() {
+            write_own(&plan, campaign.plan.source.text.as_bytes())?;
+        }
+        Ok(Self { folder: folder.to_owned(), manifest: found })
     }
 
     /// Opens the folder of a campaign that was begun.
@@ -198,6 +209,29 @@ impl Store {
     #[must_use]
     pub fn n_parts(&self) -> u64 {
         self.manifest.n_runs.div_ceil(self.manifest.rows_per_part)
+    }
+
+    /// Trace of run `k` in the results, if they have it.
+    ///
+    /// # Errors
+    ///
+    /// The results cannot be read.
+    pub fn trace_of(&self, k: u64) -> Result<Option<String>, StoreError> {
+        let path =
+            [self.runs_path(), self.part_path(k / self.manifest.rows_per_part)].into_iter().find(|p| p.is_file());
+        let Some(path) = path else { return Ok(None) };
+        let mut file = ParquetFile::open(&path).map_err(|error| damaged(&path, error))?;
+        let column = |name: &str| file.columns.iter().position(|(known, _)| known == name);
+        let (Some(number), Some(trace)) = (column("k"), column("trace")) else { return Ok(None) };
+        for group in 0..file.n_groups() {
+            let columns = file.group(group).map_err(|error| damaged(&path, error))?;
+            if let (Values::Ints(numbers), Values::Texts(traces)) = (&columns[number], &columns[trace])
+                && let Some(row) = numbers.iter().position(|n| *n == k as i64)
+            {
+                return Ok(Some(traces[row].clone()));
+            }
+        }
+        Ok(None)
     }
 
     /// First and last run of a part.
@@ -257,8 +291,30 @@ impl Manifest {
             }
             Err(error) => return Err(FileError::new("read", &path, error).into()),
         };
-        let read = serde_json::from_str(&text);
-        read.map(Some).map_err(|error| StoreError::Damaged(path, error.to_string()))
+        let read: Result<Self, _> = serde_json::from_str(&text);
+        match read {
+            Ok(found) => match found.problem() {
+                None => Ok(Some(found)),
+                Some(reason) => Err(StoreError::Damaged(path, reason)),
+            },
+            Err(error) => Err(StoreError::Damaged(path, error.to_string())),
+        }
+    }
+
+    /// First thing that no campaign has.
+    fn problem(&self) -> Option<String> {
+        let counts = [
+            ("n_runs", self.n_runs),
+            ("n_draws", self.n_draws),
+            ("rows_per_part", self.rows_per_part),
+            ("variants", self.variants.len() as u64),
+        ];
+        let wrong = counts.into_iter().find(|(_, n)| *n == 0 || *n > crate::plan::MAX_RUNS);
+        wrong.map(|(name, n)| format!("{n} for `{name}`")).or_else(|| {
+            let is_sound = self.is_drawn.len() == self.parameters.len()
+                && self.n_drawn == self.is_drawn.iter().filter(|is_drawn| **is_drawn).count();
+            (!is_sound).then(|| "`is_drawn` does not fit the parameters".to_owned())
+        })
     }
 
     /// Columns of the results.
@@ -271,7 +327,7 @@ impl Manifest {
 
 /// Something in a folder that no campaign leaves there before its description.
 fn foreign_entry(folder: &Path) -> Option<String> {
-    let known = ["plan.toml", "parts", "runs", "jobs", ".lock"];
+    let known = [MANIFEST, "plan.toml", "parts", "runs", "jobs", ".lock"];
     let names = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
     // other processes that begin at the same time
     names
@@ -287,6 +343,27 @@ pub(crate) fn write_own(path: &Path, content: &[u8]) -> Result<(), FileError> {
         file.sync_all()
     });
     put(&own, path, written)
+}
+
+/// Writes a file under a name of this process, and gives it its place unless that is taken.
+fn publish_once(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let own = own_name(path);
+    let written = File::create(&own).and_then(|mut file| {
+        std::io::Write::write_all(&mut file, content)?;
+        file.sync_all()
+    });
+    if let Err(error) = written {
+        let _ = std::fs::remove_file(&own);
+        return Err(FileError::new("write", path, error));
+    }
+    match std::fs::hard_link(&own, path) {
+        // some file systems have no links
+        Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => put(&own, path, Ok(())),
+        _ => {
+            let _ = std::fs::remove_file(&own);
+            Ok(())
+        }
+    }
 }
 
 /// Name of a file until it is complete: one of this process alone.

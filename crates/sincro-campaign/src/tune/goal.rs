@@ -20,9 +20,27 @@ fn slug(name: &str) -> String {
     if out.starts_with(|c: char| c.is_ascii_digit()) { format!("_{out}") } else { out }
 }
 
+/// Words of a formula.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+}
+
 /// Reads a formula of measures.
 fn parse(text: &str, measures: &[String]) -> Result<Expression, Diagnostic> {
     let names: Vec<String> = measures.iter().map(|name| slug(name)).collect();
+    let is_used = |name: &str| words(text).any(|word| word == name);
+    let double = (1..names.len()).find(|k| is_used(&names[*k]) && names[..*k].contains(&names[*k]));
+    if let Some(k) = double {
+        let problem = Diagnostic::without_location(format!("`{}` in `{text}` is the name of two measures", names[k]));
+        return Err(problem.with_help("give them names that differ in letters or digits, without accents"));
+    }
+    // a name without letters or digits cannot be written, one that is there twice is not used
+    let name = |k: usize| match names[k].as_str() {
+        "" => format!("measure_{k}_without_letters"),
+        name if names[..k].iter().any(|other| other == name) => format!("{name}_double_{k}"),
+        name => name.to_owned(),
+    };
+    let names: Vec<String> = (0..names.len()).map(name).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     Expression::parse(text, &names).map_err(|error| {
         let problem = Diagnostic::without_location(format!("`{text}`: {}", error.message));
@@ -132,14 +150,22 @@ pub fn measure_tables(lines: &[String]) -> Result<String, Diagnostic> {
             rest = behind;
         }
         text += rest;
-        let list: Vec<String> = signals.iter().enumerate().map(|(k, s)| format!("signal_{k} = {s:?}")).collect();
+        let list: Vec<String> =
+            signals.iter().enumerate().map(|(k, s)| format!("signal_{k} = {}", quoted(s))).collect();
         out += &format!(
-            "[[measure]]\nname = {:?}\nformula = {text:?}\nsignals = {{ {} }}\nmeasure = {word:?}\n",
-            name.trim(),
-            list.join(", ")
+            "[[measure]]\nname = {}\nformula = {}\nsignals = {{ {} }}\nmeasure = {}\n",
+            quoted(name.trim()),
+            quoted(&text),
+            list.join(", "),
+            quoted(word)
         );
     }
     Ok(out)
+}
+
+/// A text as TOML writes it.
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
 }
 
 #[cfg(test)]
@@ -156,6 +182,9 @@ mod tests {
         assert_eq!(limit.violation(&[f64::NAN, 0.0]), f64::INFINITY);
         assert!(Goal::parse("ise", &names).unwrap_err().help.unwrap().contains("iae"));
         assert!(Limit::parse("iae < 2", &names).is_err());
+        let double = ["iae".to_owned(), "IAE".to_owned(), "ύψος".to_owned(), "ise".to_owned()];
+        assert!(Goal::parse("iae", &double).unwrap_err().message.contains("two measures"));
+        assert_eq!(Goal::parse("2*ise", &double).unwrap().value(&[1.0, 2.0, 3.0, 4.0]), 8.0);
     }
 
     #[test]

@@ -75,6 +75,8 @@ pub struct Candidate {
     pub goal: f64,
     /// Sum of what the limits are broken by, relative to them; 0 if they are kept.
     pub violation: f64,
+    /// What each limit is broken by over all runs, relative to it; 0 if it is kept.
+    pub violations: Vec<f64>,
     /// Measures of the first run.
     pub measures: Vec<f64>,
 }
@@ -105,8 +107,22 @@ pub struct Tuned {
     pub n_candidates: usize,
     /// True if the search ended of itself, not by its budget.
     pub has_converged: bool,
+    /// True if it was interrupted.
+    pub is_interrupted: bool,
     /// Wall time `[s]`.
     pub wall_time: f64,
+}
+
+impl Tuned {
+    /// End of the search in words.
+    #[must_use]
+    pub fn ended(&self) -> &'static str {
+        match (self.has_converged, self.is_interrupted) {
+            (true, _) => "converged",
+            (_, true) => "interrupted",
+            _ => "ended by its budget",
+        }
+    }
 }
 
 impl Tuning<'_> {
@@ -171,11 +187,10 @@ impl Tuning<'_> {
                 }
             }
         }
-        if interrupt.load(Ordering::Relaxed) {
-            has_converged = false;
-        }
+        let is_interrupted = interrupt.load(Ordering::Relaxed);
+        has_converged &= !is_interrupted;
         let wall_time = clock.elapsed().as_secs_f64();
-        Ok(Some(Tuned { before, after: best, history, n_candidates: n, has_converged, wall_time }))
+        Ok(Some(Tuned { before, after: best, history, n_candidates: n, has_converged, is_interrupted, wall_time }))
     }
 
     /// Evaluates points of the unit cube on all processors; fewer come back if it was interrupted.
@@ -214,10 +229,11 @@ impl Tuning<'_> {
         let of_point = |(point, runs): (&Vec<f64>, &[Vec<f64>])| {
             let value = |of: &dyn Fn(&[f64]) -> f64| self.robust.of(runs.iter().map(|run| of(run)).collect());
             let goal = value(&|run| self.goal.value(run));
-            let violation = self.limits.iter().map(|limit| value(&|run| limit.violation(run))).sum::<f64>();
+            let violations: Vec<f64> = self.limits.iter().map(|limit| value(&|run| limit.violation(run))).collect();
+            let violation = violations.iter().sum::<f64>();
             // a goal without value is worse than any limit that is broken
             let violation = if goal.is_finite() { violation } else { f64::INFINITY };
-            Candidate { values: self.values(point), goal, violation, measures: runs[0].clone() }
+            Candidate { values: self.values(point), goal, violation, violations, measures: runs[0].clone() }
         };
         Ok(points.iter().zip(found.chunks(n_runs as usize)).map(of_point).collect())
     }
@@ -258,12 +274,12 @@ impl Tuning<'_> {
             significant(tuned.after.goal, 5),
             significant(change, 3)
         );
-        for limit in &self.limits {
+        for (limit, violation) in self.limits.iter().zip(&tuned.after.violations) {
             let of = |candidate: &Candidate| significant(limit.left(&candidate.measures), 4);
-            let kept = if limit.violation(&tuned.after.measures) > 0.0 { "BROKEN" } else { "kept" };
+            let kept = if *violation > 0.0 { "BROKEN" } else { "kept" };
             let _ = writeln!(out, "  {}: {} → {}, {kept}", limit.text, of(&tuned.before), of(&tuned.after));
         }
-        let ended = if tuned.has_converged { "converged" } else { "ended by its budget" };
+        let ended = tuned.ended();
         let _ = writeln!(
             out,
             "  {ended} after {} candidates of {} in {} s, seed {}",
@@ -286,7 +302,7 @@ impl Tuning<'_> {
         let names = &self.campaign.layout.measures;
         let of = |candidate: &Candidate| {
             json!({
-                "goal": candidate.goal, "violation": candidate.violation,
+                "goal": candidate.goal, "violation": candidate.violation, "violations": candidate.violations,
                 "values": self.free.iter().zip(&candidate.values).map(|(f, x)| (f.path.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
                 "measures": names.iter().zip(&candidate.measures).map(|(n, x)| (n.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
             })

@@ -81,8 +81,9 @@ fn measures(tuning: &Tuning<'_>, tuned: &Tuned) -> String {
     let mut rows: Vec<String> = tuning
         .limits
         .iter()
-        .map(|limit| {
-            let kept = if limit.violation(&tuned.after.measures) > 0.0 { "broken" } else { "kept" };
+        .zip(&tuned.after.violations)
+        .map(|(limit, violation)| {
+            let kept = if *violation > 0.0 { "broken" } else { "kept" };
             let name = format!("<code>{}</code>", escape(&limit.text));
             row(&name, limit.left(&tuned.before.measures), limit.left(&tuned.after.measures), kept)
         })
@@ -156,7 +157,7 @@ fn setting_rows(tuning: &Tuning<'_>, tuned: &Tuned) -> Vec<(String, String)> {
         ("several runs as one".into(), format!("{:?}", tuning.robust).to_lowercase()),
         ("method".into(), if tuning.method == super::Method::Global { "CMA-ES" } else { "Nelder–Mead" }.into()),
         ("seed".into(), tuning.seed.to_string()),
-        ("ended".into(), if tuned.has_converged { "converged" } else { "by its budget" }.into()),
+        ("ended".into(), tuned.ended().into()),
         ("sincro".into(), env!("CARGO_PKG_VERSION").into()),
     ]
 }

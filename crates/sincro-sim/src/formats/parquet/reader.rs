@@ -92,7 +92,8 @@ impl ParquetFile {
             meta.list(4).iter().map(|g| group(g, columns.len())).collect::<Result<_, _>>()?;
         let pair = |pair: &Value| Some((pair.text(1)?, pair.text(2)?));
         let footer = meta.list(5).iter().filter_map(pair).collect();
-        let n_rows = groups.iter().map(|(n, _)| n).sum();
+        let n_rows = groups.iter().try_fold(0_u64, |sum, (n, _)| sum.checked_add(*n));
+        let n_rows = n_rows.ok_or_else(|| content("its footer is damaged"))?;
         Ok(Self { file, columns, footer, n_rows, groups })
     }
 

@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
             if head == 0 {
                 return Some(Value::Struct(fields));
             }
-            id = if head >> 4 == 0 { self.int()? } else { id + i64::from(head >> 4) };
+            id = if head >> 4 == 0 { self.int()? } else { i64::checked_add(id, i64::from(head >> 4))? };
             fields.push((id, self.value(head & 0x0f, false, depth + 1)?));
         }
     }
