@@ -1,7 +1,8 @@
 //! The simulated counterpart of measured data, and its derivatives by the free parameters.
 //!
-//! Derivatives are differences of runs at a tight tolerance (Richardson's extrapolation of two widths), central inside of
-//! the bounds and one-sided at a bound, because the lock-step computes on plain numbers. The two widths give an estimate of their error, which the report states.
+//! Derivatives are differences of runs at a tight tolerance (Richardson's extrapolation of two widths), central inside
+//! of the bounds and one-sided at a bound, because the lock-step computes on plain numbers. The two widths give an
+//! estimate of their error, which the report states.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -235,7 +236,8 @@ impl<'a> Model<'a> {
             if let [wide, narrow] = slopes.as_slice() {
                 let better: Vec<f64> = narrow.iter().zip(wide).map(|(n, w)| n + (n - w) / 3.0).collect();
                 let largest = better.iter().copied().filter(|x| x.is_finite()).fold(0.0_f64, |a, b| a.max(b.abs()));
-                // what is left after the extrapolation is of the square of what it took away, one-sided of its power 3/2
+                // what is left after the extrapolation is of the square of what it took away, one-sided of its power
+                // 3/2
                 let taken = narrow.iter().zip(wide).map(|(n, w)| (n - w).abs() / 3.0).filter(|x| x.is_finite());
                 let share = taken.fold(0.0_f64, f64::max) / largest.max(f64::MIN_POSITIVE);
                 let left = if differences[k].side == 0.0 { share * share } else { share * share.sqrt() };
@@ -249,7 +251,8 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Difference of second order for the derivative by an unknown: central, or one-sided where that would leave its bounds.
+/// Difference of second order for the derivative by an unknown: central, or one-sided where that would leave its
+/// bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Difference {
     /// 0 for a central difference, 1 for one towards larger values, −1 for one towards smaller.

@@ -8,8 +8,8 @@ use super::model::{Model, ModelError, Sensitivities};
 const MAX_ITERATIONS: usize = 60;
 /// Relative change of the cost or of all unknowns below which the search has converged.
 const CONVERGED: f64 = 1e-10;
-/// Scaled gradient below which a point is stationary: the largest cosine of an angle between the residuals and a column of
-/// the sensitivities. A relative decrease of the cost by [`CONVERGED`] is one of its square.
+/// Scaled gradient below which a point is stationary: the largest cosine of an angle between the residuals and a column
+/// of the sensitivities. A relative decrease of the cost by [`CONVERGED`] is one of its square.
 const STATIONARY: f64 = 1e-4;
 /// Part of the residuals along a column, relative to the data, that is below the accuracy of the runs.
 const NOISE: f64 = 1e-8;

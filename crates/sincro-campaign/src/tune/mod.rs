@@ -75,7 +75,7 @@ pub struct Candidate {
     pub goal: f64,
     /// Sum of what the limits are broken by, relative to them; 0 if they are kept.
     pub violation: f64,
-    /// What each limit is broken by over all runs, relative to it; 0 if it is kept.
+    /// Violation of each limit over all runs, relative to it; 0 if it is kept.
     pub violations: Vec<f64>,
     /// Measures of the first run.
     pub measures: Vec<f64>,

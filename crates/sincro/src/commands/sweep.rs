@@ -70,7 +70,7 @@ enum Action {
         #[arg(long, value_name = "ENGINE", value_enum)]
         on: Engine,
         /// Number of shards
-        #[arg(long, value_name = "N", default_value_t = 2)]
+        #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..))]
         shards: u64,
         /// Write the script, and do not submit it
         #[arg(long)]
@@ -113,7 +113,7 @@ fn sweep(arguments: &Arguments, plan: &Path, out: &Path) -> Exit {
     };
     let n_runs = campaign.plan.n_runs();
     if let Some(k) = arguments.only.filter(|k| *k >= n_runs) {
-        let message = format!("there is no run {k}: the campaign has the runs 0 to {}", n_runs - 1);
+        let message = format!("there is no run {k}: the campaign has the runs 0 to {}", n_runs.saturating_sub(1));
         return diagnostics::refuse(&message, None);
     }
     let store = match Store::open(out, &campaign, &plan.display().to_string()) {
@@ -197,13 +197,13 @@ fn finish(campaign: &Campaign, store: &Store, n_replays: usize, is_quiet: bool) 
         Err(error) => return refuse_store(&error),
     };
     let mut replays = Vec::new();
-    for worst in summary.worst.iter().take(n_replays) {
+    // a run that the scene refuses has nothing to be shown
+    for worst in summary.worst.iter().filter(|worst| worst.status != "refused").take(n_replays) {
         if interrupt().load(Ordering::Relaxed) {
             break;
         }
         match rerun(campaign, store, worst.k) {
             Ok((path, _)) => replays.push(Replay { k: worst.k, href: path }),
-            // a run that the scene refuses has nothing to be shown
             Err(_) => continue,
         }
     }
@@ -243,8 +243,18 @@ fn write_report(
 fn only(campaign: &Campaign, store: &Store, k: u64, is_quiet: bool) -> Exit {
     match rerun(campaign, store, k) {
         Ok((href, done)) => {
+            let known = match store.trace_of(k) {
+                Ok(known) => known.filter(|trace| !trace.is_empty()),
+                Err(error) => return refuse_store(&error),
+            };
+            if let Some(known) = known.as_ref().filter(|known| **known != done.report.trace_hash) {
+                let message = format!("run {k} has the trace {}, and {known} in the results", done.report.trace_hash);
+                let help = "the motion differs on this machine: compare the processor, the system and the version";
+                return diagnostics::refuse(&message, Some(help));
+            }
             if !is_quiet {
-                say!("run {k}: trace {}", done.report.trace_hash);
+                let same = if known.is_some() { ", as in the results" } else { "" };
+                say!("run {k}: trace {}{same}", done.report.trace_hash);
                 say!("  {}", console::verdict_line(&done.report));
                 say!("  report {}", store.folder.join(href).display());
             }
@@ -295,7 +305,11 @@ fn submit(plan: &Path, out: &Path, engine: Engine, n_shards: u64, is_dry: bool) 
     };
     let (name, text, command) = match engine {
         Engine::Local => {
-            let lines: Vec<String> = (1..=n_shards).map(|i| format!("({}) &", shard(&i.to_string()))).collect();
+            // the processes share the processors
+            let all = std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
+            let n_threads = (all / n_shards).max(1);
+            let line = |i: u64| format!("({} --threads {n_threads}) &", shard(&i.to_string()));
+            let lines: Vec<String> = (1..=n_shards).map(line).collect();
             let wait = "failed=0\nfor job in $(jobs -p); do wait \"$job\" || failed=1; done\nexit $failed\n";
             ("local.sh", format!("#!/bin/bash\n{}\n{wait}", lines.join("\n")), vec!["bash".to_owned()])
         }
@@ -307,7 +321,7 @@ fn submit(plan: &Path, out: &Path, engine: Engine, n_shards: u64, is_dry: bool) 
         Engine::Slurm => {
             let head =
                 format!("#!/bin/bash\n#SBATCH --array=1-{n_shards}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1");
-            let logs = format!("#SBATCH --output={}/slurm-%A-%a.log", jobs.display());
+            let logs = format!("#SBATCH --output=\"{}/slurm-%A-%a.log\"", jobs.display());
             let run = format!("{} --threads 1", shard("$SLURM_ARRAY_TASK_ID"));
             ("slurm.sh", format!("{head}\n{logs}\n{run}\n"), vec!["sbatch".to_owned()])
         }
