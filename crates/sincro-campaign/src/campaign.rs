@@ -205,13 +205,7 @@ impl Campaign {
         let experiment = &mut loaded.experiment;
         let inherited = if variant.inherits { std::mem::take(&mut experiment.checks) } else { Vec::new() };
         experiment.checks = variant.own_checks.iter().cloned().chain(inherited).collect();
-        experiment.variants.clear();
-        experiment.sweep = None;
-        for plot in &mut experiment.plots {
-            plot.signals.retain(|signal| !signal.value.contains(':'));
-            plot.variants = None;
-        }
-        experiment.plots.retain(|plot| !plot.signals.is_empty());
+        experiment.keep_one_run();
         if variant.name != "main" {
             experiment.title += &format!(" ({})", variant.name);
         }

@@ -142,6 +142,11 @@ fn a_robot_starts_with_slipping_wheels_and_keeps_the_energy() {
     }
 }
 
+/// A wheel in front of a castor, on a floor as rough as itself.
+fn front(name: &'static str, y: f64, limit: f64, command: f64, mass: f64, inertia: [f64; 3]) -> Wheel {
+    Wheel { name, at: [0.08, y], limit, command, mass, inertia, friction: 0.3 }
+}
+
 /// A robot whose strong right motor turns it about the left wheel, the rim of which sticks at one end and slides at the
 /// other; its figures are those of a random draw.
 fn turning() -> String {
@@ -152,17 +157,8 @@ fn turning() -> String {
         inertia: [0.0295797, 0.0354957, 0.0266218],
         castor: -0.1,
     };
-    let wheel = |name, y, limit, command, mass, inertia| Wheel {
-        name,
-        at: [0.08, y],
-        limit,
-        command,
-        mass,
-        inertia,
-        friction: 0.3,
-    };
-    let left = wheel("w0", -0.15, 0.112991, 7.7814, 0.106752, [0.000355841, 0.000427009, 0.000320257]);
-    let right = wheel("w1", 0.15, 37.8634, 2.9016, 0.442937, [0.00147646, 0.00177175, 0.00132881]);
+    let left = front("w0", -0.15, 0.112991, 7.7814, 0.106752, [0.000355841, 0.000427009, 0.000320257]);
+    let right = front("w1", 0.15, 37.8634, 2.9016, 0.442937, [0.00147646, 0.00177175, 0.00132881]);
     chassis.on(&[left, right])
 }
 
@@ -185,17 +181,8 @@ fn undetermined() -> String {
         inertia: [0.0332994, 0.0399593, 0.0299695],
         castor: -0.1,
     };
-    let wheel = |name, y, limit, command, mass, inertia| Wheel {
-        name,
-        at: [0.08, y],
-        limit,
-        command,
-        mass,
-        inertia,
-        friction: 0.3,
-    };
-    let left = wheel("w0", -0.15, 0.0493742, -7.0963, 0.32428, [0.00108093, 0.00129712, 0.000972839]);
-    let right = wheel("w1", 0.15, 6.18726, -4.3707, 0.435424, [0.00145141, 0.0017417, 0.00130627]);
+    let left = front("w0", -0.15, 0.0493742, -7.0963, 0.32428, [0.00108093, 0.00129712, 0.000972839]);
+    let right = front("w1", 0.15, 6.18726, -4.3707, 0.435424, [0.00145141, 0.0017417, 0.00130627]);
     chassis.on(&[left, right])
 }
 

@@ -79,8 +79,7 @@ impl<R: Real> Constraints<R> {
 
     /// Vector b of the drives at velocity level, less the rates of their targets over a step of length `h`.
     pub(super) fn aim_at_targets(&mut self, h: f64) {
-        let groups = self.blocks.iter().filter(|block| block.is_drive()).filter_map(|block| block.groups[0]);
-        for (group, kink) in groups.zip(&self.kinks) {
+        for (group, kink) in drive_groups(&self.blocks).zip(&self.kinks) {
             self.b[group.row] -= R::splat(kink.target / h);
         }
     }
@@ -95,8 +94,7 @@ impl<R: Real> Constraints<R> {
             scratch.reaction[kink.dof] = R::zero();
         }
         let (rates, largest) = (self.solver.rates(), self.b.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs())));
-        let groups = self.blocks.iter().filter(|block| block.is_drive()).filter_map(|block| block.groups[0]);
-        for (group, kink) in groups.zip(&self.kinks) {
+        for (group, kink) in drive_groups(&self.blocks).zip(&self.kinks) {
             scratch.reaction[kink.dof] += self.lambda[group.row];
             if at_rest && group.mode == ContactMode::Stick && rates[group.row].lane(0).abs() <= HELD_RATE * largest {
                 v_dot[kink.dof] = R::zero();
@@ -106,12 +104,16 @@ impl<R: Real> Constraints<R> {
 
     /// Modes of the drives in the last solution, in the order in which they were given.
     pub fn read_kinks(&self, kinks: &mut [Kink]) {
-        let groups = self.blocks.iter().filter(|block| block.is_drive()).filter_map(|block| block.groups[0]);
-        for (group, kink) in groups.zip(kinks) {
+        for (group, kink) in drive_groups(&self.blocks).zip(kinks) {
             kink.saturation = match group.mode {
                 ContactMode::Stick => 0.0,
                 ContactMode::Slip => group.direction[0].lane(0).signum(),
             };
         }
     }
+}
+
+/// Friction groups of the drives among constraints, in the order in which the drives were given.
+fn drive_groups<R: Real>(blocks: &[UnilateralConstraint<R>]) -> impl Iterator<Item = &FrictionGroup<R>> {
+    blocks.iter().filter(|block| block.is_drive()).filter_map(|block| block.groups[0].as_ref())
 }

@@ -20,60 +20,23 @@ impl World {
         (h, after_event): (f64, bool),
         system: &mut A,
     ) -> bool {
-        if !(self.mechanism.couples_drives() && self.has_limited_drives()) {
-            self.resolve_actuator_modes(t, h, system);
-        }
-        let before = self.solver_report();
-        if self.mechanism.couples_drives() && self.has_limited_drives() {
-            self.decide_coupled_modes(t, (h, after_event), system);
+        let is_coupled = self.mechanism.couples_drives() && self.has_limited_drives();
+        let unchanged = if is_coupled {
+            self.collect_kinks()
         } else {
-            self.resolve_contact_modes(t, (h, after_event), system);
+            self.resolve_actuator_modes(t, h, system);
+            // decided among themselves
+            self.kinks.clear();
+            true
+        };
+        let before = self.solver_report();
+        if self.is_constrained() {
+            self.decide_with_contacts(t, (h, after_event, unchanged), system);
         }
         let (Some(before), Some(after)) = (before, self.solver_report()) else { return true };
         let is_solved = after.not_converged == before.not_converged;
         self.discard_failures(&before);
         is_solved
-    }
-
-    /// Evaluates constraint forces at the start of a sub-step of about `h`, after classification, and records the
-    /// contact modes: after an event those a little later. A force reaches its bound continuously, so that at the event
-    /// itself rounding decides between the modes on both sides of it.
-    fn resolve_contact_modes<A: CoupledSystem<f64> + ?Sized>(
-        &mut self,
-        t: f64,
-        (h, after_event): (f64, bool),
-        system: &mut A,
-    ) {
-        if !self.is_constrained() {
-            return;
-        }
-        self.mechanism.mark_locked();
-        self.evaluate_slope(t, system);
-        let has_left = self.mechanism.contact_memory().is_some_and(|memory| memory.has_left_modes());
-        if !after_event && has_left {
-            self.prefer_former_modes(t, system);
-        }
-        self.mechanism.mark_start();
-        if after_event {
-            self.look_ahead_at_contacts(t, h, system);
-        }
-    }
-
-    /// Takes the contact modes a little later than `t` for those at `t`, where they hold as well but for the change of
-    /// a mode that is due; state and time stay.
-    fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
-        let report = self.solver_report();
-        let ahead = self.move_ahead(t, h);
-        self.evaluate_slope(ahead, system);
-        self.y.copy_from_slice(&self.present);
-        if self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes()) {
-            self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
-            self.evaluate_held(t, system);
-            if !self.mechanism.is_grazing() {
-                self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
-            }
-        }
-        report.into_iter().for_each(|before| self.discard_failures(&before));
     }
 
     /// Goes back from the modes just decided to those of the last sub-step if they keep all laws and give other
@@ -95,14 +58,15 @@ impl World {
         goes_back
     }
 
-    /// Decides limited drives and contacts together.
-    fn decide_coupled_modes<A: CoupledSystem<f64> + ?Sized>(
+    /// Decides contacts together with the drives at their kink, at the start of a sub-step of about `h`, and records the
+    /// modes: those a little later after an event, and where a drive has changed. A force reaches its bound
+    /// continuously, so that at the event itself rounding decides between the modes on both sides of it.
+    fn decide_with_contacts<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
-        (h, after_event): (f64, bool),
+        (h, after_event, unchanged): (f64, bool, bool),
         system: &mut A,
     ) {
-        let unchanged = self.collect_kinks();
         self.present_kinks.clone_from(&self.kinks);
         self.decide_kinks(t, system);
         let has_left = self.mechanism.contact_memory().is_some_and(|memory| memory.has_left_modes());
@@ -117,7 +81,7 @@ impl World {
         }
         self.mechanism.mark_start();
         if after_event || !unchanged || self.has_other_kinks() {
-            self.look_ahead_at_all(t, h, system);
+            self.look_ahead_at_contacts(t, h, system);
         }
         self.write_modes();
         self.mechanism.mark_modes();
@@ -164,7 +128,7 @@ impl World {
 
     /// Takes the modes a little later than `t` for those at `t`, where they hold as well but for the change of a mode
     /// that is due; state and time stay.
-    fn look_ahead_at_all<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+    fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
         let report = self.solver_report();
         self.present_kinks.clone_from(&self.kinks);
         let ahead = self.move_ahead(t, h);

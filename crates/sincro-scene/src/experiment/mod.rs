@@ -78,6 +78,19 @@ pub struct Experiment {
     pub task: Option<Arc<Task>>,
 }
 
+impl Experiment {
+    /// Drops variants, sweep, and all that plots draw of other runs: what is left is one run.
+    pub fn keep_one_run(&mut self) {
+        self.variants.clear();
+        self.sweep = None;
+        for plot in &mut self.plots {
+            plot.signals.retain(|signal| !signal.value.contains(':'));
+            plot.variants = None;
+        }
+        self.plots.retain(|plot| !plot.signals.is_empty());
+    }
+}
+
 /// Integration method of the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Integrator {

@@ -188,15 +188,7 @@ fn only(mut loaded: Loaded, overrides: Vec<Override>, part: &str) -> Result<(Loa
         loaded.experiment.checks = variant.checks.into_iter().chain(inherited).collect();
         loaded.experiment.title += &format!(" ({part})");
     }
-    let experiment = &mut loaded.experiment;
-    experiment.variants.clear();
-    experiment.sweep = None;
-    for plot in &mut experiment.plots {
-        // signals of other runs
-        plot.signals.retain(|signal| !signal.value.contains(':'));
-        plot.variants = None;
-    }
-    experiment.plots.retain(|plot| !plot.signals.is_empty());
+    loaded.experiment.keep_one_run();
     Ok((loaded, settings))
 }
 
