@@ -3,6 +3,7 @@
 
 mod all_names;
 mod arguments;
+mod compatibility;
 mod fuzz;
 mod legacy;
 mod many;
