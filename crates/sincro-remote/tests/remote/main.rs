@@ -9,6 +9,7 @@ mod legacy;
 mod many;
 mod moving;
 mod names;
+mod page;
 mod parity;
 mod scene;
 mod security;
