@@ -83,6 +83,6 @@ fn check() -> ExitCode {
 }
 
 fn bless() -> ExitCode {
-    let packages = ["--package", "sincro-scene", "--package", "sincro-sim"];
+    let packages = ["--package", "sincro-scene", "--package", "sincro-sim", "--package", "sincro-remote"];
     exit(runs(cargo(&["test", "--release"]).args(packages).env("SINCRO_BLESS", "1")))
 }

@@ -3,7 +3,7 @@
 use sincro_coppelia::api::{Handle, Search, Value};
 use sincro_coppelia::session::Session;
 use sincro_sim::Extensions;
-use sincro_testing::{OpenSession, SceneFolder, repository_scene};
+use sincro_testing::{OpenSession, SceneFolder, repository_scene, with_scripts};
 
 /// A ball that falls past two eyes, one of them asked for its pictures, and a screen for pictures of clients.
 const SCENE: &str = r##"
@@ -433,7 +433,7 @@ fn pictures_are_turned_scaled_and_packed() {
 #[test]
 fn the_sensor_of_the_example_scene_has_a_handle_that_is_its_own() {
     let folder = repository_scene("camera-stream");
-    let mut session = Session::open(&folder, &[], Extensions::default(), None).unwrap();
+    let mut session = Session::open(&folder, &[], with_scripts(), None).unwrap();
     let handles = ["/VisionSensor", "/PassiveVisionSensor"]
         .map(|name| session.sim().registry.find(name, Search::default()).unwrap());
     assert_eq!(session.sim().objects_of_type(9), handles);

@@ -94,6 +94,13 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value) -> mlua::Result<LuaValue> {
             }
             LuaValue::Table(table)
         }
+        Value::Numbered(map) => {
+            let table = lua.create_table()?;
+            for (key, item) in map {
+                table.raw_set(*key, to_lua(lua, item)?)?;
+            }
+            LuaValue::Table(table)
+        }
         Value::Map(map) => {
             let table = lua.create_table_with_capacity(0, map.len())?;
             for (name, item) in map {

@@ -129,13 +129,29 @@ fn forbid(lua: &Lua) -> mlua::Result<()> {
     globals.set("io", io)?;
     globals.get::<Table>("string")?.set("dump", refused(lua, "string.dump")?)?;
     let debug = lua.create_table()?;
-    let traceback = |lua: &Lua, (message, level): (Value, Option<usize>)| match message {
-        Value::Nil => lua.traceback(None, level.unwrap_or(1)).map(Value::String),
-        Value::String(text) => lua.traceback(Some(&text.to_string_lossy()), level.unwrap_or(1)).map(Value::String),
-        other => Ok(other),
-    };
     debug.set("traceback", lua.create_function(traceback)?)?;
     globals.set("debug", debug)
+}
+
+/// `debug.traceback(message, level)` or `(thread, message, level)`; of another thread the stack is not told.
+fn traceback(lua: &Lua, mut arguments: MultiValue) -> mlua::Result<Value> {
+    let of_thread = matches!(arguments.front(), Some(Value::Thread(_)));
+    if of_thread {
+        arguments.pop_front();
+    }
+    let (message, level) = (arguments.pop_front().unwrap_or(Value::Nil), arguments.pop_front());
+    let text = match message {
+        Value::Nil => None,
+        Value::String(text) => Some(text.to_string_lossy()),
+        Value::Integer(_) | Value::Number(_) => lua.coerce_string(message)?.map(|text| text.to_string_lossy()),
+        other => return Ok(other),
+    };
+    if of_thread {
+        let text = text.map(|text| text + "\n").unwrap_or_default() + "stack traceback:\n\t(another thread)";
+        return lua.create_string(text).map(Value::String);
+    }
+    let level = level.and_then(|level| level.as_usize()).unwrap_or(1);
+    lua.traceback(text.as_deref(), level).map(Value::String)
 }
 
 /// As Lua's `load`, for texts only; powers are made calls in them too.

@@ -60,7 +60,11 @@ pub struct SessionGuard {
     /// Runs that nobody has taken yet.
     backlog: VecDeque<Finished>,
     publish: Option<Box<dyn FnMut(u64) + Send>>,
+    open_port: Option<OpenPort>,
 }
+
+/// Opens a port that a script asked for; gives the line for the terminal.
+pub type OpenPort = Box<dyn FnMut(u16) -> Result<String, String> + Send>;
 
 struct Client {
     key: String,
@@ -96,6 +100,7 @@ impl Hub {
             events,
             backlog: VecDeque::new(),
             publish: None,
+            open_port: None,
         };
         Arc::new(Self {
             guard: Mutex::new(guard),
@@ -408,6 +413,24 @@ impl SessionGuard {
         self.publish = Some(publish);
     }
 
+    /// Sets the function that opens ports of the legacy API for scripts.
+    pub fn on_port(&mut self, open: OpenPort) {
+        self.session.set_served();
+        self.open_port = Some(open);
+    }
+
+    /// Opens the ports that scripts have asked for since the last call.
+    fn open_ports(&mut self) {
+        for port in self.session.registry().take_port_requests() {
+            let Some(open) = &mut self.open_port else { continue };
+            let (level, line) = match open(port) {
+                Ok(line) => (450, line),
+                Err(line) => (300, line),
+            };
+            self.session.registry().log(level, line);
+        }
+    }
+
     /// Does something with the session, and keeps the clients in step with what that did to the run.
     ///
     /// # Errors
@@ -453,6 +476,7 @@ impl SessionGuard {
     /// Forwards the log and the finished runs of the session as events. Runs wait until they are taken, up to
     /// [`MAX_RUNS`]; then the oldest are dropped.
     fn forward_events(&mut self) {
+        self.open_ports();
         for line in self.session.registry().take_log() {
             self.log(line.level, line.text);
         }

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -14,6 +14,9 @@ use sincro_coppelia::session::Session;
 use crate::hub::{Event, Hub, HubOptions};
 use crate::limits::Deadlines;
 use crate::{legacy, listen, ws, zmq};
+
+/// Ports that scripts may have opened beside those of the command line.
+const MAX_SCRIPT_PORTS: usize = 8;
 
 /// Events that wait to be taken.
 const EVENTS: usize = 1_024;
@@ -123,8 +126,12 @@ pub struct Server {
     ports: Ports,
     ws_guard: Option<Arc<Guard>>,
     threads: Vec<JoinHandle<()>>,
+    script_ports: ScriptPorts,
     events: Receiver<Event>,
 }
+
+/// Ports that scripts have opened, with their threads.
+type ScriptPorts = Arc<Mutex<Vec<(SocketAddr, JoinHandle<()>)>>>;
 
 impl Server {
     /// Opens the ports and starts to serve.
@@ -178,11 +185,13 @@ impl Server {
             let serve = move |connection, hub: &Arc<Hub>| ws::serve(connection, hub, &guard);
             threads.push(listen::accept(listener, &hub, "ws", serve).map_err(failed)?);
         }
+        let script_ports = ScriptPorts::default();
+        open_for_scripts(&hub, &ports, options.bind, &script_ports);
         let of_run = hub.clone();
         let run =
             std::thread::Builder::new().name("simulation".into()).stack_size(listen::STACK).spawn(move || of_run.run());
         threads.push(run.map_err(failed)?);
-        Ok(Self { hub, ports, ws_guard, threads, events })
+        Ok(Self { hub, ports, ws_guard, threads, script_ports, events })
     }
 
     /// The addresses that are listened on.
@@ -216,11 +225,46 @@ impl Drop for Server {
         let ports = &self.ports;
         let all = ports.legacy.iter().chain(&ports.zmq).chain(&ports.zmq_steps).chain(&ports.ws);
         all.copied().for_each(listen::wake_listener);
+        for (address, thread) in self.script_ports.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+            listen::wake_listener(address);
+            let _ = thread.join();
+        }
         for thread in self.threads.drain(..) {
             // a thread that panicked has said so
             let _ = thread.join();
         }
     }
+}
+
+/// Lets scripts open ports of the legacy API (`simRemoteApi.start`), where that is served at all.
+fn open_for_scripts(hub: &Arc<Hub>, ports: &Ports, bind: IpAddr, opened: &ScriptPorts) {
+    let (legacy, weak, opened) = (ports.legacy.clone(), Arc::downgrade(hub), opened.clone());
+    hub.enter().on_port(Box::new(move |port| {
+        let mut opened = opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_open = legacy.iter().chain(opened.iter().map(|(address, _)| address)).any(|a| a.port() == port);
+        if is_open {
+            return Ok(format!("port {port} of the legacy remote API is open"));
+        }
+        let refused =
+            |why: &str| Err(format!("port {port} of the legacy remote API is not opened for a script: {why}"));
+        if legacy.is_empty() {
+            return refused("the server runs without the legacy API");
+        }
+        if port < 1_024 || opened.len() >= MAX_SCRIPT_PORTS {
+            return refused(&format!("expected up to {MAX_SCRIPT_PORTS} ports above 1023"));
+        }
+        let Some(hub) = weak.upgrade() else { return refused("the server is being closed") };
+        let listener = match open(bind, port, "--legacy-port") {
+            Ok(listener) => listener,
+            Err(error) => return refused(&error.message),
+        };
+        let Ok(address) = listener.local_addr() else { return refused("it has no address") };
+        match listen::accept(listener, &hub, "legacy", legacy::serve) {
+            Ok(thread) => opened.push((address, thread)),
+            Err(error) => return refused(&error.to_string()),
+        }
+        Ok(format!("port {port} of the legacy remote API was opened for a script"))
+    }));
 }
 
 /// A listener; the standard library sets `SO_REUSEADDR` where a port would else stay taken after the last server has

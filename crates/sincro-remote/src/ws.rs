@@ -170,6 +170,9 @@ fn to_json(value: &Value) -> Json {
         Value::Text(text) => text.as_str().into(),
         Value::Bytes(bytes) => bytes.iter().map(|b| Json::from(*b)).collect(),
         Value::List(list) => list.iter().map(to_json).collect(),
+        Value::Numbered(map) => {
+            Json::Object(map.iter().map(|(key, value)| (key.to_string(), to_json(value))).collect())
+        }
         Value::Map(map) => Json::Object(map.iter().map(|(key, value)| (key.clone(), to_json(value))).collect()),
     }
 }

@@ -26,6 +26,13 @@ pub fn encode(value: &Value, out: &mut Vec<u8>) {
             head(4, list.len() as u64, out);
             list.iter().for_each(|x| encode(x, out));
         }
+        Value::Numbered(map) => {
+            head(5, map.len() as u64, out);
+            for (key, x) in map {
+                encode(&Value::Int(*key), out);
+                encode(x, out);
+            }
+        }
         Value::Map(map) => {
             head(5, map.len() as u64, out);
             for (key, x) in map {

@@ -46,7 +46,7 @@ impl SimApi<'_> {
             && parts.is_empty()
         {
             let entry = self.registry.entry(object)?;
-            if !matches!(entry.kind, Kind::Frame | Kind::Dummy) {
+            if !matches!(entry.kind, Kind::Frame | Kind::Sensor | Kind::Dummy) {
                 return Err(ApiError(format!("`{}` has no shape that a distance could be measured from", entry.path)));
             }
             let frame = entry.frame;

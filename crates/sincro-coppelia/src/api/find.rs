@@ -2,8 +2,9 @@
 //!
 //! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
 //! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
-//! any run and any character. Without, it is a name of V-REP: `joint`, `joint#` for the first of that name, `joint#0`,
-//! `joint#1` for the second and third.
+//! any run and any character. Copies that the scene language has numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`
+//! where no object of the level is called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for
+//! the first of that name, `joint#0`, `joint#1` for the second and third.
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
@@ -40,7 +41,13 @@ impl ObjectRegistry {
             return Err(ApiError(format!("a path of {} bytes is longer than {MAX_PATH_LEN}", text.len())));
         }
         let found = match text.chars().next() {
-            Some('/' | '.' | ':') => self.find_path(text, search)?,
+            Some('/' | '.' | ':') => match (self.find_path(text, search)?, text.strip_prefix("..")) {
+                // scripts are objects since CoppeliaSim 4.7: `..` is what they are on
+                (None, Some(rest)) if search.below.is_none() && search.from.is_some() => {
+                    self.find_path(&format!(".{rest}"), search)?
+                }
+                (found, _) => found,
+            },
             _ if search.below.is_some() => {
                 self.find_path(&format!("./{text}"), Search { from: search.below, ..search })?
             }
@@ -61,17 +68,21 @@ impl ObjectRegistry {
 
     fn find_path(&self, text: &str, search: Search) -> Result<Option<Handle>, ApiError> {
         let (mut start, mut rest) = (None, text);
-        let own =
-            || search.from.ok_or_else(|| ApiError(format!("`{text}` starts at the object of a script, and none asks")));
+        // a client has no object: its relative paths begin at the world
+        let own = || {
+            let is_bare = matches!(text, "." | ".." | ":");
+            let nobody = || ApiError(format!("`{text}` is the object of a script, and none asks"));
+            if is_bare && search.from.is_none() { Err(nobody()) } else { Ok(search.from) }
+        };
         if let Some(tail) = rest.strip_prefix("::").or_else(|| rest.strip_prefix(':')) {
             // models are not marked here: the outermost object of the tree is the model
             let mut at = own()?;
-            while let Some(parent) = self.entry(at)?.parent {
-                at = parent;
+            while let Some(parent) = at.and_then(|h| self.entry(h).ok()).and_then(|e| e.parent) {
+                at = Some(parent);
             }
-            (start, rest) = (Some(at), tail);
+            (start, rest) = (at, tail);
         } else if rest.starts_with('.') {
-            let mut at = Some(own()?);
+            let mut at = own()?;
             rest = rest.strip_prefix("./").unwrap_or_else(|| if rest == "." { "" } else { rest });
             while let Some(tail) = rest.strip_prefix("..") {
                 at = at.and_then(|h| self.entry(h).ok()).and_then(|e| e.parent);
@@ -96,8 +107,10 @@ impl ObjectRegistry {
         let objects: Vec<&Entry> = self.children(level).collect();
         let (first, more) = path.split_first()?;
         let (mut n_matches, mut taken) = (0, Vec::new());
+        let is_counted = first.among.is_some() && !objects.iter().any(|o| fits(&first.pattern, &o.name));
         for object in &objects {
-            if !fits(&first.pattern, &object.name) {
+            let is_copy = || is_counted && copied(&object.name).is_some_and(|name| fits(&first.pattern, name));
+            if !fits(&first.pattern, &object.name) && !is_copy() {
                 continue;
             }
             let is_wanted = first.among.is_none_or(|k| k == n_matches);
@@ -129,6 +142,12 @@ impl ObjectRegistry {
         let hint = near.map(|n| format!(": did you mean `{n}`?")).unwrap_or_default();
         ApiError(format!("Object does not exist: `{text}`{hint}"))
     }
+}
+
+/// `ball` of `ball12`: the name that copies of the scene language are numbered after.
+fn copied(name: &str) -> Option<&str> {
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    (!stem.is_empty() && stem.len() < name.len()).then_some(stem)
 }
 
 /// `name[3]` as its parts; none if it is no name.

@@ -7,12 +7,15 @@
 //! ```
 //!
 //! with e the weighted errors of position `[m]` and orientation `[rad]`, in world axes, each joint at most 0.2 rad or
-//! 0.1 m an iteration and within its limits. Environments are no worlds of their own here: objects keep their handles,
-//! joints start from where they are.
+//! 0.1 m an iteration and within its limits. An environment has the objects of the scene, with their handles; of its
+//! own it has positions of joints, from a calculation or setting until the scene is taken over again. Searches, which
+//! move nothing, are in `ik_search.rs`.
 
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_math::elementary::atan2;
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::registry::Handle;
 use super::{ApiError, Phase, Reference, SimApi};
@@ -45,6 +48,10 @@ pub const GAMMA: i64 = 16;
 #[derive(Clone, Debug, Default)]
 pub struct Environment {
     groups: Vec<Group>,
+    /// Positions of joints that differ from those of the scene `[rad]` or `[m]`.
+    pub(super) positions: BTreeMap<Handle, f64>,
+    /// Joints that no group moves.
+    pub(super) passive: BTreeSet<Handle>,
 }
 
 /// Elements that are solved together.
@@ -53,9 +60,13 @@ pub struct Group {
     /// Empty for none.
     name: String,
     /// λ; 0 for the pseudo-inverse.
-    damping: f64,
-    iterations: usize,
-    elements: Vec<Element>,
+    pub(super) damping: f64,
+    pub(super) iterations: usize,
+    pub(super) elements: Vec<Element>,
+    /// False if it is not calculated.
+    pub(super) is_enabled: bool,
+    /// True if joints move as far as they need in one iteration.
+    pub(super) has_free_steps: bool,
 }
 
 /// A tip and its target.
@@ -73,6 +84,22 @@ pub struct Element {
     pub precision: [f64; 2],
     /// Weights of position and orientation.
     pub weights: [f64; 2],
+    /// Object whose axes the constraints are meant in; none: the base.
+    pub axes_of: Option<Handle>,
+    /// False if it is left out.
+    pub is_enabled: bool,
+    /// Pose that takes the place of the target's.
+    pub(super) goal: Option<Pose<f64>>,
+}
+
+impl Element {
+    /// An element with the precision `[m]`, `[rad]` and weights that CoppeliaSim begins with.
+    #[must_use]
+    pub fn new(base: Option<Handle>, tip: Handle, target: Handle, constraints: i64) -> Self {
+        let precision = [0.0005, 0.1 * std::f64::consts::PI / 180.0];
+        let (weights, axes_of) = ([1.0; 2], None);
+        Self { base, tip, target, constraints, precision, weights, axes_of, is_enabled: true, goal: None }
+    }
 }
 
 /// Result of solving a group.
@@ -87,11 +114,12 @@ pub struct Outcome {
 }
 
 /// A joint that is moved.
-struct IkJoint {
-    handle: Handle,
-    q_idx: usize,
-    is_sliding: bool,
-    bounds: [f64; 2],
+#[derive(Clone)]
+pub(super) struct IkJoint {
+    pub handle: Handle,
+    pub q_idx: usize,
+    pub is_sliding: bool,
+    pub bounds: [f64; 2],
 }
 
 impl SimApi<'_> {
@@ -124,7 +152,7 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    fn environment(&mut self, number: i64) -> Result<&mut Environment, ApiError> {
+    pub(super) fn environment(&mut self, number: i64) -> Result<&mut Environment, ApiError> {
         let k = usize::try_from(number).ok();
         let found = k.and_then(|k| self.registry.environments.get_mut(k)?.as_mut());
         found.ok_or_else(|| ApiError(format!("there is no environment {number}")))
@@ -144,7 +172,14 @@ impl SimApi<'_> {
             return Err(ApiError(format!("a group has a name of its own of up to 100 bytes, not `{name:.100}`")));
         }
         // CoppeliaSim's: the pseudo-inverse, three iterations
-        groups.push(Group { name: name.to_owned(), damping: 0.0, iterations: 3, elements: Vec::new() });
+        groups.push(Group {
+            name: name.to_owned(),
+            damping: 0.0,
+            iterations: 3,
+            elements: Vec::new(),
+            is_enabled: true,
+            has_free_steps: false,
+        });
         Ok(groups.len() - 1)
     }
 
@@ -183,7 +218,7 @@ impl SimApi<'_> {
         groups.filter(|(_, _, name)| !name.is_empty())
     }
 
-    fn group(&mut self, environment: i64, number: i64) -> Result<&mut Group, ApiError> {
+    pub(super) fn group(&mut self, environment: i64, number: i64) -> Result<&mut Group, ApiError> {
         let groups = &mut self.environment(environment)?.groups;
         let found = usize::try_from(number).ok().and_then(|k| groups.get_mut(k));
         found.ok_or_else(|| ApiError(format!("there is no group {number} in the environment")))
@@ -212,20 +247,26 @@ impl SimApi<'_> {
     pub fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, ApiError> {
         self.registry.entry(element.tip)?;
         self.registry.entry(element.target)?;
-        let bits = element.constraints;
-        if !(1..32).contains(&bits) || bits & (ALPHA_BETA | GAMMA) == GAMMA {
-            let known = "x 1, y 2, z 4, alpha_beta 8, and with that gamma 16";
-            return Err(ApiError(format!("constraints {bits}, expected a sum of {known}")));
-        }
-        if self.ik_joints(std::slice::from_ref(&element))?.is_empty() {
-            return Err(ApiError::new("no joint that turns or slides lies between base and tip"));
-        }
+        self.check_element(&element)?;
         let elements = &mut self.group(environment, group)?.elements;
         if elements.len() >= MAX_ELEMENTS {
             return Err(ApiError(format!("there are {MAX_ELEMENTS} elements already")));
         }
         elements.push(element);
         Ok(elements.len() - 1)
+    }
+
+    /// Refuses constraints that make no sense, and a chain without joints.
+    pub(super) fn check_element(&self, element: &Element) -> Result<(), ApiError> {
+        let bits = element.constraints;
+        if !(1..32).contains(&bits) || bits & (ALPHA_BETA | GAMMA) == GAMMA {
+            let known = "x 1, y 2, z 4, alpha_beta 8, and with that gamma 16";
+            return Err(ApiError(format!("constraints {bits}, expected a sum of {known}")));
+        }
+        if self.ik_joints(std::slice::from_ref(element))?.is_empty() {
+            return Err(ApiError::new("no joint that turns or slides lies between base and tip"));
+        }
+        Ok(())
     }
 
     /// An element of a group.
@@ -239,8 +280,9 @@ impl SimApi<'_> {
         found.ok_or_else(|| ApiError(format!("there is no element {number} in the group")))
     }
 
-    /// Solves a group. If it is reached, or `allow_error`, and `apply`: joints with a motor in position or spring mode
-    /// get it as their target while a run is on, all others are put there.
+    /// Solves a group. With `apply` it starts from the scene, and if it is reached, or `allow_error`, joints with a
+    /// motor in position or spring mode get it as their target while a run is on, all others are put there. Without, it
+    /// starts from the environment, which keeps the result. A group that is not enabled gives none.
     ///
     /// # Errors
     ///
@@ -250,12 +292,42 @@ impl SimApi<'_> {
         environment: i64,
         group: i64,
         (apply, allow_error): (bool, bool),
-    ) -> Result<Outcome, ApiError> {
-        let (outcome, found) = self.solve_group(environment, group)?;
-        if apply && (outcome.is_reached || allow_error) {
-            found.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))?;
+    ) -> Result<Option<Outcome>, ApiError> {
+        if !self.group(environment, group)?.is_enabled {
+            return Ok(None);
         }
-        Ok(outcome)
+        if apply {
+            self.environment(environment)?.positions.clear();
+        }
+        let (outcome, found) = self.solve_group(environment, group)?;
+        match apply {
+            true if outcome.is_reached || allow_error => {
+                found.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))?;
+            }
+            true => {}
+            false => self.environment(environment)?.positions.extend(found),
+        }
+        Ok(Some(outcome))
+    }
+
+    /// Takes the positions of an environment over to the scene, as [`SimApi::handle_group`] does.
+    ///
+    /// # Errors
+    ///
+    /// There is no such environment, or a joint of it was removed.
+    pub fn sync_to_scene(&mut self, environment: i64) -> Result<(), ApiError> {
+        let positions = std::mem::take(&mut self.environment(environment)?.positions);
+        positions.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))
+    }
+
+    /// Takes the positions of the scene over to an environment.
+    ///
+    /// # Errors
+    ///
+    /// There is no such environment.
+    pub fn sync_from_scene(&mut self, environment: i64) -> Result<(), ApiError> {
+        self.environment(environment)?.positions.clear();
+        Ok(())
     }
 
     /// Solves a group and moves nothing: how it went, and where each of its joints would be.
@@ -264,19 +336,47 @@ impl SimApi<'_> {
     ///
     /// As [`SimApi::handle_group`].
     pub fn solve_group(&mut self, environment: i64, group: i64) -> Result<(Outcome, Vec<(Handle, f64)>), ApiError> {
-        let group = self.group(environment, group)?.clone();
+        let group = self.enabled(environment, group)?;
+        self.inside(environment, &group, |sim, ik_joints| {
+            let outcome = sim.solve(&group, ik_joints)?;
+            Ok((outcome, ik_joints.iter().map(|m| (m.handle, sim.world.state.q[m.q_idx])).collect()))
+        })
+    }
+
+    /// A group with those of its elements that are enabled.
+    pub(super) fn enabled(&mut self, environment: i64, group: i64) -> Result<Group, ApiError> {
+        let mut group = self.group(environment, group)?.clone();
+        group.elements.retain(|element| element.is_enabled);
         if group.elements.is_empty() {
             return Err(ApiError::new("the group has no elements"));
         }
-        let ik_joints = self.ik_joints(&group.elements)?;
-        let before: Vec<f64> = ik_joints.iter().map(|m| self.world.state.q[m.q_idx]).collect();
-        let solved = self.solve(&group, &ik_joints);
-        let after: Vec<(Handle, f64)> = ik_joints.iter().map(|m| (m.handle, self.world.state.q[m.q_idx])).collect();
-        self.put(&ik_joints, &before);
-        Ok((solved?, after))
+        Ok(group)
     }
 
-    fn put(&mut self, ik_joints: &[IkJoint], q: &[f64]) {
+    /// Acts with the joints at the positions of an environment, then puts them back; given are those that a group
+    /// moves.
+    pub(super) fn inside<T>(
+        &mut self,
+        environment: i64,
+        group: &Group,
+        act: impl FnOnce(&mut Self, &[IkJoint]) -> Result<T, ApiError>,
+    ) -> Result<T, ApiError> {
+        let Environment { positions, passive, .. } = self.environment(environment)?.clone();
+        let mut ik_joints = self.ik_joints(&group.elements)?;
+        ik_joints.retain(|m| !passive.contains(&m.handle));
+        let before = self.world.state.q.clone();
+        for (joint, q) in positions {
+            let q_idx = self.registry.joint(joint)?.q_idx;
+            self.world.state.q[q_idx] = q;
+        }
+        self.moved();
+        let done = act(self, &ik_joints);
+        self.world.state.q.copy_from_slice(&before);
+        self.moved();
+        done
+    }
+
+    pub(super) fn put(&mut self, ik_joints: &[IkJoint], q: &[f64]) {
         ik_joints.iter().zip(q).for_each(|(ik_joint, q)| self.world.state.q[ik_joint.q_idx] = *q);
         self.moved();
     }
@@ -292,7 +392,7 @@ impl SimApi<'_> {
     }
 
     /// The joints between bases and tips, each once.
-    fn ik_joints(&self, elements: &[Element]) -> Result<Vec<IkJoint>, ApiError> {
+    pub(super) fn ik_joints(&self, elements: &[Element]) -> Result<Vec<IkJoint>, ApiError> {
         let mut ik_joints: Vec<IkJoint> = Vec::new();
         for element in elements {
             let mut at = Some(element.tip);
@@ -320,7 +420,7 @@ impl SimApi<'_> {
     }
 
     /// Iterates; the state is left where the last iteration put it.
-    fn solve(&mut self, group: &Group, ik_joints: &[IkJoint]) -> Result<Outcome, ApiError> {
+    pub(super) fn solve(&mut self, group: &Group, ik_joints: &[IkJoint]) -> Result<Outcome, ApiError> {
         let mut hit_limit = false;
         for iteration in 0..=group.iterations {
             let (errors, is_reached) = self.errors(&group.elements)?;
@@ -335,7 +435,13 @@ impl SimApi<'_> {
             hit_limit = false;
             for (k, ik_joint) in ik_joints.iter().enumerate() {
                 let change: f64 = rows.iter().zip(&x).map(|(row, x)| row[k] * x).sum();
-                let most = if ik_joint.is_sliding { MAX_TRANSLATION_STEP } else { MAX_ROTATION_STEP };
+                let most = if group.has_free_steps {
+                    f64::INFINITY
+                } else if ik_joint.is_sliding {
+                    MAX_TRANSLATION_STEP
+                } else {
+                    MAX_ROTATION_STEP
+                };
                 let wanted = self.world.state.q[ik_joint.q_idx] + change.clamp(-most, most);
                 let q = wanted.clamp(ik_joint.bounds[0], ik_joint.bounds[1]);
                 hit_limit |= q != wanted;
@@ -347,8 +453,10 @@ impl SimApi<'_> {
     }
 
     /// Poses of tip and target.
-    fn ends(&mut self, element: &Element) -> Result<[Pose<f64>; 2], ApiError> {
-        Ok([self.pose(element.tip, Reference::World)?, self.pose(element.target, Reference::World)?])
+    pub(super) fn ends(&mut self, element: &Element) -> Result<[Pose<f64>; 2], ApiError> {
+        let tip = self.pose(element.tip, Reference::World)?;
+        let target = element.goal.map_or_else(|| self.pose(element.target, Reference::World), Ok)?;
+        Ok([tip, target])
     }
 
     /// Largest errors of position and orientation, and whether all are within their precision.
@@ -367,12 +475,18 @@ impl SimApi<'_> {
 
     /// The axes in which x, y and z are meant: the base's.
     fn axes(&mut self, element: &Element) -> Result<sincro_dynamics::spatial::Mat3<f64>, ApiError> {
-        let Some(base) = element.base else { return Ok(sincro_dynamics::spatial::Mat3::identity()) };
+        let Some(base) = element.axes_of.or(element.base) else {
+            return Ok(sincro_dynamics::spatial::Mat3::identity());
+        };
         Ok(self.pose(base, Reference::World)?.rot)
     }
 
     /// Rows of the weighted Jacobian, a column for each joint, and the weighted errors.
-    fn rows(&mut self, elements: &[Element], ik_joints: &[IkJoint]) -> Result<(Vec<Vec<f64>>, Vec<f64>), ApiError> {
+    pub(super) fn rows(
+        &mut self,
+        elements: &[Element],
+        ik_joints: &[IkJoint],
+    ) -> Result<(Vec<Vec<f64>>, Vec<f64>), ApiError> {
         let (mut rows, mut e) = (Vec::new(), Vec::new());
         for element in elements {
             let [tip, target] = self.ends(element)?;
@@ -444,14 +558,7 @@ fn along(v: Vec3<f64>, norm: f64, length: f64) -> Vec3<f64> {
 /// x of (J·Jᵀ + λ²·I)·x = e, by Cholesky; none if that fails.
 fn normal(rows: &[Vec<f64>], e: &[f64], damping: f64) -> Option<Vec<f64>> {
     let m = rows.len();
-    let mut l = vec![vec![0.0; m]; m];
-    for i in 0..m {
-        for j in 0..=i {
-            let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
-            let sum = (0..j).fold(product + if i == j { damping } else { 0.0 }, |sum, k| sum - l[i][k] * l[j][k]);
-            l[i][j] = if i == j { sum.max(0.5 * damping).sqrt() } else { sum / l[j][j] };
-        }
-    }
+    let l = cholesky(rows, damping);
     let mut x = e.to_vec();
     for i in 0..m {
         x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) / l[i][i];
@@ -460,4 +567,18 @@ fn normal(rows: &[Vec<f64>], e: &[f64], damping: f64) -> Option<Vec<f64>> {
         x[i] = (i + 1..m).fold(x[i], |sum, k| sum - l[k][i] * x[k]) / l[i][i];
     }
     x.iter().all(|x| x.is_finite()).then_some(x)
+}
+
+/// Lower factor of J·Jᵀ + λ²·I; no pivot falls below half of λ².
+pub(super) fn cholesky(rows: &[Vec<f64>], damping: f64) -> Vec<Vec<f64>> {
+    let m = rows.len();
+    let mut l = vec![vec![0.0; m]; m];
+    for i in 0..m {
+        for j in 0..=i {
+            let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
+            let sum = (0..j).fold(product + if i == j { damping } else { 0.0 }, |sum, k| sum - l[i][k] * l[j][k]);
+            l[i][j] = if i == j { sum.max(0.5 * damping).sqrt() } else { sum / l[j][j] };
+        }
+    }
+    l
 }

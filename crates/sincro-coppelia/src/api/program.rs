@@ -97,6 +97,9 @@ const TRUTHS: &[Fixed<bool>] = &[
     (58, "boolparam_execunsafe", false),
 ];
 
+/// Truth values that say which parts a step has.
+const HANDLING: std::ops::RangeInclusive<i64> = 2..=11;
+
 /// Texts: folders of a program that is not installed. Clients build paths of scenes from them that are looked for by
 /// their last part.
 const TEXTS: &[Fixed<&str>] = &[
@@ -222,6 +225,22 @@ impl SimApi<'_> {
     /// There is none of that number.
     pub fn bool_parameter(&self, id: i64) -> Result<bool, ApiError> {
         fixed(TRUTHS, id, "truth")
+    }
+
+    /// Takes a truth value of the simulator. Switches of windows and of real time do nothing here; those of what a step
+    /// consists of cannot be turned.
+    ///
+    /// # Errors
+    ///
+    /// There is none of that number, or a part of the step would be left out.
+    pub fn set_bool_parameter(&self, id: i64, value: bool) -> Result<(), ApiError> {
+        let now = self.bool_parameter(id)?;
+        if HANDLING.contains(&id) && value != now {
+            return Err(ApiError::new(
+                "every step has all its parts: dynamics, sensors and scripts are not switched off one by one",
+            ));
+        }
+        Ok(())
     }
 
     /// A vector of the simulator: 0, gravity [m/s²].

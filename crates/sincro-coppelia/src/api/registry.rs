@@ -16,6 +16,8 @@ use super::note::Notes;
 use super::pairs::{self, Pair};
 use super::senses::Senses;
 use super::signals::Signals;
+use super::tubes::Tubes;
+use super::value::Value;
 use super::vision::Vision;
 use super::{ApiError, Phase, convention};
 use sincro_scene::scene::{Object, ObjectKind};
@@ -39,8 +41,10 @@ pub enum Kind {
     Joint(Option<usize>),
     /// A body: a dynamic shape.
     Body(MassProperties),
-    /// A named point.
+    /// A named point of the scene.
     Frame,
+    /// A sensor of the scene that is no proximity sensor, or a camera whose pictures are not read.
+    Sensor,
     /// An external force.
     Force,
     /// A rotor: to clients and scripts a joint that turns at its commanded speed. Its index among the model's.
@@ -192,6 +196,18 @@ pub struct ObjectRegistry {
     pub(super) joint_motions: BTreeMap<Handle, JointMotion>,
     /// Visible pieces and the sensors that detect them.
     pub(super) senses: Senses,
+    /// Tubes between scripts and clients.
+    pub(super) tubes: Tubes,
+    /// Values of widgets: interface, widget, what it is a value of.
+    pub(super) widgets: BTreeMap<(String, i64, &'static str), Value>,
+    /// Interfaces that were made.
+    pub(super) n_interfaces: usize,
+    /// Frames of the scene that recorded signals are about.
+    pub(super) recorded_frames: BTreeSet<Handle>,
+    /// True if clients are served: ports can be opened.
+    pub is_served: bool,
+    /// Ports of the legacy API that scripts want to be open.
+    port_requests: Vec<u16>,
 }
 
 impl ObjectRegistry {
@@ -236,6 +252,12 @@ impl ObjectRegistry {
             motions: Motions::default(),
             joint_motions: BTreeMap::new(),
             senses: Senses::new(scene),
+            tubes: Tubes::default(),
+            widgets: BTreeMap::new(),
+            n_interfaces: 0,
+            recorded_frames: BTreeSet::new(),
+            is_served: false,
+            port_requests: Vec::new(),
         };
         for object in &scene.objects {
             let handle = new.next_handle();
@@ -279,11 +301,12 @@ impl ObjectRegistry {
                 ObjectKind::Frame | ObjectKind::Sensor => {
                     let at = of_frame().unwrap_or(beside);
                     let proximity = new.senses.proximity.contains_key(&handle);
-                    (if proximity { Kind::Proximity } else { Kind::Frame }, at, at)
+                    let other = if object.kind == ObjectKind::Frame { Kind::Frame } else { Kind::Sensor };
+                    (if proximity { Kind::Proximity } else { other }, at, at)
                 }
                 ObjectKind::Camera { sensor, .. } => {
                     let kind = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
-                    (kind.unwrap_or(Kind::Frame), beside, beside)
+                    (kind.unwrap_or(Kind::Sensor), beside, beside)
                 }
                 ObjectKind::Fixture => {
                     let at = of_frame().unwrap_or(beside);
@@ -300,6 +323,12 @@ impl ObjectRegistry {
             new.add(object, kind, parent, (frame, moving));
         }
         new.pairs = pairs::pairs_of(loaded, &new);
+        let is_recorded = |e: &&Entry| {
+            let names = loaded.experiment.record.iter().map(|name| &*name.value);
+            e.kind == Kind::Frame
+                && names.clone().any(|name| name.strip_prefix(&*e.path).is_some_and(|s| s.starts_with('.')))
+        };
+        new.recorded_frames = new.entries().filter(is_recorded).map(|e| e.handle).collect();
         for script in &scene.scripts {
             let object = Handle(script.object as i32 + 1);
             let texts = script.parameters.iter().map(|(name, value)| ((object, name.clone()), value.to_string()));
@@ -360,6 +389,14 @@ impl ObjectRegistry {
                 return found;
             }
         }
+    }
+
+    /// Returns true if an object can stand anywhere: a runtime object, a vision sensor, or a frame of the scene, with
+    /// nothing below it that the model moves.
+    #[must_use]
+    pub fn is_loose(&self, handle: Handle) -> bool {
+        let is_point = |entry: &Entry| entry.is_runtime || matches!(entry.kind, Kind::Vision(_) | Kind::Frame);
+        self.tree(handle).into_iter().all(|h| self.entry(h).is_ok_and(is_point))
     }
 
     /// All joints that have one coordinate.
@@ -480,7 +517,9 @@ impl ObjectRegistry {
     ///
     /// They would.
     pub fn check_stored_size(&self, n: usize) -> Result<(), ApiError> {
-        let stored = self.strings.total() + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
+        let stored = self.strings.total()
+            + self.tubes.total()
+            + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
         if stored + n > MAX_BYTES {
             let mib = MAX_BYTES >> 20;
             return Err(ApiError(format!("signals and data of clients would take more than {mib} MiB: clear some")));
@@ -528,12 +567,26 @@ impl ObjectRegistry {
         std::mem::take(&mut self.requests)
     }
 
+    /// Asks for a port of the legacy API; false if clients are not served.
+    pub fn ask_port(&mut self, port: u16) -> bool {
+        if self.is_served && !self.port_requests.contains(&port) {
+            self.port_requests.push(port);
+        }
+        self.is_served
+    }
+
+    /// Takes the ports that were asked for.
+    pub fn take_port_requests(&mut self) -> Vec<u16> {
+        std::mem::take(&mut self.port_requests)
+    }
+
     /// A run begins: what the last one left is forgotten.
     pub(crate) fn begin_run(&mut self) {
         self.integers.forget_run();
         self.floats.forget_run();
         self.strings.forget_run();
         self.graphs.forget_run();
+        self.tubes = Tubes::default();
         self.notes = Notes::default();
         self.has_stepped = false;
         self.vision.forget();
@@ -558,6 +611,7 @@ impl ObjectRegistry {
         for (now, then) in self.entries.iter_mut().zip(before.entries) {
             if let (Some(now), Some(then)) = (now.as_mut(), then) {
                 (now.frame, now.moving, now.parent) = (then.frame, then.moving, then.parent);
+                now.path = then.path;
                 now.kind = then.kind;
             }
         }

@@ -218,6 +218,33 @@ impl SimApi<'_> {
         Ok(())
     }
 
+    /// Bounding box of a shape or body in its own axes: lowest and highest corner `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, it has no shape, or one without end (a plane).
+    pub fn shape_box(&self, handle: Handle) -> Result<[[f64; 3]; 2], ApiError> {
+        let own = self.registry.entry(handle)?;
+        let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let x_wo = own.frame.pose;
+        for piece in self.registry.senses.pieces().filter(|p| handle_of(p) == own.handle) {
+            let x_op = x_wo.inverse().compose(&piece.at.pose);
+            for k in 0..3 {
+                let direction = Vec3(std::array::from_fn(|i| x_op.rot.0[k][i]));
+                let reach = |d: Vec3<f64>| reach_along(piece.geometry.surface(), d.0);
+                let (Some(up), Some(down)) = (reach(direction), reach(direction.scale(-1.0))) else {
+                    return Err(ApiError(format!("`{}` has no end: a plane has no box", own.path)));
+                };
+                corners[0][k] = corners[0][k].min(x_op.pos.0[k] - down);
+                corners[1][k] = corners[1][k].max(x_op.pos.0[k] + up);
+            }
+        }
+        if corners[0][0] > corners[1][0] {
+            return Err(ApiError(format!("`{}` has no shape", own.path)));
+        }
+        Ok(corners)
+    }
+
     /// Geometry of a shape or body.
     ///
     /// # Errors
@@ -308,6 +335,32 @@ fn primitive(surface: &Surface) -> (i64, [f64; 3]) {
         Surface::HalfSpace => (1, [0.0; 3]),
         Surface::Hull(_) | Surface::Mesh(..) => (0, [0.0; 3]),
     }
+}
+
+/// Largest coordinate of a surface along a direction of length 1 in its own axes `[m]`; none if it has no end.
+fn reach_along(surface: &Surface, d: [f64; 3]) -> Option<f64> {
+    let [x, y, z] = d;
+    let across = (x * x + y * y).sqrt();
+    let of_points =
+        |points: &[[f64; 3]]| points.iter().map(|p| p[0] * x + p[1] * y + p[2] * z).fold(f64::NEG_INFINITY, f64::max);
+    Some(match surface {
+        Surface::Solid(Shape::Cuboid { size }) => 0.5 * (size[0] * x.abs() + size[1] * y.abs() + size[2] * z.abs()),
+        Surface::Solid(Shape::Sphere { radius }) => *radius,
+        Surface::Solid(Shape::Cylinder { radius, length }) => radius * across + 0.5 * length * z.abs(),
+        // its origin is its centre of mass, a quarter of its height above the base
+        Surface::Solid(Shape::Cone { radius, length }) => (0.75 * length * z).max(radius * across - 0.25 * length * z),
+        Surface::Solid(Shape::Capsule { radius, length }) => radius + 0.5 * length * z.abs(),
+        Surface::HalfSpace => return None,
+        Surface::Hull(points) | Surface::Mesh(points, _) => of_points(points),
+        Surface::HeightField { columns, heights, size } => {
+            let rows = heights.len() / columns;
+            let place = |k: usize, n: usize| k as f64 / (n - 1) as f64 - 0.5;
+            let point = |(k, h): (usize, &f64)| {
+                [size[0] * place(k % columns, *columns), size[1] * place(k / columns, rows), *h]
+            };
+            of_points(&heights.iter().enumerate().map(point).collect::<Vec<_>>())
+        }
+    })
 }
 
 fn scaled(surface: &Surface, k: f64) -> Surface {

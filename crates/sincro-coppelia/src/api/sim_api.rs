@@ -121,7 +121,8 @@ impl<'a> SimApi<'a> {
         Ok(x_wb.inverse().compose(&self.place(&moving)))
     }
 
-    /// Puts an object somewhere: a runtime object, or one that is carried by a free joint.
+    /// Puts an object somewhere: a runtime object, a frame of the scene that carries nothing which the model moves, or
+    /// an object that is carried by a free joint.
     ///
     /// # Errors
     ///
@@ -134,15 +135,17 @@ impl<'a> SimApi<'a> {
         let x_wo = self.reference(handle, reference)?.compose(pose);
         self.before_move(handle);
         let entry = self.registry.entry(handle)?;
-        // a camera of the scene is no part of the model: it can stand anywhere, until the run ends
-        if entry.is_runtime || matches!(entry.kind, Kind::Vision(_)) {
+        // a camera or frame of the scene is no part of the model: it can stand anywhere, until the run ends
+        let is_shape = entry.is_runtime || matches!(entry.kind, Kind::Vision(_));
+        if is_shape || (entry.kind == Kind::Frame && self.registry.is_loose(handle)) {
             let before = self.pose(handle, Reference::World)?;
             self.place_runtime_object(handle, &x_wo)?;
-            // runtime descendants move with it
+            // runtime objects and points below move with it
             let moved = x_wo.compose(&before.inverse());
             let below: Vec<Handle> = self.registry.tree(handle).into_iter().skip(1).collect();
             for child in below {
-                if self.registry.entry(child)?.is_runtime {
+                let entry = self.registry.entry(child)?;
+                if entry.is_runtime || matches!(entry.kind, Kind::Vision(_) | Kind::Frame) {
                     let x_wc = self.pose(child, Reference::World)?;
                     self.place_runtime_object(child, &moved.compose(&x_wc))?;
                 }
@@ -153,8 +156,15 @@ impl<'a> SimApi<'a> {
         self.set_free(&entry, &x_wo)
     }
 
-    /// Puts a runtime object somewhere in the world, fixed to what carries it.
+    /// Puts a runtime object or frame somewhere in the world, fixed to what carries it.
     fn place_runtime_object(&mut self, handle: Handle, x_wo: &Pose<f64>) -> Result<(), ApiError> {
+        if self.registry.recorded_frames.remove(&handle) {
+            let path = self.registry.entry(handle)?.path.clone();
+            let text = format!(
+                "frame `{path}` is moved by clients or scripts: its recorded signals stay those of the scene's"
+            );
+            self.log(300, &text);
+        }
         let carrier = match self.registry.entry(handle)?.parent {
             Some(parent) => self.registry.entry(parent)?.moving,
             None => super::registry::WORLD,
@@ -184,12 +194,22 @@ impl<'a> SimApi<'a> {
         Ok(())
     }
 
-    /// Hangs a runtime point on another object, or on the world.
+    /// Hangs a runtime object or a frame of the scene on another object, or on the world. What hangs there already may
+    /// be anything.
     ///
     /// # Errors
     ///
-    /// It belongs to the scene, there is no such parent, or it would hang on itself.
+    /// The model carries it, there is no such parent, or it would hang on itself.
     pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), ApiError> {
+        if keep_in_place && self.registry.entry(handle)?.parent == parent {
+            return Ok(());
+        }
+        if !self.registry.is_loose(handle) {
+            let path = &self.registry.entry(handle)?.path;
+            let help =
+                "frames and runtime objects can be hung elsewhere; bodies and joints hang as the scene file says";
+            return Err(ApiError(format!("`{path}` is carried by the model: {help}")));
+        }
         let before = self.pose(handle, if keep_in_place { Reference::World } else { Reference::Parent })?;
         let path = match parent {
             None => String::new(),
@@ -200,9 +220,16 @@ impl<'a> SimApi<'a> {
                 self.registry.entry(parent)?.path.clone()
             }
         };
-        let entry = self.registry.runtime_object(handle, "hung elsewhere")?;
+        let entry = self.registry.entry_mut(handle);
         entry.parent = parent;
-        entry.path = format!("{path}/{}", entry.name);
+        let new = format!("{path}/{}", entry.name);
+        let old = std::mem::replace(&mut entry.path, new.clone());
+        for below in self.registry.tree(handle).into_iter().skip(1) {
+            let entry = self.registry.entry_mut(below);
+            if let Some(rest) = entry.path.strip_prefix(&old) {
+                entry.path = format!("{new}{rest}");
+            }
+        }
         self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
     }
 

@@ -22,6 +22,8 @@ pub enum Value {
     List(Vec<Value>),
     /// A table with names, in its order.
     Map(Vec<(String, Value)>),
+    /// A table with whole numbers as keys, in its order.
+    Numbered(Vec<(i64, Value)>),
 }
 
 impl Value {
@@ -46,7 +48,7 @@ impl Value {
             Self::Text(_) => "text",
             Self::Bytes(_) => "bytes",
             Self::List(_) => "a list",
-            Self::Map(_) => "a map",
+            Self::Map(_) | Self::Numbered(_) => "a map",
         }
     }
 

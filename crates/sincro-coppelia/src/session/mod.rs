@@ -54,6 +54,8 @@ pub struct Session {
     /// Folders that may be loaded by clients, besides the first one's own.
     root: PathBuf,
     grants: Grants,
+    /// True if clients are served.
+    is_served: bool,
 }
 
 /// Permissions of clients beyond the simulation; none by default.
@@ -130,6 +132,7 @@ impl Session {
             steps: 0,
             root,
             grants: Grants::default(),
+            is_served: false,
         })
     }
 
@@ -221,6 +224,11 @@ impl Session {
         Ok(results)
     }
 
+    /// Says that clients are served: scripts can have ports opened.
+    pub fn set_served(&mut self) {
+        self.is_served = true;
+    }
+
     /// Lets clients do more than they may by themselves.
     pub fn grant(&mut self, grants: Grants) {
         self.grants = grants;
@@ -296,6 +304,7 @@ impl Session {
         if std::mem::take(&mut self.registry().is_model_changed) {
             self.adopt();
         }
+        self.registry().is_served = self.is_served;
         let before = self.registry().clone();
         self.registry().begin_run();
         let start = self.lockstep.state().clone();

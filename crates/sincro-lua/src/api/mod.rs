@@ -5,6 +5,7 @@
 //! parameters, each other, threads.
 
 mod callbacks;
+mod modules;
 mod moves;
 mod scripts;
 mod threads;
@@ -62,8 +63,7 @@ pub(crate) fn offer(
     callbacks::offer(&context)?;
     absent(&context)?;
     lua.globals().set("sim", &context.sim)?;
-    let ik = inverse_kinematics(&context)?;
-    modules(&context, ik)
+    modules::offer(&context)
 }
 
 impl ApiContext<'_> {
@@ -199,39 +199,6 @@ fn constants_of(context: &ApiContext<'_>) -> mlua::Result<()> {
         }
     }
     Ok(())
-}
-
-/// The table `simIK`.
-fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
-    let module = context.lua.create_table()?;
-    for function in functions::ik_functions() {
-        module.set(function.name, context.of_session("simIK", function)?)?;
-    }
-    for (old, present) in functions::old_ik_names() {
-        module.set(old, module.get::<Function>(present)?)?;
-    }
-    for (name, value) in functions::ik::CONSTANTS {
-        module.set(*name, *value)?;
-    }
-    context.lua.globals().set("simIK", &module)?;
-    Ok(module)
-}
-
-/// `require 'sim'`, and the modules that are not there.
-fn modules(context: &ApiContext<'_>, ik: Table) -> mlua::Result<()> {
-    let sim = context.sim.clone();
-    let require = context.lua.create_function(move |_, name: String| {
-        if name == "simIK" || name == "simIK-1" {
-            return Ok(ik.clone());
-        }
-        if name == "sim" || name.strip_prefix("sim-").is_some_and(|version| version.parse::<u32>().is_ok()) {
-            return Ok(sim.clone());
-        }
-        Err(Error::RuntimeError(format!(
-            "there is no module '{name}': scripts have `sim` and `simIK`, and load no files"
-        )))
-    })?;
-    context.lua.globals().set("require", require)
 }
 
 /// The value of a signal of any kind, for those who wait for it.

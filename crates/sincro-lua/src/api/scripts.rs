@@ -16,6 +16,8 @@ pub(super) const FIRST_SCRIPT: i64 = 1_000_000;
 const MAX_PARAMETERS: usize = 10_000;
 
 const SELF: i64 = -4;
+const ALL: i64 = -2;
+const TREE: i64 = -6;
 const CUSTOMIZATION: i64 = 6;
 
 /// The place of a script, by its own handle or `sim.handle_self`.
@@ -94,7 +96,10 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     })?;
     let shared = context.shared.clone();
     context.add("setScriptSimulationParameter", move |lua, (script, name, value): (i64, String, LuaValue)| {
-        let script = object_with(&shared, index, script, "setScriptSimulationParameter")?;
+        let objects = match script {
+            TREE | ALL => scripts_below(&shared, index, script == TREE),
+            script => vec![object_with(&shared, index, script, "setScriptSimulationParameter")?],
+        };
         let text = match &value {
             LuaValue::Boolean(truth) => truth.to_string(),
             LuaValue::Nil => "nil".to_owned(),
@@ -105,14 +110,24 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 ))
             })?,
         };
-        let done = shared.with_sim(script, |sim| {
+        let own = handle_of(&shared.scripts[index]);
+        let done = shared.with_sim(own, |sim| {
             let parameters = &mut sim.registry.script_parameters;
-            let key = (script, name);
-            if parameters.len() >= MAX_PARAMETERS && !parameters.contains_key(&key) {
-                return Err(ApiError(format!("there are {MAX_PARAMETERS} parameters already")));
+            let mut n_set = 0;
+            for object in &objects {
+                let key = (*object, name.clone());
+                let is_known = parameters.contains_key(&key);
+                // of several scripts, those that have it
+                if !is_known && matches!(script, TREE | ALL) {
+                    continue;
+                }
+                if parameters.len() >= MAX_PARAMETERS && !is_known {
+                    return Err(ApiError(format!("there are {MAX_PARAMETERS} parameters already")));
+                }
+                parameters.insert(key, text.clone());
+                n_set += 1;
             }
-            parameters.insert(key, text);
-            Ok(1)
+            Ok(n_set)
         });
         done.map_err(|error| super::refused("setScriptSimulationParameter", &error))
     })?;
@@ -126,6 +141,17 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         let suffix = name.and_then(|name| name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<i64>().ok()));
         Ok(suffix.unwrap_or(-1))
     })
+}
+
+/// Objects of all scripts, or of those on the script's own object and below.
+fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handle> {
+    let own = handle_of(&shared.scripts[index]);
+    let tree = shared.with_sim(own, |sim| Ok(sim.registry.tree(own))).unwrap_or_default();
+    let mut all: Vec<Handle> = shared.scripts.iter().map(handle_of).collect();
+    all.retain(|object| !in_tree || tree.contains(object));
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 /// The object whose parameters are meant: that of a script, by the script's handle or its own.

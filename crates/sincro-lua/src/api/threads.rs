@@ -32,8 +32,17 @@ pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()>
         guard.set_switching(after == 0);
         Ok(before)
     })?;
-    for name in ["setThreadSwitchTiming", "setThreadResumeLocation", "setThreadIsFree", "acquireLock", "releaseLock"] {
+    for name in [
+        "setThreadSwitchTiming",
+        "setAutoYieldDelay",
+        "setThreadResumeLocation",
+        "setThreadIsFree",
+        "acquireLock",
+        "releaseLock",
+    ] {
         context.add(name, |_, _: MultiValue| Ok(0))?;
     }
+    // every script is called at each step: none has to call those below it
+    context.add("handleChildScript", |_, _: MultiValue| Ok(1))?;
     context.add("getThreadId", |_, ()| Ok(0))
 }

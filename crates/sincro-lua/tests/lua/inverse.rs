@@ -178,3 +178,94 @@ fn groups_with_names_are_handled_as_those_of_old() {
     }
     assert_eq!(said.len(), 10);
 }
+
+/// Group whose tip is to reach a target on a circle of the arm.
+const ELEMENT: &str = "
+    base = sim.getObject('/start')
+    element, to_ik, to_sim = simIK.addElementFromScene(env, group, -1, tip, target, simIK.constraint_position)
+";
+
+#[test]
+fn an_environment_keeps_its_own_positions_until_the_scene_is_taken_over() {
+    let code = format!(
+        "function sysCall_init() {SET_UP}{ELEMENT}
+        sim.setObjectPosition(target, {{ 0.5, 0.3, 0.4 }})
+        print(element, to_ik[tip] == tip, to_sim[target] == target, simIK.doesGroupExist(env, 'none'))
+        local before = sim.getJointPosition(joints[2])
+        print(simIK.handleGroup(env, group))
+        local solved = simIK.getJointPosition(env, joints[2])
+        print(sim.getJointPosition(joints[2]) == before, math.abs(solved - before) > 0.01)
+        simIK.syncFromSim(env, {{ group }})
+        print(simIK.getJointPosition(env, joints[2]) == before)
+        simIK.handleGroup(env, group)
+        simIK.syncToSim(env, {{ group }})
+        print(sim.getJointTargetPosition(joints[2]) == solved)
+        local gap = simIK.applyIkEnvironmentToScene(env, group, true)
+        print(gap == simIK.result_success)
+        simIK.setGroupFlags(env, group, 0)
+        print(simIK.handleGroup(env, group) == simIK.result_not_performed)
+        end"
+    );
+    let said = said(&code);
+    assert_eq!(said[0], "0\ttrue\ttrue\tfalse");
+    assert!(said[1].starts_with("1\t0\t"), "{said:?}");
+    assert_eq!(said[2..], ["true\ttrue", "true", "true", "true", "true"]);
+}
+
+#[test]
+fn configurations_reach_the_target_within_limits_and_a_callback_chooses() {
+    let code = format!(
+        "function sysCall_init() {SET_UP}{ELEMENT}
+        sim.setObjectPosition(target, {{ 0.5, 0.3, 0.4 }})
+        local function reaches(q)
+            local r = 0.5 * math.cos(q[2]) + 0.4 * math.cos(q[2] + q[3])
+            local z = 0.5 * math.sin(q[2]) + 0.4 * math.sin(q[2] + q[3])
+            local x, y = r * math.cos(q[1]), r * math.sin(q[1])
+            return math.abs(x - 0.5) < 1e-3 and math.abs(y - 0.3) < 1e-3 and math.abs(z - 0.4) < 1e-3
+        end
+        local all = simIK.findConfigs(env, group, joints, {{ maxTime = 0.5, findMultiple = true }})
+        local good, inside = 0, 0
+        for _, q in ipairs(all) do
+            if reaches(q) then good = good + 1 end
+            if q[3] >= -2.5 and q[3] <= 0 then inside = inside + 1 end
+        end
+        print(#all >= 2, good == #all, inside == #all)
+        local one = simIK.findConfig(env, group, joints)
+        print(one[1] == all[1][1] and one[2] == all[1][2])
+        local other = simIK.findConfig(env, group, joints, 0.1, 0.5, {{ 1, 1, 1, 0.1 }}, function(q) return math.abs(q[1]) > 2 end)
+        print(math.abs(other[1]) > 2 and reaches(other))
+        sim.setObjectPosition(target, {{ 5, 0, 0 }})
+        print(simIK.findConfig(env, group, joints), #simIK.findConfigs(env, group, joints))
+        end"
+    );
+    assert_eq!(said(&code), ["true\ttrue\ttrue", "true", "true", "nil\t0"]);
+}
+
+#[test]
+fn a_path_is_straight_and_the_jacobian_is_that_of_the_arm() {
+    let code = format!(
+        "function sysCall_init() {SET_UP}{ELEMENT}
+        local p = sim.getObjectPosition(tip, -1)
+        sim.setObjectPosition(target, {{ p[1] - 0.1, p[2] + 0.2, p[3] + 0.1 }})
+        local path = simIK.generatePath(env, group, joints, tip, 5)
+        local worst = 0
+        for k = 0, 4 do
+            local q = {{ path[3 * k + 1], path[3 * k + 2], path[3 * k + 3] }}
+            local r = 0.5 * math.cos(q[2]) + 0.4 * math.cos(q[2] + q[3])
+            local z = 0.5 * math.sin(q[2]) + 0.4 * math.sin(q[2] + q[3])
+            local s = k / 4
+            worst = math.max(worst, math.abs(r * math.cos(q[1]) - p[1] + 0.1 * s), math.abs(r * math.sin(q[1]) - p[2] - 0.2 * s),
+                math.abs(z - p[3] - 0.1 * s))
+        end
+        print(#path, worst < 1e-3)
+        local J, size = simIK.getJacobian(env, group)
+        local q2, q3 = sim.getJointPosition(joints[2]), sim.getJointPosition(joints[3])
+        local r = 0.5 * math.cos(q2) + 0.4 * math.cos(q2 + q3)
+        -- with the first joint at zero: its column is along y
+        print(size[1], size[2], math.abs(J[4] - r) < 1e-12, math.abs(J[1]) < 1e-12)
+        local a, b = 0.5, 0.4
+        print(math.abs(simIK.getManipulability(env, group) - math.abs(a * b * math.sin(q3) * r)) < 1e-12)
+        end"
+    );
+    assert_eq!(said(&code), ["15\ttrue", "3\t3\ttrue\ttrue", "true"]);
+}

@@ -7,6 +7,7 @@ mod graphs;
 mod inverse;
 mod language;
 mod limits;
+mod modules;
 mod motion;
 mod names;
 mod parity;

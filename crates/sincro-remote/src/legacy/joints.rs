@@ -1,7 +1,7 @@
 //! Commands of the legacy API: joints.
 
+use sincro_coppelia::api::SimApi;
 use sincro_coppelia::api::convention::matrix_of;
-use sincro_coppelia::api::{ApiError, SimApi};
 
 use super::functions::{Call, Reply, after, reals};
 
@@ -22,8 +22,8 @@ pub(super) fn set_target_position(sim: &mut SimApi<'_>, call: &Call<'_>) -> Repl
 }
 
 pub(super) fn force(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    let force = sim.joint_force(call.handle()?)?;
-    reals([force.ok_or_else(|| ApiError::new("there is no force before the first step, nor without a motor"))?])
+    // as V-REP: 0 before the first step, and for a joint whose motor is off or missing
+    reals([sim.joint_force(call.handle()?)?.unwrap_or(0.0)])
 }
 
 pub(super) fn target_force(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {

@@ -33,6 +33,22 @@ use crate::hub::Hub;
 use crate::listen::Connection;
 use client::Client;
 
+/// Functions of the clients' library, each once, with the reason where one is refused.
+#[must_use]
+pub fn functions() -> Vec<(&'static str, Option<&'static str>)> {
+    let mut all: Vec<(&str, Option<&str>)> = Vec::new();
+    for row in commands::COMMANDS.iter().filter(|row| row.name.starts_with("simx")) {
+        let why = match row.function {
+            commands::Function::Refused(why) => Some(why),
+            _ => None,
+        };
+        if !all.iter().any(|(name, _)| *name == row.name) {
+            all.push((row.name, why));
+        }
+    }
+    all
+}
+
 /// Serves one connection until it ends.
 pub(crate) fn serve(mut connection: Connection, hub: &Arc<Hub>) {
     let key = format!("legacy {}", connection.peer());

@@ -2,7 +2,7 @@
 
 use sincro_coppelia::api::SimApi;
 
-use super::functions::{Call, Reply, after, done, ints, reals};
+use super::functions::{Call, Reply, after, ints, reals};
 
 pub(super) fn int(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     ints([i32::try_from(sim.int_parameter(call.parameter()?)?).unwrap_or(i32::MAX)])
@@ -30,9 +30,7 @@ pub(super) fn bool(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
 
 /// Takes a switch of display or real time, without effect.
 pub(super) fn set_bool(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    sim.bool_parameter(call.parameter()?)?;
-    call.int(0)?;
-    done()
+    after(sim.set_bool_parameter(call.parameter()?, call.int(0)? != 0))
 }
 
 pub(super) fn array(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {

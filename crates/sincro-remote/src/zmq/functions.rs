@@ -13,7 +13,7 @@ use crate::hub::{ClientId, Hub};
 use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
-const MODULES: &str = "the modules sim and simIK are offered";
+const MODULES: &str = "the modules sim, simIK and simUI are offered";
 /// Longest real wait of one call.
 const MAX_WAIT: f64 = 3_600.0;
 
@@ -28,6 +28,7 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("releaseLock", "sim.releaseLock()"),
     ("setThreadSwitchTiming", "sim.setThreadSwitchTiming(int dtInMs)"),
     ("setThreadAutomaticSwitch", "int previousLevel=sim.setThreadAutomaticSwitch(any autoSwitch)"),
+    ("setAutoYieldDelay", "sim.setAutoYieldDelay(float dt)"),
     ("restartServer", "sim.restartServer()"),
     ("readCustomDataBlock", "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)"),
     ("callScriptFunction", "...=sim.callScriptFunction(string functionName,int scriptHandle,...)"),
@@ -88,7 +89,7 @@ impl Endpoint {
                 self.hub.wake();
                 Vec::new()
             }
-            "setThreadSwitchTiming" | "handleExtCalls" | "restartServer" => Vec::new(),
+            "setThreadSwitchTiming" | "setAutoYieldDelay" | "handleExtCalls" | "restartServer" => Vec::new(),
             "setThreadAutomaticSwitch" => vec![Value::Int(0)],
             "testCB" => return callback(a),
             "getApiFunc" => vec![Value::List(names(a.text(1)?).map(Value::from).collect())],
@@ -105,7 +106,7 @@ impl Endpoint {
             _ => {
                 let mut results = self.session(name, arguments)?;
                 // over the wire nothing stored is an empty text
-                if bare == "readCustomDataBlock" && results == [Value::Nil] {
+                if matches!(bare, "readCustomDataBlock" | "readCustomBufferData") && results == [Value::Nil] {
                     results = vec![Value::Bytes(Vec::new())];
                 }
                 results
@@ -281,6 +282,14 @@ fn clock() -> f64 {
     SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0.0, |d| d.as_secs_f64())
 }
 
+/// Present names of all functions of `sim`, without it.
+#[must_use]
+pub fn present_names() -> Vec<&'static str> {
+    let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| functions::function(name).is_none());
+    let moves = functions::MOVES.iter().map(|(name, _, _)| *name);
+    functions::functions().map(|f| f.name).chain(own).chain(moves).collect()
+}
+
 /// Every function that can be called, by present and old names, without `sim.`.
 fn all() -> impl Iterator<Item = &'static str> {
     let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| functions::function(name).is_none());
@@ -310,12 +319,16 @@ fn tip(name: &str) -> Option<&'static str> {
 pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
     static SIM: OnceLock<Value> = OnceLock::new();
     static IK: OnceLock<Value> = OnceLock::new();
+    static UI: OnceLock<Value> = OnceLock::new();
     if !is_offered(module) {
         return Err(ApiError(format!("there is no module {module}: {MODULES}")));
     }
     if module.starts_with("simIK") {
         let names = functions::ik_functions().map(|f| f.name).chain(functions::old_ik_names().map(|(old, _)| old));
         return Ok(IK.get_or_init(|| members(names, functions::ik::CONSTANTS.iter().copied())).clone());
+    }
+    if module.starts_with("simUI") {
+        return Ok(UI.get_or_init(|| members(functions::ui_functions().map(|f| f.name), std::iter::empty())).clone());
     }
     Ok(SIM.get_or_init(|| members(all(), constants::constants())).clone())
 }
@@ -329,10 +342,10 @@ fn members<'a>(names: impl Iterator<Item = &'a str>, constants: impl Iterator<It
     Value::Map(functions.chain(constants).collect())
 }
 
-/// Returns true if a module is here: `sim` and `simIK`, with or without a version.
+/// Returns true if a module is here: `sim`, `simIK` and `simUI`, with or without a version.
 pub(crate) fn is_offered(module: &str) -> bool {
     let (name, version) = module.split_once('-').unwrap_or((module, "1"));
-    matches!(name, "sim" | "simIK") && version.parse() == Ok(1)
+    matches!(name, "sim" | "simIK" | "simUI") && version.parse() == Ok(1)
 }
 
 /// `require`

@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use crate::hub::Hub;
 use crate::listen::Connection;
+pub use functions::present_names;
 pub(crate) use functions::{CallOutcome, Endpoint, info, kind_of};
 pub use steps::Publisher;
 

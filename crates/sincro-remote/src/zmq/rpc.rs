@@ -166,7 +166,7 @@ impl Conversation {
                     None => self.endpoint(key(usize::MAX)),
                 };
                 match endpoint.call(name, given)? {
-                    CallOutcome::Done(results) => Ok(results),
+                    CallOutcome::Done(results) => Ok(as_text(name, results)),
                     CallOutcome::Callback { after, .. } => {
                         Err(endpoint.decline(after, "version 1 of the client has no callbacks"))
                     }
@@ -180,6 +180,22 @@ impl Drop for Conversation {
     fn drop(&mut self) {
         self.leave();
     }
+}
+
+/// Strings as the first version gave them: what is text arrives as text, but for images and packed numbers.
+fn as_text(name: &str, mut results: Vec<Value>) -> Vec<Value> {
+    let is_binary = |word: &&str| name.contains(*word);
+    if ["Vision", "Image", "image", "pack", "Buffer"].iter().any(is_binary) {
+        return results;
+    }
+    for result in &mut results {
+        if let Value::Bytes(bytes) = result
+            && let Ok(text) = String::from_utf8(std::mem::take(bytes)).map_err(|error| *bytes = error.into_bytes())
+        {
+            *result = Value::Text(text);
+        }
+    }
+    results
 }
 
 fn parse(bytes: &[u8]) -> Result<Request, ApiError> {

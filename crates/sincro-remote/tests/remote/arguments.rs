@@ -63,6 +63,14 @@ impl Made {
     }
 }
 
+impl Made {
+    /// Objects to be removed once a name was called: sensors and shapes that stay are looked at in every step.
+    pub fn objects(&self) -> [Value; 4] {
+        let [one, other] = &self.shapes;
+        [self.point.clone(), one.clone(), other.clone(), self.sensor.clone()]
+    }
+}
+
 /// A proximity sensor that is a ray of 1 m.
 fn sensor_arguments() -> Vec<Value> {
     let numbers = Value::reals([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
@@ -166,6 +174,40 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         _ if name.starts_with("checkVisionSensor") => vec![eye.clone(), body.clone(), Value::Bool(false)],
         _ if name.contains("VisionSensor") => vec![eye.clone()],
         "getExplicitHandling" | "setExplicitHandling" => vec![eye.clone(), int(0)],
+        "getShapeBB" => vec![shape.clone()],
+        "boolOr32" | "boolAnd32" | "boolXor32" | "boolOr16" | "boolAnd16" | "boolXor16" => vec![int(6), int(-1)],
+        "tubeOpen" => vec![int(0), text(), int(2)],
+        "tubeWrite" => vec![int(0), text()],
+        "tubeRead" | "tubeStatus" | "tubeClose" => vec![int(0)],
+        "setJointForce" | "setJointMaxForce" => vec![joint.clone(), Value::Real(5.0)],
+        _ if name.starts_with("readCustom") => vec![joint.clone(), text()],
+        "writeCustomTableData" => vec![joint.clone(), text(), map(&[("a", int(1))])],
+        _ if name.starts_with("writeCustom") => vec![joint.clone(), text(), Value::Bytes(vec![1])],
+        "removeProperty" => vec![joint.clone(), Value::from("customData.tag")],
+        "getPropertyName" => vec![joint.clone(), int(0)],
+        _ if name.starts_with("get")
+            && name.ends_with("Property")
+            && !name.contains("Object")
+            && !name.contains("Model") =>
+        {
+            vec![joint.clone(), Value::from("customData.none"), map(&[("noError", Value::Bool(true))])]
+        }
+        _ if name.starts_with("set") && name.ends_with("Property") && !name.contains("Object") => {
+            let value = match name {
+                "setBoolProperty" => Value::Bool(true),
+                "setStringProperty" => text(),
+                "setBufferProperty" => Value::Bytes(vec![1]),
+                "setTableProperty" => map(&[("a", int(1))]),
+                "setVector2Property" => Value::reals([1.0, 2.0]),
+                "setVector3Property" => three(),
+                "setQuaternionProperty" => turn(),
+                "setPoseProperty" => pose(),
+                "setFloatArrayProperty" => three(),
+                "setIntArrayProperty" => Value::List(vec![int(1)]),
+                _ => int(1),
+            };
+            vec![joint.clone(), Value::from("customData.tag"), value]
+        }
         "wait" => vec![Value::Real(0.05)],
         "moveToConfig_init" => vec![map(&[("pos", Value::reals([0.0])), ("targetPos", Value::reals([1.0]))])],
         "moveToPose_init" => vec![map(&[("pose", pose()), ("targetPose", pose())])],

@@ -3,11 +3,13 @@
 
 mod all_names;
 mod arguments;
+mod compatibility;
 mod fuzz;
 mod legacy;
 mod many;
 mod moving;
 mod names;
+mod page;
 mod parity;
 mod scene;
 mod security;

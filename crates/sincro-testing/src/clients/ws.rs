@@ -108,6 +108,9 @@ fn json_of(value: &Value) -> Json {
         Value::Text(text) => text.as_str().into(),
         Value::Bytes(bytes) => bytes.iter().copied().map(Json::from).collect(),
         Value::List(list) => list.iter().map(json_of).collect(),
+        Value::Numbered(map) => {
+            Json::Object(map.iter().map(|(key, value)| (key.to_string(), json_of(value))).collect())
+        }
         Value::Map(map) => Json::Object(map.iter().map(|(key, value)| (key.clone(), json_of(value))).collect()),
     }
 }

@@ -34,6 +34,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "bool stopping=sim.getSimulationStopping()",
         run: |_, _| one(false),
     },
+    Function {
+        name: "getSimulatorMessage",
+        tip: "int message,int[4] auxiliaryData,int[] auxiliaryData2=sim.getSimulatorMessage()",
+        run: |_, _| Ok(vec![Value::Int(-1), Value::List(vec![Value::Int(0); 4]), Value::List(Vec::new())]),
+    },
     Function { name: "addLog", tip: "sim.addLog(int verbosityLevel,string logMessage)", run: log },
     Function { name: "addStatusbarMessage", tip: "int result=sim.addStatusbarMessage(string message)", run: message },
     Function {
@@ -131,10 +136,9 @@ fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// Switches of the display and of real time are taken and do nothing here: the first has no meaning without a window,
-/// the second is the server's.
+/// the second is the server's. Parts of the step cannot be switched off.
 fn set_bool(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    sim.bool_parameter(a.int(0)?)?;
-    a.bool_or(1, false)?;
+    sim.set_bool_parameter(a.int(0)?, a.bool_or(1, false)?)?;
     done()
 }
 

@@ -1,8 +1,9 @@
 //! Functions: `simIK`, inverse kinematics.
 
-use super::{Function, Outcome, done, one, plain};
+use super::objects::handles;
+use super::{Function, Outcome, done, function, one, plain};
 use crate::api::ik::Element;
-use crate::api::{ApiError, Arguments, SimApi, Value};
+use crate::api::{ApiError, Arguments, Handle, Kind, Search, SimApi, Value};
 
 /// Functions of `simIK`, named without it.
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -44,14 +45,382 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: handle,
     },
     Function { name: "syncFromSim", tip: "simIK.syncFromSim(int environmentHandle,int[] groupHandles)", run: sync },
-    Function { name: "syncToSim", tip: "simIK.syncToSim(int environmentHandle,int[] groupHandles)", run: sync },
+    Function {
+        name: "syncToSim",
+        tip: "simIK.syncToSim(int environmentHandle,int[] groupHandles)",
+        run: |d, a| d.sync_to_scene(a.int(0)?).and_then(|()| done()),
+    },
+    Function {
+        name: "applyIkEnvironmentToScene",
+        tip: "int result,int flags=simIK.applyIkEnvironmentToScene(int environmentHandle,int groupHandle,bool applyOnlyWhenSuccessful=false)",
+        run: apply,
+    },
+    Function {
+        name: "applySceneToIkEnvironment",
+        tip: "simIK.applySceneToIkEnvironment(int environmentHandle,int groupHandle)",
+        run: sync,
+    },
+    Function {
+        name: "doesGroupExist",
+        tip: "bool result=simIK.doesGroupExist(int environmentHandle,string groupName)",
+        run: |d, a| one(d.group_of_name(Some(a.int(0)?), a.text(1)?).is_ok()),
+    },
+    Function {
+        name: "getGroupCalculation",
+        tip: "int method,float dampingFactor,int maxIterations=simIK.getGroupCalculation(int environmentHandle,int groupHandle)",
+        run: get_calculation,
+    },
+    Function {
+        name: "setGroupFlags",
+        tip: "simIK.setGroupFlags(int environmentHandle,int groupHandle,int flags)",
+        run: group_flags,
+    },
+    Function {
+        name: "getGroupFlags",
+        tip: "int flags=simIK.getGroupFlags(int environmentHandle,int groupHandle)",
+        run: |d, a| {
+            let group = d.group(a.int(0)?, a.int(1)?)?;
+            one(i64::from(group.is_enabled) | i64::from(group.has_free_steps) << 1)
+        },
+    },
+    Function {
+        name: "setElementBase",
+        tip: "simIK.setElementBase(int environmentHandle,int groupHandle,int elementHandle,int baseHandle,int constraintsBaseHandle=-1)",
+        run: set_base,
+    },
+    Function {
+        name: "getElementBase",
+        tip: "int baseHandle,int constraintsBaseHandle=simIK.getElementBase(int environmentHandle,int groupHandle,int elementHandle)",
+        run: |d, a| {
+            let element = d.element(a.int(0)?, a.int(1)?, a.int(2)?)?;
+            let number = |handle: Option<Handle>| Value::from(handle.unwrap_or(Handle(-1)));
+            Ok(vec![number(element.base), number(element.axes_of)])
+        },
+    },
+    Function {
+        name: "setElementConstraints",
+        tip: "simIK.setElementConstraints(int environmentHandle,int groupHandle,int elementHandle,int constraints)",
+        run: set_constraints,
+    },
+    Function {
+        name: "getElementConstraints",
+        tip: "int constraints=simIK.getElementConstraints(int environmentHandle,int groupHandle,int elementHandle)",
+        run: |d, a| one(d.element(a.int(0)?, a.int(1)?, a.int(2)?)?.constraints),
+    },
+    Function {
+        name: "setElementFlags",
+        tip: "simIK.setElementFlags(int environmentHandle,int groupHandle,int elementHandle,int flags)",
+        run: |d, a| {
+            let enabled = a.int(3)? & 1 != 0;
+            d.element(a.int(0)?, a.int(1)?, a.int(2)?)?.is_enabled = enabled;
+            done()
+        },
+    },
+    Function {
+        name: "getElementFlags",
+        tip: "int flags=simIK.getElementFlags(int environmentHandle,int groupHandle,int elementHandle)",
+        run: |d, a| one(i64::from(d.element(a.int(0)?, a.int(1)?, a.int(2)?)?.is_enabled)),
+    },
+    Function {
+        name: "getElementPrecision",
+        tip: "float[2] precision=simIK.getElementPrecision(int environmentHandle,int groupHandle,int elementHandle)",
+        run: |d, a| super::list(d.element(a.int(0)?, a.int(1)?, a.int(2)?)?.precision),
+    },
+    Function {
+        name: "getElementWeights",
+        tip: "float[2] weights=simIK.getElementWeights(int environmentHandle,int groupHandle,int elementHandle)",
+        run: |d, a| super::list(d.element(a.int(0)?, a.int(1)?, a.int(2)?)?.weights),
+    },
+    Function {
+        name: "createDummy",
+        tip: "int dummyHandle=simIK.createDummy(int environmentHandle,string dummyName='')",
+        run: create_dummy,
+    },
+    Function {
+        name: "getObjectHandle",
+        tip: "int objectHandle=simIK.getObjectHandle(int environmentHandle,string objectName)",
+        run: |d, a| {
+            d.environment(a.int(0)?)?;
+            one(d.registry.find(a.text(1)?, Search { from: d.own, ..Search::default() })?)
+        },
+    },
+    Function {
+        name: "doesObjectExist",
+        tip: "bool result=simIK.doesObjectExist(int environmentHandle,string objectName)",
+        run: |d, a| {
+            d.environment(a.int(0)?)?;
+            one(d.registry.find(a.text(1)?, Search { from: d.own, ..Search::default() }).is_ok())
+        },
+    },
+    Function {
+        name: "eraseObject",
+        tip: "simIK.eraseObject(int environmentHandle,int objectHandle)",
+        run: |d, a| {
+            d.environment(a.int(0)?)?;
+            let own = super::handle(d, a, 1)?;
+            d.remove(own)?;
+            done()
+        },
+    },
+    Function {
+        name: "getObjectPose",
+        tip: "float[7] pose=simIK.getObjectPose(int environmentHandle,int objectHandle,int relativeToObjectHandle=-1)",
+        run: |d, a| inside(d, a, "getObjectPose"),
+    },
+    Function {
+        name: "setObjectPose",
+        tip: "simIK.setObjectPose(int environmentHandle,int objectHandle,float[7] pose,int relativeToObjectHandle=-1)",
+        run: |d, a| inside(d, a, "setObjectPose"),
+    },
+    Function {
+        name: "getObjectMatrix",
+        tip: "float[12] matrix=simIK.getObjectMatrix(int environmentHandle,int objectHandle,int relativeToObjectHandle=-1)",
+        run: |d, a| inside(d, a, "getObjectMatrix"),
+    },
+    Function {
+        name: "setObjectMatrix",
+        tip: "simIK.setObjectMatrix(int environmentHandle,int objectHandle,float[12] matrix,int relativeToObjectHandle=-1)",
+        run: |d, a| inside(d, a, "setObjectMatrix"),
+    },
+    Function {
+        name: "setObjectParent",
+        tip: "simIK.setObjectParent(int environmentHandle,int objectHandle,int parentObjectHandle,bool keepInPlace=true)",
+        run: |d, a| inside(d, a, "setObjectParent"),
+    },
+    Function {
+        name: "getObjectParent",
+        tip: "int parentObjectHandle=simIK.getObjectParent(int environmentHandle,int objectHandle)",
+        run: |d, a| inside(d, a, "getObjectParent"),
+    },
+    Function {
+        name: "getJointInterval",
+        tip: "bool cyclic,float[2] interval=simIK.getJointInterval(int environmentHandle,int jointHandle)",
+        run: |d, a| inside(d, a, "getJointInterval"),
+    },
+    Function {
+        name: "getJointType",
+        tip: "int jointType=simIK.getJointType(int environmentHandle,int jointHandle)",
+        run: |d, a| inside(d, a, "getJointType"),
+    },
+    Function {
+        name: "getJointPosition",
+        tip: "float position=simIK.getJointPosition(int environmentHandle,int jointHandle)",
+        run: joint_position,
+    },
+    Function {
+        name: "setJointPosition",
+        tip: "simIK.setJointPosition(int environmentHandle,int jointHandle,float position)",
+        run: set_joint_position,
+    },
+    Function {
+        name: "getJointMode",
+        tip: "int jointMode=simIK.getJointMode(int environmentHandle,int jointHandle)",
+        run: |d, a| {
+            let own = super::handle(d, a, 1)?;
+            one(if d.environment(a.int(0)?)?.passive.contains(&own) { 0 } else { MODE_IK })
+        },
+    },
+    Function {
+        name: "setJointMode",
+        tip: "simIK.setJointMode(int environmentHandle,int jointHandle,int jointMode)",
+        run: set_joint_mode,
+    },
+    Function {
+        name: "computeGroupJacobian",
+        tip: "float[] jacobian,float[] errorVector=simIK.computeGroupJacobian(int environmentHandle,int groupHandle)",
+        run: |d, a| {
+            let (rows, e) = d.group_jacobian(a.int(0)?, a.int(1)?)?;
+            Ok(vec![Value::reals(rows.into_iter().flatten()), Value::reals(e)])
+        },
+    },
+    Function {
+        name: "getGroupJoints",
+        tip: "int[] jointHandles=simIK.getGroupJoints(int environmentHandle,int groupHandle)",
+        run: |d, a| Ok(vec![Value::handles(d.group_joints(a.int(0)?, a.int(1)?)?)]),
+    },
+    Function {
+        name: "getJacobian",
+        tip: "float[] jacobian,int[2] columnsAndRows=simIK.getJacobian(int environmentHandle,int groupHandle)",
+        run: |d, a| {
+            let (rows, _) = d.group_jacobian(a.int(0)?, a.int(1)?)?;
+            let size = [rows.first().map_or(0, Vec::len), rows.len()].map(|n| Value::Int(n as i64));
+            Ok(vec![Value::reals(rows.into_iter().flatten()), Value::List(size.to_vec())])
+        },
+    },
+    Function {
+        name: "getManipulability",
+        tip: "float manipulability=simIK.getManipulability(int environmentHandle,int groupHandle)",
+        run: |d, a| one(d.manipulability(a.int(0)?, a.int(1)?)?),
+    },
+    Function {
+        name: "findConfig",
+        tip: "float[] jointPositions=simIK.findConfig(int environmentHandle,int groupHandle,int[] jointHandles,float thresholdDist=0.1,float maxTime=0.5,float[4] metric={1,1,1,0.1})",
+        run: find_config,
+    },
+    Function {
+        name: "findConfigs",
+        tip: "float[][] configs=simIK.findConfigs(int environmentHandle,int groupHandle,int[] jointHandles,map params={})",
+        run: find_configs,
+    },
+    Function {
+        name: "generatePath",
+        tip: "float[] path=simIK.generatePath(int environmentHandle,int groupHandle,int[] jointHandles,int tipHandle,int pathPointCount)",
+        run: path,
+    },
 ];
+
+/// `simIK.jointmode_ik`
+const MODE_IK: i64 = 2;
+/// Configurations that one search gives at most.
+const MAX_CONFIGURATIONS: usize = 100;
+
+/// Moves the joints of the scene as a group is solved.
+fn apply(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let outcome = sim.handle_group(a.int(0)?, a.int(1)?, (true, !a.bool_or(2, false)?))?;
+    Ok(results(outcome).into_iter().take(2).collect())
+}
+
+fn get_calculation(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let group = sim.group(a.int(0)?, a.int(1)?)?;
+    let method = i64::from(group.damping > 0.0);
+    Ok(vec![Value::Int(method), Value::Real(group.damping), Value::Int(group.iterations as i64)])
+}
+
+/// Bit 1 enabled, bit 2 steps without limit; 4 and 8, nothing is applied that is not reached, are so unless an error is
+/// allowed.
+fn group_flags(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let flags = a.int(2)?;
+    if flags & !15 != 0 {
+        return Err(ApiError(format!(
+            "flags {flags}: enabled 1, no limit of steps 2, 4 and 8 are known; joints stop at their limits"
+        )));
+    }
+    let group = sim.group(a.int(0)?, a.int(1)?)?;
+    (group.is_enabled, group.has_free_steps) = (flags & 1 != 0, flags & 2 != 0);
+    done()
+}
+
+/// An object, or none for −1.
+fn optional(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Option<Handle>, ApiError> {
+    match a.int_or(k, -1)? {
+        -1 => Ok(None),
+        _ => super::handle(sim, a, k).map(Some),
+    }
+}
+
+fn set_base(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (base, axes_of) = (optional(sim, a, 3)?, optional(sim, a, 4)?);
+    let changed = Element { base, axes_of, ..sim.element(a.int(0)?, a.int(1)?, a.int(2)?)?.clone() };
+    sim.check_element(&changed)?;
+    *sim.element(a.int(0)?, a.int(1)?, a.int(2)?)? = changed;
+    done()
+}
+
+fn set_constraints(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let changed = Element { constraints: a.int(3)?, ..sim.element(a.int(0)?, a.int(1)?, a.int(2)?)?.clone() };
+    sim.check_element(&changed)?;
+    *sim.element(a.int(0)?, a.int(1)?, a.int(2)?)? = changed;
+    done()
+}
+
+fn create_dummy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.environment(a.int(0)?)?;
+    let made = sim.registry.create_dummy("Dummy")?;
+    if a.has(1) && !a.text(1)?.is_empty() {
+        sim.registry.rename(made, a.text(1)?)?;
+    }
+    one(made)
+}
+
+/// A function of the scene, of an object whose environment it shares.
+fn inside(sim: &mut SimApi<'_>, a: Arguments<'_>, name: &str) -> Outcome {
+    sim.environment(a.int(0)?)?;
+    let of_scene = function(name).expect("it is one of the scene's functions");
+    (of_scene.run)(sim, Arguments(a.0.get(1..).unwrap_or_default()))
+}
+
+fn joint_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = super::handle(sim, a, 1)?;
+    let q = sim.joint_position(own)?;
+    one(sim.environment(a.int(0)?)?.positions.get(&own).copied().unwrap_or(q))
+}
+
+fn set_joint_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, q) = (super::handle(sim, a, 1)?, a.real(2)?);
+    sim.joint_position(own)?;
+    if !q.is_finite() {
+        return Err(ApiError(format!("position {q} is not finite")));
+    }
+    sim.environment(a.int(0)?)?.positions.insert(own, q);
+    done()
+}
+
+fn set_joint_mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = super::handle(sim, a, 1)?;
+    if !matches!(sim.registry.entry(own)?.kind, Kind::Joint(Some(_))) {
+        return Err(ApiError(format!("`{}` is no joint", sim.registry.entry(own)?.path)));
+    }
+    let passive = &mut sim.environment(a.int(0)?)?.passive;
+    match a.int(2)? {
+        0 => passive.insert(own),
+        MODE_IK => passive.remove(&own),
+        other => return Err(ApiError(format!("mode {other}: passive 0 and ik 2 are offered"))),
+    };
+    done()
+}
+
+/// Seconds stand for attempts; a threshold and a metric are not needed, since every attempt is solved to the end.
+fn find_config(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if a.has(6) {
+        return Err(ApiError::new("clients have no validation callbacks here: check what simIK.findConfigs gives"));
+    }
+    let seconds = if a.has(4) { a.real(4)? } else { 0.5 };
+    let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, 1, seconds)?;
+    one(found.into_iter().next().map_or(Value::Nil, Value::reals))
+}
+
+/// Parameters: `maxTime`, `findMultiple`; others that have no meaning for this search are left out.
+fn find_configs(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (mut seconds, mut n) = (0.3, 1);
+    if let Value::Map(fields) = a.get(3) {
+        for (name, value) in fields {
+            let wrong = || ApiError(format!("parameter `{name}` is {}", value.word()));
+            match name.as_str() {
+                "maxTime" => seconds = value.as_real().filter(|x| x.is_finite()).ok_or_else(wrong)?,
+                "findMultiple" => n = if value.as_bool().ok_or_else(wrong)? { MAX_CONFIGURATIONS } else { 1 },
+                "maxDist" | "pMetric" | "cMetric" | "findAlt" => {}
+                _ => return Err(ApiError(format!("there is no parameter `{name}`: maxTime, findMultiple"))),
+            }
+        }
+    }
+    let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, n, seconds)?;
+    Ok(vec![Value::List(found.into_iter().map(Value::reals).collect())])
+}
+
+fn path(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if a.has(5) {
+        return Err(ApiError::new("clients have no validation callbacks here: check the points of the path"));
+    }
+    let n = usize::try_from(a.int(4)?).unwrap_or(0);
+    let tip = super::handle(sim, a, 3)?;
+    let path = sim.generate_path((a.int(0)?, a.int(1)?), &handles(a, 2)?, tip, n)?;
+    one(path.map_or(Value::Nil, Value::reals))
+}
 
 /// Constants of `simIK`, named without it.
 pub const CONSTANTS: &[(&str, i64)] = &[
     ("method_pseudo_inverse", 0),
     ("method_damped_least_squares", 1),
     ("method_undamped_pseudo_inverse", 3),
+    ("jointmode_passive", 0),
+    ("jointmode_ik", MODE_IK),
+    ("handle_world", -1),
+    ("handle_parent", -11),
+    ("handleflag_tipdummy", 0x0040_0000),
+    ("group_enabled", 1),
+    ("group_ignoremaxsteps", 2),
+    ("group_restoreonbadlin", 4),
+    ("group_restoreonbadang", 8),
     ("constraint_x", 1),
     ("constraint_y", 2),
     ("constraint_z", 4),
@@ -78,13 +447,23 @@ pub(super) const OLD: &[(&str, &str)] = &[
     ("setIkElementWeights", "setElementWeights"),
     ("handleIkGroup", "handleGroup"),
     ("getIkGroupHandle", "getGroupHandle"),
+    ("doesIkGroupExist", "doesGroupExist"),
+    ("getIkGroupCalculation", "getGroupCalculation"),
+    ("setIkGroupFlags", "setGroupFlags"),
+    ("getIkGroupFlags", "getGroupFlags"),
+    ("setIkElementBase", "setElementBase"),
+    ("getIkElementBase", "getElementBase"),
+    ("setIkElementConstraints", "setElementConstraints"),
+    ("getIkElementConstraints", "getElementConstraints"),
+    ("setIkElementFlags", "setElementFlags"),
+    ("getIkElementFlags", "getElementFlags"),
+    ("getIkElementPrecision", "getElementPrecision"),
+    ("getIkElementWeights", "getElementWeights"),
+    ("getConfigForTipPose", "findConfig"),
 ];
 
 pub(super) const NOT_WITHIN_TOLERANCE: i64 = 16;
 pub(super) const LIMIT_HIT: i64 = 64;
-
-/// Precision that an element begins with `[m]`, `[rad]`: CoppeliaSim's half a millimetre and a tenth of a degree.
-const PRECISION: [f64; 2] = [0.0005, 0.1 * std::f64::consts::PI / 180.0];
 
 fn create(sim: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {
     one(sim.create_environment()? as i64)
@@ -111,15 +490,25 @@ fn calculation(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     done()
 }
 
-/// Objects have the same handles in environments: the maps that CoppeliaSim returns besides are not needed.
+/// Objects have the same handles in environments: the maps that CoppeliaSim returns besides lead each to itself.
 fn add(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let base = match a.handle(2)? {
         -1 => None,
         other => Some(plain(sim, other)?),
     };
     let (tip, target) = (super::handle(sim, a, 3)?, super::handle(sim, a, 4)?);
-    let element = Element { base, tip, target, constraints: a.int(5)?, precision: PRECISION, weights: [1.0; 2] };
-    one(sim.add_element(a.int(0)?, a.int(1)?, element)? as i64)
+    let element = sim.add_element(a.int(0)?, a.int(1)?, Element::new(base, tip, target, a.int(5)?))?;
+    let mut chain = base.map_or_else(|| Ok(vec![tip]), |base| sim.registry.entry(base).map(|_| vec![base, tip]))?;
+    let mut at = sim.registry.entry(tip)?.parent;
+    while let Some(handle) = at.filter(|handle| Some(*handle) != base) {
+        chain.push(handle);
+        at = sim.registry.entry(handle)?.parent;
+    }
+    chain.push(target);
+    chain.sort_unstable();
+    chain.dedup();
+    let same = || Value::Numbered(chain.iter().map(|h| (h.0.into(), Value::from(*h))).collect());
+    Ok(vec![Value::Int(element as i64), same(), same()])
 }
 
 fn two(a: Arguments<'_>, what: &str) -> Result<[f64; 2], ApiError> {
@@ -160,15 +549,19 @@ fn handle(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         Value::List(list) if list.is_empty() => {}
         other => return Err(ApiError(format!("argument 3 is {}, expected a map of options", other.word()))),
     }
-    let outcome = sim.handle_group(a.int(0)?, a.int(1)?, (apply, allow_error))?;
+    Ok(results(sim.handle_group(a.int(0)?, a.int(1)?, (apply, allow_error))?))
+}
+
+/// Result, flags and remaining errors, as `handleGroup` gives them.
+fn results(outcome: Option<crate::api::ik::Outcome>) -> Vec<Value> {
+    let Some(outcome) = outcome else { return vec![Value::Int(0), Value::Int(0), Value::reals([0.0; 2])] };
     let result = if outcome.is_reached { 1_i64 } else { 2 };
     let tolerance = if outcome.is_reached { 0 } else { NOT_WITHIN_TOLERANCE };
     let flags = tolerance | if outcome.hit_limit { LIMIT_HIT } else { 0 };
-    Ok(vec![result.into(), flags.into(), Value::reals(outcome.errors)])
+    vec![result.into(), flags.into(), Value::reals(outcome.errors)]
 }
 
-/// Environments are no worlds of their own: they are always as the scene is.
 fn sync(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    sim.group_count(a.int(0)?)?;
+    sim.sync_from_scene(a.int(0)?)?;
     done()
 }

@@ -10,6 +10,7 @@ const FIRST: i64 = 900_000;
 const IN_ONE: i64 = 32;
 
 /// Results of a calculation.
+const NOT_PERFORMED: i64 = 0;
 const SUCCESS: i64 = 1;
 const FAIL: i64 = 2;
 
@@ -47,7 +48,7 @@ fn solve(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     }
     let (environment, group) = parts(number)?;
     let outcome = sim.handle_group(environment, group, (true, true))?;
-    one(if outcome.is_reached { SUCCESS } else { FAIL })
+    one(outcome.map_or(NOT_PERFORMED, |outcome| if outcome.is_reached { SUCCESS } else { FAIL }))
 }
 
 /// Solved positions of joints, in the order of the request; joints outside the group keep their positions.

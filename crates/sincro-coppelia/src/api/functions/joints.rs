@@ -43,6 +43,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "sim.setJointTargetForce(int objectHandle,float forceOrTorque,bool signedValue=true)",
         run: set_target_force,
     },
+    Function {
+        name: "setJointForce",
+        tip: "int result=sim.setJointForce(int objectHandle,float forceOrTorque)",
+        run: set_force_along_target,
+    },
+    Function {
+        name: "setJointMaxForce",
+        tip: "sim.setJointMaxForce(int objectHandle,float forceOrTorque)",
+        run: set_force_along_target,
+    },
     Function { name: "getJointForce", tip: "float forceOrTorque=sim.getJointForce(int jointHandle)", run: force },
     Function { name: "getJointMode", tip: "int jointMode,int options=sim.getJointMode(int jointHandle)", run: mode },
     Function {
@@ -128,6 +138,15 @@ fn set_target_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn target_force(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     one(sim.target_force(own)?)
+}
+
+/// As before CoppeliaSim 4.3: in torque mode a magnitude has the direction of the target velocity. A negative number is
+/// no magnitude: it is taken with its sign.
+fn set_force_along_target(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let force = a.real(1)?;
+    sim.set_target_force(own, force, force < 0.0)?;
+    one(1_i64)
 }
 
 fn set_target_force(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

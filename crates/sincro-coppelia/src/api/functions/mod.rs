@@ -5,6 +5,7 @@
 //! z w. The functions of an adapter itself (stepping, waiting, scripts) are not here.
 
 mod absent;
+mod bits;
 mod bodies;
 mod buffers;
 mod collections;
@@ -20,14 +21,18 @@ mod motions;
 mod moves;
 mod names;
 mod objects;
+mod partly;
 mod paths;
 mod poses;
+mod properties;
 mod rotations;
 mod sensing;
 mod shapes;
 mod signals;
 mod touching;
 mod transforms;
+mod tubes;
+mod ui;
 mod vision;
 mod waiting;
 mod windows;
@@ -40,6 +45,7 @@ use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
+pub use partly::missing_part;
 pub use waiting::{MOVES, Move};
 pub use windows::is_display_only;
 
@@ -81,6 +87,10 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         distances::FUNCTIONS,
         collections::FUNCTIONS,
         shapes::FUNCTIONS,
+        bits::FUNCTIONS,
+        tubes::FUNCTIONS,
+        properties::TYPED,
+        properties::FUNCTIONS,
     ];
     categories.into_iter().flatten()
 }
@@ -88,6 +98,11 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
 /// Every function of `simIK`, without it.
 pub fn ik_functions() -> impl Iterator<Item = &'static Function> {
     ik::FUNCTIONS.iter()
+}
+
+/// Every function of `simUI`, without it.
+pub fn ui_functions() -> impl Iterator<Item = &'static Function> {
+    ui::FUNCTIONS.iter().chain(ui::KEPT)
 }
 
 /// Older names of functions of `simIK`, with their present ones.
@@ -108,6 +123,9 @@ pub fn function(name: &str) -> Option<&'static Function> {
     let by_name = BY_NAME.get_or_init(|| functions().map(|f| (f.name, f)).collect());
     if let Some(name) = name.strip_prefix("simIK.") {
         return ik_function(name);
+    }
+    if let Some(name) = name.strip_prefix("simUI.") {
+        return ui_functions().find(|f| f.name == name);
     }
     let bare = name.strip_prefix("sim.").unwrap_or(name);
     by_name.get(bare).or_else(|| by_name.get(&*present_name(name))).copied()
@@ -134,7 +152,10 @@ pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
 
 /// The module that a name belongs to.
 fn module_of(name: &str) -> &'static str {
-    if name.starts_with("simIK.") { "simIK" } else { "sim" }
+    ["simIK", "simUI"]
+        .into_iter()
+        .find(|module| name.strip_prefix(module).is_some_and(|rest| rest.starts_with('.')))
+        .unwrap_or("sim")
 }
 
 /// Nothing to give.

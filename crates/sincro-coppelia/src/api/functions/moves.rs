@@ -320,14 +320,8 @@ impl Chain {
             true => <[f64; 2]>::try_from(fields.numbers("precision", 2)?).expect("two were asked for"),
             false => [0.001, 0.5 * std::f64::consts::PI / 180.0],
         };
-        let element = Element {
-            base,
-            tip: plain(sim, fields.handle("tip")?)?,
-            target: plain(sim, fields.handle("target")?)?,
-            constraints: fields.int_or("constraints", 31)?,
-            precision,
-            weights: [1.0; 2],
-        };
+        let (tip, target) = (plain(sim, fields.handle("tip")?)?, plain(sim, fields.handle("target")?)?);
+        let element = Element { precision, ..Element::new(base, tip, target, fields.int_or("constraints", 31)?) };
         let (method, damping) = (fields.int_or("method", 1)?, fields.real_or("damping", 0.02)?);
         Ok(Self { element, method, damping, iterations: fields.int_or("iterations", 20)?, fields: fields.clone() })
     }
@@ -356,7 +350,9 @@ impl Chain {
 
 fn follow(sim: &mut SimApi<'_>, ik: &Fields) -> Result<(), ApiError> {
     let allowed = ik.bool_or("allowError", false)?;
-    let outcome = sim.handle_group(ik.int("ikEnv")?, ik.int("ikGroup")?, (true, allowed))?;
+    let Some(outcome) = sim.handle_group(ik.int("ikEnv")?, ik.int("ikGroup")?, (true, allowed))? else {
+        return Err(ApiError::new("the group of inverse kinematics is not enabled"));
+    };
     let tolerance = if outcome.is_reached { 0 } else { super::ik::NOT_WITHIN_TOLERANCE };
     let flags = tolerance | if outcome.hit_limit { super::ik::LIMIT_HIT } else { 0 };
     let breaking = flags & ik.int_or("breakFlags", 0)?;

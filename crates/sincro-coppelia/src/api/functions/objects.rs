@@ -3,7 +3,7 @@
 use sincro_dynamics::joint::JointKind;
 
 use super::{Function, Outcome, done, handle, one, plain};
-use crate::api::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value};
+use crate::api::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value, cbor, unpack};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "getObject", tip: "int objectHandle=sim.getObject(string path,map options={})", run: get_object },
@@ -117,6 +117,47 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "writeCustomDataBlock",
         tip: "sim.writeCustomDataBlock(int objectHandle,string tagName,buffer data)",
         run: write_data,
+    },
+    Function {
+        name: "writeCustomBufferData",
+        tip: "sim.writeCustomBufferData(int objectHandle,string tagName,buffer data)",
+        run: write_data,
+    },
+    Function {
+        name: "readCustomBufferData",
+        tip: "buffer data=sim.readCustomBufferData(int objectHandle,string tagName)",
+        run: read_data,
+    },
+    Function {
+        name: "writeCustomStringData",
+        tip: "sim.writeCustomStringData(int objectHandle,string tagName,string data)",
+        run: write_data,
+    },
+    Function {
+        name: "readCustomStringData",
+        tip: "string data=sim.readCustomStringData(int objectHandle,string tagName)",
+        run: read_text,
+    },
+    Function {
+        name: "writeCustomTableData",
+        tip: "sim.writeCustomTableData(int objectHandle,string tagName,map data)",
+        run: write_table,
+    },
+    Function {
+        name: "readCustomTableData",
+        tip: "map data=sim.readCustomTableData(int objectHandle,string tagName)",
+        run: read_table,
+    },
+    Function { name: "readCustomDataTags", tip: "string[] tags=sim.readCustomDataTags(int objectHandle)", run: tags },
+    Function {
+        name: "readCustomDataBlockTags",
+        tip: "string[] tags=sim.readCustomDataBlockTags(int objectHandle)",
+        run: tags,
+    },
+    Function {
+        name: "getObjectSizeFactor",
+        tip: "float sizeFactor=sim.getObjectSizeFactor(int objectHandle)",
+        run: |d, a| handle(d, a, 0).and_then(|_| one(1.0)),
     },
     Function {
         name: "getScriptSimulationParameter",
@@ -344,23 +385,71 @@ fn rename(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     done()
 }
 
+/// An object, the scene (−12) or the application (−13): what data are stored with.
+pub(super) fn owner(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, ApiError> {
+    match a.handle(k)? {
+        own @ (-12 | -13) => Ok(Handle(own)),
+        _ => handle(sim, a, k),
+    }
+}
+
+/// Stores data under a key; none removes it.
+pub(super) fn store(sim: &mut SimApi<'_>, key: (Handle, String), bytes: Vec<u8>) -> Outcome {
+    if bytes.is_empty() {
+        sim.registry.data.remove(&key);
+    } else if sim.registry.data.len() >= 10_000 && !sim.registry.data.contains_key(&key) {
+        return Err(ApiError::new("there are 10000 blocks of data already"));
+    } else {
+        sim.registry.check_stored_size(bytes.len())?;
+        sim.registry.data.insert(key, bytes);
+    }
+    done()
+}
+
+fn read_text(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = owner(sim, a, 0)?;
+    let Some(bytes) = sim.registry.data.get(&(own, a.text(1)?.to_owned())) else { return Ok(vec![Value::Nil]) };
+    let text =
+        String::from_utf8(bytes.clone()).map_err(|_| ApiError::new("these data are no text: read them as a buffer"))?;
+    one(text)
+}
+
+fn write_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let key = (owner(sim, a, 0)?, a.text(1)?.to_owned());
+    let mut bytes = Vec::new();
+    match a.get(2) {
+        Value::Nil => {}
+        table @ (Value::List(_) | Value::Map(_)) => cbor::encode(table, &mut bytes),
+        other => return Err(ApiError(format!("argument 3 is {}, expected a table", other.word()))),
+    }
+    store(sim, key, bytes)
+}
+
+/// An empty table if there is none.
+fn read_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = owner(sim, a, 0)?;
+    let Some(bytes) = sim.registry.data.get(&(own, a.text(1)?.to_owned())) else {
+        return Ok(vec![Value::Map(Vec::new())]);
+    };
+    one(unpack::read(bytes).map_err(ApiError)?)
+}
+
+fn tags(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = owner(sim, a, 0)?;
+    let tags = sim.registry.data.keys().filter(|(h, tag)| *h == own && !tag.starts_with('\u{0}'));
+    Ok(vec![Value::List(tags.map(|(_, tag)| Value::from(tag.as_str())).collect())])
+}
+
 fn read_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let own = handle(sim, a, 0)?;
+    let own = owner(sim, a, 0)?;
     let data = sim.registry.data.get(&(own, a.text(1)?.to_owned()));
     Ok(vec![data.map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
 }
 
 fn write_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let key = (handle(sim, a, 0)?, a.text(1)?.to_owned());
-    if !a.has(2) || a.bytes(2)?.is_empty() {
-        sim.registry.data.remove(&key);
-    } else if sim.registry.data.len() >= 10_000 && !sim.registry.data.contains_key(&key) {
-        return Err(ApiError::new("there are 10000 blocks of data already"));
-    } else {
-        sim.registry.check_stored_size(a.bytes(2)?.len())?;
-        sim.registry.data.insert(key, a.bytes(2)?.to_vec());
-    }
-    done()
+    let key = (owner(sim, a, 0)?, a.text(1)?.to_owned());
+    let bytes = if a.has(2) { a.bytes(2)?.to_vec() } else { Vec::new() };
+    store(sim, key, bytes)
 }
 
 /// Scripts have the handles of their objects here.

@@ -1,9 +1,10 @@
 //! Functions: shapes that are made at run time.
 
-use sincro_dynamics::spatial::Pose;
+use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
+use crate::api::convention::numbers_of_pose;
 use crate::api::parameters::STATIC;
 use crate::api::shapes::primitive_of;
 use crate::api::{ApiError, Arguments, SimApi, Value};
@@ -50,6 +51,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "getShapeGeomInfo",
         tip: "int result,int pureType,float[4] dimensions=sim.getShapeGeomInfo(int shapeHandle)",
         run: info,
+    },
+    Function {
+        name: "getShapeBB",
+        tip: "float[3] size,float[7] pose=sim.getShapeBB(int shapeHandle)",
+        run: |d, a| {
+            let [low, high] = d.shape_box(handle(d, a, 0)?)?;
+            let middle = Vec3(std::array::from_fn(|k| 0.5 * (low[k] + high[k])));
+            let size = Value::reals((0..3).map(|k| high[k] - low[k]));
+            Ok(vec![size, Value::reals(numbers_of_pose(&Pose::translation(middle)))])
+        },
     },
     Function {
         name: "groupShapes",

@@ -112,7 +112,9 @@ impl Move {
             (true, false) => get("pose"),
             (false, _) => get("pos"),
         };
-        vec![place, get("vel"), get("accel"), get("auxData")]
+        // callbacks of clients have three parameters unless data are given
+        let data = Some(get("auxData")).filter(|data| *data != Value::Nil);
+        [place, get("vel"), get("accel")].into_iter().chain(data).collect()
     }
 }
 

@@ -42,6 +42,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "int drawingObjectHandle=sim.addDrawingObject(int objectType,float size,float duplicateTolerance,int parentObjectHandle,int maxItemCount,float[3] color=nil)",
     ),
     shown("addDrawingObjectItem", "int result=sim.addDrawingObjectItem(int drawingObjectHandle,float[] itemData)"),
+    shown(
+        "addBanner",
+        "int bannerID=sim.addBanner(string label,float size,int options,float[6] positionAndEulerAngles=nil,int parentObjectHandle=nil)",
+    ),
+    shown("removeBanner", "int result=sim.removeBanner(int bannerID)"),
     shown("removeDrawingObject", "sim.removeDrawingObject(int drawingObjectHandle)"),
     shown(
         "addParticleObject",
@@ -53,10 +58,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "setShapeTexture",
         "sim.setShapeTexture(int shapeHandle,int textureId,int mappingMode,int options,float[2] uvScaling)",
     ),
-    shown("setShapeMaterial", "sim.setShapeMaterial(int shapeHandle,int materialIdOrShapeHandle)"),
-    shown("setEngineFloatParam", "sim.setEngineFloatParam(int paramId,int objectHandle,float floatParam)"),
-    shown("setEngineInt32Param", "sim.setEngineInt32Param(int paramId,int objectHandle,int int32Param)"),
-    shown("setEngineBoolParam", "sim.setEngineBoolParam(int paramId,int objectHandle,bool boolParam)"),
 ];
 
 /// Returns true if a function is one of these: whatever it is given is as good.

@@ -1,0 +1,348 @@
+//! Functions: properties of CoppeliaSim 4.7 and later, by name and kind.
+//!
+//! A property of an object is one of the functions under another name ([`PROPERTIES`]). `customData.…`, of any object,
+//! the scene and the application, are data that clients and scripts store; `signal.…` are signals.
+
+use super::objects::owner;
+use super::{Function, Outcome, done, function, one};
+use crate::api::{ApiError, Arguments, Handle, SimApi, Value, cbor, unpack};
+
+/// Kind of a property, as the functions name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Type {
+    Bool,
+    Int,
+    Float,
+    Text,
+    Bytes,
+    Table,
+    /// A list of that many numbers; 0 for any.
+    Reals(usize),
+    /// Whole numbers.
+    Ints,
+}
+
+/// Name; function that reads it with the arguments behind the handle; function that sets it, with the arguments before
+/// and behind the value.
+struct Property {
+    name: &'static str,
+    get: (&'static str, &'static [i64]),
+    set: Option<(&'static str, &'static [i64], &'static [i64])>,
+}
+
+const fn of(
+    name: &'static str,
+    get: (&'static str, &'static [i64]),
+    set: Option<(&'static str, &'static [i64], &'static [i64])>,
+) -> Property {
+    Property { name, get, set }
+}
+
+/// Properties of objects.
+const PROPERTIES: &[Property] = &[
+    of("alias", ("getObjectAlias", &[]), Some(("setObjectAlias", &[], &[]))),
+    of("absPosition", ("getObjectPosition", &[-1]), Some(("setObjectPosition", &[], &[-1]))),
+    of("absQuaternion", ("getObjectQuaternion", &[-1]), Some(("setObjectQuaternion", &[], &[-1]))),
+    of("absEulerAngles", ("getObjectOrientation", &[-1]), Some(("setObjectOrientation", &[], &[-1]))),
+    of("absPose", ("getObjectPose", &[-1]), Some(("setObjectPose", &[], &[-1]))),
+    of("position", ("getObjectPosition", &[-11]), Some(("setObjectPosition", &[], &[-11]))),
+    of("quaternion", ("getObjectQuaternion", &[-11]), Some(("setObjectQuaternion", &[], &[-11]))),
+    of("eulerAngles", ("getObjectOrientation", &[-11]), Some(("setObjectOrientation", &[], &[-11]))),
+    of("pose", ("getObjectPose", &[-11]), Some(("setObjectPose", &[], &[-11]))),
+    of("parentHandle", ("getObjectParent", &[]), Some(("setObjectParent", &[], &[]))),
+    of("objectUid", ("getObjectUid", &[]), None),
+    of("jointType", ("getJointType", &[]), None),
+    of("jointPosition", ("getJointPosition", &[]), Some(("setJointPosition", &[], &[]))),
+    of("calcVelocity", ("getJointVelocity", &[]), None),
+    of("jointForce", ("getJointForce", &[]), None),
+    of("targetPos", ("getJointTargetPosition", &[]), Some(("setJointTargetPosition", &[], &[]))),
+    of("targetVel", ("getJointTargetVelocity", &[]), Some(("setJointTargetVelocity", &[], &[]))),
+    of("targetForce", ("getJointTargetForce", &[]), Some(("setJointTargetForce", &[], &[]))),
+    of("jointMode", ("getJointMode", &[]), None),
+    of("dynCtrlMode", ("getObjectInt32Param", &[2039]), Some(("setObjectInt32Param", &[2039], &[]))),
+    of("cyclic", ("getJointInterval", &[]), None),
+    of("mass", ("getShapeMass", &[]), Some(("setShapeMass", &[], &[]))),
+    of("respondable", ("getObjectInt32Param", &[3004]), Some(("setObjectInt32Param", &[3004], &[]))),
+    of("dynLinearVelocity", ("getVelocity", &[]), None),
+];
+
+/// Properties of the scene.
+const OF_SCENE: &[Property] = &[
+    of("gravity", ("getArrayParam", &[0]), Some(("setArrayParam", &[0], &[]))),
+    of("simulationTime", ("getSimulationTime", &[]), None),
+    of("simulationState", ("getSimulationState", &[]), None),
+    of("timeStep", ("getFloatParam", &[1]), Some(("setFloatParam", &[1], &[]))),
+    of("dynamicsStepSize", ("getFloatParam", &[5]), None),
+];
+
+/// Handles of the scene and the application.
+const SCENE: Handle = Handle(-12);
+const APPLICATION: Handle = Handle(-13);
+
+/// A getter and a setter of a kind.
+macro_rules! pair {
+    ($get:literal, $set:literal, $type:literal, $kind:expr) => {
+        [
+            Function {
+                name: $get,
+                tip: concat!($type, " value=sim.", $get, "(int target,string propertyName,map options={})"),
+                run: |d, a| get(d, a, Some($kind)),
+            },
+            Function {
+                name: $set,
+                tip: concat!("sim.", $set, "(int target,string propertyName,", $type, " value,map options={})"),
+                run: |d, a| set(d, a, Some($kind)),
+            },
+        ]
+    };
+}
+
+const PAIRS: [[Function; 2]; 14] = [
+    pair!("getBoolProperty", "setBoolProperty", "bool", Type::Bool),
+    pair!("getIntProperty", "setIntProperty", "int", Type::Int),
+    pair!("getLongProperty", "setLongProperty", "int", Type::Int),
+    pair!("getHandleProperty", "setHandleProperty", "int", Type::Int),
+    pair!("getFloatProperty", "setFloatProperty", "float", Type::Float),
+    pair!("getStringProperty", "setStringProperty", "string", Type::Text),
+    pair!("getBufferProperty", "setBufferProperty", "buffer", Type::Bytes),
+    pair!("getTableProperty", "setTableProperty", "map", Type::Table),
+    pair!("getVector2Property", "setVector2Property", "float[2]", Type::Reals(2)),
+    pair!("getVector3Property", "setVector3Property", "float[3]", Type::Reals(3)),
+    pair!("getQuaternionProperty", "setQuaternionProperty", "float[4]", Type::Reals(4)),
+    pair!("getPoseProperty", "setPoseProperty", "float[7]", Type::Reals(7)),
+    pair!("getFloatArrayProperty", "setFloatArrayProperty", "float[]", Type::Reals(0)),
+    pair!("getIntArrayProperty", "setIntArrayProperty", "int[]", Type::Ints),
+];
+
+/// The functions of [`PAIRS`], one after the other.
+pub(super) const TYPED: &[Function] = PAIRS.as_flattened();
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "getColorProperty",
+        tip: "float[3] value=sim.getColorProperty(int target,string propertyName,map options={})",
+        run: |d, a| get(d, a, Some(Type::Reals(3))),
+    },
+    Function {
+        name: "getProperty",
+        tip: "any value=sim.getProperty(int target,string propertyName,map options={})",
+        run: |d, a| get(d, a, None),
+    },
+    Function {
+        name: "setProperty",
+        tip: "sim.setProperty(int target,string propertyName,any value,map options={})",
+        run: |d, a| set(d, a, None),
+    },
+    Function {
+        name: "removeProperty",
+        tip: "sim.removeProperty(int target,string propertyName,map options={})",
+        run: remove,
+    },
+    Function {
+        name: "getPropertyName",
+        tip: "string propertyName=sim.getPropertyName(int target,int index,map options={})",
+        run: name_at,
+    },
+];
+
+impl Type {
+    /// The kind of a value that was given without one.
+    fn of(value: &Value) -> Result<Self, ApiError> {
+        Ok(match value {
+            Value::Bool(_) => Self::Bool,
+            Value::Int(_) => Self::Int,
+            Value::Real(_) => Self::Float,
+            Value::Text(_) => Self::Text,
+            Value::Bytes(_) => Self::Bytes,
+            Value::List(_) if value.as_reals().is_some() => Self::Reals(0),
+            Value::List(_) | Value::Map(_) | Value::Numbered(_) => Self::Table,
+            Value::Nil => return Err(ApiError::new("a property has no value nil: use sim.removeProperty")),
+        })
+    }
+
+    /// A value as one of this kind.
+    fn read(self, value: &Value) -> Option<Value> {
+        Some(match self {
+            Self::Bool => Value::Bool(value.as_bool().filter(|_| *value != Value::Nil)?),
+            Self::Int => Value::Int(value.as_int()?),
+            Self::Float => Value::Real(value.as_real().filter(|_| *value != Value::Nil)?),
+            Self::Text => Value::Text(value.as_text()?.to_owned()),
+            Self::Bytes => Value::Bytes(value.as_bytes()?.to_vec()),
+            Self::Table => match value {
+                Value::List(_) | Value::Map(_) | Value::Numbered(_) => value.clone(),
+                _ => return None,
+            },
+            Self::Reals(n) => Value::reals(value.as_reals().filter(|list| n == 0 || list.len() == n)?),
+            Self::Ints => {
+                let Value::List(list) = value else { return None };
+                Value::List(list.iter().map(|x| x.as_int().map(Value::Int)).collect::<Option<_>>()?)
+            }
+        })
+    }
+
+    fn word(self) -> String {
+        match self {
+            Self::Bool => "a truth value".into(),
+            Self::Int => "a whole number".into(),
+            Self::Float => "a number".into(),
+            Self::Text => "text".into(),
+            Self::Bytes => "bytes".into(),
+            Self::Table => "a table".into(),
+            Self::Reals(0) => "a list of numbers".into(),
+            Self::Reals(n) => format!("a list of {n} numbers"),
+            Self::Ints => "a list of whole numbers".into(),
+        }
+    }
+}
+
+/// The property of a name, of an object or the scene.
+fn known(target: Handle, name: &str) -> Result<&'static Property, ApiError> {
+    let list = if target == SCENE { OF_SCENE } else { PROPERTIES };
+    list.iter().find(|p| p.name == name && target != APPLICATION).ok_or_else(|| {
+        let names: Vec<&str> = if target == APPLICATION { Vec::new() } else { list.iter().map(|p| p.name).collect() };
+        let short: String = name.chars().take(60).collect();
+        ApiError(format!("there is no property `{short}` here: {}, customData.…, signal.…", names.join(", ")))
+    })
+}
+
+fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
+    (function(name).expect("properties are functions").run)(sim, Arguments(arguments))
+}
+
+/// The value of a property as it is; none if nothing was stored under that name.
+fn value(sim: &mut SimApi<'_>, target: Handle, name: &str) -> Result<Option<Value>, ApiError> {
+    if let Some(signal) = name.strip_prefix("signal.") {
+        let registry = &sim.registry;
+        let integer = registry.integers.get(signal).map(|x| Value::Int(*x));
+        let float = || registry.floats.get(signal).map(|x| Value::Real(*x));
+        let text = || registry.strings.get(signal).map(|x| Value::Bytes(x.clone()));
+        return Ok(integer.or_else(float).or_else(text));
+    }
+    if let Some(tag) = name.strip_prefix("customData.") {
+        if let Some(bytes) = sim.registry.data.get(&(target, tag.to_owned())) {
+            return Ok(Some(Value::Bytes(bytes.clone())));
+        }
+        let packed = sim.registry.data.get(&(target, encoded(tag)));
+        return packed.map(|bytes| unpack::read(bytes).map_err(ApiError)).transpose();
+    }
+    let property = known(target, name)?;
+    let own = (target != SCENE).then(|| Value::from(target));
+    let arguments: Vec<Value> = own.into_iter().chain(property.get.1.iter().map(|x| Value::Int(*x))).collect();
+    let mut results = call(sim, property.get.0, &arguments)?;
+    Ok((!results.is_empty()).then(|| results.swap_remove(0)).filter(|value| *value != Value::Nil))
+}
+
+/// Key of a stored value that is not plain bytes; tags of clients cannot contain it.
+fn encoded(tag: &str) -> String {
+    format!("\u{0}{tag}")
+}
+
+/// Options: `noError`.
+fn is_tolerant(a: Arguments<'_>, k: usize) -> bool {
+    let Value::Map(options) = a.get(k) else { return false };
+    options.iter().any(|(key, value)| key == "noError" && value.as_bool() == Some(true))
+}
+
+fn get(sim: &mut SimApi<'_>, a: Arguments<'_>, kind: Option<Type>) -> Outcome {
+    let (target, name) = (owner(sim, a, 0)?, a.text(1)?);
+    let found = match value(sim, target, name) {
+        Err(_) if is_tolerant(a, 2) => None,
+        other => other?,
+    };
+    let Some(found) = found else {
+        let missing = ApiError(format!("property `{name:.60}` has no value"));
+        return if is_tolerant(a, 2) { Ok(vec![Value::Nil]) } else { Err(missing) };
+    };
+    let Some(kind) = kind else { return one(found) };
+    let wrong = || ApiError(format!("property `{name:.60}` is {}, not {}", found.word(), kind.word()));
+    one(kind.read(&found).ok_or_else(wrong)?)
+}
+
+fn set(sim: &mut SimApi<'_>, a: Arguments<'_>, kind: Option<Type>) -> Outcome {
+    let (target, name) = (owner(sim, a, 0)?, a.text(1)?);
+    let kind = kind.map_or_else(|| Type::of(a.get(2)), Ok)?;
+    let wrong = || ApiError(format!("argument 3 is {}, expected {}", a.get(2).word(), kind.word()));
+    let value = kind.read(a.get(2)).ok_or_else(wrong)?;
+    if let Some(signal) = name.strip_prefix("signal.") {
+        return set_signal(sim, signal, value);
+    }
+    if let Some(tag) = name.strip_prefix("customData.") {
+        let bytes = if let Value::Bytes(bytes) = value {
+            sim.registry.data.remove(&(target, encoded(tag)));
+            return super::objects::store(sim, (target, tag.to_owned()), bytes);
+        } else {
+            let mut bytes = Vec::new();
+            cbor::encode(&value, &mut bytes);
+            bytes
+        };
+        sim.registry.data.remove(&(target, tag.to_owned()));
+        return super::objects::store(sim, (target, encoded(tag)), bytes);
+    }
+    let property = known(target, name)?;
+    let Some((setter, before, behind)) = property.set else {
+        return Err(ApiError(format!("property `{name}` is read only here")));
+    };
+    let value = if let Value::Bool(x) = value { Value::Int(x.into()) } else { value };
+    let own = (target != SCENE).then(|| Value::from(target));
+    let ints = |list: &'static [i64]| list.iter().map(|x| Value::Int(*x));
+    let arguments: Vec<Value> = own.into_iter().chain(ints(before)).chain([value]).chain(ints(behind)).collect();
+    call(sim, setter, &arguments)?;
+    done()
+}
+
+fn set_signal(sim: &mut SimApi<'_>, signal: &str, value: Value) -> Outcome {
+    let of_run = sim.registry.phase.is_on();
+    remove_signal(sim, signal);
+    match value {
+        Value::Int(x) => sim.registry.integers.set(signal, x, of_run)?,
+        Value::Bool(x) => sim.registry.integers.set(signal, x.into(), of_run)?,
+        Value::Real(x) => sim.registry.floats.set(signal, x, of_run)?,
+        other => {
+            let bytes = other.as_bytes().ok_or_else(|| {
+                ApiError::new("signals are numbers, texts and bytes here: pack tables with sim.packTable")
+            })?;
+            sim.registry.check_stored_size(bytes.len())?;
+            sim.registry.strings.set(signal, bytes.to_vec(), of_run)?;
+        }
+    }
+    done()
+}
+
+fn remove_signal(sim: &mut SimApi<'_>, signal: &str) {
+    if !signal.is_empty() {
+        sim.registry.integers.clear(signal);
+        sim.registry.floats.clear(signal);
+        sim.registry.strings.clear(signal);
+    }
+}
+
+fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (target, name) = (owner(sim, a, 0)?, a.text(1)?);
+    if let Some(signal) = name.strip_prefix("signal.") {
+        remove_signal(sim, signal);
+        return done();
+    }
+    let tag = name.strip_prefix("customData.");
+    let tag = tag.ok_or_else(|| ApiError(format!("property `{name:.60}` is no stored data: it stays")))?;
+    sim.registry.data.remove(&(target, tag.to_owned()));
+    sim.registry.data.remove(&(target, encoded(tag)));
+    done()
+}
+
+/// Names of the properties that are stored with a target, by number; nil behind the last.
+fn name_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (target, index) = (owner(sim, a, 0)?, a.int(1)?);
+    let list = match target {
+        SCENE => OF_SCENE,
+        APPLICATION => &[],
+        _ => PROPERTIES,
+    };
+    let stored = sim.registry.data.keys().filter(|(h, _)| *h == target);
+    let stored: Vec<String> =
+        stored.map(|(_, tag)| format!("customData.{}", tag.trim_start_matches('\u{0}'))).collect();
+    let mut names: Vec<String> = list.iter().map(|p| p.name.to_owned()).collect();
+    names.retain(|name| value(&mut *sim, target, name).is_ok_and(|value| value.is_some()));
+    names.extend(stored);
+    let name = usize::try_from(index).ok().and_then(|k| names.into_iter().nth(k));
+    Ok(vec![name.map_or(Value::Nil, Value::Text)])
+}

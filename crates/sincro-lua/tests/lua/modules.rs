@@ -1,0 +1,114 @@
+//! Modules beside `sim`: user interfaces without windows, MessagePack, the remote API; threads in tracebacks; the calls
+//! of the stock quadricopters.
+
+use super::world::said;
+
+#[test]
+fn message_pack_gives_back_what_was_packed_in_the_published_format() {
+    let code = r#"
+        function sysCall_init()
+            local mp = require 'messagePack'
+            local function hex(s) return (s:gsub('.', function(c) return ('%02x'):format(c:byte()) end)) end
+            -- examples of the format's specification
+            print(hex(mp.pack({ compact = true, schema = 0 })))
+            print(hex(mp.pack(-1)), hex(mp.pack(128)), hex(mp.pack(-32768)), hex(mp.pack(1.5)), hex(mp.pack('abc')), hex(mp.pack({ 1, 2 })))
+            local long = string.rep('x', 70000)
+            local t = mp.unpack(mp.pack { a = { 1, -2, 3.25, 'text', false }, b = long, n = 1 << 40, [7] = true })
+            print(t.a[1], t.a[2], t.a[3], t.a[4], t.a[5], t.b == long, t.n, t[7])
+            for _, n in ipairs { 0, 127, 128, 255, 256, 65535, 65536, 4294967296, -32, -33, -129, -40000, -3000000000, math.mininteger } do
+                if mp.unpack(mp.pack(n)) ~= n then print('wrong', n) end
+            end
+            for _, bad in ipairs { '', '\xc1', '\x92\x01', '\xda\xff\xffx', string.rep('\x91', 1000) } do
+                if pcall(mp.unpack, bad) then print('taken', #bad) end
+            end
+        end"#;
+    assert_eq!(
+        said(code),
+        [
+            "82a7636f6d70616374c3a6736368656d6100",
+            "ff\tcc80\td18000\tcb3ff8000000000000\ta3616263\t920102",
+            "1\t-2\t3.25\ttext\tfalse\ttrue\t1099511627776\ttrue",
+        ]
+    );
+}
+
+#[test]
+fn interfaces_have_no_windows_and_keep_what_they_are_told() {
+    let code = r#"
+        function sysCall_init()
+            simUI = require 'simUI'
+            local ui = simUI.create('<ui title="T"><slider id="1" on-change="moved"/></ui>')
+            simUI.setSliderValue(ui, 1, 40)
+            simUI.setLabelText(ui, 2, 'far')
+            simUI.addCurve(ui, 3, 0, 'curve', { 1, 2, 3 }, 0, {})
+            print(simUI.getSliderValue(ui, 1), simUI.getLabelText(ui, 2), simUI.getEditValue(ui, 9) == '', simUI.isVisible(ui))
+            simUI.destroy(ui)
+            print(simUI.getSliderValue(ui, 1))
+        end"#;
+    assert_eq!(said(code), ["40\tfar\ttrue\tfalse", "0"]);
+}
+
+#[test]
+fn a_run_without_a_server_says_that_no_port_is_opened() {
+    let code = "
+        function sysCall_init()
+            print(simRemoteApi.start(19999, 1300, false, true), simExtRemoteApiStart(20000))
+            print(pcall(simRemoteApi.start, -1))
+        end";
+    let said = said(code);
+    assert!(said.contains(&"-1\t-1".to_owned()), "{said:?}");
+    assert_eq!(said.iter().filter(|line| line.contains("is not opened: nothing is served")).count(), 2);
+    assert!(said.last().unwrap().starts_with("false\t") && said.last().unwrap().contains("expected 1 to 65535"));
+}
+
+#[test]
+fn a_traceback_takes_a_thread_before_its_message() {
+    let code = "
+        function sysCall_init()
+            local co = coroutine.create(function() error('inside') end)
+            local _, message = coroutine.resume(co)
+            local text = debug.traceback(co, message)
+            print(text:match('inside') and text:match('stack traceback:'))
+            print(debug.traceback(co):match('^stack traceback:'), debug.traceback('here', 1):match('^here'))
+        end";
+    assert_eq!(said(code), ["stack traceback:", "stack traceback:\there"]);
+}
+
+#[test]
+fn the_calls_of_the_stock_quadricopters_are_taken() {
+    let code = "
+        function sysCall_init()
+            sim.setScriptSimulationParameter(sim.handle_self, 'fakeShadow', 'true')
+            print(sim.setScriptSimulationParameter(sim.handle_tree, 'fakeShadow', 'false'), sim.setScriptSimulationParameter(sim.handle_tree, 'none', '1'))
+            print(simGetScriptSimulationParameter(sim_handle_self, 'fakeShadow'), simGetObjectSizeFactor(sim.getObject('.')))
+            shadow = simAddDrawingObject(sim_drawing_discpoints + sim_drawing_cyclic + sim_drawing_25percenttransparency
+                + sim_drawing_50percenttransparency + sim_drawing_itemsizes, 0.2, 0, -1, 1)
+            simAddDrawingObjectItem(shadow, { 0, 0, 0.002, 0, 0, 1, 0.2 })
+            local kind = sim.particle_roughspheres + sim.particle_cyclic + sim.particle_respondable1to4 + sim.particle_respondable5to8 + sim.particle_ignoresgravity
+            local jet = sim.addParticleObject(kind, 0.005, 8500, { 2, 1, 0.2, 3, 0.4 }, 0.5, 50, { 0.3, 0.7, 1 })
+            sim.addParticleObjectItem(jet, { 0, 0, 0, 0, 0, -1 })
+            sim.removeParticleObject(jet)
+            local view = simFloatingViewAdd(0.9, 0.9, 0.2, 0.2, 0)
+            simAdjustView(view, sim.getObject('.'), 64)
+            simFloatingViewRemove(view)
+            simRemoveDrawingObject(shadow)
+            -- a script is an object of its own since 4.7: two points are what it is on
+            print(sim.getObject('../arm') == sim.getObject('/hinge/arm'), sim.boolOr32(4, 3))
+        end";
+    assert_eq!(said(code), ["1\t0", "false\t1.0", "true\t7"]);
+}
+
+#[test]
+fn packets_of_tubes_go_from_end_to_end() {
+    let code = "
+        function sysCall_init()
+            local a, b = sim.tubeOpen(0, 'link', 10), simTubeOpen(0, 'link', 10)
+            print(sim.tubeStatus(a))
+            print(sim.tubeWrite(a, 'one'), sim.tubeWrite(a, 'two'), sim.tubeRead(b), sim.tubeRead(b), sim.tubeRead(b))
+            sim.tubeClose(a)
+            print(sim.tubeWrite(b, 'three'), pcall(sim.tubeRead, a))
+        end";
+    let said = said(code);
+    assert_eq!(said[..2], ["1\t0\t0", "1\t1\tone\ttwo\tnil"]);
+    assert!(said[2].starts_with("0\tfalse\t"), "{said:?}");
+}
