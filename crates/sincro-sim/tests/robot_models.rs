@@ -99,12 +99,8 @@ fn what_is_wrong_with_a_model_is_said_where_it_is_written() {
 #[test]
 fn a_model_with_other_joints_asks_for_other_widths() {
     let folder = folder();
-    folder.write("other.toml", &SCENE.replace("\"hinge\"", "\"base\"").replace("/hinge", "/base"));
-    folder.change(
-        "other.toml",
-        "[[body]]",
-        "[[joint]]\nname = \"second\"\nparent = \"/base\"\nkind = \"prismatic\"\narmature = 1.0\n\n[[body]]",
-    );
+    let second = "[[joint]]\nname = \"second\"\nparent = \"/hinge/rod\"\nkind = \"prismatic\"\n\n[[body]]\nname = \"tool\"\nparent = \"/hinge/rod/second\"\nmass = 1.0\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }\n";
+    folder.write("other.toml", &format!("{SCENE}\n{second}"));
     let message = folder.load(&[]).unwrap_err();
     assert!(message.contains("`q` has 1 component") && message.contains("the model has 2"), "{message}");
 }
