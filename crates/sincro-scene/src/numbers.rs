@@ -2,8 +2,8 @@
 //! and its place in the files.
 //!
 //! They are what a sensitivity study or a mutation test changes. Left out: names, texts, whole numbers that are sizes,
-//! sample times, the method of the run (`step`, `duration`, `accuracy` …), checks and plots, cameras, colours, and shapes
-//! that are shown only.
+//! sample times, the method of the run (`step`, `duration`, `accuracy` …), checks and plots, cameras, colours, and
+//! shapes that are shown only.
 
 use std::sync::Arc;
 

@@ -87,7 +87,7 @@ fn place(quantity: &Quantity, folder: &Path) -> String {
     format!("{}:{line}", file.display())
 }
 
-/// What the runs need.
+/// Inputs of all runs.
 struct Judge<'a> {
     loaded: &'a Loaded,
     settings: &'a [Override],
