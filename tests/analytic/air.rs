@@ -33,7 +33,7 @@ fn blades(spin: Spin) -> RotorLaw {
 }
 
 fn rotor(law: RotorLaw, drive: RotorDrive) -> RotorSpec {
-    RotorSpec { law, density: DENSITY, drive }
+    RotorSpec { law, density: DENSITY, drive, inertia: 0.0, ground_effect: false }
 }
 
 fn steady(velocity: [f64; 3]) -> Wind {
@@ -45,7 +45,13 @@ fn rough() -> Wind {
     let shear = Profile::Logarithmic { reference: 6.0, roughness: 0.05 };
     let gust = Gust { start: 0.13, rise: 0.21, peak: [1.0, 2.0, -1.5], holds: false };
     let scales = Scales::Given { deviations: [1.0, 0.8, 0.5], lengths: [20.0, 10.0, 5.0] };
-    Wind::new([4.0, -3.0, 0.0], shear, vec![gust], Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0 })).unwrap()
+    Wind::new(
+        [4.0, -3.0, 0.0],
+        shear,
+        vec![gust],
+        Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0, convected: false }),
+    )
+    .unwrap()
 }
 
 fn flyer(gravity: f64, drag: Option<DragSpec>, wind: Option<Wind>) -> Model<f64> {
@@ -341,7 +347,7 @@ fn lanes_have_the_bits_of_single_worlds_in_rough_air() {
         b.rotor("left", body, at(0.0, 0.4, 0.1), rotor(blades(Spin::Clockwise), lag));
         b.rotor("right", body, at(0.0, -0.4, 0.1), rotor(blades(Spin::CounterClockwise), RotorDrive::Command));
         let scales = Scales::Given { deviations: [1.0; 3], lengths: [20.0; 3] };
-        let turbulence = Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0 });
+        let turbulence = Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0, convected: false });
         let shear = Profile::Logarithmic { reference: 6.0, roughness: 0.05 };
         b.wind(Wind::new([4.0, -3.0, 0.0], shear, vec![], turbulence).unwrap());
         let model = b.build().unwrap().0;

@@ -243,3 +243,35 @@ fn wrong_numbers_are_refused_all_at_once() {
     assert_eq!(CoefficientTable::new(1.0, Spin::Clockwise, vec![]).unwrap_err().len(), 1);
     assert_eq!(StockPropeller { density: -1.0, ..StockPropeller::default() }.problems().len(), 1);
 }
+
+/// Near the ground w = κ v_i in hover, κ = 1 − (R/4z)²: of w²/κ + a w − S = 0 the positive root.
+#[test]
+fn hover_near_the_ground_is_the_closed_form() {
+    let (rotor, speed) = (rotor(), 720.6);
+    let tip = speed * spec().radius;
+    let lift = rotor.solidity() * spec().lift_slope / 8.0;
+    let (a, supply) = (lift * tip, lift * spec().collective_pitch * (2.0 / 3.0) * tip * tip);
+    for (height, effective) in [(0.15, 0.15), (0.3, 0.3), (1.0, 1.0), (0.01, 0.5 * spec().radius)] {
+        let ratio: f64 = spec().radius / (4.0 * effective);
+        let kappa = 1.0 - ratio * ratio;
+        let w = 0.5 * (-kappa * a + (kappa * kappa * a * a + 4.0 * kappa * supply).sqrt());
+        let load = rotor.evaluate_near_ground(1.225, speed, Vec3([0.0; 3]), height);
+        assert!((load.inflow - w).abs() < 1e-12 * w, "{height}: {} {w}", load.inflow);
+        let thrust = 2.0 * 1.225 * rotor.area() * (supply - a * w);
+        assert!((load.thrust - thrust).abs() < 1e-11 * thrust);
+    }
+}
+
+/// In fast forward flight, and far up, the ground does nothing; its effect falls with height and with speed.
+#[test]
+fn the_ground_effect_fades_with_height_and_speed() {
+    let thrust = |velocity: [f64; 3], height: f64| {
+        let velocity = Vec3(velocity);
+        let near = rotor().evaluate_near_ground(1.225, 720.6, velocity, height);
+        near.thrust / rotor().evaluate(1.225, 720.6, velocity).thrust - 1.0
+    };
+    let over_height: Vec<f64> = [0.15, 0.3, 0.6, 1.2, 100.0].map(|height| thrust([0.0; 3], height)).to_vec();
+    assert!(over_height.windows(2).all(|pair| pair[0] > pair[1]) && over_height[4] < 1e-6, "{over_height:?}");
+    let over_speed: Vec<f64> = [0.0, 5.0, 15.0, 40.0].map(|v| thrust([v, 0.0, 0.0], 0.2)).to_vec();
+    assert!(over_speed.windows(2).all(|pair| pair[0] > pair[1]) && over_speed[3] < 2e-3, "{over_speed:?}");
+}

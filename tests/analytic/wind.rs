@@ -1,11 +1,16 @@
 //! Wind: profiles and gusts in closed form; turbulence has the variance and the autocorrelation of Dryden's spectra.
 
 use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, dryden_scales};
+use sincro_dynamics::spatial::Vec3;
 use sincro_math::{Dual, Lanes, Real};
 
 fn turbulent(seed: u64) -> Wind {
-    let spec =
-        TurbulenceSpec { seed, scales: Scales::LowAltitude { wind_at_20_feet: 8.0, height: 30.0 }, airspeed: 10.0 };
+    let spec = TurbulenceSpec {
+        seed,
+        scales: Scales::LowAltitude { wind_at_20_feet: 8.0, height: 30.0 },
+        airspeed: 10.0,
+        convected: false,
+    };
     Wind::new([0.0, 0.0, 0.0], Profile::Constant, vec![], Some(spec)).unwrap()
 }
 
@@ -100,8 +105,34 @@ fn turbulence_depends_on_seed_and_time_alone() {
 fn wrong_winds_are_refused_all_at_once() {
     let log = Profile::Logarithmic { reference: 0.05, roughness: 0.1 };
     let gust = Gust { start: f64::NAN, rise: 0.0, peak: [0.0; 3], holds: true };
-    let spec =
-        TurbulenceSpec { seed: 0, scales: Scales::LowAltitude { wind_at_20_feet: -1.0, height: 1.0 }, airspeed: 0.0 };
+    let spec = TurbulenceSpec {
+        seed: 0,
+        scales: Scales::LowAltitude { wind_at_20_feet: -1.0, height: 1.0 },
+        airspeed: 0.0,
+        convected: false,
+    };
     let diagnostics = Wind::new([f64::NAN, 0.0, 0.0], log, vec![gust], Some(spec)).unwrap_err();
     assert_eq!(diagnostics.len(), 7, "{diagnostics:?}");
+}
+
+/// Frozen turbulence passes: a place s along the wind sees at t what the origin saw s/V before; across it nothing
+/// changes.
+#[test]
+fn convected_turbulence_is_a_frozen_field() {
+    let scales = Scales::Given { deviations: [1.0, 0.8, 0.5], lengths: [20.0, 10.0, 5.0] };
+    let spec = TurbulenceSpec { seed: 3, scales, airspeed: 5.0, convected: true };
+    let field = |spec| Wind::new([3.0, 4.0, 0.0], Profile::Constant, vec![], Some(spec)).unwrap();
+    let (frozen, everywhere) = (field(spec), field(TurbulenceSpec { convected: false, ..spec }));
+    for t in [0.0, 1.3, 7.0] {
+        let at = |x: f64, y: f64| frozen.at(t).velocity_at(Vec3([x, y, 2.0])).0;
+        assert_eq!(at(0.0, 0.0), everywhere.velocity(t, 2.0).0);
+        // 2.5 m along (0.6, 0.8) are half a second
+        for (here, before) in at(1.5, 2.0).into_iter().zip(frozen.velocity(t - 0.5, 2.0).0) {
+            assert!((here - before).abs() < 1e-12);
+        }
+        for (aside, here) in at(-0.8, 0.6).into_iter().zip(at(0.0, 0.0)) {
+            assert!((aside - here).abs() < 1e-12);
+        }
+        assert_eq!(everywhere.at(t).velocity_at(Vec3([9.0, 9.0, 2.0])).0, everywhere.velocity(t, 2.0).0);
+    }
 }

@@ -43,7 +43,7 @@
 //! | [`overrides`], [`apply_overrides`] | settings (`--set`, variants), and where they are written |
 //! | [`script`], [`fmu`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, FMUs, sensors, visible pieces, rendered pictures |
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
-//! | [`open`] | a folder with all of them |
+//! | [`open`], [`numbers`] | a folder with all of them; every number in it that a setting reaches |
 
 pub mod apply_overrides;
 pub mod camera;
@@ -56,6 +56,7 @@ pub mod fmu;
 pub mod folder;
 mod names;
 pub mod normalize;
+pub mod numbers;
 pub mod open;
 pub mod overrides;
 pub mod prelude;

@@ -172,15 +172,15 @@ fn too_large(experiment: &Experiment) -> Diagnostics {
 }
 
 /// The files of an experiment as documents: everything reused written out, all settings applied.
-struct Documents {
-    experiment: Document,
-    scene: Option<Document>,
-    diagram: Option<Document>,
+pub(crate) struct Documents {
+    pub experiment: Document,
+    pub scene: Option<Document>,
+    pub diagram: Option<Document>,
 }
 
 /// Reads the files of a folder with settings. What is wrong with the scene or the diagram is noted, and the rest read
 /// all the same.
-fn read_documents(
+pub(crate) fn read_documents(
     folder: &Folder,
     overrides: &[Override],
     diagnostics: &mut Diagnostics,
@@ -254,7 +254,9 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
     let Documents { experiment: mut document, scene, diagram } = read_documents(folder, overrides, &mut diagnostics)?;
     let seed = document.get("/seed").and_then(Value::as_u64).unwrap_or(0);
     let parser = loaders.scripts.map(|parser| parser as &dyn ScriptParser);
-    let scene = scene.and_then(|scene| compile_scene(&scene, folder, (seed, parser), &mut diagnostics));
+    let scene_document = scene;
+    let scene =
+        scene_document.as_ref().and_then(|document| compile_scene(document, folder, (seed, parser), &mut diagnostics));
     if let Some(scene) = &scene {
         let blocks = diagram.as_ref().map(names_of_blocks).unwrap_or_default();
         let known: Vec<String> = catalogue(&scene.model).into_iter().map(|entry| entry.name).collect();
@@ -269,7 +271,7 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
         experiment
     });
     let experiment = experiment.flatten();
-    let against = (experiment.as_ref(), scene.as_ref());
+    let against = (experiment.as_ref(), scene.as_ref().zip(scene_document.as_ref()));
     let controller = diagram.and_then(|diagram| compile_diagram(&diagram, folder, against, loaders, &mut diagnostics));
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
@@ -351,7 +353,7 @@ fn read_diagram(experiment: &Document, folder: &Folder, diagnostics: &mut Diagno
 fn compile_diagram(
     document: &Document,
     folder: &Folder,
-    (experiment, scene): (Option<&Experiment>, Option<&Scene>),
+    (experiment, scene): (Option<&Experiment>, Option<(&Scene, &Document)>),
     loaders: Loaders,
     diagnostics: &mut Diagnostics,
 ) -> Option<ControlDiagram> {
@@ -360,9 +362,10 @@ fn compile_diagram(
         diagnostics.merge(found);
         return None;
     }
-    let (experiment, scene) = (experiment?, scene?);
+    let (experiment, (scene, scene_document)) = (experiment?, scene?);
     let setting = diagram::Setting {
         model: &scene.model,
+        scene: Some(scene_document),
         step: experiment.step,
         seed: experiment.seed,
         parameters: &experiment.parameters,

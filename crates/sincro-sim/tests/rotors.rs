@@ -340,7 +340,7 @@ fn refused() -> Vec<(String, &'static str, &'static str, &'static str)> {
             "blade = {",
             "blad = {",
             r#"scene.toml:17:1: error: unknown key `blad` in rotor `rotor`
-  help: did you mean `blade`? keys here: `blade`, `lag`, `name`, `speed`, `table`, `parent`, `constant`, `rotation_deg` and 6 more"#,
+  help: did you mean `blade`? keys here: `blade`, `lag`, `name`, `speed`, `table`, `parent`, `constant`, `rotation_deg` and 8 more"#,
         ),
         (
             "stock = { density = -1.0 }".into(),
@@ -400,4 +400,59 @@ fn a_rotor_on_a_fixed_body_is_told() {
             "scene.toml:14:8: warning: rotor `/air/craft/rotor` acts on something that is fixed in the world\n  help: it moves nothing; hang its parent on a joint"
         ]
     );
+}
+
+/// −ω × h turns the angular velocity of a ball about the rotor's axis at h/I, and takes no energy.
+#[test]
+fn a_rotor_with_inertia_precesses() {
+    let record = "record = [\"/air.angular_velocity.x\", \"/air.angular_velocity.y\", ";
+    for (spin, sign) in [("ccw", 1.0), ("cw", -1.0)] {
+        let folder = folder("constant = { thrust = 0.0, torque = 0.0 }\ninertia = 1e-3");
+        folder.change("scene.toml", "gravity = [0.0, 0.0, -9.81]", "gravity = [0.0, 0.0, 0.0]");
+        folder.change("scene.toml", "speed = 640.0", "speed = 1000.0");
+        folder.change(
+            "scene.toml",
+            "kind = \"free\"",
+            "kind = \"free\"\ninitial = { velocity = [0.1, 0, 0, 0, 0, 0] }",
+        );
+        folder.change("scene.toml", "spin = \"ccw\"", &format!("spin = \"{spin}\""));
+        folder.change("experiment.toml", "record = [", record);
+        let done = run(&folder.load(&["accuracy=1e-12"]).unwrap());
+        let (x, y) = (column(&done, "/air.angular_velocity.x"), column(&done, "/air.angular_velocity.y"));
+        for (k, t) in done.table.times().iter().enumerate() {
+            let (sin, cos) = sincro_math::elementary::sin_cos(10.0 * sign * t);
+            assert!(
+                (x[k] - 0.1 * cos).abs() < 1e-9 && (y[k] - 0.1 * sin).abs() < 1e-9,
+                "{spin} {t}: {} {}",
+                x[k],
+                y[k]
+            );
+        }
+        assert!(column(&done, "energy.balance").iter().all(|x| x.abs() < 1e-12));
+    }
+}
+
+/// Descending on its thrust, a craft is held up by the ground.
+#[test]
+fn the_ground_holds_a_rotor_up() {
+    let thrust = |ground: &str, height: f64| {
+        let folder = folder(&format!("{}\n{ground}", blade()));
+        let initial = format!("initial = {{ position = [0, 0, {height}, 1, 0, 0, 0] }}");
+        folder.change("scene.toml", "kind = \"free\"", &format!("kind = \"free\"\n{initial}"));
+        column(&run(&folder.load(&["duration=0.01"]).unwrap()), "/air/craft/rotor.thrust")[1]
+    };
+    let (far, near) = (thrust("ground_effect = true", 50.0), thrust("ground_effect = true", 0.2));
+    let free = thrust("", 0.2);
+    assert!((far / free - 1.0).abs() < 1e-5 && near > 1.01 * free, "{free} {far} {near}");
+}
+
+#[test]
+fn an_inertia_or_a_ground_effect_that_the_law_cannot_have_is_refused() {
+    let refused = |law: &str| folder(law).load(&[]).unwrap_err();
+    assert!(refused(&format!("{}\ninertia = -1.0", blade())).contains("inertia"));
+    let constant = "constant = { thrust = 1e-5, torque = 1e-7 }\nground_effect = true";
+    assert!(refused(constant).contains("`ground_effect` belongs to `blade`"));
+    let folder = folder("stock = {}\ninertia = 1e-5");
+    folder.change("scene.toml", "spin = \"ccw\"\n", "");
+    assert!(folder.load(&[]).unwrap_err().contains("`inertia` has no meaning with `stock` or `printed`"));
 }

@@ -248,6 +248,49 @@ fn check_looks_a_scene_over_and_writes_nothing() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
+/// The energy balance notices nothing; a check of the angle notices what moves it.
+#[test]
+fn mutate_names_the_numbers_that_no_check_notices() {
+    let mutate = |checks: &str, more: &[&str]| {
+        let folder = SceneFolder::new();
+        let scene = pendulum(&folder, checks, "");
+        let output = SINCRO.call(&[&["check", scene.to_str().unwrap(), "--mutate", "1e-2"], more].concat());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "nothing is written");
+        (output.stdout, output.stderr, output.status)
+    };
+    let counts = |stdout: &str| {
+        let last = stdout.lines().last().unwrap().to_owned();
+        let (all, unnoticed) = last.split_once(" numbers, ").unwrap();
+        (all.parse::<usize>().unwrap(), unnoticed.strip_suffix(" unnoticed").unwrap().parse::<usize>().unwrap())
+    };
+    let (blind, _, status) = mutate("", &[]);
+    let (all, unnoticed) = counts(&blind);
+    assert!(status == 1 && unnoticed > 0 && unnoticed <= all, "{blind}");
+    assert!(blind.contains("unnoticed  /hinge.initial.position") && blind.contains("scene.toml:"), "{blind}");
+    assert!(blind.contains("left alone: a factor does not change them"), "{blind}");
+
+    // a variant's checks count too
+    let angle =
+        "[[variant]]\nname = \"same\"\n[[variant.check]]\nname = \"angle\"\nsignal = \"/hinge.position\"\nat = 0.5\n";
+    let seen = {
+        let folder = SceneFolder::new();
+        let scene = pendulum(&folder, "", "");
+        let (_, _, status) = run(&scene, &folder.join("out"), &[]);
+        assert_eq!(status, 0);
+        let csv = fs::read_to_string(folder.join("out/signals.csv")).unwrap();
+        csv.lines().last().unwrap().split(',').nth(1).unwrap().to_owned()
+    };
+    let (sharp, _, _) = mutate(&format!("{angle}value = {seen}\ntolerance = 1e-8\n"), &[]);
+    assert_eq!(counts(&sharp).0, all);
+    assert!(counts(&sharp).1 < unnoticed && !sharp.contains("unnoticed  /hinge.initial.position"), "{sharp}");
+
+    // what fails already tells nothing, and a share of zero is none
+    let (_, failing, status) = mutate(&format!("{angle}value = 7.0\ntolerance = 1e-8\n"), &[]);
+    assert!(status == 2 && failing.contains("the scene as it is fails already: same: angle"), "{failing}");
+    let (_, zero, status) = mutate("", &["--mutate=0"]);
+    assert!(status == 2, "{zero}");
+}
+
 #[test]
 fn reproduce_makes_one_page_of_all_scenes() {
     let folder = SceneFolder::new();

@@ -197,6 +197,44 @@ fn links(text: &str) -> impl Iterator<Item = &str> {
     text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).filter(|link| !link.contains("://"))
 }
 
+/// Scene and variants of every row of the table of a page about the thesis.
+fn rows_of_the_thesis(page: &str) -> Vec<(String, Vec<String>)> {
+    let text = fs::read_to_string(docs().join(page)).unwrap();
+    let rows = text.lines().filter(|line| line.starts_with("| ") && line.contains("](../scenes/"));
+    let cells =
+        rows.map(|row| row.trim_matches('|').split(" | ").map(str::trim).map(str::to_owned).collect::<Vec<_>>());
+    // the rows of five cells are those of the table, the others those of single figures
+    cells
+        .filter(|cells| cells.len() == 5)
+        .map(|cells| {
+            let scene = links(&cells[2]).next().unwrap().trim_start_matches("../scenes/").to_owned();
+            (scene, cells[3].split(", ").map(|variant| variant.trim_matches('`').to_owned()).collect())
+        })
+        .collect()
+}
+
+#[test]
+fn every_scene_and_variant_of_the_thesis_is_there_in_both_languages() {
+    let rows = rows_of_the_thesis("thesis.md");
+    assert_eq!(rows, rows_of_the_thesis("tesis.md"));
+    assert!(rows.len() > 30, "{} rows", rows.len());
+    for (scene, variants) in &rows {
+        let file = sincro_testing::repository_scene(scene).join("experiment.toml");
+        let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+        for variant in variants.iter().filter(|variant| *variant != "main") {
+            let name = format!("[[variant]]\nname = \"{variant}\"");
+            assert!(text.contains(&name), "{scene} has no variant {variant}");
+        }
+    }
+    // no scene of the thesis's chapters is left out
+    let of_the_thesis = ["motor-", "spring-", "two-dof-", "flexible-", "alexandros-", "quadrotor-", "aerial-"];
+    let scenes = fs::read_dir(sincro_testing::repository_scene("motor-step").parent().unwrap()).unwrap();
+    for scene in scenes.map(|entry| entry.unwrap().file_name().into_string().unwrap()) {
+        let belongs = of_the_thesis.iter().any(|start| scene.starts_with(start));
+        assert!(!belongs || rows.iter().any(|(known, _)| *known == scene), "{scene} is in no row of docs/thesis.md");
+    }
+}
+
 #[test]
 fn links_lead_somewhere_and_the_book_has_every_page() {
     let summary = fs::read_to_string(docs().join("SUMMARY.md")).unwrap();

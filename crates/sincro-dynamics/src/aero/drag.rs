@@ -82,6 +82,6 @@ pub(crate) fn velocity_in_air<R: Real>(
 ) -> Vec3<R> {
     let v = x_lf.rot.tr_mul_vec(twist.lin + twist.ang.cross(x_lf.pos));
     let Some(air) = air else { return v };
-    let wind = air.velocity(x_wl.point(x_lf.pos)[2]);
+    let wind = air.velocity_at(x_wl.point(x_lf.pos));
     v - x_lf.rot.tr_mul_vec(x_wl.rot.tr_mul_vec(wind))
 }

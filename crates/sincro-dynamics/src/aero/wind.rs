@@ -107,6 +107,9 @@ pub struct TurbulenceSpec {
     pub scales: Scales,
     /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind.
     pub airspeed: f64,
+    /// True if the turbulence is a frozen field that the mean wind carries past: places along the wind see it one after
+    /// the other, at V. Else it is the same everywhere.
+    pub convected: bool,
 }
 
 /// Number of harmonics in each component: their spread around the spectrum falls, the cost rises with it.
@@ -142,6 +145,8 @@ struct Turbulence {
     components: [Component; 3],
     /// Cosine and sine of the mean wind's direction in the horizontal plane.
     along: (f64, f64),
+    /// V `[m/s]` of a frozen field; none if it is the same everywhere.
+    convection: Option<f64>,
 }
 
 /// One component: amplitude·Σ cos(ωₖ t + φₖ).
@@ -172,7 +177,8 @@ impl Wind {
         Ok(Self { mean, profile, gusts, turbulence })
     }
 
-    /// Velocity of the air [m/s] in world axes at time `t` `[s]` and `height` above ground `[m]`.
+    /// Velocity of the air [m/s] in world axes at time `t` `[s]` and `height` above ground `[m]`, over the world's
+    /// origin.
     #[must_use]
     #[inline(always)]
     pub fn velocity<R: Real>(&self, t: f64, height: R) -> Vec3<R> {
@@ -189,12 +195,14 @@ impl Wind {
                 *sum += share * peak;
             }
         }
-        if let Some(turbulence) = &self.turbulence {
-            for (sum, part) in unsteady.iter_mut().zip(turbulence.velocity(t)) {
+        // that of a frozen field is still open: it depends on the place
+        let everywhere = self.turbulence.as_ref().filter(|turbulence| turbulence.convection.is_none());
+        if let Some(turbulence) = everywhere {
+            for (sum, part) in unsteady.iter_mut().zip(turbulence.velocity(t).0) {
                 *sum += part;
             }
         }
-        Air { wind: self, unsteady }
+        Air { wind: self, t, unsteady }
     }
 
     /// Height at which the wind has its given velocity `[m]`; none if that is everywhere.
@@ -224,16 +232,32 @@ impl Wind {
 #[derive(Clone, Copy, Debug)]
 pub struct Air<'a> {
     wind: &'a Wind,
-    /// Gusts and turbulence `[m/s]`, world axes.
+    /// The instant `[s]`.
+    t: f64,
+    /// Gusts, and turbulence that is the same everywhere `[m/s]`, world axes.
     unsteady: [f64; 3],
 }
 
 impl Air<'_> {
-    /// Velocity of the air [m/s] in world axes at a `height` above ground `[m]`.
+    /// Velocity of the air [m/s] in world axes at a `height` above ground `[m]`, over the world's origin.
     #[must_use]
     #[inline(always)]
     pub fn velocity<R: Real>(&self, height: R) -> Vec3<R> {
-        Vec3::splat(self.wind.mean).scale(self.wind.profile.factor(height)) + Vec3::splat(self.unsteady)
+        self.velocity_at(Vec3([R::zero(), R::zero(), height]))
+    }
+
+    /// Velocity of the air [m/s] in world axes at a place `p` `[m]` in the world.
+    #[must_use]
+    #[inline(always)]
+    pub fn velocity_at<R: Real>(&self, p: Vec3<R>) -> Vec3<R> {
+        let mean = Vec3::splat(self.wind.mean).scale(self.wind.profile.factor(p[2]));
+        let everywhere = mean + Vec3::splat(self.unsteady);
+        let field = self.wind.turbulence.as_ref().and_then(|field| Some((field, field.convection?)));
+        let Some((field, airspeed)) = field else { return everywhere };
+        // Taylor's hypothesis: what passes the origin at t passes a place s along the wind at t + s/V
+        let (cos, sin) = field.along;
+        let downstream = p[0] * R::splat(cos) + p[1] * R::splat(sin);
+        everywhere + field.velocity(R::splat(self.t) - downstream * R::splat(1.0 / airspeed))
     }
 }
 
@@ -282,14 +306,14 @@ impl Turbulence {
         });
         let horizontal = (mean[0] * mean[0] + mean[1] * mean[1]).sqrt();
         let along = if horizontal > 0.0 { (mean[0] / horizontal, mean[1] / horizontal) } else { (1.0, 0.0) };
-        Self { components, along }
+        Self { components, along, convection: spec.convected.then_some(spec.airspeed) }
     }
 
     /// In world axes at time `t`.
-    fn velocity(&self, t: f64) -> [f64; 3] {
+    fn velocity<R: Real>(&self, t: R) -> Vec3<R> {
         let [u, v, w] = [0, 1, 2].map(|k| self.components[k].value(t));
-        let (cos, sin) = self.along;
-        [cos * u - sin * v, sin * u + cos * v, w]
+        let (cos, sin) = (R::splat(self.along.0), R::splat(self.along.1));
+        Vec3([cos * u - sin * v, sin * u + cos * v, w])
     }
 }
 
@@ -315,12 +339,12 @@ impl Component {
         Self { amplitude: deviation * (2.0 / N_HARMONICS as f64).sqrt(), harmonics: harmonics.collect() }
     }
 
-    fn value(&self, t: f64) -> f64 {
-        let mut sum = 0.0;
+    fn value<R: Real>(&self, t: R) -> R {
+        let mut sum = R::zero();
         for (frequency, phase) in &self.harmonics {
-            sum += sin_cos(frequency * t + phase).1;
+            sum += (R::splat(*frequency) * t + R::splat(*phase)).sin_cos().1;
         }
-        self.amplitude * sum
+        R::splat(self.amplitude) * sum
     }
 }
 

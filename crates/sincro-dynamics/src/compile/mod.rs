@@ -190,7 +190,8 @@ impl Compiler<'_> {
             }
         };
         let (link, law, density) = (at.link as usize, spec.law.clone(), spec.density);
-        self.model.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density });
+        let RotorSpec { inertia, ground_effect, .. } = *spec;
+        self.model.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density, inertia, ground_effect });
     }
 
     fn add_inertia(&mut self, at: Carrier, mass: &MassProperties) {

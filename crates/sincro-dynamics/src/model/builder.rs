@@ -102,6 +102,10 @@ pub struct RotorSpec {
     pub density: f64,
     /// Source of its speed.
     pub drive: RotorDrive,
+    /// Moment of inertia of the turning part about its axis, for its gyroscopic moment [kg·m²]; 0 for none.
+    pub inertia: f64,
+    /// Reduction of the induced velocity by the ground at z = 0; of blade elements only.
+    pub ground_effect: bool,
 }
 
 /// Source of a rotor's speed.

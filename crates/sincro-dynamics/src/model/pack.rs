@@ -113,6 +113,8 @@ impl<R: Real> Model<R> {
                 SpeedFrom::Joint { dof, sign } => SpeedFrom::Joint { dof, sign },
             },
             density: first.rotors[i].density,
+            inertia: first.rotors[i].inertia,
+            ground_effect: first.rotors[i].ground_effect,
         });
         let drags = (0..first.drags.len()).map(|i| AirDrag {
             link: first.drags[i].link,
@@ -148,7 +150,10 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
     let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
     let rotors = |m: &Model<f64>| -> Vec<_> {
-        m.rotors.iter().map(|x| (x.link, x.law.clone(), x.speed.structure(), x.density)).collect()
+        m.rotors
+            .iter()
+            .map(|x| (x.link, x.law.clone(), x.speed.structure(), x.density, x.inertia, x.ground_effect))
+            .collect()
     };
     let drags = |m: &Model<f64>| -> Vec<_> { m.drags.iter().map(|x| (x.link, x.density)).collect() };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction.at_rest > 0.0).collect() };

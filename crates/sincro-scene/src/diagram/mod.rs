@@ -10,6 +10,7 @@ mod ports;
 mod read;
 pub mod reference;
 pub mod robot;
+mod robot_model;
 mod schema;
 mod wiring;
 
@@ -28,6 +29,7 @@ pub use lua::LuaBlock;
 pub use ports::is_known_at_ticks_only;
 use read::{DiagramReader, Origin};
 pub use reference::reference;
+use robot_model::Models;
 pub use schema::diagram_schema;
 pub use wiring::{MeasuredSignals, Wiring};
 
@@ -50,6 +52,8 @@ pub struct ControlDiagram {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Setting<'a> {
     pub model: &'a Arc<Model<f64>>,
+    /// The scene file that the model was compiled from, settings applied.
+    pub scene: Option<&'a Document>,
     /// Base step `[s]`.
     pub step: f64,
     pub seed: u64,
@@ -65,7 +69,8 @@ pub(crate) fn open(document: &Document, folder: &Folder, setting: Setting<'_>) -
         .map_err(|e| Diagnostic::error(&document.at(""), format!("the diagram cannot be read: {e}")))?;
     let robot =
         robot::Context { parser: setting.loaders.scripts, fmus: setting.loaders.fmus, model: setting.model.clone() };
-    let mut reader = DiagramReader::new(document, folder, &file, &robot);
+    let models = Models::new(folder, setting.scene, setting.parameters, setting.loaders.scripts);
+    let mut reader = DiagramReader::new(document, folder, &file, &robot, models);
     let (mut diagram, origin, sample_time) = reader.diagram(setting.parameters);
     if reader.diagnostics.any_error() {
         return Err(shortened(reader.diagnostics));

@@ -7,14 +7,17 @@ use serde_json::Value as Json;
 use sincro_blocks::diagram::{Content, Diagram, Wire};
 use sincro_blocks::endpoint::{Endpoint, EndpointError};
 use sincro_blocks::instance::DynBlock;
+use sincro_blocks::kind::Kind;
 use sincro_blocks::library;
 use sincro_blocks::reader::{Files, NoFiles, ParameterError, Reader, Value};
 
 use super::file::{BlockFile, DefinitionFile, DiagramFile};
 use super::robot;
-use crate::diagnostic::{Diagnostic, Diagnostics, Location};
+use super::robot_model::{Models, Request};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location};
 use crate::document::{Document, NonJson, escape};
 use crate::folder::Folder;
+use crate::overrides::Override;
 use crate::series;
 use crate::suggest;
 
@@ -49,13 +52,21 @@ pub(super) struct DiagramReader<'a> {
     pub around: Vec<usize>,
     /// Blocks read so far, those of every use of a definition counted.
     pub n_blocks: usize,
+    /// Models other than the scene's.
+    models: Models<'a>,
     /// File, place and words of the problems.
     said: BTreeSet<(Option<PathBuf>, usize, String)>,
 }
 
 impl<'a> DiagramReader<'a> {
     /// Before reading.
-    pub fn new(document: &'a Document, folder: &'a Folder, file: &'a DiagramFile, robot: &'a robot::Context) -> Self {
+    pub fn new(
+        document: &'a Document,
+        folder: &'a Folder,
+        file: &'a DiagramFile,
+        robot: &'a robot::Context,
+        models: Models<'a>,
+    ) -> Self {
         Self {
             document,
             folder,
@@ -64,6 +75,7 @@ impl<'a> DiagramReader<'a> {
             diagnostics: Diagnostics::new(),
             around: Vec::new(),
             n_blocks: 0,
+            models,
             said: BTreeSet::new(),
         }
     }
@@ -232,7 +244,10 @@ impl<'a> DiagramReader<'a> {
             ((item.read)(&mut reader), reader.finish())
         } else if let Some(item) = robot::find(&block.kind) {
             let mut reader = Reader::new(item.kind, &given, scope, &files);
-            ((item.read)(&mut reader, self.robot), reader.finish())
+            match self.own_model(&mut reader, item.kind, at) {
+                Some(context) => ((item.read)(&mut reader, &context), reader.finish()),
+                None => return None,
+            }
         } else {
             self.unknown_kind(block, at);
             return None;
@@ -246,6 +261,32 @@ impl<'a> DiagramReader<'a> {
             }
         }
         Some(template)
+    }
+
+    /// The context of a block that uses the model: with that of its `model` and `set`, if it has them; none if that
+    /// model cannot be compiled.
+    fn own_model(&mut self, reader: &mut Reader<'_>, kind: &Kind, at: &str) -> Option<robot::Context> {
+        let takes = |key: &str| kind.parameters.iter().any(|p| p.name == key);
+        let is_given = ["model", "set"].map(|key| takes(key) && reader.has(key));
+        if !is_given.contains(&true) {
+            return Some(self.robot.clone());
+        }
+        let file = is_given[0].then(|| reader.text("model"));
+        let file = file.map(|value| Located { value, at: self.document.at(&format!("{at}/model")) });
+        let set = if is_given[1] { reader.named_numbers("set") } else { Vec::new() };
+        let setting = |(path, x): (String, f64)| {
+            let pointer = format!("{at}/set/{}", escape(&path));
+            let value = Located { value: format!("{x:?}"), at: self.document.at(&pointer) };
+            Override { path: Located { value: path, at: self.document.key_at(&pointer) }, value }
+        };
+        let request = Request { file, set: set.into_iter().map(setting).collect() };
+        match self.models.get(&request) {
+            Ok(model) => Some(robot::Context { model, ..self.robot.clone() }),
+            Err(found) => {
+                found.0.into_iter().for_each(|diagnostic| self.push(diagnostic));
+                None
+            }
+        }
     }
 
     fn unknown_kind(&mut self, block: &BlockFile, at: &str) {

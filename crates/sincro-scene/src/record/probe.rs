@@ -157,8 +157,8 @@ fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, co
         FrameQuantity::AngularVelocity => kinematics::frame_velocity(at.scratch, &fixed).ang[component],
         FrameQuantity::Acceleration => kinematics::frame_acceleration(at.scratch, &fixed).lin[component],
         FrameQuantity::Wind => {
-            let height = pose().pos[2];
-            at.model.wind().map_or(R::zero(), |wind| wind.velocity(at.t, height)[component])
+            let place = pose().pos;
+            at.model.wind().map_or(R::zero(), |wind| wind.at(at.t).velocity_at(place)[component])
         }
         FrameQuantity::CenterOfMass => {
             let com = at.model.names().frames[frame].body.map_or([0.0; 3], |(com, _)| com);

@@ -87,6 +87,9 @@ pub(crate) struct TurbulenceFile {
     /// Velocity at which the vehicle crosses the turbulence; default that of the mean wind [m/s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub airspeed: Option<f64>,
+    /// True for a frozen field that passes along the mean wind at `airspeed`: rotors side by side then feel different air.
+    #[serde(default)]
+    pub convected: bool,
 }
 
 /// Where turbulence is met near the ground.
@@ -192,7 +195,7 @@ fn spec(
             .push(diagnostic.with_help("`airspeed`: velocity [m/s] at which the vehicle crosses the turbulence"));
         return None;
     };
-    Some(TurbulenceSpec { seed, scales, airspeed })
+    Some(TurbulenceSpec { seed, scales, airspeed, convected: file.convected })
 }
 
 /// The drag element; notes one that does nothing.

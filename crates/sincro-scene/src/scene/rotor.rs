@@ -53,6 +53,13 @@ pub(crate) struct RotorFile {
     pub speed: Option<SignalFile>,
     /// The speed follows `speed` with a first-order lag.
     pub lag: Option<LagFile>,
+    /// Moment of inertia of the turning part about its axis, for its gyroscopic moment on the airframe [kg·m²].
+    #[schemars(range(min = 0.0))]
+    #[serde(default)]
+    pub inertia: f64,
+    /// The ground at z = 0 holds the induced velocity back; of `blade` only.
+    #[serde(default)]
+    pub ground_effect: bool,
     /// Path of the revolute joint that turns it, in place of `speed`: its rate is the rotor's speed, and the air brakes it.
     pub joint: Option<String>,
 }
@@ -161,6 +168,8 @@ pub(super) struct RotorMade {
     pub density: f64,
     pub lag: Option<LagFile>,
     pub joint: Option<String>,
+    pub inertia: f64,
+    pub ground_effect: bool,
 }
 
 impl RotorMade {
@@ -171,7 +180,8 @@ impl RotorMade {
             (None, Some(LagFile { time_constant, initial })) => RotorDrive::Lag { time_constant, initial },
             (None, None) => RotorDrive::Command,
         };
-        RotorSpec { law: self.law, density: self.density, drive }
+        let Self { law, density, inertia, ground_effect, .. } = self;
+        RotorSpec { law, density, drive, inertia, ground_effect }
     }
 }
 
@@ -182,7 +192,8 @@ pub(super) fn spec(file: &RotorFile, pointer: &str, density: f64, signals: &mut 
     let mut judge = Judge { file, pointer, signals };
     match judge.law() {
         Some(law) => {
-            let made = RotorMade { law, density, lag: file.lag, joint: file.joint.clone() };
+            let (inertia, ground_effect) = (file.inertia, file.ground_effect);
+            let made = RotorMade { law, density, lag: file.lag, joint: file.joint.clone(), inertia, ground_effect };
             Spec::Rotor(Box::new(made), speed)
         }
         None => Spec::Frame,
@@ -203,6 +214,7 @@ impl Judge<'_, '_> {
             _ => Spin::CounterClockwise,
         };
         self.check_spin();
+        self.check_extras();
         if let Some(blade) = &file.blade {
             return self.or_note("blade", Rotor::new(blades(blade, spin))).map(RotorLaw::Blade);
         }
@@ -234,6 +246,29 @@ impl Judge<'_, '_> {
             let word = if self.file.stock.is_some() { "stock" } else { "printed" };
             let diagnostic = Diagnostic::error(&at, format!("`spin` has no meaning with `{word}`"));
             self.signals.diagnostics.push(diagnostic.with_help("leave it out: that law knows no sense of rotation"));
+        }
+    }
+
+    /// Notes an inertia or a ground effect that the law cannot have.
+    fn check_extras(&mut self) {
+        let (file, document) = (self.file, self.signals.document);
+        let mut note = |key: &str, message: &str, help: &str| {
+            let diagnostic = Diagnostic::error(&document.key_at(&format!("{}/{key}", self.pointer)), message);
+            self.signals.diagnostics.push(diagnostic.with_help(help));
+        };
+        if file.inertia != 0.0 && file.joint.is_some() {
+            let help = "leave it out: the bodies that the joint carries have it";
+            note("inertia", "`inertia` has no meaning with `joint`", help);
+        } else if file.inertia != 0.0 && file.spin.is_none() {
+            let help = "leave it out: that law knows no sense of rotation";
+            note("inertia", "`inertia` has no meaning with `stock` or `printed`", help);
+        } else if !(file.inertia >= 0.0 && file.inertia.is_finite()) {
+            let message = format!("`inertia` is {} kg·m²: expected a positive number", file.inertia);
+            note("inertia", &message, "the moment of inertia of the turning part about its axis, or leave it out");
+        }
+        if file.ground_effect && file.blade.is_none() {
+            let help = "leave it out, or give the blades: only they have an induced velocity";
+            note("ground_effect", "`ground_effect` belongs to `blade`", help);
         }
     }
 

@@ -119,8 +119,8 @@ impl Layout {
             out.extend(probe::drag(&view, k).0.map(|x| x as f32));
         }
         for &k in &self.wind_links {
-            let height = poses[self.links[k]].pos[2];
-            let velocity = seen.model().wind().map_or([0.0; 3], |wind| wind.velocity(t, height).0);
+            let place = poses[self.links[k]].pos;
+            let velocity = seen.model().wind().map_or([0.0; 3], |wind| wind.at(t).velocity_at(place).0);
             out.extend(velocity.map(|x| x as f32));
         }
         out.extend(seen.state.q.iter().chain(&seen.state.v).map(|x| *x as f32));

@@ -1,4 +1,4 @@
-//! `sincro check`: a scene looked over, nothing run.
+//! `sincro check`: a scene looked over, nothing run; with `--mutate` its checks put to the test.
 
 use std::path::PathBuf;
 
@@ -14,6 +14,7 @@ use sincro_sim::run::{method_for, method_word};
 use sincro_sim::trace::model_hash;
 
 use super::console::{degrees, print_findings, short};
+use super::mutate;
 use super::robot_file::SceneSource;
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
@@ -29,6 +30,9 @@ pub(crate) struct Arguments {
     /// List every signal that can be recorded, with its unit
     #[arg(long)]
     signals: bool,
+    /// Change each number by this share in turn, such as 1e-3, run all checks, and say which changes none notices
+    #[arg(long, value_name = "SHARE", conflicts_with = "signals", allow_negative_numbers = true)]
+    mutate: Option<f64>,
 }
 
 /// Runs the command.
@@ -37,10 +41,14 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(source) => source,
         Err(exit) => return exit,
     };
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(source.folder(), &set)) {
-        Ok(loaded) => loaded,
+    let opened = parse_settings(&arguments.set).and_then(|set| Ok((load(source.folder(), &set)?, set)));
+    let (loaded, set) = match opened {
+        Ok(opened) => opened,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
+    if let Some(share) = arguments.mutate {
+        return mutate::run(&loaded, &set, share);
+    }
     print(&loaded);
     if arguments.signals {
         say!("signals");

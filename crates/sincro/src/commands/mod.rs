@@ -22,6 +22,7 @@ pub(crate) mod export_robot;
 pub(crate) mod fit;
 pub(crate) mod import;
 pub(crate) mod linearize;
+mod mutate;
 pub(crate) mod new;
 pub(crate) mod reproduce;
 pub(crate) mod robot_file;

@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
 }
 
 /// The order of the thesis; what is not named follows by name.
-const ORDER: [&str; 22] = [
+const ORDER: [&str; 29] = [
     "motor-step",
     "motor-ramp",
     "spring-static",
@@ -36,19 +36,26 @@ const ORDER: [&str; 22] = [
     "two-dof-equations",
     "two-dof-position",
     "flexible-open-loop",
+    "flexible-equations",
     "flexible-velocity-step",
     "flexible-position",
     "alexandros-release",
     "alexandros-position",
     "alexandros-force",
     "alexandros-force-feedback",
+    "alexandros-wrong-model",
     "stock-propeller",
     "rotor-bemt",
     "propeller-lua",
     "quadrotor-open-loop",
     "quadrotor-flight-1",
     "quadrotor-flight-2",
+    "quadrotor-robustness",
+    "quadrotor-latency",
+    "quadrotor-wrong-model",
     "quadrotor-wind",
+    "aerial-manipulator-hover",
+    "aerial-manipulator-contact",
 ];
 
 /// Runs the command.

@@ -146,6 +146,7 @@ pub struct Rotor {
 }
 
 /// The flow at the hub of a rotor that turns forwards, or of the mirror image of one that does not.
+#[derive(Clone, Copy)]
 struct Flow<R> {
     /// −1 in the mirror, else 1.
     mirror: R,
@@ -202,8 +203,35 @@ impl Rotor {
     /// others. On dual numbers the derivatives are exact.
     #[inline(always)]
     pub fn evaluate<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>) -> Load<R> {
-        let Flow { mirror, tip, balance } = self.flow(speed, velocity);
-        let w = balance.inflow();
+        let flow = self.flow(speed, velocity);
+        let w = flow.balance.inflow();
+        self.load(density, &flow, w)
+    }
+
+    /// As [`evaluate`](Self::evaluate), with the hub at `height` `[m]` above level ground, which holds part of the
+    /// induced velocity back: w = v + κ v_i, κ = 1 − (R/4z)²/(1 + (h/v_i)²). Source: key `cheeseman1955`, equations for
+    /// hover and forward flight; v_i in the last term is that far from the ground. Heights below R/2, where the source
+    /// sees its potential flow fail, count as R/2.
+    #[inline(always)]
+    pub fn evaluate_near_ground<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>, height: R) -> Load<R> {
+        let mut flow = self.flow(speed, velocity);
+        let balance = flow.balance;
+        let induced = balance.inflow() - balance.climb;
+        let square = induced * induced;
+        let forward = square / (square + balance.in_plane_squared).max(R::splat(f64::MIN_POSITIVE));
+        let ratio = R::splat(0.25 * self.spec.radius) / height.max(R::splat(0.5 * self.spec.radius));
+        let kappa = R::one() - ratio * ratio * forward;
+        // (w − v)/κ·√(w² + h²) + a w − S = 0, times κ, is the balance with κ a and κ S
+        flow.balance = Balance { relief: kappa * balance.relief, supply: kappa * balance.supply, ..balance };
+        let w = flow.balance.inflow();
+        flow.balance = balance;
+        self.load(density, &flow, w)
+    }
+
+    /// Thrust, torque and power of blade elements in an inflow `w` `[m/s]`.
+    #[inline(always)]
+    fn load<R: Real>(&self, density: f64, flow: &Flow<R>, w: R) -> Load<R> {
+        let Flow { mirror, tip, balance } = *flow;
         let pitch = self.spec.collective_pitch;
         // T = 2ρA (S − k₁V w)
         let thrust = R::splat(2.0 * density * self.area) * (balance.supply - balance.relief * w);
@@ -213,7 +241,8 @@ impl Rotor {
         let incidence = R::splat(self.incidence_drag) * w * (w - R::splat(4.0 * pitch / 3.0) * tip);
         let drag = R::splat(density * self.area) * ((profile + induced) + incidence);
         let reaction = R::splat(-self.spec.spin.sign() * self.spec.radius) * drag;
-        Load { thrust: mirror * thrust, torque: mirror * reaction, inflow: mirror * w, power: drag * tip }
+        let gyroscopic = [R::zero(); 2];
+        Load { thrust: mirror * thrust, torque: mirror * reaction, inflow: mirror * w, power: drag * tip, gyroscopic }
     }
 
     /// Range of validity of `load`, which [`Rotor::evaluate`] gave for the same arguments; only the first lane is

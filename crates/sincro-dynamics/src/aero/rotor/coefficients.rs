@@ -38,6 +38,7 @@ impl ConstantCoefficients {
         let signed_square = speed * speed.abs();
         let torque = R::splat(self.torque) * signed_square;
         Load {
+            gyroscopic: [R::zero(); 2],
             thrust: R::splat(self.thrust) * signed_square,
             torque: R::splat(-self.spin.sign()) * torque,
             inflow: R::zero(),
@@ -127,6 +128,7 @@ impl CoefficientTable {
         let force = R::splat(density * (d * d)) * (by_turn * by_turn.abs());
         let torque = R::splat(d) * force * c_q;
         Load {
+            gyroscopic: [R::zero(); 2],
             thrust: force * c_t,
             torque: R::splat(-self.spin.sign()) * torque,
             inflow: R::zero(),

@@ -58,6 +58,8 @@ pub struct Load<R> {
     /// Air through the disc relative to the hub, along −z `[m/s]`: climb and induced velocity together; 0 where the
     /// model has none.
     pub inflow: R,
+    /// Gyroscopic moment on the airframe about the rotor's x and y axes [N·m]; 0 where the rotor has no inertia.
+    pub gyroscopic: [R; 2],
     /// Power that the shaft delivers to the air `[W]`; negative in a windmill.
     pub power: R,
 }

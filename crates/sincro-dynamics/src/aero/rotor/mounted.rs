@@ -144,6 +144,8 @@ impl<R: Real> SpeedFrom<R> {
 pub struct Hub<'a, R> {
     /// Velocity in the air [m/s], axes of the rotor: ω×r is part of it.
     pub velocity: Vec3<R>,
+    /// Angular velocity of the airframe [rad/s], axes of the rotor.
+    pub angular_velocity: Vec3<R>,
     /// Pose of the link in the world.
     pub x_wl: &'a Pose<R>,
 }
@@ -161,6 +163,11 @@ pub struct MountedRotor<R> {
     pub speed: SpeedFrom<R>,
     /// Density of the air [kg/m³].
     pub density: f64,
+    /// Moment of inertia of the turning part about its axis [kg·m²]: that of the gyroscopic moment alone, the airframe
+    /// holds the mass; 0 for none.
+    pub inertia: f64,
+    /// True if the ground at z = 0 holds the induced velocity back; of blade elements only.
+    pub ground_effect: bool,
 }
 
 impl<R: Real> MountedRotor<R> {
@@ -168,19 +175,36 @@ impl<R: Real> MountedRotor<R> {
     /// pose in the world `[m]`.
     #[inline(always)]
     pub fn hub<'a>(&self, twist: &Motion<R>, x_wl: &'a Pose<R>, air: Option<&Air<'_>>) -> Hub<'a, R> {
-        Hub { velocity: velocity_in_air(&self.pose, twist, x_wl, air), x_wl }
+        let angular_velocity = self.pose.rot.tr_mul_vec(twist.ang);
+        Hub { velocity: velocity_in_air(&self.pose, twist, x_wl, air), angular_velocity, x_wl }
     }
 
     /// Thrust, torque, inflow and power at `speed` [rad/s]; `rotors` are the states of all rotors.
     #[inline(always)]
     pub fn load(&self, speed: R, rotors: &[R], hub: &Hub<'_, R>) -> Load<R> {
+        let mut load = self.aerodynamic_load(speed, rotors, hub);
+        if self.inertia != 0.0 {
+            // −ω × h, h = I Ω along the axis
+            let momentum = R::splat(self.inertia * self.law.spin().map_or(0.0, Spin::sign)) * speed;
+            let [x, y, _] = hub.angular_velocity.0;
+            load.gyroscopic = [-(y * momentum), x * momentum];
+        }
+        load
+    }
+
+    #[inline(always)]
+    fn aerodynamic_load(&self, speed: R, rotors: &[R], hub: &Hub<'_, R>) -> Load<R> {
         match &self.law {
+            RotorLaw::Blade(rotor) if self.ground_effect => {
+                let height = hub.x_wl.point(self.pose.pos)[2];
+                rotor.evaluate_near_ground(self.density, speed, hub.velocity, height)
+            }
             RotorLaw::Blade(rotor) => rotor.evaluate(self.density, speed, hub.velocity),
             RotorLaw::Constant(law) => law.evaluate(speed),
             RotorLaw::Table(law) => law.evaluate(self.density, speed, hub.velocity),
             RotorLaw::Stock(law) => {
                 let flow = self.speed.state().map_or(R::zero(), |state| rotors[state]);
-                Load { thrust: flow * speed, torque: law.torque(speed), inflow: R::zero(), power: R::zero() }
+                Load { thrust: flow * speed, torque: law.torque(speed), ..Load::default() }
             }
             RotorLaw::Printed(script) => {
                 let r_wh = hub.x_wl.rot.mul(&self.pose.rot);
@@ -194,7 +218,12 @@ impl<R: Real> MountedRotor<R> {
     pub fn wrench(&self, load: &Load<R>) -> Force<R> {
         let axis = self.pose.rot.mul_vec(Vec3([R::zero(), R::zero(), R::one()]));
         let lin = axis.scale(load.thrust);
-        Force { ang: axis.scale(load.torque) + self.pose.pos.cross(lin), lin }
+        let mut ang = axis.scale(load.torque) + self.pose.pos.cross(lin);
+        if self.inertia != 0.0 {
+            let [x, y] = load.gyroscopic;
+            ang += self.pose.rot.mul_vec(Vec3([x, y, R::zero()]));
+        }
+        Force { ang, lin }
     }
 
     /// Validity of the rotor's theory at a speed `[rad/s]` and a load; only the first lane is examined. Constant

@@ -57,7 +57,7 @@ impl PrintedScript {
     pub fn load<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>, rotation: &Mat3<R>) -> Load<R> {
         let out = evaluate(&self.0, density, speed, velocity, rotation);
         let inflow = out.inflow_ratio * speed * R::splat(self.0.radius);
-        Load { thrust: out.thrust, torque: out.torque, inflow, power: out.torque * speed }
+        Load { thrust: out.thrust, torque: out.torque, inflow, power: out.torque * speed, gyroscopic: [R::zero(); 2] }
     }
 }
 

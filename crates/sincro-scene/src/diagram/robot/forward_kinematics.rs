@@ -10,7 +10,7 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;
 use sincro_math::Real;
 
-use super::{Context, Item, Robot, check_widths, frame};
+use super::{Context, Item, MODEL, Robot, SET, check_widths, frame};
 use crate::record::probe::attached;
 
 /// Pose of a body or frame in the world: position `[m]`, quaternion (w, x, y, z), and with velocities also angular
@@ -53,6 +53,8 @@ impl Described for ForwardKinematics {
                 "whether there is an input `v` and outputs for velocities",
                 "false",
             ),
+            MODEL,
+            SET,
         ],
     };
 

@@ -9,7 +9,7 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea::inverse_dynamics;
 use sincro_math::Real;
 
-use super::{Context, Item, Robot, check_widths};
+use super::{Context, Item, MODEL, Robot, SET, check_widths};
 
 /// The joint torques [N·m] or forces `[N]` that hold the model still against gravity.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl Described for GravityTorque {
         category: Category::Robot,
         summary: "The joint torques that hold the model still against gravity.",
         equation: "y = g(q)",
-        parameters: &[],
+        parameters: &[MODEL, SET],
     };
 
     fn read(_: &mut Reader<'_>) -> Self {

@@ -9,7 +9,7 @@ use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_math::Real;
 
-use super::{Context, Item, Robot, check_widths, frame};
+use super::{Context, Item, MODEL, Robot, SET, check_widths, frame};
 use crate::record::probe::attached;
 
 /// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s],
@@ -67,6 +67,8 @@ impl Described for Jacobian {
         parameters: &[
             Parameter::required("frame", ValueKind::Text, "path of the body or frame"),
             Parameter::optional("rows", ValueKind::Choice(&["all", "angular", "linear"]), "which rows", "all"),
+            MODEL,
+            SET,
         ],
     };
 

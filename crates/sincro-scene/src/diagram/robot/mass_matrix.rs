@@ -9,7 +9,7 @@ use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::model::Model;
 use sincro_math::Real;
 
-use super::{Context, Item, Robot, check_widths};
+use super::{Context, Item, MODEL, Robot, SET, check_widths};
 
 /// The joint-space mass matrix [kg·m²], armature on its diagonal, row by row.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl Described for MassMatrix {
         category: Category::Robot,
         summary: "The joint-space mass matrix, row by row.",
         equation: "y = M(q), n_v × n_v, row by row",
-        parameters: &[],
+        parameters: &[MODEL, SET],
     };
 
     fn read(_: &mut Reader<'_>) -> Self {

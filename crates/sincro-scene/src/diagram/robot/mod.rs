@@ -1,6 +1,7 @@
 //! Robot blocks: what the model knows, for use in a controller.
 //!
-//! `q` are all coordinates of the scene's model and `v` all velocities, in the order of `world.q` and `world.v`.
+//! `q` are all coordinates of the model and `v` all velocities, in the order of `world.q` and `world.v`. The model is
+//! the scene's own, or that of another file or with other numbers (parameters `model` and `set`, see `robot_model.rs`).
 //! Springs, dampers and friction are no part of inverse dynamics, gravity torque and mass matrix; the armature of
 //! motors is part of the mass matrix.
 
@@ -13,7 +14,7 @@ mod mass_matrix;
 use std::sync::Arc;
 
 use sincro_blocks::instance::DynBlock;
-use sincro_blocks::kind::Kind;
+use sincro_blocks::kind::{Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
@@ -38,6 +39,18 @@ pub struct Context {
     /// The scene's model.
     pub model: Arc<Model<f64>>,
 }
+
+/// Parameter `model` of the blocks that compute with a model.
+const MODEL: Parameter =
+    Parameter::optional("model", ValueKind::Text, "scene file whose model it computes with", "the experiment's scene");
+
+/// Parameter `set` of the blocks that compute with a model.
+const SET: Parameter = Parameter::optional(
+    "set",
+    ValueKind::Names,
+    "numbers that differ in that model, by path: `{ \"/arm/link.mass\" = 0.9 }`",
+    "none",
+);
 
 /// A kind of block and how one is made from parameters and the model.
 #[derive(Clone, Copy, Debug)]
