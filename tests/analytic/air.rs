@@ -1,7 +1,9 @@
 //! Bodies in moving air: terminal velocity, wind's work, lag and spinning joints in closed form, power balances.
 
 use sincro_dynamics::actuation::{Motor, MotorMode};
-use sincro_dynamics::aero::rotor::{ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin};
+use sincro_dynamics::aero::rotor::{
+    ConstantCoefficients, Drag, Rotor, RotorLaw, RotorSpec as Blades, Spin, StockPropeller,
+};
 use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
 use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
 use sincro_dynamics::energy::energy_at;
@@ -336,6 +338,33 @@ fn a_rotor_must_turn_with_its_joint() {
 }
 
 #[test]
+fn inertia_and_ground_effect_are_refused_where_they_mean_nothing() {
+    let stock = RotorLaw::Stock(StockPropeller::default());
+    let constant = RotorLaw::Constant(ConstantCoefficients { thrust: 1e-5, torque: 0.0, spin: Spin::Clockwise });
+    let fields = |law: &RotorLaw, on_joint: bool, inertia: f64, ground_effect: bool| {
+        let mut b = ModelBuilder::new([0.0; 3]);
+        let shaft = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
+        let shaft = b.joint("shaft", NodeId::WORLD, Pose::identity(), shaft);
+        let disc = b.body("disc", shaft, Pose::identity(), brick(0.1));
+        let drive = if on_joint { RotorDrive::Joint(shaft) } else { RotorDrive::Command };
+        let spec = RotorSpec { inertia, ground_effect, ..rotor(law.clone(), drive) };
+        b.rotor("rotor", disc, Pose::identity(), spec);
+        b.build().map_or_else(|found| found.iter().map(|d| d.field).collect::<Vec<_>>(), |_| vec![])
+    };
+    let blade = blades(Spin::Clockwise);
+    for inertia in [f64::NAN, -1e-6, f64::INFINITY] {
+        assert_eq!(fields(&blade, false, inertia, false), ["inertia"], "{inertia}");
+    }
+    // a joint's bodies have theirs already; what knows no sense of rotation has no axis to turn about
+    assert_eq!(fields(&blade, true, 1e-6, false), ["inertia"]);
+    assert_eq!(fields(&stock, false, 1e-6, false), ["inertia"]);
+    assert_eq!(fields(&constant, false, 0.0, true), ["ground_effect"]);
+    assert!(fields(&blade, true, 0.0, true).is_empty());
+    assert!(fields(&blade, false, 1e-6, true).is_empty());
+    assert!(fields(&constant, false, 1e-6, false).is_empty());
+}
+
+#[test]
 fn lanes_have_the_bits_of_single_worlds_in_rough_air() {
     let build = |k: u32| {
         let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
@@ -344,10 +373,11 @@ fn lanes_have_the_bits_of_single_worlds_in_rough_air() {
         let area = [0.3 + 0.01 * f64::from(k), 0.2, 0.5];
         b.drag("drag", body, at(0.0, 0.0, 0.2), DragSpec { area, linear: [0.1; 3], density: DENSITY });
         let lag = RotorDrive::Lag { time_constant: 0.1 + 0.01 * f64::from(k), initial: 300.0 + f64::from(k) };
-        b.rotor("left", body, at(0.0, 0.4, 0.1), rotor(blades(Spin::Clockwise), lag));
-        b.rotor("right", body, at(0.0, -0.4, 0.1), rotor(blades(Spin::CounterClockwise), RotorDrive::Command));
+        let heavy = |spin, drive| RotorSpec { inertia: 2e-3, ground_effect: true, ..rotor(blades(spin), drive) };
+        b.rotor("left", body, at(0.0, 0.4, 0.1), heavy(Spin::Clockwise, lag));
+        b.rotor("right", body, at(0.0, -0.4, 0.1), heavy(Spin::CounterClockwise, RotorDrive::Command));
         let scales = Scales::Given { deviations: [1.0; 3], lengths: [20.0; 3] };
-        let turbulence = Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0, convected: false });
+        let turbulence = Some(TurbulenceSpec { seed: 5, scales, airspeed: 5.0, convected: true });
         let shear = Profile::Logarithmic { reference: 6.0, roughness: 0.05 };
         b.wind(Wind::new([4.0, -3.0, 0.0], shear, vec![], turbulence).unwrap());
         let model = b.build().unwrap().0;

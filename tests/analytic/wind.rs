@@ -115,13 +115,39 @@ fn wrong_winds_are_refused_all_at_once() {
     assert_eq!(diagnostics.len(), 7, "{diagnostics:?}");
 }
 
+#[test]
+fn a_convected_field_moves_with_the_horizontal_mean_wind_and_no_other() {
+    let scales = Scales::Given { deviations: [1.0, 0.8, 0.5], lengths: [20.0, 10.0, 5.0] };
+    let field = |mean: [f64; 3], airspeed: f64, convected: bool| {
+        let spec = TurbulenceSpec { seed: 3, scales, airspeed, convected };
+        Wind::new(mean, Profile::Constant, vec![], Some(spec)).map(|_| ()).map_err(|reasons| reasons.to_vec())
+    };
+    for mean in [[0.0; 3], [0.0, 0.0, 2.0]] {
+        let reasons = field(mean, 2.0, true).unwrap_err();
+        assert!(
+            reasons.len() == 1 && reasons[0].starts_with("`convected` needs a horizontal mean wind"),
+            "{reasons:?}"
+        );
+        assert_eq!(field(mean, 2.0, false), Ok(()));
+    }
+    // 5 m/s along the ground, whatever rises
+    let mean = [3.0, -4.0, 2.0];
+    assert_eq!(field(mean, 5.0, true), Ok(()));
+    for airspeed in [29.0f64.sqrt(), 5.001, 4.999, 12.0] {
+        let reasons = field(mean, airspeed, true).unwrap_err();
+        assert!(reasons.len() == 1 && reasons[0].contains("past at 5 m/s: leave it out"), "{reasons:?}");
+        assert_eq!(field(mean, airspeed, false), Ok(()));
+    }
+}
+
 /// Frozen turbulence passes: a place s along the wind sees at t what the origin saw s/V before; across it nothing
 /// changes.
 #[test]
 fn convected_turbulence_is_a_frozen_field() {
     let scales = Scales::Given { deviations: [1.0, 0.8, 0.5], lengths: [20.0, 10.0, 5.0] };
     let spec = TurbulenceSpec { seed: 3, scales, airspeed: 5.0, convected: true };
-    let field = |spec| Wind::new([3.0, 4.0, 0.0], Profile::Constant, vec![], Some(spec)).unwrap();
+    // the updraught carries it nowhere
+    let field = |spec| Wind::new([3.0, 4.0, 2.0], Profile::Constant, vec![], Some(spec)).unwrap();
     let (frozen, everywhere) = (field(spec), field(TurbulenceSpec { convected: false, ..spec }));
     for t in [0.0, 1.3, 7.0] {
         let at = |x: f64, y: f64| frozen.at(t).velocity_at(Vec3([x, y, 2.0])).0;

@@ -154,6 +154,16 @@ const REFUSED: &[(&str, &str, &str)] = &[
         "scene.toml:8:54: error: wind: `length` is [1.0, 0.0, 1.0] m: expected three numbers from 0.001 to 1000000 m",
     ),
     (
+        "height = 20.0 } }",
+        "height = 20.0 }, airspeed = 3.0, convected = true }",
+        "scene.toml:8:84: error: wind: `airspeed` is 3 m/s, but the mean wind carries a convected field past at 5 m/s: leave it out",
+    ),
+    (
+        "mean = [4.0, -3.0, 0.0]\nprofile = { linear = { reference = 10.0 } }\ngust = [{ start = 0.5, rise = 0.25, peak = [0.0, 0.0, 2.0] }]\nturbulence = {",
+        "mean = [0.0, 0.0, 2.0]\nprofile = { linear = { reference = 10.0 } }\nturbulence = { convected = true,",
+        "scene.toml:7:28: error: wind: `convected` needs a horizontal mean wind: without it nothing carries the field past",
+    ),
+    (
         "height = 20.0",
         "height = 1.0",
         "scene.toml:8:65: error: wind: `height` is 1 m: the spectra hold from 3.048 to 304.8 m",

@@ -105,10 +105,11 @@ pub struct TurbulenceSpec {
     pub seed: u64,
     /// Intensity and length scale.
     pub scales: Scales,
-    /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind.
+    /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind. Of a convected field it is
+    /// [`horizontal_speed`] of the mean wind: a vehicle that moves crosses the field by itself.
     pub airspeed: f64,
-    /// True if the turbulence is a frozen field that the mean wind carries past: places along the wind see it one after
-    /// the other, at V. Else it is the same everywhere.
+    /// True if the turbulence is a frozen field that the horizontal mean wind carries past: places along the wind see
+    /// it one after the other. Else it is the same everywhere.
     pub convected: bool,
 }
 
@@ -120,6 +121,15 @@ pub const BAND: f64 = 100.0;
 
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
+
+/// Relative difference of two velocities that is put down to rounding.
+const SAME_SPEED: f64 = 1e-9;
+
+/// Horizontal part of a mean wind [m/s].
+#[must_use]
+pub fn horizontal_speed(mean: [f64; 3]) -> f64 {
+    (mean[0] * mean[0] + mean[1] * mean[1]).sqrt()
+}
 
 /// The air's velocity over time and height.
 ///
@@ -145,7 +155,7 @@ struct Turbulence {
     components: [Component; 3],
     /// Cosine and sine of the mean wind's direction in the horizontal plane.
     along: (f64, f64),
-    /// V `[m/s]` of a frozen field; none if it is the same everywhere.
+    /// Velocity [m/s] at which the mean wind carries a frozen field; none if it is the same everywhere.
     convection: Option<f64>,
 }
 
@@ -253,11 +263,11 @@ impl Air<'_> {
         let mean = Vec3::splat(self.wind.mean).scale(self.wind.profile.factor(p[2]));
         let everywhere = mean + Vec3::splat(self.unsteady);
         let field = self.wind.turbulence.as_ref().and_then(|field| Some((field, field.convection?)));
-        let Some((field, airspeed)) = field else { return everywhere };
-        // Taylor's hypothesis: what passes the origin at t passes a place s along the wind at t + s/V
+        let Some((field, speed)) = field else { return everywhere };
+        // Taylor's hypothesis: what passes the origin at t passes a place s along the wind, of speed U, at t + s/U
         let (cos, sin) = field.along;
         let downstream = p[0] * R::splat(cos) + p[1] * R::splat(sin);
-        everywhere + field.velocity(R::splat(self.t) - downstream * R::splat(1.0 / airspeed))
+        everywhere + field.velocity(R::splat(self.t) - downstream * R::splat(1.0 / speed))
     }
 }
 
@@ -304,9 +314,9 @@ impl Turbulence {
             let area = if k == 0 { along_area } else { across_area };
             Component::new(deviations[k], spec.airspeed / lengths[k], area, &mut random)
         });
-        let horizontal = (mean[0] * mean[0] + mean[1] * mean[1]).sqrt();
+        let horizontal = horizontal_speed(mean);
         let along = if horizontal > 0.0 { (mean[0] / horizontal, mean[1] / horizontal) } else { (1.0, 0.0) };
-        Self { components, along, convection: spec.convected.then_some(spec.airspeed) }
+        Self { components, along, convection: spec.convected.then_some(horizontal) }
     }
 
     /// In world axes at time `t`.
@@ -405,7 +415,7 @@ fn problems(mean: [f64; 3], profile: Profile, gusts: &[Gust], turbulence: Option
             format!("gust {} has `peak` {peak:?} m/s: expected finite numbers", k + 1),
         );
     }
-    if let Some(TurbulenceSpec { scales, airspeed, .. }) = turbulence {
+    if let Some(TurbulenceSpec { scales, airspeed, convected, .. }) = turbulence {
         match scales {
             Scales::LowAltitude { wind_at_20_feet: w, height } => {
                 let is_wind = (0.0..=1e3).contains(&w);
@@ -420,8 +430,16 @@ fn problems(mean: [f64; 3], profile: Profile, gusts: &[Gust], turbulence: Option
                 check(is_good, format!("`length` is {lengths:?} m: expected three numbers from 0.001 to 1000000 m"));
             }
         }
-        let is_slow = (1e-3..=1e3).contains(&airspeed);
-        check(is_slow, format!("`airspeed` is {airspeed} m/s: expected a number from 0.001 to 1000 m/s"));
+        let horizontal = horizontal_speed(mean);
+        let is_carried = !convected || horizontal > 0.0;
+        check(is_carried, "`convected` needs a horizontal mean wind: without it nothing carries the field past".into());
+        if is_carried {
+            let is_slow = (1e-3..=1e3).contains(&airspeed);
+            check(is_slow, format!("`airspeed` is {airspeed} m/s: expected a number from 0.001 to 1000 m/s"));
+            let is_that_of_the_field = !convected || (airspeed - horizontal).abs() <= SAME_SPEED * horizontal;
+            let expected = format!("the mean wind carries a convected field past at {horizontal} m/s: leave it out");
+            check(is_that_of_the_field, format!("`airspeed` is {airspeed} m/s, but {expected}"));
+        }
     }
     out
 }

@@ -58,6 +58,7 @@ fn check_rotor(found: &mut Findings, id: NodeId, node: &Node, spec: &RotorSpec, 
         let message = format!("rotor `{name}` is a stock propeller, which does not turn");
         found.error(id, "stock", message, "its `speed` is the velocity of its particles; leave `lag` and `joint` out");
     }
+    check_extras(found, id, name, spec);
     match spec.drive {
         RotorDrive::Command => {}
         RotorDrive::Lag { time_constant, initial } => {
@@ -80,6 +81,25 @@ fn check_rotor(found: &mut Findings, id: NodeId, node: &Node, spec: &RotorSpec, 
                 found.error(id, "joint", message, help);
             }
         }
+    }
+}
+
+/// Notes an inertia or a ground effect that the rotor cannot have.
+fn check_extras(found: &mut Findings, id: NodeId, name: &str, spec: &RotorSpec) {
+    let inertia = spec.inertia;
+    if !(inertia.is_finite() && inertia >= 0.0) {
+        let message = format!("inertia {inertia} kg·m² of rotor `{name}` is not a positive number");
+        found.error(id, "inertia", message, "that of the turning part about its axis, or 0 for none");
+    } else if inertia != 0.0 && matches!(spec.drive, RotorDrive::Joint(_)) {
+        let message = format!("rotor `{name}` turns with a joint and has an inertia of its own");
+        found.error(id, "inertia", message, "give 0: the bodies that the joint carries have it");
+    } else if inertia != 0.0 && spec.law.spin().is_none() {
+        let message = format!("rotor `{name}` has an inertia, but its law knows no sense of rotation");
+        found.error(id, "inertia", message, "give 0, or take another law");
+    }
+    if spec.ground_effect && !matches!(spec.law, RotorLaw::Blade(_)) {
+        let message = format!("rotor `{name}` has a ground effect, but no blades");
+        found.error(id, "ground_effect", message, "leave it out: only blade elements have an induced velocity");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind};
+use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, horizontal_speed};
 use sincro_dynamics::model::DragSpec;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -84,10 +84,10 @@ pub(crate) struct TurbulenceFile {
     pub deviation: Option<[f64; 3]>,
     /// Lengths along the mean wind, across it and upwards, with `deviation` [m].
     pub length: Option<[f64; 3]>,
-    /// Velocity at which the vehicle crosses the turbulence; default that of the mean wind [m/s].
+    /// Velocity at which the vehicle crosses the turbulence; default that of the mean wind, with `convected` its horizontal part and no other [m/s].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub airspeed: Option<f64>,
-    /// True for a frozen field that passes along the mean wind at `airspeed`: rotors side by side then feel different air.
+    /// True for a frozen field that the horizontal mean wind carries past: rotors side by side then feel different air.
     #[serde(default)]
     pub convected: bool,
 }
@@ -185,8 +185,12 @@ fn spec(
             return None;
         }
     };
-    let of_mean = mean.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let Some(airspeed) = file.airspeed.or((of_mean > 0.0).then_some(of_mean)) else {
+    let of_mean = if file.convected {
+        Some(horizontal_speed(mean))
+    } else {
+        Some(mean.iter().map(|x| x * x).sum::<f64>().sqrt()).filter(|speed| *speed > 0.0)
+    };
+    let Some(airspeed) = file.airspeed.or(of_mean) else {
         let diagnostic = Diagnostic::error(
             &at(""),
             "`airspeed` is missing in `turbulence`, and there is no mean wind to take it from",

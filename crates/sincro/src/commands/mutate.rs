@@ -47,7 +47,10 @@ pub(super) fn run(loaded: &Loaded, settings: &[Override], share: f64) -> Exit {
         Answer::Unnoticed => {}
         Answer::Noticed(which) => {
             let message = format!("the scene as it is fails already: {which}");
-            return diagnostics::refuse(&message, Some("mend it first: a change could not be told from what is wrong"));
+            return diagnostics::refuse(
+                &message,
+                Some("correct it first: a change could not be told from what is wrong"),
+            );
         }
         Answer::Refused => return diagnostics::refuse("the scene is refused without error bars", None),
     }
