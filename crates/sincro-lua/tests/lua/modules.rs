@@ -63,10 +63,15 @@ fn a_run_without_a_server_says_that_no_port_is_opened() {
     let code = "
         function sysCall_init()
             print(simRemoteApi.start(19999, 1300, false, true), simExtRemoteApiStart(20000))
+            print(simRemoteApi.stop(19999), simRemoteApi.reset(19999), (simRemoteApi.status(19999)))
             print(pcall(simRemoteApi.start, -1))
         end";
     let said = said(code);
-    assert!(said.contains(&"-1\t-1".to_owned()), "{said:?}");
+    assert!(said.contains(&"-1\t-1".to_owned()) && said.contains(&"-1\t-1\t-1".to_owned()), "{said:?}");
+    for name in ["stop", "reset"] {
+        let line = format!("simRemoteApi.{name} does nothing to port 19999");
+        assert!(said.iter().any(|said| said.contains(&line)), "{said:?}");
+    }
     assert_eq!(said.iter().filter(|line| line.contains("is not opened: nothing is served")).count(), 2);
     assert!(said.last().unwrap().starts_with("false\t") && said.last().unwrap().contains("expected 1 to 65535"));
 }
